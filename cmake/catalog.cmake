@@ -1,0 +1,112 @@
+# The catalogue is the folders: every file of problems/, problems/potentials/, methods/compositions/, methods/splittings/
+# and methods/tableaus/ is found here, and gets its line in the generated lists (problems: a translation unit each).
+# Adding one is adding a file. By convention problems/henon_heiles.hpp defines the class template HenonHeiles, and
+# compositions/stv4.hpp the table compositions::stv4.
+
+function(hamflow_names out folder)
+  file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/hamflow/${folder}/*.hpp")
+  set(names)
+  foreach(file IN LISTS files)
+    get_filename_component(name "${file}" NAME_WE)
+    list(APPEND names ${name})
+  endforeach()
+  list(SORT names)
+  set(${out} ${names} PARENT_SCOPE)
+endfunction()
+
+function(hamflow_pascal_case out snake)
+  string(REPLACE "_" ";" words "${snake}")
+  set(result "")
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 head)
+    string(SUBSTRING "${word}" 1 -1 tail)
+    string(TOUPPER "${head}" head)
+    string(APPEND result "${head}${tail}")
+  endforeach()
+  set(${out} "${result}" PARENT_SCOPE)
+endfunction()
+
+# Writes the unit of one problem and appends it to HAMFLOW_UNITS, its declaration and call to the lists.
+macro(hamflow_problem_unit header name body)
+  set(unit "${generated}/problem_${name}.cpp")
+  file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
+  list(APPEND HAMFLOW_UNITS "${unit}")
+  string(APPEND declarations "ProblemEntry entry_${name}();\n")
+  string(APPEND problem_calls "entry_${name}(), ")
+endmacro()
+
+set(generated "${PROJECT_BINARY_DIR}/generated")
+set(HAMFLOW_UNITS)
+set(declarations "")
+set(problem_calls "")
+set(unit_text [[
+#include "problem_unit.hpp"
+#include "hamflow/problems/@header@.hpp"
+namespace hamflow {
+@family@
+ProblemEntry entry_@name@();
+ProblemEntry entry_@name@() { return ProblemUnit<Family>::entry(); }
+}  // namespace hamflow
+]])
+
+hamflow_names(problem_names problems)
+foreach(name IN LISTS problem_names)
+  hamflow_pascal_case(type ${name})
+  set(header ${name})
+  set(family "template <class R> using Family = ${type}<R>;")
+  hamflow_problem_unit(${header} ${name} "${unit_text}")
+endforeach()
+hamflow_names(potential_names problems/potentials)
+foreach(potential IN LISTS potential_names)
+  hamflow_pascal_case(type ${potential})
+  set(name central_force_${potential})
+  set(header potentials/${potential})
+  set(family "template <class R> using Family = CentralForce<R, ${type}>;")
+  hamflow_problem_unit(${header} ${name} "${unit_text}")
+endforeach()
+
+set(includes "")
+macro(hamflow_table_list kind out)
+  hamflow_names(names methods/${kind})
+  set(${out} "")
+  foreach(name IN LISTS names)
+    string(APPEND includes "#include \"hamflow/methods/${kind}/${name}.hpp\"\n")
+    string(APPEND ${out} "&${kind}::${name}, ")
+  endforeach()
+endmacro()
+hamflow_table_list(compositions composition_list)
+hamflow_table_list(splittings splitting_list)
+hamflow_table_list(tableaus tableau_addresses)
+hamflow_names(tableau_names methods/tableaus)
+set(tableau_macro "")
+set(tableau_includes "")
+set(tableau_strings "")
+set(tableau_infos "")
+foreach(name IN LISTS tableau_names)
+  string(APPEND tableau_macro " X(${name})")
+  string(APPEND tableau_includes "#include \"hamflow/methods/tableaus/${name}.hpp\"\n")
+  string(APPEND tableau_strings "std::string(tableaus::${name}.name), ")
+  string(APPEND tableau_infos "  if (name == tableaus::${name}.name) return describe(tableaus::${name});\n")
+endforeach()
+
+file(CONFIGURE OUTPUT "${generated}/tableau_list.hpp" CONTENT [[
+#pragma once
+@tableau_includes@
+#define HAMFLOW_FOR_EACH_TABLEAU(X)@tableau_macro@
+]] @ONLY)
+file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
+#pragma once
+#include <optional>
+#include "hamflow/methods/splitting.hpp"
+@includes@
+namespace hamflow {
+@declarations@
+inline std::vector<ProblemEntry> generated_problems() { return {@problem_calls@}; }
+inline std::vector<const CompositionTable*> generated_compositions() { return {@composition_list@}; }
+inline std::vector<const SplittingTable*> generated_splittings() { return {@splitting_list@}; }
+inline std::vector<std::string> generated_tableaus() { return {@tableau_strings@}; }
+inline std::optional<MethodInfo> generated_tableau_info(const std::string& name) {
+@tableau_infos@  return std::nullopt;
+}
+}  // namespace hamflow
+]] @ONLY)

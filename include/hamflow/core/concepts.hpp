@@ -1,0 +1,97 @@
+// What a problem can offer, and what a method may ask for. A method that asks for more than a problem offers does not
+// compile, and the message names the missing capability (tests/compile_fail).
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+
+#include "hamflow/core/dual.hpp"
+#include "hamflow/core/vector.hpp"
+
+namespace hamflow {
+
+/// **Arithmetic**: what is stored and what is computed may be different types. Forces are evaluated in Real; positions
+/// and momenta live in Stored, which only needs to take the addition of a Real.
+template <class A>
+concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real r) {
+  { a.position.store(r) } -> std::same_as<typename A::Stored>;
+  { a.momentum.read(s) } -> std::convertible_to<typename A::Real>;
+  a.position.add(s, r);  // s <- s + r
+  a.momentum.add(s, r);
+  { a.lost() } -> std::convertible_to<bool>;       // a number left the range of Stored
+  { A::exact_undo } -> std::convertible_to<bool>;  // add(s, r); add(s, -r); restores every bit of s
+};
+
+template <class P>
+using RealOf = typename P::Real;
+template <class P, class S = typename P::Real>
+using VectorOf = Vector<S, P::dimension>;
+/// The dual number that carries the gradient with respect to one vector of the problem.
+template <class P, class S = typename P::Real>
+using GradientDual = Dual<S, P::dimension>;
+
+namespace detail {
+template <class P, class S = typename P::Real>
+concept HasParts = requires(const P& problem, const VectorOf<P, S>& x) {
+  { problem.kinetic(x) } -> std::convertible_to<S>;
+  { problem.potential(x) } -> std::convertible_to<S>;
+};
+template <class P, class S = typename P::Real>
+concept HasEnergy = requires(const P& problem, const VectorOf<P, S>& x) {
+  { problem.energy(x, x) } -> std::convertible_to<S>;
+};
+template <class P>
+concept HasVelocity = requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
+  problem.velocity(x, out);
+};
+template <class P>
+concept HasForce = requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
+  problem.force(x, out);
+};
+template <class P>
+concept HasGradient = requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
+  problem.gradient(x, x, out, out);
+};
+template <class P>
+concept HasHessian = requires(const P& problem, const VectorOf<P>& q, Matrix<typename P::Real, P::dimension>& out) {
+  problem.potential_hessian(q, out);
+};
+template <class P>
+concept HasForceAndHessian = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f,
+                                      Matrix<typename P::Real, P::dimension>& out) {
+  problem.force_and_hessian(q, f, out);
+};
+}  // namespace detail
+
+/// **Problem**: a Hamiltonian and nothing else. `Real` is the type of its parameters, `dimension` the number of degrees
+/// of freedom; H is given whole, energy(q, p), or in its parts, kinetic(p) and potential(q).
+template <class P>
+concept Problem = requires {
+  typename P::Real;
+  { P::dimension } -> std::convertible_to<std::size_t>;
+}
+&&(detail::HasEnergy<P> || detail::HasParts<P>);
+
+/// **Separable**: H = T(p) + V(q), with velocity(p, out) and force(q, out) by hand, or kinetic and potential as
+/// function templates that dual numbers can differentiate.
+template <class P>
+concept Separable = Problem<P> && detail::HasParts<P> &&
+    ((detail::HasVelocity<P> && detail::HasForce<P>) || (detail::HasParts<P, GradientDual<P>>));
+
+/// **Differentiable**: dH/dq and dH/dp, by hand or by dual numbers. A separable problem is differentiable for free.
+template <class P>
+concept Differentiable = Problem<P> &&
+    (Separable<P> || detail::HasGradient<P> || detail::HasEnergy<P, Dual<typename P::Real, 2 * P::dimension>>);
+
+/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M. The problem says so: `quadratic_kinetic = true`.
+template <class P>
+concept QuadraticKinetic = Separable<P> && requires {
+  requires P::quadratic_kinetic;
+};
+
+/// **TwiceDifferentiable**: V''(q), by hand or by nested dual numbers.
+template <class P>
+concept TwiceDifferentiable = Separable<P> &&(detail::HasHessian<P> || detail::HasForceAndHessian<P> ||
+                                              detail::HasParts<P, Dual<GradientDual<P>, P::dimension>>);
+
+}  // namespace hamflow

@@ -1,0 +1,130 @@
+// The derivatives of a Hamiltonian, by hand where the problem gives them, by dual numbers where it does not. Methods
+// call these functions and never the members. S is the working number type: a problem with double parameters can be
+// evaluated in dual numbers over double.
+#pragma once
+
+#include "hamflow/core/concepts.hpp"
+
+namespace hamflow {
+
+/// T(p).
+template <class P, class S>
+S kinetic_energy(const P& problem, const VectorOf<P, S>& p) {
+  return problem.kinetic(p);
+}
+
+/// V(q).
+template <class P, class S>
+S potential_energy(const P& problem, const VectorOf<P, S>& q) {
+  return problem.potential(q);
+}
+
+/// H(q, p), without any shift.
+template <class P, class S, std::size_t N>
+S energy(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p) {
+  if constexpr (detail::HasEnergy<P, S>) {
+    return problem.energy(q, p);
+  } else {
+    return problem.kinetic(p) + problem.potential(q);
+  }
+}
+
+namespace detail {
+/// The gradient of f at x, carried by dual numbers.
+template <class F, class S, std::size_t N>
+void differentiate(const F& f, const Vector<S, N>& x, Vector<S, N>& out) {
+  Vector<Dual<S, N>, N> seeded{};
+  for (std::size_t k = 0; k < N; ++k) seeded[k] = Dual<S, N>::variable(x[k], k);
+  out = f(seeded).slope;
+}
+}  // namespace detail
+
+/// v = dT/dp.
+template <class P, class S, std::size_t N>
+void velocity(const P& problem, const Vector<S, N>& p, Vector<S, N>& v) {
+  if constexpr (requires { problem.velocity(p, v); }) {
+    problem.velocity(p, v);
+  } else {
+    detail::differentiate([&](const auto& x) { return problem.kinetic(x); }, p, v);
+  }
+}
+
+/// f = -dV/dq.
+template <class P, class S, std::size_t N>
+void force(const P& problem, const Vector<S, N>& q, Vector<S, N>& f) {
+  if constexpr (requires { problem.force(q, f); }) {
+    problem.force(q, f);
+  } else {
+    detail::differentiate([&](const auto& x) { return -problem.potential(x); }, q, f);
+  }
+}
+
+/// out[i][j] = d^2 V / dq_i dq_j.
+template <class P, class S, std::size_t N>
+void potential_hessian(const P& problem, const Vector<S, N>& q, Matrix<S, N>& out) {
+  if constexpr (requires { problem.potential_hessian(q, out); }) {
+    problem.potential_hessian(q, out);
+  } else {
+    Vector<Dual<S, N>, N> seeded{};
+    Vector<Dual<S, N>, N> f{};
+    for (std::size_t k = 0; k < N; ++k) seeded[k] = Dual<S, N>::variable(q[k], k);
+    force(problem, seeded, f);
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = 0; j < N; ++j) out[i][j] = -f[i].slope[j];
+    }
+  }
+}
+
+/// Both at once: they share their square roots and divisions.
+template <class P, class S, std::size_t N>
+void force_and_hessian(const P& problem, const Vector<S, N>& q, Vector<S, N>& f, Matrix<S, N>& hessian) {
+  if constexpr (requires { problem.force_and_hessian(q, f, hessian); }) {
+    problem.force_and_hessian(q, f, hessian);
+  } else {
+    force(problem, q, f);
+    potential_hessian(problem, q, hessian);
+  }
+}
+
+/// dq = dH/dq, dp = dH/dp.
+template <class P, class S, std::size_t N>
+void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Vector<S, N>& dq, Vector<S, N>& dp) {
+  if constexpr (requires { problem.gradient(q, p, dq, dp); }) {
+    problem.gradient(q, p, dq, dp);
+  } else if constexpr (Separable<P>) {
+    force(problem, q, dq);
+    for (std::size_t i = 0; i < N; ++i) dq[i] = -dq[i];
+    velocity(problem, p, dp);
+  } else {
+    using D = Dual<S, 2 * N>;
+    Vector<D, N> dual_q{};
+    Vector<D, N> dual_p{};
+    for (std::size_t k = 0; k < N; ++k) {
+      dual_q[k] = D::variable(q[k], k);
+      dual_p[k] = D::variable(p[k], N + k);
+    }
+    const D h = problem.energy(dual_q, dual_p);
+    for (std::size_t k = 0; k < N; ++k) {
+      dq[k] = h.slope[k];
+      dp[k] = h.slope[N + k];
+    }
+  }
+}
+
+/// M^-1, the constant Hessian of T, column by column: velocity is linear in p.
+template <class P>
+Matrix<RealOf<P>, P::dimension> inverse_mass_matrix(const P& problem) {
+  using R = RealOf<P>;
+  constexpr std::size_t n = P::dimension;
+  Matrix<R, n> inverse{};
+  for (std::size_t j = 0; j < n; ++j) {
+    Vector<R, n> unit{};
+    Vector<R, n> column{};
+    unit[j] = R(1);
+    velocity(problem, unit, column);
+    for (std::size_t i = 0; i < n; ++i) inverse[i][j] = column[i];
+  }
+  return inverse;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,33 @@
+// The elementary functions of hamflow. Numeric code calls sqrt(x), never std::sqrt(x): dual numbers and extended
+// precision types bring their own overloads into this namespace.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace hamflow {
+
+using std::abs;
+using std::acos;
+using std::asin;
+using std::atan;
+using std::atan2;
+using std::cos;
+using std::cosh;
+using std::exp;
+using std::isfinite;
+using std::log;
+using std::pow;
+using std::sin;
+using std::sinh;
+using std::sqrt;
+using std::tan;
+using std::tanh;
+
+/// The larger of two numbers of any ordered scalar type (std::max takes references, and needs equal types).
+template <class R>
+constexpr R larger(R a, R b) {
+  return a < b ? b : a;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,36 @@
+// What a method claims about itself. The claims are not documentation: tests/conformance tries to refute each of them,
+// and `hamflow verify` prints them beside what was measured.
+#pragma once
+
+#include <string>
+
+namespace hamflow {
+
+struct MethodInfo {
+  std::string name;       // canonical, e.g. "stv4", "cg(1,5)"
+  std::string summary;    // one line
+  std::string reference;  // work and equation
+  int order = 0;
+  bool explicit_step = true;
+  bool symplectic = false;
+  bool weakly_reversible = false;  // S Psi_-h S = Psi_h
+  bool symmetric = false;          // Psi_-h o Psi_h = id
+  bool reversible = false;         // S Psi_h S Psi_h = id
+  bool energy_conserving = false;  // to rounding, for every Hamiltonian the method accepts
+  int forces_per_step = 0;         // -dV/dq per step when none is computed twice; 0: depends on the iteration
+};
+
+/// What a method has done since it was made.
+struct Effort {
+  long long force = 0;          // evaluations of -dV/dq
+  long long gradient = 0;       // evaluations of the whole gradient of H
+  long long hessian = 0;        // evaluations of second derivatives
+  long long linear_solves = 0;  // Newton corrections
+  long long steps = 0;          // implicit steps taken
+  long long solves_min = 0;     // linear solves per step
+  long long solves_max = 0;
+  long long stagnated = 0;  // steps accepted at the rounding level above the tolerance asked for
+  long long halved = 0;     // steps replaced by two half steps (on_divergence = "halve")
+};
+
+}  // namespace hamflow

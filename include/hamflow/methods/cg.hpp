@@ -1,0 +1,303 @@
+// Energy-conserving Petrov-Galerkin finite elements in time, cg(1).   [Gross1999, (1.43), (1.44), (2.61)-(2.64)]
+//     q1 - q0 = h M^-1 (p0 + p1)/2,      p1 - p0 = h F,     F = -int_0^1 V'(q0 + alpha d) dalpha,  d = q1 - q0,
+// for H = p^T M^-1 p/2 + V(q). With exact quadrature V(q1) - V(q0) = -d.F and the first equation gives the same amount
+// of kinetic energy: H is conserved, exactly for polynomials V of degree <= 2 s with s Gauss points, to the error of
+// the quadrature else. Order 2, symmetric. s = 1 is the implicit midpoint rule (symplectic, not energy-conserving). p
+// is eliminated: Newton runs in d alone, on r(d) = h M^-1 (p0 + h F/2) - d with the exact tangent
+//     K = I + (h^2/2) M^-1 int alpha V''(q0 + alpha d) dalpha.
+// p1 is p0 + h F, never 2 M d/h - p0, which would amplify rounding by 2 M/h. Increments are added with compensation.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/method_info.hpp"
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/cg_options.hpp"
+#include "hamflow/numerics/dense.hpp"
+#include "hamflow/numerics/gauss_legendre.hpp"
+
+namespace hamflow {
+
+/// One step of cg(1). What it remembers (the last mean forces, from which the first guess is extrapolated, and the
+/// number of quadrature points in "auto") is part of a run's state.
+template <class P, Arithmetic A>
+class ContinuousGalerkin {
+ public:
+  static_assert(
+      QuadraticKinetic<P>,
+      "hamflow: cg with p eliminated needs a QuadraticKinetic problem: H = p^T M^-1 p/2 + V(q) with constant M, "
+      "declared by quadratic_kinetic = true");
+  static_assert(TwiceDifferentiable<P>, "hamflow: cg needs a TwiceDifferentiable problem: its Newton uses V''");
+  static_assert(
+      !A::exact_undo,
+      "hamflow: the lattice needs an explicit splitting method: an implicit step is no bijection of the lattice");
+  static constexpr std::size_t n = P::dimension;
+  using Real = typename A::Real;
+  using Base = Real;
+
+  ContinuousGalerkin(const P& problem, const CgOptions& options)
+      : options_(options),
+        rule_(&gauss_rule<Real>(options.quadrature > 0 ? options.quadrature : 1)),
+        mass_(inverse(inverse_mass_matrix(problem))) {}
+
+  MethodInfo info() const { return describe(options_); }
+
+  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+    const long long before = effort_.linear_solves;
+    const Outcome outcome = attempt(problem, h, z, 0, nullptr);
+    if (outcome != Outcome::done) return outcome;
+    const long long solves = effort_.linear_solves - before;
+    effort_.solves_min = effort_.steps == 0 || solves < effort_.solves_min ? solves : effort_.solves_min;
+    effort_.solves_max = solves > effort_.solves_max ? solves : effort_.solves_max;
+    ++effort_.steps;
+    return outcome;
+  }
+
+  void invalidate() { remembered_ = 0; }
+  Effort effort() const { return effort_; }
+  int quadrature() const { return rule_->points; }
+
+  /// Repeats the step that failed and tells how its residual went. Changes nothing.
+  std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
+    ContinuousGalerkin again = *this;
+    PhasePoint<A, n> copy = z;
+    std::string history;
+    again.options_.halve = false;
+    (void)again.attempt(problem, h, copy, 0, &history);
+    return "Newton did not converge in " + std::to_string(options_.max_iterations) +
+           " iterations; residual (2.63) per iteration: " + history;
+  }
+
+  /// The equations of the step for any number type: r = 0 and p1 - p0. The verification differentiates them.
+  template <class S>
+  void equations(const P& problem, const Base& h, const Vector<S, n>& q0, const Vector<S, n>& p0, const Vector<S, n>& d,
+                 Vector<S, n>& r, Vector<S, n>& p_increment) const {
+    Vector<S, n> mean{};
+    for (std::size_t l = 0; l < rule_->c.size(); ++l) {
+      Vector<S, n> q{};
+      Vector<S, n> f{};
+      for (std::size_t i = 0; i < n; ++i) q[i] = q0[i] + rule_->c[l] * d[i];
+      force(problem, q, f);
+      for (std::size_t i = 0; i < n; ++i) mean[i] += rule_->b[l] * f[i];
+    }
+    Vector<S, n> middle{};
+    Vector<S, n> v{};
+    for (std::size_t i = 0; i < n; ++i) {
+      middle[i] = p0[i] + (h / 2) * mean[i];
+      p_increment[i] = h * mean[i];
+    }
+    velocity(problem, middle, v);
+    for (std::size_t i = 0; i < n; ++i) r[i] = h * v[i] - d[i];
+  }
+
+ private:
+  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+  static constexpr int deepest_halving = 10;
+
+  /// The step, or, when it does not converge and halving is allowed, two steps of half its length.
+  Outcome attempt(const P& problem, const Real& h, PhasePoint<A, n>& z, int depth, std::string* history) {
+    const Vector<Real, n> q0 = z.positions();
+    const Vector<Real, n> p0 = z.momenta();
+    Vector<Real, n> mean = guess(problem, q0);
+    Vector<Real, n> d = displacement(problem, h, p0, mean);
+    Outcome outcome = converge(problem, h, q0, p0, d, mean, history);
+    if (options_.quadrature == 0) {
+      while (outcome == Outcome::done && rule_->points < most_gauss_points &&
+             quadrature_too_coarse(problem, q0, p0, d, mean)) {
+        rule_ = &gauss_rule<Real>(rule_->points + 1);
+        outcome = converge(problem, h, q0, p0, d, mean, history);
+      }
+    }
+    if (outcome == Outcome::done) {
+      z.move(Real(1), d);
+      z.push(h, mean);
+      remember(mean);
+      return outcome;
+    }
+    if (!options_.halve || depth == deepest_halving) return outcome;
+    const PhasePoint<A, n> start = z;
+    invalidate();
+    for (int half = 0; half < 2; ++half) {
+      outcome = attempt(problem, h / 2, z, depth + 1, history);
+      if (outcome != Outcome::done) {
+        z = start;
+        return outcome;
+      }
+    }
+    if (depth == 0) ++effort_.halved;
+    invalidate();  // the remembered forces belong to another step length
+    return outcome;
+  }
+
+  /// Newton from d. On success mean is the mean force at the solution.
+  Outcome converge(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
+                   Vector<Real, n>& d, Vector<Real, n>& mean, std::string* history) {
+    Real previous(0);          // |correction| of the iteration before
+    bool at_rounding = false;  // no further correction can be told from rounding
+    for (int k = 0;; ++k) {
+      Matrix<Real, n> stiffness{};
+      integrate(problem, q0, d, mean, stiffness);
+      const Vector<Real, n> target = displacement(problem, h, p0, mean);
+      Vector<Real, n> r{};
+      for (std::size_t i = 0; i < n; ++i) r[i] = target[i] - d[i];
+      if (options_.tolerance || history != nullptr) {
+        const Real norm = seed_residual(h, r);
+        if (history != nullptr) *history += (k > 0 ? ", " : "") + shortest(static_cast<double>(norm));
+        if (options_.tolerance) {
+          if (norm < static_cast<Real>(*options_.tolerance)) return Outcome::done;
+          if (at_rounding && !options_.seed_criterion) {
+            ++effort_.stagnated;
+            return Outcome::done;
+          }
+        }
+      }
+      if (k == options_.max_iterations) return Outcome::not_converged;
+
+      const Vector<Real, n> correction = solve(tangent(problem, h, stiffness), r);
+      ++effort_.linear_solves;
+      for (std::size_t i = 0; i < n; ++i) {
+        d[i] += correction[i];
+        for (std::size_t j = 0; j < n; ++j)
+          mean[i] -= stiffness[i][j] * correction[j];  // F at the new d, to second order
+      }
+      // The residual cannot be computed better than this; a correction of that size is noise. With a rate theta of
+      // decrease, quadratic convergence predicts theta^2 |correction| for the next one. What is left undone has the
+      // same sign at the same phase of every orbit and adds up linearly, rounding only as a square root: it has to lie
+      // so far below the noise that 10^6 steps (a walk of 10^3 noises) do not show it, hence 1/1024.
+      const Real size = max_norm(correction);
+      const Real noise = epsilon * (max_norm(target) + max_norm(d));
+      if (!(size <= std::numeric_limits<Real>::max())) return Outcome::not_converged;  // not finite
+      const Real rate = k > 0 && previous > Real(0) ? size / previous : Real(1);
+      at_rounding =
+          size <= noise || (k > 0 && rate * rate * size <= noise / 1024) || (rate > Real(0.5) && size <= 64 * noise);
+      if (at_rounding && !options_.tolerance) return Outcome::done;
+      previous = size;
+    }
+  }
+
+  /// mean = -int V'(q0 + alpha d), stiffness = int alpha V''(q0 + alpha d).
+  void integrate(const P& problem, const Vector<Real, n>& q0, const Vector<Real, n>& d, Vector<Real, n>& mean,
+                 Matrix<Real, n>& stiffness) {
+    const auto s = static_cast<std::size_t>(rule_->points);
+    const Real* c = rule_->c.data();
+    const Real* b = rule_->b.data();
+    Vector<Real, n> sum{};
+    for (std::size_t l = 0; l < s; ++l) {
+      Vector<Real, n> q{};
+      Vector<Real, n> f{};
+      Matrix<Real, n> hessian{};
+      for (std::size_t i = 0; i < n; ++i) q[i] = q0[i] + c[l] * d[i];
+      force_and_hessian(problem, q, f, hessian);
+      const Real weight = b[l] * c[l];
+      for (std::size_t i = 0; i < n; ++i) {
+        sum[i] += b[l] * f[i];
+        for (std::size_t j = 0; j < n; ++j) stiffness[i][j] += weight * hessian[i][j];
+      }
+    }
+    mean = sum;
+    effort_.force += rule_->points;
+    effort_.hessian += rule_->points;
+  }
+
+  Matrix<Real, n> tangent(const P& problem, const Real& h, const Matrix<Real, n>& stiffness) const {
+    Matrix<Real, n> k{};
+    const Real factor = h * h / 2;
+    for (std::size_t j = 0; j < n; ++j) {
+      Vector<Real, n> column{};
+      velocity(problem, stiffness[j], column);  // M^-1 applied to column j; stiffness is symmetric
+      for (std::size_t i = 0; i < n; ++i) k[i][j] = factor * column[i];
+      k[j][j] += Real(1);
+    }
+    return k;
+  }
+
+  /// h M^-1 (p0 + h F/2).
+  static Vector<Real, n> displacement(const P& problem, const Real& h, const Vector<Real, n>& p0,
+                                      const Vector<Real, n>& mean) {
+    Vector<Real, n> middle{};
+    Vector<Real, n> v{};
+    for (std::size_t i = 0; i < n; ++i) middle[i] = p0[i] + (h / 2) * mean[i];
+    velocity(problem, middle, v);
+    for (std::size_t i = 0; i < n; ++i) v[i] = h * v[i];
+    return v;
+  }
+
+  /// The 2-norm of the seed's residual (2.63), (2/h) M (d - h M^-1 (p0 + h F/2)).
+  Real seed_residual(const Real& h, const Vector<Real, n>& r) const {
+    const Vector<Real, n> scaled = apply(mass_, r);
+    Real sum(0);
+    for (std::size_t i = 0; i < n; ++i) sum += scaled[i] * scaled[i];
+    return abs(Real(2) / h) * sqrt(sum);
+  }
+
+  /// Whether one more point changes the work done by the mean force, which is the energy error of the step, by more
+  /// than a sixteenth of the rounding level of H (so that a bias stays below the random walk) and by more than its own
+  /// rounding.
+  bool quadrature_too_coarse(const P& problem, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
+                             const Vector<Real, n>& d, const Vector<Real, n>& mean) {
+    const GaussRule<Real>& finer = gauss_rule<Real>(rule_->points + 1);
+    Real difference(0);
+    Real work(0);
+    for (std::size_t l = 0; l < finer.c.size(); ++l) {
+      Vector<Real, n> q{};
+      Vector<Real, n> f{};
+      for (std::size_t i = 0; i < n; ++i) q[i] = q0[i] + finer.c[l] * d[i];
+      force(problem, q, f);
+      for (std::size_t i = 0; i < n; ++i) {
+        difference += finer.b[l] * d[i] * (f[i] - mean[i]);
+        work += finer.b[l] * abs(d[i] * f[i]);
+      }
+    }
+    effort_.force += finer.points;
+    const Real level = abs(kinetic_energy(problem, p0)) + abs(potential_energy(problem, q0));
+    return abs(difference) > epsilon * larger(level / 16, 8 * work);
+  }
+
+  /// The mean force of this step, extrapolated from the last three; at the start, the force at q0.
+  Vector<Real, n> guess(const P& problem, const Vector<Real, n>& q0) {
+    Vector<Real, n> f{};
+    if (remembered_ == 0) {
+      force(problem, q0, f);
+      ++effort_.force;
+    } else {
+      for (std::size_t i = 0; i < n; ++i) {
+        f[i] = remembered_ == 1   ? last_[0][i]
+               : remembered_ == 2 ? 2 * last_[0][i] - last_[1][i]
+                                  : 3 * (last_[0][i] - last_[1][i]) + last_[2][i];
+      }
+    }
+    return f;
+  }
+  void remember(const Vector<Real, n>& mean) {
+    last_[2] = last_[1];
+    last_[1] = last_[0];
+    last_[0] = mean;
+    if (remembered_ < 3) ++remembered_;
+  }
+
+  CgOptions options_;
+  const GaussRule<Real>* rule_;
+  Matrix<Real, n> mass_;
+  Vector<Real, n> last_[3]{};
+  int remembered_ = 0;
+  Effort effort_;
+};
+
+/// The recipe of cg: Cg{CgOptions{.quadrature = 5}}.
+struct Cg {
+  static constexpr bool implicit = true;
+  static constexpr bool bijective = false;
+  CgOptions options{};
+  template <class P, class A>
+  using Stepper = ContinuousGalerkin<P, A>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P& problem) const {
+    return Stepper<P, A>(problem, options);
+  }
+};
+
+}  // namespace hamflow

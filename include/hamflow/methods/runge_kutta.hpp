@@ -1,0 +1,131 @@
+// Explicit Runge-Kutta methods for z' = J grad H(z), any differentiable H.   [HLW2006, Sect. II.1.1]
+// Non-geometric: they drift. Here as references to compare against.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/method_info.hpp"
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/phase_point.hpp"
+
+namespace hamflow {
+
+/// A rational coefficient, exact in every arithmetic.
+struct Ratio {
+  int numerator = 0;
+  int denominator = 1;
+  constexpr bool is_zero() const { return numerator == 0; }
+  template <class R>
+  constexpr R as() const {
+    return R(numerator) / R(denominator);
+  }
+};
+
+/// a is strictly lower triangular.
+template <std::size_t S>
+struct ButcherTableau {
+  static constexpr std::size_t stages = S;
+  std::string_view name;
+  int order;
+  std::string_view reference;
+  std::array<std::array<Ratio, S>, S> a{};
+  std::array<Ratio, S> b{};
+};
+
+template <std::size_t S>
+MethodInfo describe(const ButcherTableau<S>& tableau) {
+  return {.name = std::string(tableau.name),
+          .summary = "explicit Runge-Kutta, " + std::to_string(S) + (S > 1 ? " stages" : " stage"),
+          .reference = std::string(tableau.reference),
+          .order = tableau.order,
+          .weakly_reversible = true,
+          .forces_per_step = static_cast<int>(S)};
+}
+
+/// One step of the explicit Runge-Kutta method of a tableau.
+template <class P, Arithmetic A, const auto& Tableau>
+class RungeKutta {
+ public:
+  static_assert(Differentiable<P>, "hamflow: a Runge-Kutta method needs a Differentiable problem");
+  static constexpr std::size_t n = P::dimension;
+  static constexpr std::size_t stages = std::remove_cvref_t<decltype(Tableau)>::stages;
+  using Real = typename A::Real;
+  using Base = base_scalar<Real>;
+
+  MethodInfo info() const { return describe(Tableau); }
+
+  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+    const Vector<Real, n> q0 = z.positions();
+    const Vector<Real, n> p0 = z.momenta();
+    std::array<Vector<Real, n>, stages> dq{};  // q' and p' of the stages
+    std::array<Vector<Real, n>, stages> dp{};
+    for_each_stage([&]<std::size_t i>() {
+      Vector<Real, n> q = q0;
+      Vector<Real, n> p = p0;
+      for_each_stage([&]<std::size_t j>() {
+        if constexpr (j < i && !Tableau.a[i][j].is_zero()) {
+          const Base factor = h * Tableau.a[i][j].template as<Base>();
+          for (std::size_t k = 0; k < n; ++k) {
+            q[k] += factor * dq[j][k];
+            p[k] += factor * dp[j][k];
+          }
+        }
+      });
+      derivative(problem, q, p, dq[i], dp[i]);
+    });
+    Vector<Real, n> sum_q{};
+    Vector<Real, n> sum_p{};
+    for_each_stage([&]<std::size_t i>() {
+      if constexpr (!Tableau.b[i].is_zero()) {
+        const Base weight = Tableau.b[i].template as<Base>();
+        for (std::size_t k = 0; k < n; ++k) {
+          sum_q[k] += weight * dq[i][k];
+          sum_p[k] += weight * dp[i][k];
+        }
+      }
+    });
+    z.move(h, sum_q);
+    z.push(h, sum_p);
+    return Outcome::done;
+  }
+
+  void invalidate() {}
+  Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
+
+ private:
+  template <class F>
+  static void for_each_stage(F&& f) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) { (f.template operator()<i>(), ...); }
+    (std::make_index_sequence<stages>{});
+  }
+  void derivative(const P& problem, const Vector<Real, n>& q, const Vector<Real, n>& p, Vector<Real, n>& dq,
+                  Vector<Real, n>& dp) {
+    ++evaluations_;
+    if constexpr (Separable<P>) {
+      velocity(problem, p, dq);
+      force(problem, q, dp);
+    } else {
+      gradient(problem, q, p, dp, dq);
+      for (std::size_t k = 0; k < n; ++k) dp[k] = -dp[k];
+    }
+  }
+
+  long long evaluations_ = 0;
+};
+
+/// A Runge-Kutta method chosen by type.
+template <const auto& Tableau>
+struct RungeKuttaBy {
+  static constexpr bool implicit = false;
+  static constexpr bool bijective = false;
+  template <class P, class A>
+  using Stepper = RungeKutta<P, A, Tableau>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P&) const {
+    return {};
+  }
+};
+
+}  // namespace hamflow

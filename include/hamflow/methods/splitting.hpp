@@ -1,0 +1,237 @@
+// The kernel of every explicit splitting method for H = T(p) + V(q): alternating kicks and drifts from a table.
+//     kick c:  p <- p - c h V'(q)          drift d:  q <- q + d h T'(p)
+// One kernel serves all tables, both orders (kick first, drift first) and every arithmetic. Neighbouring kicks of a
+// composition are one kick, and a step that begins and ends with a kick keeps the last force for the next step: no
+// force is computed twice. Kicks of two *steps* are not merged: advance(1000) has to give the bits of 1000 times
+// advance(1).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/method_info.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/tables.hpp"
+
+namespace hamflow {
+
+/// The order of actions in one step.
+enum class Shape {
+  kick_drift_kick,   // K D ... D K: the last force serves the next step
+  drift_kick_drift,  // D K ... K D
+  kick_drift,        // K D ... K D
+  drift_kick         // D K ... D K
+};
+
+/// The coefficients of one step in the order in which they act, in the working arithmetic.
+template <class R>
+struct SplittingSequence {
+  StartsWith starts_with;
+  std::vector<R> coefficients;
+
+  Shape shape() const {
+    const bool odd = coefficients.size() % 2 == 1;
+    if (starts_with == StartsWith::kick) return odd ? Shape::kick_drift_kick : Shape::kick_drift;
+    return odd ? Shape::drift_kick_drift : Shape::drift_kick;
+  }
+};
+
+/// gamma_1 .. gamma_s of a symmetric composition.
+template <class R>
+std::vector<R> composition_weights(const CompositionTable& table) {
+  const auto half = static_cast<std::size_t>(table.half_count());
+  std::vector<R> gamma(2 * half + 1);
+  R sum(0);
+  for (std::size_t i = 0; i < half; ++i) {
+    gamma[i] = gamma[2 * half - i] = evaluate_number<R>(table.half[i]);
+    sum += gamma[i];
+  }
+  gamma[half] = R(1) - R(2) * sum;
+  return gamma;
+}
+
+/// A composition of Stoermer-Verlet steps with neighbouring half actions joined; palindromic bit for bit.
+template <class R>
+SplittingSequence<R> sequence_of(const CompositionTable& table, StartsWith starts_with) {
+  const std::vector<R> gamma = composition_weights<R>(table);
+  std::vector<R> c{gamma.front() / R(2)};
+  for (std::size_t i = 0; i < gamma.size(); ++i) {
+    c.push_back(gamma[i]);
+    c.push_back(i + 1 < gamma.size() ? (gamma[i] + gamma[i + 1]) / R(2) : gamma[i] / R(2));
+  }
+  return {starts_with, c};
+}
+
+template <class R>
+SplittingSequence<R> sequence_of(const SplittingTable& table) {
+  std::vector<R> c;
+  for (int i = 0; i < table.count(); ++i)
+    c.push_back(evaluate_number<R>(table.coefficients[static_cast<std::size_t>(i)]));
+  return {table.starts_with, c};
+}
+
+inline MethodInfo describe(const CompositionTable& table, StartsWith starts_with) {
+  const bool kick_first = starts_with == StartsWith::kick;
+  return {.name = std::string(table.name) + (kick_first ? "" : "-dkd"),
+          .summary = "composition of " + std::to_string(table.stages()) + " Stoermer-Verlet step" +
+                     (table.stages() > 1 ? "s, " : ", ") + (kick_first ? "kick first" : "drift first"),
+          .reference = std::string(table.reference),
+          .order = table.order,
+          .symplectic = true,
+          .weakly_reversible = true,
+          .symmetric = true,
+          .reversible = true,
+          .forces_per_step = table.stages()};
+}
+
+inline MethodInfo describe(const SplittingTable& table) {
+  const auto sequence = sequence_of<double>(table);
+  const int kicks = (table.count() + (table.starts_with == StartsWith::kick ? 1 : 0)) / 2;
+  return {
+      .name = std::string(table.name),
+      .summary = std::string("splitting, ") + (table.starts_with == StartsWith::kick ? "kick first" : "drift first"),
+      .reference = std::string(table.reference),
+      .order = table.order,
+      .symplectic = true,
+      .weakly_reversible = true,
+      .symmetric = table.symmetric,
+      .reversible = table.symmetric,
+      .forces_per_step = sequence.shape() == Shape::kick_drift_kick ? kicks - 1 : kicks};
+}
+
+inline constexpr int any_length = 0;
+
+/// One step of a splitting method.
+/// @tparam Links drifts in a step when known at compile time (the loop is then unrolled), else any_length
+template <class P, Arithmetic A, Shape shape, int Links = any_length>
+class Splitting {
+ public:
+  static_assert(
+      Separable<P>,
+      "hamflow: a splitting method needs a Separable problem, H = T(p) + V(q): give kinetic(p) and potential(q). "
+      "Methods that accept any differentiable H: euler, rk4");
+  static constexpr std::size_t n = P::dimension;
+  using Real = typename A::Real;
+  using Base = base_scalar<Real>;
+
+  Splitting(const SplittingSequence<Base>& sequence, MethodInfo (*describe_table)(const void*), const void* table)
+      : info_(describe_table), table_(table) {
+    const std::vector<Base>& c = sequence.coefficients;
+    std::size_t i = 0;
+    if constexpr (leading) leading_kick_ = c[i++];
+    for (; i < c.size(); i += 2) {
+      if (count_ == capacity) throw Error("hamflow: a splitting table is longer than the kernel's room for it");
+      links_[count_++] = {c[i], i + 1 < c.size() ? c[i + 1] : Base(0)};
+    }
+  }
+
+  MethodInfo info() const { return info_(table_); }
+
+  /// z <- Psi_h(z). Always done: trouble shows in the state.
+  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+    if constexpr (leading) {
+      if (!(trailing && force_is_current_)) evaluate_force(problem, z);
+      z.push(h * leading_kick_, force_);
+    }
+    const std::size_t count = Links == any_length ? count_ : static_cast<std::size_t>(Links);
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      drift(problem, h * links_[i].drift, z);
+      evaluate_force(problem, z);
+      z.push(h * links_[i].kick, force_);
+    }
+    drift(problem, h * links_[count - 1].drift, z);
+    if constexpr (trailing) {
+      evaluate_force(problem, z);
+      z.push(h * links_[count - 1].kick, force_);
+      force_is_current_ = true;
+    }
+    return Outcome::done;
+  }
+
+  /// To be called when the state was changed from outside.
+  void invalidate() { force_is_current_ = false; }
+  Effort effort() const { return {.force = forces_}; }
+
+ private:
+  static constexpr bool leading = shape == Shape::kick_drift_kick || shape == Shape::kick_drift;
+  static constexpr bool trailing = shape == Shape::kick_drift_kick || shape == Shape::drift_kick;
+  static constexpr std::size_t capacity = Links == any_length ? SplittingTable::most : static_cast<std::size_t>(Links);
+  struct Link {
+    Base drift;
+    Base kick;
+  };
+
+  void evaluate_force(const P& problem, const PhasePoint<A, n>& z) {
+    force(problem, z.positions(), force_);
+    ++forces_;
+  }
+  static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z) {
+    Vector<Real, n> v{};
+    velocity(problem, z.momenta(), v);
+    z.move(factor, v);
+  }
+
+  Vector<Real, n> force_{};
+  bool force_is_current_ = false;
+  long long forces_ = 0;
+  Base leading_kick_{};
+  std::size_t count_ = 0;
+  std::array<Link, capacity> links_{};
+  MethodInfo (*info_)(const void*);
+  const void* table_;
+};
+
+namespace detail {
+inline MethodInfo describe_kick_first(const void* table) {
+  return describe(*static_cast<const CompositionTable*>(table), StartsWith::kick);
+}
+inline MethodInfo describe_drift_first(const void* table) {
+  return describe(*static_cast<const CompositionTable*>(table), StartsWith::drift);
+}
+inline MethodInfo describe_splitting(const void* table) { return describe(*static_cast<const SplittingTable*>(table)); }
+}  // namespace detail
+
+// Recipes: what a user names, from which a stepper for a problem and an arithmetic is made. `implicit`: the step solves
+// equations. `bijective`: every action of the step is one-to-one on a lattice.
+
+/// A composition chosen by type: Composition<compositions::stv4> has its length compiled in.
+template <const CompositionTable& Table, StartsWith starts_with = StartsWith::kick>
+struct Composition {
+  static constexpr bool implicit = false;
+  static constexpr bool bijective = true;
+  static constexpr bool kick_first = starts_with == StartsWith::kick;
+  template <class P, class A>
+  using Stepper = Splitting<P, A, kick_first ? Shape::kick_drift_kick : Shape::drift_kick_drift,
+                            kick_first ? Table.stages() : Table.stages() + 1>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P&) const {
+    using Base = typename Stepper<P, A>::Base;
+    return {sequence_of<Base>(Table, starts_with),
+            kick_first ? detail::describe_kick_first : detail::describe_drift_first, &Table};
+  }
+};
+
+/// A general splitting chosen by type.
+template <const SplittingTable& Table>
+struct SplittingBy {
+  static constexpr bool implicit = false;
+  static constexpr bool bijective = true;
+  static constexpr Shape shape() {
+    const bool odd = Table.count() % 2 == 1;
+    if (Table.starts_with == StartsWith::kick) return odd ? Shape::kick_drift_kick : Shape::kick_drift;
+    return odd ? Shape::drift_kick_drift : Shape::drift_kick;
+  }
+  static constexpr int links = (Table.count() + (Table.starts_with == StartsWith::kick ? 0 : 1)) / 2;
+  template <class P, class A>
+  using Stepper = Splitting<P, A, shape(), links>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P&) const {
+    return {sequence_of<typename Stepper<P, A>::Base>(Table), detail::describe_splitting, &Table};
+  }
+};
+
+}  // namespace hamflow

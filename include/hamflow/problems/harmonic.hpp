@@ -1,0 +1,55 @@
+// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2.   [spec: product, section 3]
+// Every symmetric method gains an order here or there: never measure an order on it. The orbit is exact:
+// q(t) = q0 cos(omega t) + p0/(m omega) sin(omega t).
+#pragma once
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/problem_info.hpp"
+
+namespace hamflow {
+
+template <class R = double>
+class Harmonic {
+ public:
+  using Real = R;
+  static constexpr std::size_t dimension = 1;
+  static constexpr bool quadratic_kinetic = true;
+
+  explicit Harmonic(R mass = R(1), R omega = R(1)) : inverse_mass_(R(1) / mass), stiffness_(mass * omega * omega) {}
+  explicit Harmonic(const Parameters<R>& given) : Harmonic(given["mass"], given["omega"]) {}
+
+  static ProblemInfo info() {
+    return {.name = "harmonic",
+            .formula = "H = p^2/(2 m) + m omega^2 q^2/2",
+            .reference = "any textbook",
+            .coordinates = {"q"},
+            .parameters = {{"mass", "1", "m", Range::positive}, {"omega", "1", "angular frequency"}}};
+  }
+
+  template <class S>
+  S kinetic(const Vector<S, 1>& p) const {
+    return p[0] * p[0] * (inverse_mass_ / R(2));
+  }
+  template <class S>
+  S potential(const Vector<S, 1>& q) const {
+    return q[0] * q[0] * (stiffness_ / R(2));
+  }
+  template <class S>
+  void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {
+    v[0] = p[0] * inverse_mass_;
+  }
+  template <class S>
+  void force(const Vector<S, 1>& q, Vector<S, 1>& f) const {
+    f[0] = -(q[0] * stiffness_);
+  }
+  template <class S>
+  void potential_hessian(const Vector<S, 1>&, Matrix<S, 1>& out) const {
+    out[0][0] = S(stiffness_);
+  }
+
+ private:
+  R inverse_mass_;
+  R stiffness_;  // m omega^2
+};
+
+}  // namespace hamflow

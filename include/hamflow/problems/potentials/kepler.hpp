@@ -1,0 +1,90 @@
+// Kepler potential V(r) = -k/r, W(u) = -k u^(-1/2).   [Gross1999, Sect. 2.8]
+// Starts: the circle at phi = pi/2 (2.127), (2.128), the other conics at pericentre on the x-axis (2.131).
+#pragma once
+
+#include "hamflow/problems/support/central_force.hpp"
+
+namespace hamflow {
+
+template <class R>
+class Kepler {
+ public:
+  explicit Kepler(R k = R(1)) : k_(k) {}
+  explicit Kepler(const Parameters<R>& given) : Kepler(given["k"]) {}
+
+  static ProblemInfo info() {
+    return {.name = "kepler",
+            .formula = "V(r) = -k/r",
+            .reference = "Gross1999, Sect. 2.8",
+            .parameters = {{"k", "1", "strength, k > 0 attracts"}},
+            .starts = {{"circle", {"r0"}, "at (0, r0), l = sqrt(mu k r0)"},
+                       {"ellipse", {"r_per", "r_aph"}, "at pericentre, l = sqrt(2 k mu r_per r_aph/(r_per + r_aph))"},
+                       {"parabola", {"r_per"}, "at pericentre, l = sqrt(2 mu k r_per)"},
+                       {"hyperbola", {"r_per", "angular_momentum"}, "at pericentre, l > sqrt(2 mu k r_per)"}}};
+  }
+
+  template <class S>
+  S value(const S& u) const {
+    return -k_ / sqrt(u);
+  }
+  template <class S>
+  S slope(const S& u) const {
+    return k_ / (u * sqrt(u));
+  }
+  template <class S>
+  CentralDerivatives<S> derivatives(const S& u) const {
+    const S inverse = R(1) / u;
+    const S slope = k_ * inverse * sqrt(inverse);
+    return {slope, R(-3) * slope * inverse};
+  }
+
+  static Start<R, 2> start(const std::string& kind, R mass, const Parameters<R>& given, const Parameters<R>& orbit,
+                           std::vector<Condition>& conditions) {
+    const R k = given["k"];
+    const auto require = [&](const char* key, const char* statement, R left, R right, bool strict) {
+      conditions.push_back({key, statement, static_cast<double>(left), static_cast<double>(right), strict});
+    };
+    require("problem.k", "0 < k", R(0), k, true);
+    if (kind == "circle") {
+      const R r0 = orbit["r0"];
+      require("problem.orbit.r0", "0 < r0", R(0), r0, true);
+      const R l = sqrt(mass * k * r0);
+      return {{R(0), r0}, {-l / r0, R(0)}};
+    }
+    const R r_per = orbit["r_per"];
+    require("problem.orbit.r_per", "0 < r_per", R(0), r_per, true);
+    R l{};
+    if (kind == "ellipse") {
+      const R r_aph = orbit["r_aph"];
+      require("problem.orbit.r_aph", "r_per <= r_aph", r_per, r_aph, false);
+      l = sqrt(R(2) * k * mass * r_per * r_aph / (r_per + r_aph));
+    } else {
+      const R parabolic = sqrt(R(2) * mass * k * r_per);
+      l = parabolic;
+      if (kind == "hyperbola") {
+        l = orbit["angular_momentum"];
+        require("problem.orbit.angular_momentum", "sqrt(2 mass k r_per) < angular_momentum", parabolic, l, true);
+      }
+    }
+    return {{r_per, R(0)}, {R(0), l / r_per}};
+  }
+
+  /// r(phi) = (l^2/(mu k))/(1 + eps cos(phi - phi')), (2.112)-(2.118), with eps and phi' from the eccentricity vector
+  /// p x L/(mu k) - q/|q|. Not positive where the orbit does not reach phi.
+  std::function<double(double)> exact_radius(double mass, const Vector<double, 2>& q,
+                                             const Vector<double, 2>& p) const {
+    const double k = static_cast<double>(k_);
+    const double l = q[0] * p[1] - q[1] * p[0];
+    const double r = sqrt(q[0] * q[0] + q[1] * q[1]);
+    if (!(k > 0) || l == 0) return {};
+    const double ex = p[1] * l / (mass * k) - q[0] / r;
+    const double ey = -p[0] * l / (mass * k) - q[1] / r;
+    const double parameter = l * l / (mass * k);
+    return [=](double phi) { return parameter / (1 + ex * cos(phi) + ey * sin(phi)); };
+  }
+
+ private:
+  R k_;
+};
+
+}  // namespace hamflow

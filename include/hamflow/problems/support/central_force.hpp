@@ -1,0 +1,97 @@
+// A particle of (reduced) mass mu in a central field, H = |p|^2/(2 mu) + V(r), in plane Cartesian coordinates.
+// [Gross1999, (2.45)-(2.60)]   V is one file in potentials/, written as a function of u = r^2, W(u) = V(sqrt u), so
+// that
+//     grad V = 2 W'(u) q,     V'' = 2 W'(u) I + 4 W''(u) q q^T.
+#pragma once
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/problem_info.hpp"
+
+namespace hamflow {
+
+/// What a potential says of its two derivatives at u = r^2.
+template <class S>
+struct CentralDerivatives {
+  S slope;      // 2 W'(u) = V'(r)/r
+  S curvature;  // 4 W''(u)
+};
+
+template <class R, template <class> class Potential>
+class CentralForce {
+ public:
+  using Real = R;
+  static constexpr std::size_t dimension = 2;
+  static constexpr bool quadratic_kinetic = true;
+
+  CentralForce(R mass, Potential<R> potential) : inverse_mass_(R(1) / mass), potential_(potential) {}
+  explicit CentralForce(const Parameters<R>& given) : CentralForce(given["mass"], Potential<R>(given)) {}
+
+  static ProblemInfo info() {
+    ProblemInfo of_potential = Potential<R>::info();
+    ProblemInfo all{.name = "central-force",
+                    .variant = {{"potential", of_potential.name}, {"coordinates", "cartesian"}},
+                    .formula = "H = |p|^2/(2 mu) + V(r), " + of_potential.formula,
+                    .reference = "Gross1999, (2.45)-(2.60); " + of_potential.reference,
+                    .coordinates = {"x", "y"},
+                    .parameters = {{"mass", "1", "reduced mass mu", Range::positive}},
+                    .invariants = {{"angular_momentum", "q1 p2 - q2 p1"}},
+                    .starts = of_potential.starts};
+    all.parameters.insert(all.parameters.end(), of_potential.parameters.begin(), of_potential.parameters.end());
+    return all;
+  }
+
+  template <class S>
+  S kinetic(const Vector<S, 2>& p) const {
+    return (p[0] * p[0] + p[1] * p[1]) * (inverse_mass_ / R(2));
+  }
+  template <class S>
+  S potential(const Vector<S, 2>& q) const {
+    return potential_.value(square(q));
+  }
+  template <class S>
+  void velocity(const Vector<S, 2>& p, Vector<S, 2>& v) const {
+    v[0] = p[0] * inverse_mass_;
+    v[1] = p[1] * inverse_mass_;
+  }
+  template <class S>
+  void force(const Vector<S, 2>& q, Vector<S, 2>& f) const {
+    const S slope = potential_.slope(square(q));
+    f[0] = -(slope * q[0]);
+    f[1] = -(slope * q[1]);
+  }
+  template <class S>
+  void force_and_hessian(const Vector<S, 2>& q, Vector<S, 2>& f, Matrix<S, 2>& hessian) const {
+    const CentralDerivatives<S> d = potential_.derivatives(square(q));
+    f[0] = -(d.slope * q[0]);
+    f[1] = -(d.slope * q[1]);
+    const S cx = d.curvature * q[0];
+    hessian[0][0] = d.slope + cx * q[0];
+    hessian[0][1] = hessian[1][0] = cx * q[1];
+    hessian[1][1] = d.slope + d.curvature * (q[1] * q[1]);
+  }
+  template <class S>
+  Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p) const {
+    return {q[0] * p[1] - q[1] * p[0]};
+  }
+
+  /// A geometric start. @param conditions receives every inequality that the geometry has to meet
+  static Start<R, 2> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
+                           std::vector<Condition>& conditions) {
+    return Potential<R>::start(kind, given["mass"], given, orbit, conditions);
+  }
+  /// The exact orbit through (q, p) as r(phi), empty where it is not known in closed form.
+  std::function<double(double)> exact_radius(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
+    return potential_.exact_radius(static_cast<double>(R(1) / inverse_mass_), q, p);
+  }
+
+ private:
+  template <class S>
+  static S square(const Vector<S, 2>& q) {
+    return q[0] * q[0] + q[1] * q[1];
+  }
+
+  R inverse_mass_;
+  Potential<R> potential_;
+};
+
+}  // namespace hamflow

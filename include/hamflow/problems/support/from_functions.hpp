@@ -1,0 +1,55 @@
+// A user's own Hamiltonian from generic lambdas; gradients and Hessians come from dual numbers.
+//   auto quartic = hamflow::separable<1>([](const auto& p) { return p[0]*p[0]/2; },
+//                                        [](const auto& q) { return q[0]*q[0]*q[0]*q[0]/4; });
+#pragma once
+
+#include "hamflow/core/derivatives.hpp"
+
+namespace hamflow {
+
+template <std::size_t N, class T, class V, bool Quadratic>
+struct SeparableFunctions {
+  using Real = double;
+  static constexpr std::size_t dimension = N;
+  static constexpr bool quadratic_kinetic = Quadratic;
+  T kinetic_function;
+  V potential_function;
+
+  template <class S>
+  requires std::is_invocable_v < T, const Vector<S, N>
+  & > S kinetic(const Vector<S, N>& p) const { return kinetic_function(p); }
+  template <class S>
+  requires std::is_invocable_v < V, const Vector<S, N>
+  & > S potential(const Vector<S, N>& q) const { return potential_function(q); }
+};
+
+/// H = T(p) + V(q) with N degrees of freedom. @param kinetic, potential generic callables of a Vector<S, N>
+template <std::size_t N, class T, class V>
+auto separable(T kinetic, V potential) {
+  return SeparableFunctions<N, T, V, false>{kinetic, potential};
+}
+
+/// The same for T = p^T M^-1 p/2 with constant M, which implicit elements use to halve their unknowns.
+template <std::size_t N, class T, class V>
+auto natural(T kinetic, V potential) {
+  return SeparableFunctions<N, T, V, true>{kinetic, potential};
+}
+
+template <std::size_t N, class H>
+struct HamiltonianFunction {
+  using Real = double;
+  static constexpr std::size_t dimension = N;
+  H function;
+
+  template <class S>
+  requires std::is_invocable_v < H, const Vector<S, N>
+  &, const Vector<S, N>& > S energy(const Vector<S, N>& q, const Vector<S, N>& p) const { return function(q, p); }
+};
+
+/// Any H(q, p). Methods that need H = T + V refuse it at compile time.
+template <std::size_t N, class H>
+auto hamiltonian(H function) {
+  return HamiltonianFunction<N, H>{function};
+}
+
+}  // namespace hamflow

@@ -1,0 +1,105 @@
+// **Catalog**: names to types. `make_simulation(request)` turns names and texts into a typed simulation behind the
+// type-erased interface; the lists serve the command, the documentation and the tests.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hamflow/core/problem_info.hpp"
+#include "hamflow/methods/cg_options.hpp"
+#include "hamflow/methods/tables.hpp"
+#include "hamflow/run/simulation.hpp"
+#include "hamflow/verify/step_map.hpp"
+
+namespace hamflow {
+
+/// A method by name, with its options where it has any.
+struct MethodSpec {
+  std::string name = "stv4";
+  CgOptions cg{};
+};
+
+enum class MethodKind { composition, splitting, runge_kutta, cg };
+
+/// One name of the closed list of methods.
+struct MethodEntry {
+  std::string name;
+  MethodKind kind;
+  StartsWith starts_with = StartsWith::kick;  // of a composition
+  const CompositionTable* composition = nullptr;
+  const SplittingTable* splitting = nullptr;
+};
+
+/// Numbers are texts, read in the arithmetic of the run.
+using Texts = std::map<std::string, std::string>;
+
+/// Where a run begins: a geometric start (kind not empty) or a state; v, if not empty, stands for p = dL/dv.
+struct StartSpec {
+  std::string kind;
+  Texts orbit;
+  int direction = 1;
+  std::vector<std::string> q;
+  std::vector<std::string> p;
+  std::vector<std::string> v;
+};
+
+struct Request {
+  std::string problem;
+  std::map<std::string, std::string> variant;  // e.g. potential = kepler
+  Texts parameters;                            // missing ones take their defaults
+  StartSpec start;
+  MethodSpec method;
+  std::string dt = "0.1";
+  std::string arithmetic = "double";
+  double position_unit = 0x1p-52;  // lattice spacings, powers of two
+  double momentum_unit = 0x1p-52;
+  bool watch = true;  // energy and invariants at every step
+};
+
+/// One problem of the catalogue (a problem with a choice of potential has one entry for each).
+struct ProblemEntry {
+  ProblemInfo info;
+  std::size_t dimension = 0;
+  std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
+  std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&)> step_map;
+  /// The conditions that a geometric start has to meet. @param parameters complete
+  std::function<std::vector<Condition>(const Texts& parameters, const StartSpec&)> conditions;
+  /// H(q, p). @param parameters complete
+  std::function<double(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> energy;
+  /// Whether H and its derivatives are finite there.
+  std::function<bool(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> regular;
+  /// The canonical start of a request in double.
+  std::function<Frame(const Request&)> start;
+  /// r(phi) of the exact orbit through (q, p); empty where there is no closed form.
+  std::function<std::function<double(double)>(const Texts&, const std::vector<double>& q, const std::vector<double>& p)>
+      exact_radius;
+};
+
+std::span<const ProblemEntry> problems();
+std::span<const MethodEntry> methods();
+inline const std::vector<std::string>& arithmetics() {
+  static const std::vector<std::string> names{"double", "compensated", "lattice"};
+  return names;
+}
+
+/// @throws Error naming the nearest name when there is none such
+const MethodEntry& find_method(const std::string& name);
+const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant);
+/// The parameters of a problem with defaults for those not given.
+Texts complete(const ProblemInfo& info, const Texts& given);
+MethodInfo describe(const MethodSpec& spec);
+/// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)". @throws Error
+MethodSpec parse_method(const std::string& text);
+/// Why a method cannot run in an arithmetic; empty if it can.
+std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
+/// The name nearest to `name` by edit distance, empty if none is near.
+std::string nearest(const std::string& name, std::span<const std::string> candidates);
+
+/// @throws Error when the request is wrong
+std::unique_ptr<Simulation> make_simulation(const Request& request);
+
+}  // namespace hamflow

@@ -1,0 +1,58 @@
+// The type-erased block: the only virtual boundary. One call advances many steps; the hot loop is inside, fully typed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hamflow/core/method_info.hpp"
+#include "hamflow/core/outcome.hpp"
+
+namespace hamflow {
+
+/// A look at the state, in double. Buffers are reused from call to call.
+struct Frame {
+  std::int64_t step = 0;
+  double time = 0;
+  std::vector<double> q;
+  std::vector<double> p;
+  double energy = 0;
+  std::vector<double> invariants;
+  Effort effort;  // totals since the start
+};
+
+/// How far a conserved quantity was seen to go, over every step.
+struct Excursion {
+  double initial = 0;
+  double final = 0;
+  double max_error = 0;
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  /// Takes `steps` steps, or stops at the last good one. advance(1000) gives the bits of 1000 times advance(1).
+  virtual Outcome advance(std::int64_t steps) = 0;
+  virtual std::int64_t step() const = 0;
+  /// Fills `frame` from the present state.
+  virtual void look(Frame& frame) const = 0;
+  /// h <- -h. The state stays.
+  virtual void reverse_time() = 0;
+  /// p <- -p. The step stays.
+  virtual void negate_momenta() = 0;
+  /// The stored bits of q and p, for tests of exact return.
+  virtual std::vector<std::byte> bits() const = 0;
+  /// Energy over every step since the start, with scale = max(|H0|, |T0| + |V0|).
+  virtual Excursion energy() const = 0;
+  virtual double energy_scale() const = 0;
+  /// In the order of the problem's invariants.
+  virtual std::vector<Excursion> invariants() const = 0;
+  virtual Effort effort() const = 0;
+  virtual MethodInfo method() const = 0;
+  /// After a failure: what went wrong in the step after the present one, in a sentence.
+  virtual std::string failure() const = 0;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,40 @@
+// The map of one step, z -> Psi_h(z), seen from outside: what the verification measures. Type-erased, so that catalogue
+// methods and deliberately broken ones go through the same measurements.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hamflow/core/method_info.hpp"
+
+namespace hamflow {
+
+/// A state in R, first q, then p, n numbers each.
+template <class R>
+using State = std::vector<R>;
+
+class StepMap {
+ public:
+  virtual ~StepMap() = default;
+  virtual std::size_t dimension() const = 0;
+  virtual MethodInfo claims() const = 0;
+  /// `steps` steps of length h from a fresh start, in double. False when a step fails.
+  virtual bool advance(State<double>& z, double h, std::int64_t steps) const = 0;
+  /// The same in long double: measured orders are not limited by the rounding of double.
+  virtual bool advance(State<long double>& z, long double h, std::int64_t steps) const = 0;
+  /// d Psi_h(z)/dz row by row, exact: dual numbers through an explicit step, the implicit function theorem at the
+  /// solution of an implicit one.
+  virtual std::vector<std::vector<double>> jacobian(const State<double>& z, double h) const = 0;
+  /// H at the start and after each of `blocks` blocks of `steps` steps, in the double arithmetic of the method.
+  virtual std::vector<double> energies(const State<double>& z, double h, int blocks, std::int64_t steps) const = 0;
+  /// max(|H|, |T| + |V|).
+  virtual double energy_scale(const State<double>& z) const = 0;
+  /// What `steps` steps cost.
+  virtual Effort cost(const State<double>& z, double h, std::int64_t steps) const = 0;
+  /// The exact flow over time t by a method of another family (extrapolation) in long double.
+  virtual State<long double> flow(const State<long double>& z, long double t) const = 0;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,214 @@
+#include "hamflow/run/catalog.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "catalog_lists.hpp"  // generated from the folders of problems and tables
+
+namespace hamflow {
+
+std::span<const ProblemEntry> problems() {
+  static const std::vector<ProblemEntry> all = generated_problems();
+  return all;
+}
+
+std::span<const MethodEntry> methods() {
+  static const std::vector<MethodEntry> all = [] {
+    std::vector<MethodEntry> list;
+    for (const CompositionTable* table : generated_compositions()) {
+      list.push_back({std::string(table->name), MethodKind::composition, StartsWith::kick, table, nullptr});
+      list.push_back({std::string(table->name) + "-dkd", MethodKind::composition, StartsWith::drift, table, nullptr});
+    }
+    for (const SplittingTable* table : generated_splittings()) {
+      list.push_back({std::string(table->name), MethodKind::splitting, table->starts_with, nullptr, table});
+    }
+    for (const std::string& name : generated_tableaus()) list.push_back({name, MethodKind::runge_kutta});
+    list.push_back({"cg", MethodKind::cg});
+    // Explicit methods by order and cost, then the rest.
+    std::stable_sort(list.begin(), list.end(), [](const MethodEntry& a, const MethodEntry& b) {
+      const auto key = [](const MethodEntry& e) {
+        if (e.kind == MethodKind::cg) return 1000;
+        const MethodInfo info = describe(MethodSpec{e.name, {}});
+        return 50 * info.order + info.forces_per_step;
+      };
+      return key(a) < key(b);
+    });
+    return list;
+  }();
+  return all;
+}
+
+std::string nearest(const std::string& name, std::span<const std::string> candidates) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(name.size() / 2, 2) + 1;  // more than half wrong is no likeness
+  for (const std::string& candidate : candidates) {
+    std::vector<std::size_t> row(candidate.size() + 1);
+    for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t change = diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+      }
+    }
+    if (row.back() < least) {
+      least = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+namespace {
+[[noreturn]] void unknown(const std::string& what, const std::string& name,
+                          const std::vector<std::string>& candidates) {
+  const std::string near = nearest(name, candidates);
+  throw Error(what + " '" + name + "' is unknown" + (near.empty() ? "" : "; did you mean " + near + "?") +
+              " (list them with: hamflow list " + what + "s)");
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+int whole_number(const std::string& key, const std::string& text) {
+  double value = 0;
+  try {
+    value = evaluate_number<double>(text);
+  } catch (const Error&) {
+    value = 0.5;
+  }
+  if (value != static_cast<double>(static_cast<int>(std::clamp(value, -1e6, 1e6)))) {
+    throw Error("cg: " + key + " has to be a whole number, not '" + text + "'");
+  }
+  return static_cast<int>(value);
+}
+
+void set_cg_option(CgOptions& cg, const std::string& key, const std::string& value) {
+  if (key == "degree") {
+    cg.degree = whole_number(key, value);
+    if (cg.degree != 1) throw Error("cg: degree is 1 in this version, not " + value);
+  } else if (key == "quadrature") {
+    cg.quadrature = value == "auto" ? 0 : whole_number(key, value);
+    if (value != "auto" && (cg.quadrature < cg.degree || cg.quadrature > 64)) {
+      throw Error("cg: quadrature is a number of Gauss points from the degree to 64, or auto, not " + value);
+    }
+  } else if (key == "tolerance") {
+    cg.tolerance = evaluate_number<double>(value);
+    if (!(*cg.tolerance > 0)) throw Error("cg: tolerance has to be positive, not " + value);
+  } else {
+    throw Error("cg: option '" + key + "' is unknown; allowed: degree, quadrature, tolerance");
+  }
+}
+}  // namespace
+
+const MethodEntry& find_method(const std::string& name) {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : methods()) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
+  }
+  unknown("method", name, names);
+}
+
+const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  std::vector<std::string> names;
+  const ProblemEntry* same_name = nullptr;
+  for (const ProblemEntry& entry : problems()) {
+    names.push_back(entry.info.name);
+    if (entry.info.name != name) continue;
+    same_name = &entry;
+    const bool matches = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {
+      const auto given = variant.find(choice.first);
+      return given == variant.end() || given->second == choice.second;
+    });
+    if (matches) return entry;
+  }
+  if (same_name == nullptr) unknown("problem", name, names);
+  std::string wanted;
+  for (const auto& [key, value] : variant) wanted += (wanted.empty() ? "" : ", ") + key + " = " + value;
+  throw Error("problem '" + name + "' has no variant with " + wanted + " (hamflow show " + name + ")");
+}
+
+Texts complete(const ProblemInfo& info, const Texts& given) {
+  Texts all;
+  for (const ParameterInfo& parameter : info.parameters) all[parameter.name] = parameter.default_value;
+  for (const auto& [name, text] : given) {
+    if (!all.contains(name)) throw Error("problem '" + info.name + "' has no parameter '" + name + "'");
+    all[name] = text;
+  }
+  return all;
+}
+
+MethodSpec parse_method(const std::string& text) {
+  MethodSpec spec;
+  const auto open = text.find('(');
+  spec.name = trimmed(text.substr(0, open));
+  const MethodEntry& entry = find_method(spec.name);
+  if (open == std::string::npos) return spec;
+  if (text.back() != ')') throw Error("method '" + text + "' lacks its closing parenthesis");
+  if (entry.kind != MethodKind::cg) throw Error("method '" + spec.name + "' takes no options");
+  const std::string inside = text.substr(open + 1, text.size() - open - 2);
+  const std::vector<std::string> in_order{"degree", "quadrature"};
+  std::size_t position = 0;
+  for (std::size_t begin = 0; begin <= inside.size();) {
+    const std::size_t end = std::min(inside.find(',', begin), inside.size());
+    const std::string part = trimmed(inside.substr(begin, end - begin));
+    const auto equals = part.find('=');
+    if (equals != std::string::npos) {
+      set_cg_option(spec.cg, trimmed(part.substr(0, equals)), trimmed(part.substr(equals + 1)));
+    } else if (position < in_order.size()) {
+      set_cg_option(spec.cg, in_order[position++], part);
+    } else {
+      throw Error("method '" + text + "' has too many options; cg takes (degree, quadrature)");
+    }
+    begin = end + 1;
+  }
+  return spec;
+}
+
+MethodInfo describe(const MethodSpec& spec) {
+  for (const CompositionTable* table : generated_compositions()) {
+    if (spec.name == table->name) return describe(*table, StartsWith::kick);
+    if (spec.name == std::string(table->name) + "-dkd") return describe(*table, StartsWith::drift);
+  }
+  for (const SplittingTable* table : generated_splittings()) {
+    if (spec.name == table->name) return describe(*table);
+  }
+  if (spec.name == "cg") return describe(spec.cg);
+  if (const auto info = generated_tableau_info(spec.name)) return *info;
+  (void)find_method(spec.name);  // throws, naming the nearest
+  throw Error("method '" + spec.name + "' has no description");
+}
+
+std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {
+  if (arithmetic != "lattice") return {};
+  const MethodEntry& entry = find_method(spec.name);
+  if (entry.kind == MethodKind::runge_kutta) {
+    return spec.name +
+           " is no bijection of the lattice, so nothing would come back exactly; use a splitting method, e.g. stv4";
+  }
+  if (entry.kind == MethodKind::cg) {
+    return "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4";
+  }
+  return {};
+}
+
+std::unique_ptr<Simulation> make_simulation(const Request& request) {
+  const ProblemEntry& problem = find_problem(request.problem, request.variant);
+  if (std::find(arithmetics().begin(), arithmetics().end(), request.arithmetic) == arithmetics().end()) {
+    throw Error("arithmetic '" + request.arithmetic + "' is unknown; allowed: double, compensated, lattice");
+  }
+  const std::string why_not = refusal(request.method, request.arithmetic);
+  if (!why_not.empty())
+    throw Error("method " + request.method.name + " cannot run in " + request.arithmetic + ": " + why_not);
+  Request full = request;
+  full.parameters = complete(problem.info, request.parameters);
+  return problem.simulate(full);
+}
+
+}  // namespace hamflow

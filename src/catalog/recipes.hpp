@@ -1,0 +1,58 @@
+// From a method's name and options to a recipe, an object that binds the typed stepper to a problem and an arithmetic.
+#pragma once
+
+#include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/splitting.hpp"
+#include "hamflow/run/catalog.hpp"
+#include "tableau_list.hpp"  // generated: includes every tableau, defines HAMFLOW_FOR_EACH_TABLEAU
+
+namespace hamflow {
+
+/// Any table of one shape, its length known at run time.
+template <Shape shape>
+struct TableRecipe {
+  static constexpr bool implicit = false;
+  static constexpr bool bijective = true;  // every kick and drift is one-to-one on the lattice
+  const MethodEntry* entry;
+  template <class P, class A>
+  using Stepper = Splitting<P, A, shape>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P&) const {
+    using Base = typename Stepper<P, A>::Base;
+    if (entry->kind == MethodKind::splitting) {
+      return {sequence_of<Base>(*entry->splitting), detail::describe_splitting, entry->splitting};
+    }
+    return {sequence_of<Base>(*entry->composition, entry->starts_with),
+            entry->starts_with == StartsWith::kick ? detail::describe_kick_first : detail::describe_drift_first,
+            entry->composition};
+  }
+};
+
+inline Shape shape_of(const MethodEntry& entry) {
+  return entry.kind == MethodKind::splitting ? sequence_of<double>(*entry.splitting).shape()
+                                             : sequence_of<double>(*entry.composition, entry.starts_with).shape();
+}
+
+/// Calls f with the recipe of a method: the one place where a name becomes a type.
+template <class F>
+auto visit_method(const MethodSpec& spec, F&& f) {
+  const MethodEntry& entry = find_method(spec.name);
+  if (entry.kind == MethodKind::cg) return f(Cg{spec.cg});
+#define HAMFLOW_TRY_TABLEAU(table) \
+  if (entry.name == tableaus::table.name) return f(RungeKuttaBy<tableaus::table>{});
+  HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_TRY_TABLEAU)
+#undef HAMFLOW_TRY_TABLEAU
+  switch (shape_of(entry)) {
+    case Shape::kick_drift_kick:
+      return f(TableRecipe<Shape::kick_drift_kick>{&entry});
+    case Shape::drift_kick_drift:
+      return f(TableRecipe<Shape::drift_kick_drift>{&entry});
+    case Shape::kick_drift:
+      return f(TableRecipe<Shape::kick_drift>{&entry});
+    case Shape::drift_kick:
+      break;
+  }
+  return f(TableRecipe<Shape::drift_kick>{&entry});
+}
+
+}  // namespace hamflow

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <chrono>
+
+#include "hamflow/run/observer.hpp"
+
+namespace hamflow {
+
+namespace {
+/// Wakes the observers due at the simulation's step.
+Verdict wake(const Simulation& simulation, std::span<Observer* const> observers, Frame& frame) {
+  const std::int64_t now = simulation.step();
+  bool looked = false;
+  Verdict verdict = Verdict::go_on;
+  for (Observer* observer : observers) {
+    if (observer->next_due(now) != now) continue;
+    if (!looked) simulation.look(frame);
+    looked = true;
+    if (observer->observe(frame) == Verdict::stop) verdict = Verdict::stop;
+  }
+  return verdict;
+}
+
+std::int64_t earliest_due(std::int64_t from, std::int64_t last, std::span<Observer* const> observers) {
+  std::int64_t due = last;
+  for (const Observer* observer : observers) due = std::min(due, observer->next_due(from));
+  return due;
+}
+}  // namespace
+
+Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* const> observers,
+            const std::function<bool(std::int64_t)>& pulse) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double wanted_seconds = 0.02;  // between looks at the clock: quick to stop, far too rare to cost anything
+  std::int64_t block = 256;
+  std::int64_t since_pulse = 0;
+  Clock::time_point pulsed = Clock::now();
+  Frame frame;
+  if (wake(simulation, observers, frame) == Verdict::stop) return Outcome::stopped;
+  while (simulation.step() < last_step) {
+    const std::int64_t now = simulation.step();
+    const std::int64_t target = std::min(earliest_due(now + 1, last_step, observers), now + block - since_pulse);
+    const Outcome outcome = simulation.advance(target - now);
+    since_pulse += target - now;
+    if (outcome != Outcome::done) return outcome;
+    if (wake(simulation, observers, frame) == Verdict::stop) return Outcome::stopped;
+    if (since_pulse >= block) {
+      const double seconds = std::chrono::duration<double>(Clock::now() - pulsed).count();
+      if (seconds < wanted_seconds / 2) block = std::min(block * 2, std::int64_t{1} << 30);
+      if (seconds > wanted_seconds * 2) block = std::max(block / 2, std::int64_t{1});
+      pulsed = Clock::now();
+      since_pulse = 0;
+      if (pulse && !pulse(simulation.step())) return Outcome::stopped;
+    }
+  }
+  return Outcome::done;
+}
+
+}  // namespace hamflow
