@@ -43,9 +43,11 @@ set(unit_text [[
 #include "problem_unit.hpp"
 #include "hamflow/problems/@header@.hpp"
 namespace hamflow {
-@family@
+// The alias has a name of its own: two units with one name for different problems would be merged by the linker.
+template <class R>
+using Family_@name@ = @family@;
 ProblemEntry entry_@name@();
-ProblemEntry entry_@name@() { return ProblemUnit<Family>::entry(); }
+ProblemEntry entry_@name@() { return ProblemUnit<Family_@name@>::entry(); }
 }  // namespace hamflow
 ]])
 
@@ -53,7 +55,7 @@ hamflow_names(problem_names problems)
 foreach(name IN LISTS problem_names)
   hamflow_pascal_case(type ${name})
   set(header ${name})
-  set(family "template <class R> using Family = ${type}<R>;")
+  set(family "${type}<R>")
   hamflow_problem_unit(${header} ${name} "${unit_text}")
 endforeach()
 hamflow_names(potential_names problems/potentials)
@@ -61,7 +63,7 @@ foreach(potential IN LISTS potential_names)
   hamflow_pascal_case(type ${potential})
   set(name central_force_${potential})
   set(header potentials/${potential})
-  set(family "template <class R> using Family = CentralForce<R, ${type}>;")
+  set(family "CentralForce<R, ${type}>")
   hamflow_problem_unit(${header} ${name} "${unit_text}")
 endforeach()
 

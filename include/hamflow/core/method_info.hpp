@@ -3,8 +3,24 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace hamflow {
+
+/// H(Psi_h(z)) = H(z), to rounding: for no Hamiltonian in general, as far as a quadrature is exact, or always.
+enum class Conservation { no, up_to_quadrature, yes };
+
+constexpr std::string_view name(Conservation conservation) {
+  switch (conservation) {
+    case Conservation::no:
+      return "no";
+    case Conservation::up_to_quadrature:
+      return "up to quadrature";
+    case Conservation::yes:
+      return "yes";
+  }
+  return "unknown";
+}
 
 struct MethodInfo {
   std::string name;       // canonical, e.g. "stv4", "cg(1,5)"
@@ -16,8 +32,8 @@ struct MethodInfo {
   bool weakly_reversible = false;  // S Psi_-h S = Psi_h
   bool symmetric = false;          // Psi_-h o Psi_h = id
   bool reversible = false;         // S Psi_h S Psi_h = id
-  bool energy_conserving = false;  // to rounding, for every Hamiltonian the method accepts
-  int forces_per_step = 0;         // -dV/dq per step when none is computed twice; 0: depends on the iteration
+  Conservation energy_conserving = Conservation::no;
+  int forces_per_step = 0;  // -dV/dq per step when none is computed twice; 0: depends on the iteration
 };
 
 /// What a method has done since it was made.

@@ -31,7 +31,9 @@ inline MethodInfo describe(const CgOptions& options) {
           .weakly_reversible = true,
           .symmetric = true,
           .reversible = true,
-          .energy_conserving = automatic};
+          .energy_conserving = automatic  ? Conservation::yes
+                               : midpoint ? Conservation::no
+                                          : Conservation::up_to_quadrature};
 }
 
 }  // namespace hamflow

@@ -56,15 +56,16 @@ class RungeKutta {
 
   MethodInfo info() const { return describe(Tableau); }
 
-  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+  /// Inlined by force into the loop over steps: else the state would go through memory between two steps.
+  [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
     const Vector<Real, n> q0 = z.positions();
     const Vector<Real, n> p0 = z.momenta();
     std::array<Vector<Real, n>, stages> dq{};  // q' and p' of the stages
     std::array<Vector<Real, n>, stages> dp{};
-    for_each_stage([&]<std::size_t i>() {
+    for_each_stage([&]<std::size_t i>() __attribute__((always_inline)) {
       Vector<Real, n> q = q0;
       Vector<Real, n> p = p0;
-      for_each_stage([&]<std::size_t j>() {
+      for_each_stage([&]<std::size_t j>() __attribute__((always_inline)) {
         if constexpr (j < i && !Tableau.a[i][j].is_zero()) {
           const Base factor = h * Tableau.a[i][j].template as<Base>();
           for (std::size_t k = 0; k < n; ++k) {
@@ -77,7 +78,7 @@ class RungeKutta {
     });
     Vector<Real, n> sum_q{};
     Vector<Real, n> sum_p{};
-    for_each_stage([&]<std::size_t i>() {
+    for_each_stage([&]<std::size_t i>() __attribute__((always_inline)) {
       if constexpr (!Tableau.b[i].is_zero()) {
         const Base weight = Tableau.b[i].template as<Base>();
         for (std::size_t k = 0; k < n; ++k) {
@@ -96,12 +97,14 @@ class RungeKutta {
 
  private:
   template <class F>
-  static void for_each_stage(F&& f) {
-    [&]<std::size_t... i>(std::index_sequence<i...>) { (f.template operator()<i>(), ...); }
+  [[gnu::always_inline]] static void for_each_stage(F&& f) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
+      (f.template operator()<i>(), ...);
+    }
     (std::make_index_sequence<stages>{});
   }
-  void derivative(const P& problem, const Vector<Real, n>& q, const Vector<Real, n>& p, Vector<Real, n>& dq,
-                  Vector<Real, n>& dp) {
+  [[gnu::always_inline]] void derivative(const P& problem, const Vector<Real, n>& q, const Vector<Real, n>& p,
+                                         Vector<Real, n>& dq, Vector<Real, n>& dp) {
     ++evaluations_;
     if constexpr (Separable<P>) {
       velocity(problem, p, dq);

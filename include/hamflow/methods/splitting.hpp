@@ -130,23 +130,26 @@ class Splitting {
 
   MethodInfo info() const { return info_(table_); }
 
-  /// z <- Psi_h(z). Always done: trouble shows in the state.
-  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+  /// z <- Psi_h(z). Always done: trouble shows in the state. Inlined by force into the loop over steps, so that state
+  /// and force stay in registers from step to step.
+  [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+    Vector<Real, n> f = force_;
     if constexpr (leading) {
-      if (!(trailing && force_is_current_)) evaluate_force(problem, z);
-      z.push(h * leading_kick_, force_);
+      if (!(trailing && force_is_current_)) evaluate_force(problem, z, f);
+      z.push(h * leading_kick_, f);
     }
     const std::size_t count = Links == any_length ? count_ : static_cast<std::size_t>(Links);
 #pragma GCC unroll 4
     for (std::size_t i = 0; i + 1 < count; ++i) {
       drift(problem, h * links_[i].drift, z);
-      evaluate_force(problem, z);
-      z.push(h * links_[i].kick, force_);
+      evaluate_force(problem, z, f);
+      z.push(h * links_[i].kick, f);
     }
     drift(problem, h * links_[count - 1].drift, z);
     if constexpr (trailing) {
-      evaluate_force(problem, z);
-      z.push(h * links_[count - 1].kick, force_);
+      evaluate_force(problem, z, f);
+      z.push(h * links_[count - 1].kick, f);
+      force_ = f;
       force_is_current_ = true;
     }
     return Outcome::done;
@@ -165,11 +168,11 @@ class Splitting {
     Base kick;
   };
 
-  void evaluate_force(const P& problem, const PhasePoint<A, n>& z) {
-    force(problem, z.positions(), force_);
+  [[gnu::always_inline]] void evaluate_force(const P& problem, const PhasePoint<A, n>& z, Vector<Real, n>& f) {
+    force(problem, z.positions(), f);
     ++forces_;
   }
-  static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z) {
+  [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z) {
     Vector<Real, n> v{};
     velocity(problem, z.momenta(), v);
     z.move(factor, v);

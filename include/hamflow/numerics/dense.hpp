@@ -1,4 +1,5 @@
-// Small dense linear systems, by Eigen: closed-form inverses up to 4 x 4, LU with partial pivoting above.
+// Small dense linear systems: Cramer's rule for 2 x 2, which is forward stable there [Higham2002, Sect. 1.10.1] and the
+// heart of Newton in the plane, else Eigen's closed-form inverses up to 4 x 4 and LU with partial pivoting above.
 #pragma once
 
 #include <Eigen/LU>
@@ -24,6 +25,10 @@ template <class R, std::size_t N>
 Vector<R, N> solve(const Matrix<R, N>& m, const Vector<R, N>& b) {
   if constexpr (N == 1) {
     return {b[0] / m[0][0]};
+  } else if constexpr (N == 2) {
+    const R inverse_determinant = R(1) / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+    return {(b[0] * m[1][1] - b[1] * m[0][1]) * inverse_determinant,
+            (b[1] * m[0][0] - b[0] * m[1][0]) * inverse_determinant};
   } else {
     Eigen::Matrix<R, static_cast<int>(N), 1> right;
     for (std::size_t i = 0; i < N; ++i) right(static_cast<int>(i)) = b[i];

@@ -47,9 +47,10 @@ class ConservationProbe {
       for (std::size_t i = 0; i < count; ++i) invariants_[i] = {values[i], R(0)};
     }
   }
-  /// False where the energy is not finite.
+  /// False where the energy is not finite. With all it calls it belongs into the loop over steps, where its square
+  /// roots and divisions hide behind those of the step.
   template <std::size_t N>
-  bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
+  [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
     const R error = abs(hamflow::energy(problem, q, p) - energy_.initial);
     energy_.worst = larger(energy_.worst, error);
     if constexpr (count > 0) {

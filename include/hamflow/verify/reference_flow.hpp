@@ -1,11 +1,13 @@
 // The exact flow to rounding, by a family of its own: Gragg's modified midpoint rule extrapolated in h^2
 // (Aitken-Neville), with step control. Slow and accurate; it knows nothing of the methods it judges.   [Hairer,
-// Norsett, Wanner 1993, II.9]
+// Norsett, Wanner 1993, II.9]   What is extrapolated is the increment of a step, not the state: its rounding is then
+// relative to the increment, and the state takes it with compensation.
 #pragma once
 
 #include <limits>
 #include <vector>
 
+#include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/core/derivatives.hpp"
 
 namespace hamflow {
@@ -19,17 +21,29 @@ class Extrapolation {
   using Z = Vector<R, 2 * N>;
   explicit Extrapolation(const P& problem) : problem_(problem) {}
 
-  /// z(t) from z(0).
-  Z flow(Z z, R t) const {
+  /// z(t) from z(0). Not a number where the orbit cannot be followed (a collision).
+  Z flow(const Z& start, R t) const {
+    using Axis = typename Compensated<R>::Axis;
+    Vector<typename Compensated<R>::Stored, 2 * N> sum{};
+    for (std::size_t i = 0; i < 2 * N; ++i) sum[i] = Axis::store(start[i]);
+    Z z = start;
     R done(0);
     R step = t;
-    const R limit = R(1) / R(8);
     while (abs(done) < abs(t)) {
-      if (abs(step) > limit) step = t < R(0) ? -limit : limit;
+      if (abs(step) > longest_step) step = t < R(0) ? -longest_step : longest_step;
       if (abs(done + step) > abs(t)) step = t - done;
-      Z next{};
-      while (!try_step(z, step, next)) step = step / R(2);
-      z = next;
+      Z increment{};
+      while (!try_step(z, step, increment)) {
+        step = step / R(2);
+        if (abs(step) < shortest_step) {
+          for (R& x : z) x = std::numeric_limits<R>::quiet_NaN();
+          return z;
+        }
+      }
+      for (std::size_t i = 0; i < 2 * N; ++i) {
+        Axis::add(sum[i], increment[i]);
+        z[i] = Axis::read(sum[i]);
+      }
       done += step;
       step = step * R(2);
     }
@@ -37,16 +51,18 @@ class Extrapolation {
   }
 
  private:
-  static constexpr int columns = 14;
+  static constexpr int columns = 10;
+  static constexpr R longest_step = R(1) / R(8);
+  static constexpr R shortest_step = longest_step / R(1 << 24);
 
-  Z derivative(const Z& z) const {
+  Z derivative(const Z& z, const Z& increment) const {
     Vector<R, N> q{};
     Vector<R, N> p{};
     Vector<R, N> dq{};
     Vector<R, N> dp{};
     for (std::size_t i = 0; i < N; ++i) {
-      q[i] = z[i];
-      p[i] = z[N + i];
+      q[i] = z[i] + increment[i];
+      p[i] = z[N + i] + increment[N + i];
     }
     gradient(problem_, q, p, dq, dp);
     Z out{};
@@ -61,44 +77,57 @@ class Extrapolation {
     for (std::size_t i = 0; i < 2 * N; ++i) out[i] += factor * direction[i];
     return out;
   }
+  /// The increment over `step` with an even number of parts, smoothed at the end (II.9.13c).
   Z modified_midpoint(const Z& z, R step, int parts) const {
     const R h = step / R(parts);
-    Z before = z;
-    Z now = combine(z, h, derivative(z));
+    Z before{};
+    Z now = combine(before, h, derivative(z, before));
     for (int k = 1; k < parts; ++k) {
-      const Z after = combine(before, R(2) * h, derivative(now));
+      const Z after = combine(before, R(2) * h, derivative(z, now));
       before = now;
       now = after;
     }
-    const Z last = combine(before, h, derivative(now));
+    const Z last = combine(before, h, derivative(z, now));
     Z mean{};
     for (std::size_t i = 0; i < 2 * N; ++i) mean[i] = (now[i] + last[i]) / R(2);
     return mean;
   }
-  /// True when two neighbours of the extrapolation table agree to rounding.
+  static R size_of(const Z& z) {
+    R size(0);
+    for (const R& x : z) size = larger(size, R(abs(x)));
+    return size;
+  }
+  /// True when two neighbours of the extrapolation table agree to the rounding of an increment, or come no closer and
+  /// are at most 256 roundings apart.
   bool try_step(const Z& z, R step, Z& out) const {
     std::vector<Z> row;
+    R previous = std::numeric_limits<R>::max();
     for (int j = 0; j < columns; ++j) {
       std::vector<Z> next{modified_midpoint(z, step, 2 * (j + 1))};
       for (int k = 1; k <= j; ++k) {
         const R ratio = R(j + 1) / R(j + 1 - k);
         const R divisor = ratio * ratio - R(1);
         Z better = next.back();
-        for (std::size_t i = 0; i < 2 * N; ++i)
+        for (std::size_t i = 0; i < 2 * N; ++i) {
           better[i] += (next.back()[i] - row[static_cast<std::size_t>(k - 1)][i]) / divisor;
+        }
         next.push_back(better);
       }
       if (j >= 4) {
         R difference(0);
-        R size(0);
         for (std::size_t i = 0; i < 2 * N; ++i) {
           difference = larger(difference, R(abs(next.back()[i] - row.back()[i])));
-          size = larger(size, R(abs(next.back()[i])));
         }
-        if (difference <= R(4) * std::numeric_limits<R>::epsilon() * size) {
+        const R rounding = std::numeric_limits<R>::epsilon() * larger(size_of(next.back()), R(abs(step)) * size_of(z));
+        if (difference <= R(2) * rounding) {
           out = next.back();
           return true;
         }
+        if (difference >= previous && previous <= R(256) * rounding) {
+          out = row.back();
+          return true;
+        }
+        previous = difference;
       }
       row = std::move(next);
     }

@@ -1,0 +1,162 @@
+// hamflow run: a scenario becomes a simulation, the simulation samples, the samples a folder and a summary.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "commands.hpp"
+#include "csv_file.hpp"
+#include "figures_of_run.hpp"
+#include "progress.hpp"
+#include "run_file.hpp"
+#include "run_folder.hpp"
+#include "summary.hpp"
+
+namespace hamflow::app {
+
+namespace {
+
+/// Keeps the start, every n-th step and the last one.
+class Recorder final : public Observer {
+ public:
+  Recorder(const Scenario& scenario, const std::filesystem::path& folder) : scenario_(scenario) {
+    const auto wants = [&](const char* format) {
+      return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
+    };
+    std::vector<std::string> invariants;
+    for (const InvariantInfo& invariant : scenario.problem->info.invariants) invariants.push_back(invariant.name);
+    if (wants("h5")) {
+      char host[256] = "";
+      (void)gethostname(host, sizeof host - 1);
+      h5_ =
+          std::make_unique<RunFile>(folder / "run.h5", RunDescription{.scenario = scenario.text,
+                                                                      .version = HAMFLOW_VERSION,
+                                                                      .host = host,
+                                                                      .problem = scenario.request.problem,
+                                                                      .method = describe(scenario.request.method).name,
+                                                                      .arithmetic = scenario.request.arithmetic,
+                                                                      .kernel = "exact",
+                                                                      .dimension = scenario.problem->dimension,
+                                                                      .invariants = invariants});
+    }
+    if (wants("csv"))
+      csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.problem->dimension, invariants);
+  }
+
+  std::int64_t next_due(std::int64_t step) const override {
+    const std::int64_t every = scenario_.record_every;
+    const std::int64_t next = step % every == 0 ? step : step + (every - step % every);
+    return step <= scenario_.steps ? std::min(next, scenario_.steps) : never;
+  }
+  Verdict observe(const Frame& frame) override {
+    if (h5_) h5_->append(frame);
+    if (csv_) csv_->append(frame);
+    last_ = frame.step;
+    return Verdict::go_on;
+  }
+  /// The state in which a run ended early is a sample too.
+  void finish(const Simulation& simulation) {
+    if (last_ != simulation.step()) {
+      Frame frame;
+      simulation.look(frame);
+      (void)observe(frame);
+    }
+    if (h5_) h5_->flush();
+    if (csv_) csv_->flush();
+  }
+  void flush_if_due() {
+    if (h5_) h5_->flush_if_due();
+  }
+
+ private:
+  const Scenario& scenario_;
+  std::unique_ptr<RunFile> h5_;
+  std::unique_ptr<CsvFile> csv_;
+  std::int64_t last_ = -1;
+};
+
+int file_trouble(const RunOptions& options, const std::string& message) {
+  std::cerr << "error: " << message << '\n';
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"status", "failed"}, {"error", {{"kind", "file"}, {"message", message}}}}.dump(
+                     2)
+              << '\n';
+  }
+  return exit_file;
+}
+
+int rejected(const RunOptions& options, const std::vector<Complaint>& complaints) {
+  for (const Complaint& complaint : complaints) std::cerr << complaint.text() << '\n';
+  if (options.json) std::cout << rejection_of(complaints).dump(2) << '\n';
+  return exit_rejected;
+}
+
+int carry_out(const Scenario& scenario, const RunOptions& options) {
+  const bool writes = options.out != "none";
+  const std::filesystem::path folder = folder_of(scenario, options.out);
+  std::unique_ptr<Recorder> recorder;
+  if (writes) {
+    make_folder(folder, options.force);
+    recorder = std::make_unique<Recorder>(scenario, folder);
+  }
+  const auto simulation = make_simulation(scenario.request);
+  std::vector<Observer*> observers;
+  if (recorder) observers.push_back(recorder.get());
+
+  RunResult result;
+  catch_interrupts();
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    Progress progress(scenario.steps, options.quiet);
+    result.outcome = run(*simulation, scenario.steps, observers, [&](std::int64_t step) {
+      progress.show(step);
+      if (recorder) recorder->flush_if_due();
+      return !interrupted();
+    });
+  }
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.steps_taken = simulation->step();
+  if (result.outcome == Outcome::not_converged) result.failure = simulation->failure();
+  // Ctrl-C within the last block still ends as asked for.
+  if (recorder) recorder->finish(*simulation);
+
+  const auto summary = summary_of(scenario, *simulation, result);
+  if (writes) {
+    write_text(folder / "summary.json", summary.dump(2) + "\n");
+    recorder.reset();  // closes run.h5, from which the figures are drawn
+    if (!scenario.figures.empty()) {
+      std::filesystem::create_directories(folder / "figures");
+      for (const std::string& kind : scenario.figures) {
+        for (const char* format : {".svg", ".pdf", ".png"})
+          draw_figure(folder, kind, folder / "figures" / (kind + format));
+      }
+    }
+  }
+  std::cout << (options.json ? summary.dump(2) + "\n" : readable(summary));
+  if (writes && !options.json && !options.quiet) std::cout << fmt::format("{:<20}{}\n", "written to", folder.string());
+  if (summary["status"] == "failed") {
+    std::cerr << "error: " << summary["error"]["message"].get<std::string>()
+              << "\nhint: " << summary["error"]["hint"].get<std::string>() << '\n';
+    if (writes) std::cerr << "what was computed is in " << folder.string() << '\n';
+    return exit_failed;
+  }
+  return result.outcome == Outcome::stopped ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+int run_scenario(const RunOptions& options) {
+  try {
+    const Reading reading = read_scenario(options.scenario, options.sets);
+    if (!reading.scenario) return rejected(options, reading.complaints);
+    return carry_out(*reading.scenario, options);
+  } catch (const FileError& error) {
+    return file_trouble(options, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return file_trouble(options, error.what());
+  }
+}
+
+}  // namespace hamflow::app

@@ -1,0 +1,60 @@
+#include "command_verify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+#include "hamflow/verify/measure.hpp"
+
+namespace {
+std::vector<hamflow::MethodSpec> methods_of(const VerifyOptions& options) {
+  std::vector<hamflow::MethodSpec> specs;
+  for (const std::string& text : options.methods) specs.push_back(hamflow::parse_method(text));
+  if (!options.all) return specs;
+  for (const hamflow::MethodEntry& entry : hamflow::methods()) {
+    if (entry.kind != hamflow::MethodKind::cg) specs.push_back(hamflow::parse_method(entry.name));
+  }
+  for (const char* text : {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) specs.push_back(hamflow::parse_method(text));
+  return specs;
+}
+
+/// The rows in the order of the methods, measured on all cores.
+std::vector<hamflow::PropertyRow> measure_all(const std::vector<hamflow::MethodSpec>& specs,
+                                              const std::vector<hamflow::Region>& regions) {
+  std::vector<std::optional<hamflow::PropertyRow>> measured(specs.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < specs.size(); i = next++) measured[i] = hamflow::measure_method(specs[i], regions);
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    for (std::size_t k = 1; k < std::min(cores, specs.size()); ++k) helpers.emplace_back(work);
+    work();
+  }
+  std::vector<hamflow::PropertyRow> rows;
+  for (auto& row : measured) rows.push_back(std::move(*row));
+  return rows;
+}
+}  // namespace
+
+int run_verify(const VerifyOptions& options) {
+  std::vector<hamflow::MethodSpec> specs;
+  std::vector<hamflow::Region> regions;
+  try {
+    specs = methods_of(options);
+    if (specs.empty()) throw hamflow::Error("verify needs at least one METHOD, or --all");
+    regions = options.problem.empty() ? hamflow::default_regions()
+                                      : std::vector<hamflow::Region>{hamflow::region_of(options.problem)};
+  } catch (const hamflow::Error& error) {
+    fmt::print(stderr, "hamflow verify: error: {}\n", error.what());
+    return 2;
+  }
+  const std::vector<hamflow::PropertyRow> rows = measure_all(specs, regions);
+  std::fputs((options.json ? hamflow::property_json(rows) : hamflow::property_table(rows)).c_str(), stdout);
+  return std::all_of(rows.begin(), rows.end(), [](const hamflow::PropertyRow& row) { return row.agrees(); }) ? 0 : 1;
+}

@@ -1,0 +1,32 @@
+// The sub-commands. Each returns the exit status: 0 done; 1 the run failed (numerics); 2 the request was wrong, nothing
+// ran; 3 input or output failed; 130 stopped by Ctrl-C.   [spec: product, section 2]
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hamflow::app {
+
+enum ExitStatus { exit_done = 0, exit_failed = 1, exit_rejected = 2, exit_file = 3, exit_interrupted = 130 };
+
+struct RunOptions {
+  std::string scenario;
+  std::vector<std::string> sets;
+  std::string out;  // a folder, "none", or empty for the default
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+int run_scenario(const RunOptions& options);
+
+struct PlotOptions {
+  std::string run;   // a folder or its run.h5
+  std::string kind;  // empty: orbit where there is one, else phase
+  std::string file;
+};
+int plot_run(const PlotOptions& options);
+
+int list_catalogue(const std::string& what, bool json);
+int show_entry(const std::string& name);
+
+}  // namespace hamflow::app

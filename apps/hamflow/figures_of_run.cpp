@@ -1,0 +1,57 @@
+#include "figures_of_run.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "figure.hpp"
+#include "run_file.hpp"
+#include "scenario.hpp"
+
+namespace hamflow::app {
+
+namespace {
+
+/// The scenario that a run.h5 carries; what --set changed stands behind its text as comments.
+Scenario scenario_of(const RunSamples& samples, const std::filesystem::path& file) {
+  std::vector<std::string> sets;
+  std::istringstream lines(samples.description.scenario);
+  const std::string mark = "# --set ";
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(mark)) sets.push_back(line.substr(mark.size()));
+  }
+  const Reading reading = read_scenario_text(samples.description.scenario, file.string(), sets);
+  if (!reading.scenario)
+    throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
+  return *reading.scenario;
+}
+
+}  // namespace
+
+void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file) {
+  const std::filesystem::path source = std::filesystem::is_directory(run) ? run / "run.h5" : run;
+  RunSamples samples = read_run_file(source);
+  if (samples.t.empty()) throw FileError(source.string() + " holds no samples");
+  const Scenario scenario = scenario_of(samples, source);
+  const ProblemEntry& problem = *scenario.problem;
+  const Texts& parameters = scenario.request.parameters;
+  FigureData data;
+  data.title = fmt::format("{}, {}, dt = {}", scenario.request.problem, describe(scenario.request.method).name,
+                           scenario.request.dt);
+  data.coordinates = problem.info.coordinates;
+  data.t = std::move(samples.t);
+  data.q = std::move(samples.q);
+  data.p = std::move(samples.p);
+  data.energy = std::move(samples.energy);
+  data.energy_scale = make_simulation(scenario.request)->energy_scale();
+  if (problem.exact_radius) {
+    const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);
+    if (radius) sample_polar_curve(radius, data);
+  }
+  if (problem.dimension == 1) {
+    data.hamiltonian_1d = [&problem, &parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
+  }
+  write_figure(data, !kind.empty() ? kind : problem.dimension == 2 ? "orbit" : "phase", file);
+}
+
+}  // namespace hamflow::app

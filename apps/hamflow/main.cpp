@@ -1,0 +1,114 @@
+// The command line: parse, call, print. No numerics.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "command_verify.hpp"
+#include "commands.hpp"
+#include "hamflow/run/catalog.hpp"
+
+namespace {
+
+using namespace hamflow::app;
+
+CLI::App* add(CLI::App& app, const char* name, const char* what, const char* examples) {
+  CLI::App* sub = app.add_subcommand(name, what);
+  sub->footer(std::string("Examples:\n") + examples);
+  return sub;
+}
+
+/// CLI11 would only say that a sub-command is required.
+void reject_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  const std::string near = hamflow::nearest(argv[1], names);
+  throw CLI::ValidationError(
+      std::string("there is no command '") + argv[1] + "'" + (near.empty() ? "" : "; did you mean " + near + "?"),
+      CLI::ExitCodes::InvalidError);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"hamflow integrates Hamiltonian systems and shows which structure a method preserves."};
+  app.name("hamflow");
+  app.set_version_flag("--version", "hamflow " HAMFLOW_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n  hamflow run examples/kepler_ellipse.toml\n  hamflow list methods\n  hamflow verify stv4\n"
+      "Exit status: 0 done, 1 the run failed, 2 the request was wrong, 3 input or output failed, 130 stopped by "
+      "Ctrl-C.");
+  int status = exit_done;
+
+  RunOptions run;
+  CLI::App* run_command =
+      add(app, "run", "Run a scenario: integrate, record, draw, sum up",
+          "  hamflow run kepler.toml\n  hamflow run kepler.toml --set run.dt=0.05 --set method.name=verlet "
+          "--out finer.run\n  hamflow run kepler.toml --json --out none\n");
+  run_command->add_option("scenario", run.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
+  run_command->add_option("--set", run.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  run_command->add_option("--out", run.out, "folder for the results; \"none\" writes nothing")->type_name("DIR");
+  run_command->add_flag("--force", run.force, "replace the run in an existing folder");
+  run_command->add_flag("--json", run.json, "print the summary as JSON, and nothing else, on stdout");
+  run_command->add_flag("--quiet", run.quiet, "no progress, no notes");
+  run_command->callback([&] { status = run_scenario(run); });
+
+  PlotOptions plot;
+  CLI::App* plot_command =
+      add(app, "plot", "Draw a figure of a run, also of one that goes on or was cut short",
+          "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n");
+  plot_command->add_option("run", plot.run, "the folder of a run, or its run.h5")->required()->type_name("RUN");
+  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase")->type_name("KIND");
+  plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
+      ->required()
+      ->type_name("FILE");
+  plot_command->callback([&] { status = plot_run(plot); });
+
+  VerifyOptions verify;
+  CLI::App* verify_command =
+      add(app, "verify", "Measure the properties of methods: order, symplecticity, reversibility, energy",
+          "  hamflow verify stv4 'cg(1,5)'\n  hamflow verify --all\n  hamflow verify rk4 --problem pendulum\n");
+  verify_command->add_option("method", verify.methods, "e.g. stv4, 'cg(1,5)'")->type_name("METHOD");
+  verify_command->add_flag("--all", verify.all, "every method of the catalogue");
+  verify_command->add_option("--problem", verify.problem, "measure on this problem alone")->type_name("PROBLEM");
+  verify_command->add_flag("--json", verify.json, "print JSON");
+  verify_command->callback([&] { status = run_verify(verify); });
+
+  std::string what;
+  bool list_json = false;
+  CLI::App* list_command = add(app, "list", "List the catalogue", "  hamflow list methods\n  hamflow list problems\n");
+  list_command->add_option("what", what, "methods or problems")
+      ->required()
+      ->check(CLI::IsMember({"methods", "problems"}));
+  list_command->add_flag("--json", list_json, "print JSON");
+  list_command->callback([&] { status = list_catalogue(what, list_json); });
+
+  std::string name;
+  CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",
+                               "  hamflow show central-force\n  hamflow show cg\n");
+  show_command->add_option("name", name, "a problem or a method")->required()->type_name("NAME");
+  show_command->callback([&] { status = show_entry(name); });
+
+  try {
+    reject_unknown_command(app, argc, argv);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // CLI11's own statuses start at 100: help is 0, everything else a wrong request.
+    return app.exit(error) == 0 ? exit_done : exit_rejected;
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return exit_failed;
+  }
+  std::cout.flush();
+  if (!std::cout) {
+    std::cerr << "error: cannot write to standard output\n";
+    return exit_file;
+  }
+  return status;
+}

@@ -1,0 +1,38 @@
+#include "run_folder.hpp"
+
+#include <fstream>
+
+namespace hamflow::app {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const Scenario& scenario, const std::string& out) {
+  if (!out.empty()) return out;
+  if (!scenario.folder.empty()) return scenario.folder;
+  return fs::path(scenario.file).stem().string() + ".run";
+}
+
+void make_folder(const fs::path& folder, bool force) {
+  std::error_code error;
+  if (fs::exists(folder, error)) {
+    if (!fs::is_directory(folder)) throw FileError(folder.string() + " exists and is no folder");
+    if (!force) {
+      throw FileError("the folder " + folder.string() +
+                      " exists; give --force to replace the run in it, or --out another");
+    }
+    for (const char* left : {"run.h5", "summary.json", "trajectory.csv", "figures"})
+      fs::remove_all(folder / left, error);
+    if (error) throw FileError("cannot clear " + folder.string() + ": " + error.message());
+  }
+  fs::create_directories(folder, error);
+  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  out.flush();
+  if (!out) throw FileError("cannot write " + file.string());
+}
+
+}  // namespace hamflow::app

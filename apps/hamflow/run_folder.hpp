@@ -1,0 +1,18 @@
+// The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/.
+#pragma once
+
+#include <filesystem>
+
+#include "scenario.hpp"
+
+namespace hamflow::app {
+
+/// `<scenario stem>.run` in the working directory, unless the scenario or the command line names another.
+std::filesystem::path folder_of(const Scenario& scenario, const std::string& out);
+/// Makes the folder. With `force` an existing one is used, and what an earlier run left in it is removed, nothing else.
+/// @throws FileError when it exists or cannot be made
+void make_folder(const std::filesystem::path& folder, bool force);
+/// Writes a text file. @throws FileError
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace hamflow::app

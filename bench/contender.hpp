@@ -1,0 +1,57 @@
+// What is compared: a workload (method and step length on one Kepler orbit) and the contenders that run it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hamflow/core/vector.hpp"
+
+namespace bench {
+
+/// (q, p) in the plane.
+struct Orbit {
+  hamflow::Vector<double, 2> q{};
+  hamflow::Vector<double, 2> p{};
+  friend bool operator==(const Orbit&, const Orbit&) = default;
+};
+
+/// The problem: H = |p|^2/(2 mass) - k/|q|, from pericentre 1 to apocentre 3.
+struct Task {
+  double mass = 2;
+  double k = 1;
+  Orbit start{};
+  double h = 0;
+  std::string h_text;  // the same step length as a scenario gives it
+};
+Task kepler_task(const std::string& h_text);
+
+/// One timed block of steps from the start of the task.
+struct Run {
+  double nanoseconds = 0;
+  Orbit end;
+  double forces = 0;  // evaluations of -dV/dq
+};
+
+struct Contender {
+  std::string name;
+  std::function<Run(std::int64_t steps)> run;
+  std::string against;    // the contender whose time divides this one's; empty: none
+  double goal = 0;        // the ratio wanted; 0: none, for information
+  bool same_bits = true;  // the end state has the bits of the first contender's; else it lies within the bound
+};
+
+/// Contenders of one method at one step length; the first is the hand-written loop.
+struct Workload {
+  std::string method;
+  std::string h_text;
+  std::vector<Contender> contenders;
+  /// How far two end states of contenders without the same arithmetic may lie apart after so many steps.
+  std::function<double(std::int64_t steps)> bound;
+};
+
+std::vector<Workload> explicit_workloads(const Task& task);
+std::vector<Workload> element_workloads(const Task& task);
+
+}  // namespace bench

@@ -1,0 +1,133 @@
+// The property table, measured: what a method claims of itself beside what its step does.   [spec: methods, section 1]
+//     order                     slope of the global error against a reference of another family, in long double
+//     symplectic                |Psi'^T J Psi' - J|, Psi' exact
+//     weakly time-reversible    |S Psi_-h S z - Psi_h z|
+//     time-symmetric            |Psi_-h Psi_h z - z|
+//     time-reversible           |S Psi_h S Psi_h z - z|
+//     energy                    level, drift class and dependence on the step of |H - H0|
+//     cost                      evaluations and solves per step
+// Every property is measured on nonlinear problems, with a step so large that a method without it shows a defect many
+// orders above rounding. Thresholds are multiples of epsilon times the size of the terms; in between is `unclear`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamflow/run/catalog.hpp"
+#include "hamflow/verify/drift.hpp"
+#include "hamflow/verify/step_map.hpp"
+
+namespace hamflow {
+
+enum class Finding { no, unclear, yes };
+
+constexpr std::string_view name(Finding finding) {
+  return finding == Finding::yes ? "yes" : finding == Finding::no ? "no" : "unclear";
+}
+
+/// Where to measure: states around a generic one, and a step that is large but safe there.
+struct Region {
+  std::string problem;
+  State<double> centre;  // bounded, far from turning points and apsides
+  double spread = 0.1;   // random states: each coordinate uniform within centre +- spread
+  double step = 0.125;   // for structure and energy, about a fiftieth of a period
+  double time = 2.5;     // over which the order is measured: neither a period nor an apsis
+};
+
+struct OrderMeasurement {
+  static constexpr int fewest_points = 5;     // four halvings of h
+  static constexpr double tolerance = 0.15;   // on the slope
+  double slope = 0;                           // d log(error)/d log(h); infinite where every error is rounding
+  int points = 0;                             // in the fit
+  double finest_step = 0, finest_error = 0;   // of the points used
+  Finding is(int order) const;
+};
+
+struct DefectMeasurement {
+  double defect = 0;  // the largest over the states
+  double units = 0;   // the largest defect/(eps times the size of the terms)
+  Finding holds = Finding::unclear;
+};
+
+struct EnergyMeasurement {
+  double step = 0;
+  double level = 0;       // max |H - H0|/scale over starts and blocks
+  double rounding = 0;    // what rounding alone explains of it
+  double fine_level = 0;  // the same with a step 128 times smaller, where roundings that a step divides by h show
+  double fine_rounding = 0;
+  double step_exponent = 0;  // c in level ~ h^c over a fixed time; NaN where too few steps show more than rounding
+  DriftStatistics drift;
+  /// yes: at rounding and not drifting. up_to_quadrature: not at rounding, but falling faster than the method
+  /// converges. @param order of the method
+  Conservation conserving(int order) const;
+};
+
+struct CostMeasurement {
+  double force = 0, gradient = 0, hessian = 0, linear_solves = 0;  // per step
+  bool explicit_step = false;  // no solves, and every step costs the same
+  long long most_solves = 0;   // linear solves in one step, at four times the step of the region
+};
+
+/// One method on one problem.
+struct Measurement {
+  std::string problem;
+  OrderMeasurement order;
+  DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step: does it belong to it?
+  DefectMeasurement symplectic, weakly_reversible, symmetric, reversible;
+  EnergyMeasurement energy;
+  CostMeasurement cost;
+};
+
+/// One property: what is claimed, what was found, and whether that agrees.
+struct PropertyCell {
+  std::string property;
+  std::string claimed;
+  std::string measured;
+  Finding agrees = Finding::unclear;
+};
+
+/// One method: its claims beside the measurements.
+struct PropertyRow {
+  MethodInfo claims;
+  std::vector<Measurement> on;  // one for each problem
+  std::vector<PropertyCell> cells;
+  bool agrees() const;
+  /// The names of the properties that do not agree, joined by commas.
+  std::string differing() const;
+  const PropertyCell& operator[](std::string_view property) const;
+};
+
+/// Newton is quadratic if no step needs more corrections than this: a first guess that is right to a factor of 2
+/// leaves 2^(-2^k) after k corrections, and 2^-64 is below the rounding of a double.
+inline constexpr long long most_newton_corrections = 6;
+
+OrderMeasurement measure_order(const StepMap& map, const Region& region);
+EnergyMeasurement measure_energy(const StepMap& map, const Region& region);
+CostMeasurement measure_cost(const StepMap& map, const Region& region);
+/// Everything.
+Measurement measure(const StepMap& map, const Region& region);
+/// Claims against measurements. A claim is refuted by one problem. A property that is not claimed has to be missing on
+/// at least one of two or more problems; on a single problem nothing follows from its presence.
+PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on);
+
+/// A state of the region, the k-th of its own sequence of random ones.
+State<double> random_state(const Region& region, std::uint64_t k);
+/// The region used for a problem of the catalogue. @throws Error when there is no such problem
+Region region_of(const std::string& problem);
+/// pendulum and henon-heiles.
+std::vector<Region> default_regions();
+/// A method of the catalogue. @throws Error when the method or a problem is unknown
+PropertyRow measure_method(const MethodSpec& method, std::span<const Region> regions);
+
+/// Tables of plain text: the claims beside the findings, then the numbers behind them.
+std::string property_table(std::span<const PropertyRow> rows);
+/// The same as JSON; NaN and infinity are null.
+std::string property_json(std::span<const PropertyRow> rows);
+
+}  // namespace hamflow

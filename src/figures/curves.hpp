@@ -1,0 +1,49 @@
+// Curves in the plane: the exact orbit, the level curve of a Hamiltonian, and samples thinned to what paper can show.
+// NaN separates the branches of a curve.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "axis.hpp"
+
+namespace hamflow {
+struct FigureData;
+}
+
+namespace hamflow::figures {
+
+struct Curve {
+  std::vector<double> x;
+  std::vector<double> y;
+
+  void add(double x_value, double y_value);
+  /// Ends the present branch.
+  void lift();
+};
+
+/// r(phi) for phi from `first` to `last`, left out where it is not positive or beyond `largest_radius`. Points lie
+/// closer where the curve bends.
+Curve sample_orbit(const std::function<double(double)>& r_of_phi, double first, double last, double largest_radius);
+
+/// The points of H(q, p) = level in a rectangle, all branches, each point to rounding. Found on the edges of a fine
+/// grid, so that branches join at their turning points, whatever the shape of H in p.
+Curve level_curve(const std::function<double(double, double)>& h, double level, const Extent& q, const Extent& p);
+
+/// The path in the plane, from cartesian or from polar coordinates; empty unless there are two.
+Curve orbit_track(const FigureData& data);
+
+/// The samples in which both numbers are finite.
+Curve finite_points(std::span<const double> x, std::span<const double> y);
+/// The sum of the chords.
+double path_length(const Curve& curve);
+/// At most `limit` points, one from each of as many equal stretches. Where their chords lose the path, the place within
+/// a stretch varies: a fixed stride in step with a period would show a few places of an orbit and hide the rest.
+Curve thin_out(const Curve& curve, std::size_t limit);
+/// A line over many samples, with the extremes of every stretch of them kept: noise keeps its width.
+Curve envelope(const Curve& curve, std::size_t stretches);
+/// Whether chords between consecutive points follow a path: whether most of them turn only a little.
+bool follows_path(const Curve& curve);
+
+}  // namespace hamflow::figures

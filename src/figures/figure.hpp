@@ -1,0 +1,39 @@
+// **Figures** of a run: orbit, energy, energy error and phase plane, as SVG, PDF or PNG, drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hamflow {
+
+struct FigureData {
+  std::string title;                     // e.g. "central-force, cg(1,5), dt = 0.1"
+  std::vector<std::string> coordinates;  // {"x", "y"} or {"q"}; {"r", "phi"} are drawn as an orbit in the plane
+  std::vector<double> t;                 // one entry per sample
+  std::vector<std::vector<double>> q;    // q[i][k]: coordinate i at sample k
+  std::vector<std::vector<double>> p;
+  std::vector<double> energy;   // H at each sample
+  double energy_scale = 1;      // max(|H0|, |T0| + |V0|)
+  std::vector<double> curve_x;  // exact orbit, empty if unknown; NaN separates branches
+  std::vector<double> curve_y;
+  /// H(q, p) of one degree of freedom, for the exact level curve in the phase plane; empty otherwise.
+  std::function<double(double q, double p)> hamiltonian_1d;
+};
+
+/// Fills curve_x, curve_y from the exact r(phi) over the angles and radii that the data cover. A closed orbit is drawn
+/// whole if the data go round it. Does nothing without r(phi) or without an orbit in the data.
+void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureData& data);
+
+/// "orbit", "energy", "energy-error", "phase".
+std::vector<std::string> figure_kinds();
+
+/// Empty if the kind can be drawn from these data, else a sentence saying why not and what can be.
+std::string why_not(const FigureData& data, const std::string& kind);
+
+/// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
+/// @throws Error when kind, extension or data do not fit   @throws FileError when gnuplot or the file fails
+void write_figure(const FigureData& data, const std::string& kind, const std::filesystem::path& file);
+
+}  // namespace hamflow

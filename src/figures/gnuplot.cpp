@@ -1,0 +1,176 @@
+#include "gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "hamflow/core/error.hpp"
+#include "text.hpp"
+
+extern char** environ;
+
+namespace hamflow::figures {
+
+namespace {
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// Files instead of pipes: none of the three streams can block another, and nobody gets a SIGPIPE.
+File scratch_file() {
+  File file(std::tmpfile());
+  if (!file) throw FileError(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));
+  fcntl(fileno(file.get()), F_SETFD, FD_CLOEXEC);
+  return file;
+}
+
+std::string contents(std::FILE* file) {
+  std::string bytes;
+  std::rewind(file);
+  char buffer[65536];
+  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, file)) > 0;) bytes.append(buffer, n);
+  return bytes;
+}
+
+/// What gnuplot complained of, without its echo of the script.
+std::string complaint(const std::string& text) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size() && result.size() < 600;) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    line.erase(0, line.find_first_not_of(" \t"));
+    if (line.empty() || line == "^" || line.starts_with("gnuplot>")) continue;
+    result += (result.empty() ? "" : "; ") + line.substr(0, 300);
+  }
+  return result.empty() ? "it gave no reason" : result;
+}
+
+[[noreturn]] void fail_to_start(int error) {
+  if (error == ENOENT) {
+    throw FileError("gnuplot was not found: figures are drawn by it; install it (Debian: apt install gnuplot-nox)");
+  }
+  throw FileError(fmt::format("gnuplot could not be started: {}", std::strerror(error)));
+}
+
+void erase_between(std::string& bytes, const std::string& from, const std::string& to, const std::string& instead) {
+  const std::size_t begin = bytes.find(from);
+  if (begin == std::string::npos) return;
+  const std::size_t end = bytes.find(to, begin);
+  if (end == std::string::npos) return;
+  bytes.replace(begin, end + to.size() - begin, instead);
+}
+
+std::string as_xml(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+}  // namespace
+
+std::string run_gnuplot(const std::string& script) {
+  const File input = scratch_file();
+  const File output = scratch_file();
+  const File errors = scratch_file();
+  if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() || std::fflush(input.get()) != 0) {
+    throw FileError(fmt::format("the script for gnuplot could not be written: {}", std::strerror(errno)));
+  }
+  std::rewind(input.get());
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
+  std::string program = "gnuplot";
+  std::string defaults = "-d";  // the user's start-up file must not change a figure
+  char* const arguments[] = {program.data(), defaults.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) fail_to_start(error);
+
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw FileError(fmt::format("gnuplot was lost: {}", std::strerror(errno)));
+  }
+  if (WIFSIGNALED(status)) throw FileError(fmt::format("gnuplot was ended by signal {}", WTERMSIG(status)));
+  if (WEXITSTATUS(status) != 0) {
+    throw FileError(
+        fmt::format("gnuplot failed with status {}: {}", WEXITSTATUS(status), complaint(contents(errors.get()))));
+  }
+  std::string bytes = contents(output.get());
+  if (bytes.empty()) throw FileError("gnuplot wrote nothing: " + complaint(contents(errors.get())));
+  return bytes;
+}
+
+std::string finished(std::string bytes, Format format, const std::string& title) {
+  const char* const begins = format == Format::svg ? "<?xml" : format == Format::pdf ? "%PDF-" : "\x89PNG";
+  if (!bytes.starts_with(begins)) throw FileError("gnuplot wrote something that is not a figure");
+  if (format == Format::svg) {
+    erase_between(bytes, "<title>", "</title>", "<title>" + as_xml(printable(title)) + "</title>");
+    replace_all(bytes, "<text>", "<text xml:space=\"preserve\">");  // blanks around subscripts
+    // A browser without the font should take its relatives before its own choice of a serif.
+    replace_all(bytes, "font-family=\"DejaVu Sans\"", "font-family=\"DejaVu Sans, Verdana, sans-serif\"");
+  } else if (format == Format::pdf) {
+    const std::size_t begin = bytes.rfind("/CreationDate (");
+    const std::size_t end = begin == std::string::npos ? begin : bytes.find(')', begin);
+    // Blanks keep every offset of the file's table of objects.
+    if (end != std::string::npos) bytes.replace(begin, end + 1 - begin, std::string(end + 1 - begin, ' '));
+  }
+  return bytes;
+}
+
+void require_font() {
+  static const bool found = [] {
+    const std::string probe = "set terminal pdfcairo size 2cm,2cm\nset label 'x' at screen 0.5,0.5\nplot [0:1] 0\n";
+    return run_gnuplot(probe).find("/FontFile") != std::string::npos;
+  }();
+  if (!found) {
+    throw FileError("there is no font for the text of a figure; install one (Debian: apt install fonts-dejavu-core)");
+  }
+}
+
+void write_whole(const std::filesystem::path& file, const std::string& bytes) {
+  const std::filesystem::path part =
+      file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), static_cast<long>(getpid()));
+  const auto fail = [&](int error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw FileError(fmt::format("{}: could not be written: {}", file.string(), std::strerror(error)));
+  };
+  errno = 0;
+  File out(std::fopen(part.c_str(), "wbe"));
+  if (!out) fail(errno);
+  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), out.get()) == bytes.size();
+  if (std::fclose(out.release()) != 0 || !whole) fail(errno);
+  std::error_code moved;
+  std::filesystem::rename(part, file, moved);
+  if (moved) fail(moved.value());
+}
+
+}  // namespace hamflow::figures

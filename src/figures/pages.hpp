@@ -1,0 +1,19 @@
+// One function per kind of figure: from the data of a run to a page.
+#pragma once
+
+#include "figure.hpp"
+#include "page.hpp"
+
+namespace hamflow::figures {
+
+Page orbit_page(const FigureData& data);
+Page energy_page(const FigureData& data);
+Page energy_error_page(const FigureData& data);
+Page phase_page(const FigureData& data);
+
+constexpr std::size_t most_planes = 12;  // phase planes on one page
+
+/// (H - H0)/scale at every sample. Where the difference overflows the quotient need not.
+std::vector<double> relative_energy_error(const FigureData& data);
+
+}  // namespace hamflow::figures

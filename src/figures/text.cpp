@@ -1,0 +1,157 @@
+#include "text.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <map>
+
+namespace hamflow::figures {
+
+namespace {
+const char* const replacement = "\uFFFD";
+
+/// Bytes of the well-formed UTF-8 character at `at`, 0 if there is none.
+std::size_t character_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t k) {
+    return at + k < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[at + k])) : 0U;
+  };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(k) & 0xC0U) != 0x80U) return 0;
+  }
+  const unsigned second = byte(1);
+  const bool too_long = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
+  const bool no_character = (lead == 0xED && second > 0x9F) || (lead == 0xF4 && second > 0x8F);
+  return too_long || no_character ? 0 : length;
+}
+
+/// The characters of a text, made printable.
+std::vector<std::string> characters(const std::string& text) {
+  std::vector<std::string> result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    if (length == 0) {
+      result.emplace_back(replacement);
+      ++at;
+      continue;
+    }
+    const bool control = length == 1 && (static_cast<unsigned char>(text[at]) < 0x20 || text[at] == 0x7F);
+    result.push_back(control ? " " : text.substr(at, length));
+    at += length;
+  }
+  return result;
+}
+
+const std::map<std::string, std::string>& greek() {
+  static const std::map<std::string, std::string> letters{
+      {"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"},  {"delta", "δ"}, {"epsilon", "ε"}, {"zeta", "ζ"}, {"eta", "η"},
+      {"theta", "θ"}, {"kappa", "κ"}, {"lambda", "λ"}, {"mu", "μ"},    {"nu", "ν"},      {"xi", "ξ"},   {"rho", "ρ"},
+      {"sigma", "σ"}, {"tau", "τ"},   {"phi", "φ"},    {"chi", "χ"},   {"psi", "ψ"},     {"omega", "ω"}};
+  return letters;
+}
+
+/// A name cut into its letters and what follows: an index, an underscore and an index, or nothing.
+struct Name {
+  std::string base;
+  std::string index;
+};
+
+Name cut(const std::string& name) {
+  std::size_t end = 0;
+  while (end < name.size() && std::isalpha(static_cast<unsigned char>(name[end]))) ++end;
+  Name result{name.substr(0, end), name.substr(end)};
+  if (result.index.size() > 1 && result.index[0] == '_') result.index.erase(0, 1);
+  return result;
+}
+
+std::string letter(const std::string& base) {
+  const auto found = greek().find(base);
+  return found == greek().end() ? base : found->second;
+}
+
+std::string italic(const std::string& base) {
+  const std::string text = letter(base);
+  const bool one_letter = text != base || text.size() == 1;
+  return one_letter ? fmt::format("{{/:Italic {}}}", text) : escaped(text);
+}
+}  // namespace
+
+std::string printable(const std::string& text) {
+  std::string result;
+  for (const std::string& c : characters(text)) result += c;
+  return result;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const std::string& c : characters(text)) result += c == "'" ? "''" : c;
+  return result + "'";
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const std::string& c : characters(text)) {
+    if (c.find_first_of("\\{}^_@&~") != std::string::npos) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string symbol(const std::string& name) {
+  const Name parts = cut(name);
+  if (parts.base.empty()) return escaped(name);
+  return parts.index.empty() ? italic(parts.base) : fmt::format("{}_{{{}}}", italic(parts.base), escaped(parts.index));
+}
+
+std::string momentum_symbol(const std::string& coordinate) {
+  const Name parts = cut(coordinate);
+  if (parts.base == "q") return symbol(fmt::format("p{}", coordinate.substr(1)));
+  return fmt::format("{{/:Italic p}}_{{{}}}", escaped(letter(parts.base) + parts.index));
+}
+
+std::string power_of_ten(int exponent) {
+  return fmt::format("10^{{{}{}}}", exponent < 0 ? "\u2212" : "", std::abs(exponent));
+}
+
+std::string short_number(double x) {
+  if (!std::isfinite(x)) return "not finite";
+  if (x == 0) return "0";
+  const std::string digits = fmt::format("{:.1e}", x);
+  const std::size_t e = digits.find('e');
+  return digits.substr(0, e) + "·" + power_of_ten(std::stoi(digits.substr(e + 1)));
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t most) {
+  std::vector<std::string> lines;
+  std::vector<std::string> rest = characters(text);
+  while (!rest.empty()) {
+    std::size_t length = rest.size();
+    if (length > width) {
+      length = width;
+      std::size_t score = 0;  // a break after a comma is worth twenty characters of width
+      for (std::size_t k = width / 3; k <= width; ++k) {
+        const std::size_t worth = k + (rest[k - 1] == "," ? 20 : 0);
+        if (rest[k] == " " && worth > score) {
+          score = worth;
+          length = k;
+        }
+      }
+    }
+    std::string line;
+    for (std::size_t k = 0; k < length; ++k) line += rest[k];
+    while (length < rest.size() && rest[length] == " ") ++length;
+    rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(length));
+    if (lines.size() + 1 == most && !rest.empty()) {
+      lines.push_back(line + "…");
+      break;
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace hamflow::figures

@@ -1,0 +1,26 @@
+// Text for gnuplot. Strings are single-quoted throughout: in double quotes gnuplot would run what stands in backticks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hamflow::figures {
+
+/// The text with control characters blank and broken UTF-8 replaced.
+std::string printable(const std::string& text);
+/// 'text', printable, as a gnuplot string: quotes doubled.
+std::string quoted(const std::string& text);
+/// The text itself, where enhanced mode is on: no subscripts, no braces, no fonts.
+std::string escaped(const std::string& text);
+/// The name of a coordinate as a symbol in enhanced text: q1 is q with subscript 1, phi the Greek letter.
+std::string symbol(const std::string& name);
+/// Its momentum: p for q, p_1 for q1, p_x for x.
+std::string momentum_symbol(const std::string& coordinate);
+/// "10^{-15}" in enhanced text, with a real minus sign.
+std::string power_of_ten(int exponent);
+/// A small number for reading: 2.2 times 10^{-16}, in enhanced text.
+std::string short_number(double x);
+/// At most `most` lines of about `width` characters, broken at spaces where there are any.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t most);
+
+}  // namespace hamflow::figures

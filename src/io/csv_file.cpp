@@ -1,0 +1,38 @@
+#include "csv_file.hpp"
+
+#include <fmt/format.h>
+
+#include "hamflow/core/error.hpp"
+
+namespace hamflow {
+
+CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<std::string>& invariants)
+    : path_(file), out_(file) {
+  if (!out_) throw FileError("cannot write " + file.string());
+  out_ << "step,t";
+  for (const char* letter : {"q", "p"}) {
+    for (std::size_t i = 1; i <= dimension; ++i) out_ << ',' << letter << i;
+  }
+  out_ << ",energy";
+  for (const std::string& name : invariants) out_ << ',' << name;
+  out_ << '\n';
+}
+
+void CsvFile::append(const Frame& frame) {
+  fmt::memory_buffer line;
+  const auto to = std::back_inserter(line);
+  fmt::format_to(to, "{},{:.17g}", frame.step, frame.time);
+  for (const double x : frame.q) fmt::format_to(to, ",{:.17g}", x);
+  for (const double x : frame.p) fmt::format_to(to, ",{:.17g}", x);
+  fmt::format_to(to, ",{:.17g}", frame.energy);
+  for (const double x : frame.invariants) fmt::format_to(to, ",{:.17g}", x);
+  line.push_back('\n');
+  out_.write(line.data(), static_cast<std::streamsize>(line.size()));
+}
+
+void CsvFile::flush() {
+  out_.flush();
+  if (!out_) throw FileError("cannot write " + path_.string() + " (is the disk full?)");
+}
+
+}  // namespace hamflow

@@ -1,0 +1,26 @@
+// trajectory.csv: the samples as text, 17 digits, a header line, one line a sample.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "hamflow/run/simulation.hpp"
+
+namespace hamflow {
+
+class CsvFile {
+ public:
+  /// Columns step, t, q1.., p1.., energy and the invariants. @throws FileError
+  CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<std::string>& invariants);
+  void append(const Frame& frame);
+  /// @throws FileError when the disk is full
+  void flush();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+}  // namespace hamflow

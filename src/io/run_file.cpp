@@ -1,0 +1,243 @@
+#include "run_file.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "hdf5_handle.hpp"
+
+namespace hamflow {
+
+namespace {
+
+constexpr std::size_t batch_rows = 8192;  // one write call per batch: 35 ns a row instead of 25 us
+constexpr double flush_seconds = 0.25;    // at most so much is lost by a crash
+using Clock = std::chrono::steady_clock;
+
+/// HDF5 prints its error stack unless told not to; our messages say what failed.
+void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// A dataset that grows by rows of `width` doubles or 64-bit integers, with the rows that wait to be written.
+template <class T>
+class Column {
+ public:
+  Column(hid_t file, std::string name, std::size_t width) : name_(std::move(name)), width_(width) {
+    const int rank = width > 0 ? 2 : 1;
+    const hsize_t columns = std::max<std::size_t>(width, 1);
+    const hsize_t size[2] = {0, columns};
+    const hsize_t most[2] = {H5S_UNLIMITED, columns};
+    const hsize_t chunk[2] = {std::max<hsize_t>(batch_rows / columns, 1), columns};
+    const Hdf5Handle space(H5Screate_simple(rank, size, most), H5Sclose, "make a data space");
+    const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
+    check_hdf5(H5Pset_chunk(plist, rank, chunk), "chunk " + name_);
+    dataset_ = Hdf5Handle(H5Dcreate2(file, name_.c_str(), stored_type(), space, H5P_DEFAULT, plist, H5P_DEFAULT),
+                          H5Dclose, "create dataset " + name_);
+  }
+  void add(T value) { waiting_.push_back(value); }
+  void write(std::size_t rows) {
+    const hsize_t columns = std::max<std::size_t>(width_, 1);
+    const int rank = width_ > 0 ? 2 : 1;
+    const hsize_t size[2] = {written_ + rows, columns};
+    const hsize_t offset[2] = {written_, 0};
+    const hsize_t count[2] = {rows, columns};
+    check_hdf5(H5Dset_extent(dataset_, size), "extend dataset " + name_);
+    const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, "open the space of " + name_);
+    check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset, nullptr, count, nullptr), "select rows of " + name_);
+    const Hdf5Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose, "make a data space");
+    check_hdf5(H5Dwrite(dataset_, memory_type(), memory, space, H5P_DEFAULT, waiting_.data()), "write " + name_);
+    check_hdf5(H5Dflush(dataset_), "flush " + name_);
+    written_ += rows;
+    waiting_.clear();
+  }
+
+ private:
+  static hid_t stored_type() { return std::is_same_v<T, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE; }
+  static hid_t memory_type() { return std::is_same_v<T, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64; }
+
+  std::string name_;
+  std::size_t width_;
+  Hdf5Handle dataset_;
+  std::vector<T> waiting_;
+  hsize_t written_ = 0;
+};
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  check_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "size a text type");
+  check_hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
+  return type;
+}
+
+void write_attribute(hid_t file, const char* name, const std::string& text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+  const Hdf5Handle attribute(H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "create an attribute");
+  check_hdf5(H5Awrite(attribute, type, text.c_str()), std::string("write attribute ") + name);
+}
+
+std::string read_attribute(hid_t file, const char* name) {
+  if (H5Aexists(file, name) <= 0) return {};
+  const Hdf5Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, "open an attribute");
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read a type");
+  std::string text(H5Tget_size(type), '\0');
+  check_hdf5(H5Aread(attribute, type, text.data()), std::string("read attribute ") + name);
+  return text.substr(0, text.find('\0'));
+}
+
+std::string now_utc() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
+Hdf5Handle make_group(hid_t file, const char* name) {
+  return {H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, std::string("create group ") + name};
+}
+
+}  // namespace
+
+struct RunFile::Impl {
+  Hdf5Handle file;
+  std::vector<Column<double>> vectors;  // q, p
+  std::vector<Column<double>> invariants;
+  std::vector<Column<double>> scalars;  // energy
+  std::vector<Column<std::int64_t>> counts;
+  std::vector<Column<double>> time;  // last: its length tells how many rows are complete
+  std::size_t waiting = 0;
+  Clock::time_point flushed = Clock::now();
+};
+
+RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description)
+    : impl_(std::make_unique<Impl>()) {
+  silence_hdf5();
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "choose the file format");
+  impl_->file =
+      Hdf5Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create " + file.string());
+  const hid_t id = impl_->file;
+  write_attribute(id, "hamflow", description.version);
+  write_attribute(id, "host", description.host);
+  write_attribute(id, "problem", description.problem);
+  write_attribute(id, "method", description.method);
+  write_attribute(id, "arithmetic", description.arithmetic);
+  write_attribute(id, "kernel", description.kernel);
+  write_attribute(id, "created", now_utc());
+  {
+    const Hdf5Handle type = text_type(description.scenario.size());
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+    const Hdf5Handle text(H5Dcreate2(id, "scenario", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                          "create dataset scenario");
+    check_hdf5(H5Dwrite(text, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, description.scenario.c_str()), "write the scenario");
+  }
+  const Hdf5Handle groups[] = {make_group(id, "invariants"), make_group(id, "solver"), make_group(id, "events")};
+  impl_->vectors.emplace_back(id, "q", description.dimension);
+  impl_->vectors.emplace_back(id, "p", description.dimension);
+  impl_->scalars.emplace_back(id, "energy", 0);
+  for (const std::string& name : description.invariants) impl_->invariants.emplace_back(id, "invariants/" + name, 0);
+  for (const char* name : {"step", "solver/force", "solver/hessian", "solver/linear_solves", "events/halved"}) {
+    impl_->counts.emplace_back(id, name, 0);
+  }
+  impl_->time.emplace_back(id, "t", 0);
+  // Every object has to exist before this; from here on readers may look in, and a crash leaves a readable file.
+  check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
+}
+
+RunFile::~RunFile() {
+  try {
+    flush();
+  } catch (const FileError&) {  // NOLINT: a destructor cannot report; flush() was called before where it matters
+  }
+}
+
+void RunFile::append(const Frame& frame) {
+  for (const double x : frame.q) impl_->vectors[0].add(x);
+  for (const double x : frame.p) impl_->vectors[1].add(x);
+  impl_->scalars[0].add(frame.energy);
+  for (std::size_t i = 0; i < impl_->invariants.size(); ++i) impl_->invariants[i].add(frame.invariants[i]);
+  const std::int64_t counts[] = {frame.step, frame.effort.force, frame.effort.hessian, frame.effort.linear_solves,
+                                 frame.effort.halved};
+  for (std::size_t i = 0; i < impl_->counts.size(); ++i) impl_->counts[i].add(counts[i]);
+  impl_->time[0].add(frame.time);
+  if (++impl_->waiting == batch_rows) flush();
+}
+
+void RunFile::flush() {
+  if (impl_->waiting == 0) return;
+  const std::size_t rows = std::exchange(impl_->waiting, 0);
+  for (auto* columns : {&impl_->vectors, &impl_->scalars, &impl_->invariants}) {
+    for (auto& column : *columns) column.write(rows);
+  }
+  for (auto& column : impl_->counts) column.write(rows);
+  for (auto& column : impl_->time) column.write(rows);
+  impl_->flushed = Clock::now();
+}
+
+void RunFile::flush_if_due() {
+  if (std::chrono::duration<double>(Clock::now() - impl_->flushed).count() > flush_seconds) flush();
+}
+
+namespace {
+/// A dataset as rows of `width` numbers, row by row.
+std::vector<double> read_column(hid_t file, const char* name, std::size_t& width) {
+  const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, std::string("open dataset ") + name);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, std::string("open the space of ") + name);
+  hsize_t size[2] = {0, 1};
+  if (H5Sget_simple_extent_ndims(space) > 2)
+    throw FileError(std::string("HDF5: dataset ") + name + " has too many dimensions");
+  check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), std::string("read the size of ") + name);
+  width = size[1];
+  std::vector<double> values(size[0] * size[1]);
+  if (!values.empty()) {
+    check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+               std::string("read ") + name);
+  }
+  return values;
+}
+
+std::vector<std::vector<double>> by_coordinate(const std::vector<double>& rows, std::size_t width, std::size_t count) {
+  std::vector<std::vector<double>> out(width, std::vector<double>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < width; ++i) out[i][k] = rows[k * width + i];
+  }
+  return out;
+}
+}  // namespace
+
+RunSamples read_run_file(const std::filesystem::path& path) {
+  silence_hdf5();
+  if (!std::filesystem::exists(path)) throw FileError("there is no " + path.string());
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose,
+                        "open " + path.string() + " (is it a run of hamflow?)");
+  RunSamples run;
+  {
+    const Hdf5Handle dataset(H5Dopen2(file, "scenario", H5P_DEFAULT), H5Dclose, "open dataset scenario");
+    const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
+    std::string text(H5Tget_size(type), '\0');
+    check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read the scenario");
+    run.description.scenario = text;
+  }
+  run.description.version = read_attribute(file, "hamflow");
+  run.description.host = read_attribute(file, "host");
+  run.description.problem = read_attribute(file, "problem");
+  run.description.method = read_attribute(file, "method");
+  run.description.arithmetic = read_attribute(file, "arithmetic");
+  std::size_t width = 0;
+  run.t = read_column(file, "t", width);
+  run.energy = read_column(file, "energy", width);
+  std::size_t q_width = 0;
+  std::size_t p_width = 0;
+  const std::vector<double> q = read_column(file, "q", q_width);
+  const std::vector<double> p = read_column(file, "p", p_width);
+  // After a crash between two flushes the columns may differ in length: what all of them have is complete.
+  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
+  run.t.resize(count);
+  run.energy.resize(count);
+  run.q = by_coordinate(q, q_width, count);
+  run.p = by_coordinate(p, p_width, count);
+  run.description.dimension = q_width;
+  return run;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,62 @@
+// run.h5: the samples of a run. Written in single-writer-multiple-readers mode and flushed several times a second, so
+// that it can be read while it grows, and after a crash at any moment, up to the last flush. Datasets, one row a
+// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n), and the totals since the start
+// /solver/force, /solver/hessian, /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps);
+// beside them /scenario, the scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic,
+// kernel, created. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hamflow/run/observer.hpp"
+
+namespace hamflow {
+
+/// What stands in the file beside the samples.
+struct RunDescription {
+  std::string scenario;
+  std::string version;
+  std::string host;
+  std::string problem;
+  std::string method;
+  std::string arithmetic;
+  std::string kernel;
+  std::size_t dimension = 0;
+  std::vector<std::string> invariants;
+};
+
+/// Writes one row per sample.
+class RunFile {
+ public:
+  /// @throws FileError
+  RunFile(const std::filesystem::path& file, const RunDescription& description);
+  ~RunFile();
+  void append(const Frame& frame);
+  /// Writes and flushes what has gathered. @throws FileError, e.g. when the disk is full
+  void flush();
+  /// Flushes if some time has passed since the last flush: bounds what a crash can lose.
+  void flush_if_due();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Everything of a run.h5, whole or cut short by a crash (then up to the last complete row).
+struct RunSamples {
+  RunDescription description;
+  std::vector<double> t;
+  std::vector<std::vector<double>> q;  // q[i][k]: coordinate i at sample k
+  std::vector<std::vector<double>> p;
+  std::vector<double> energy;
+};
+
+/// @throws FileError naming the file and what is wrong with it
+RunSamples read_run_file(const std::filesystem::path& file);
+
+}  // namespace hamflow

@@ -1,0 +1,156 @@
+#include "summary.hpp"
+
+#include <fmt/format.h>
+
+namespace hamflow {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e.final}, {"max_error", e.max_error}}; }
+
+Json parameters_of(const Scenario& scenario) {
+  Json parameters = Json::object();
+  for (const auto& [key, value] : scenario.problem->info.variant) parameters[key] = value;
+  for (const auto& [name, text] : scenario.request.parameters) parameters[name] = evaluate_number<double>(text);
+  return parameters;
+}
+
+std::string hint_for(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::not_converged:
+      return "try a smaller dt, method.on_divergence = \"halve\", or, if the residual stagnates above "
+             "method.tolerance, a "
+             "larger tolerance or none";
+    case Outcome::non_finite:
+      return "try a smaller dt: the energy error in the samples before shows where it went wrong";
+    case Outcome::lattice_overflow:
+      return "a position or momentum left the range of 2^63 lattice units: give larger powers of two in run.lattice, "
+             "e.g. "
+             "{ position = \"2^-44\", momentum = \"2^-44\" }";
+    case Outcome::done:
+    case Outcome::stopped:
+      break;
+  }
+  return {};
+}
+
+/// What was computed is kept; here is how to look at it and how to go on.
+Json error_of(const Simulation& simulation, const RunResult& result) {
+  Frame frame;
+  simulation.look(frame);
+  std::string message = result.failure;
+  if (result.outcome == Outcome::non_finite) message = "the energy or the state became infinite or NaN";
+  if (result.outcome == Outcome::lattice_overflow) message = "a number left the range of the lattice";
+  const std::int64_t step = frame.step + 1;  // the step that could not be taken
+  message = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time), message);
+  return {{"kind", std::string(name(result.outcome))},
+          {"step", step},
+          {"t", frame.time},
+          {"message", message},
+          {"hint", hint_for(result.outcome)}};
+}
+}  // namespace
+
+std::string status_of(Outcome outcome) {
+  if (outcome == Outcome::done) return "done";
+  return outcome == Outcome::stopped ? "interrupted" : "failed";
+}
+
+Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
+  Frame frame;
+  simulation.look(frame);
+  const Effort effort = simulation.effort();
+  const Excursion energy = simulation.energy();
+  const double scale = simulation.energy_scale();
+  Json s;
+  s["status"] = status_of(result.outcome);
+  s["problem"] = scenario.request.problem;
+  s["method"] = describe(scenario.request.method).name;
+  s["arithmetic"] = scenario.request.arithmetic;
+  s["kernel"] = "exact";
+  s["parameters"] = parameters_of(scenario);
+  s["dt"] = scenario.dt;
+  s["steps"] = simulation.step();
+  s["final"] = {{"t", frame.time}, {"q", frame.q}, {"p", frame.p}};
+  s["energy"] = excursion(energy);
+  s["energy"]["scale"] = scale;
+  s["energy"]["max_relative_error"] = scale > 0 ? energy.max_error / scale : energy.max_error;
+  s["invariants"] = Json::object();
+  const std::vector<Excursion> invariants = simulation.invariants();
+  for (std::size_t i = 0; i < invariants.size(); ++i) {
+    s["invariants"][scenario.problem->info.invariants[i].name] = excursion(invariants[i]);
+  }
+  s["evaluations"] = {{"force", effort.force},
+                      {"gradient", effort.gradient},
+                      {"hessian", effort.hessian},
+                      {"linear_solves", effort.linear_solves}};
+  if (describe(scenario.request.method).explicit_step) {
+    s["newton"] = nullptr;
+  } else {
+    const double mean =
+        effort.steps > 0 ? static_cast<double>(effort.linear_solves) / static_cast<double>(effort.steps) : 0;
+    s["newton"] = {
+        {"min", effort.solves_min}, {"mean", mean}, {"max", effort.solves_max}, {"stagnated", effort.stagnated}};
+  }
+  s["events"] = Json::object();
+  if (effort.halved > 0) s["events"]["halved"] = effort.halved;
+  s["wall_seconds"] = result.wall_seconds;
+  s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
+  if (s["status"] == "failed") s["error"] = error_of(simulation, result);
+  return s;
+}
+
+Json rejection_of(const std::vector<Complaint>& complaints) {
+  Json errors = Json::array();
+  for (const Complaint& c : complaints) {
+    errors.push_back({{"file", c.file}, {"line", c.line}, {"column", c.column}, {"key", c.key}, {"message", c.text()}});
+  }
+  return {{"status", "rejected"}, {"errors", errors}};
+}
+
+std::string readable(const Json& s) {
+  const auto row = [](std::string_view label, const std::string& text) {
+    return fmt::format("{:<20}{}\n", label, text);
+  };
+  const auto number = [](const Json& x) {
+    return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
+  };
+  const auto list = [&](const Json& xs) {
+    std::string all;
+    for (const Json& x : xs) all += (all.empty() ? "" : ", ") + number(x);
+    return all;
+  };
+  const auto watched = [&](const Json& x) {
+    return fmt::format("{} -> {}, at most {:.3g} off", number(x["initial"]), number(x["final"]),
+                       x["max_error"].is_null() ? 0.0 : x["max_error"].get<double>());
+  };
+  std::string text = row("status", s["status"].get<std::string>());
+  text += row("problem", s["problem"].get<std::string>());
+  text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
+                                    s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
+  text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
+  text += row("final q", list(s["final"]["q"]));
+  text += row("final p", list(s["final"]["p"]));
+  text += row("energy", watched(s["energy"]) + fmt::format(" ({:.3g} of its scale)",
+                                                           s["energy"]["max_relative_error"].is_null()
+                                                               ? 0.0
+                                                               : s["energy"]["max_relative_error"].get<double>()));
+  for (const auto& [key, value] : s["invariants"].items()) text += row(key, watched(value));
+  text += row(
+      "evaluations",
+      fmt::format("force {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),
+                  s["evaluations"]["hessian"].get<long long>(), s["evaluations"]["linear_solves"].get<long long>()));
+  if (!s["newton"].is_null()) {
+    text += row("Newton per step",
+                fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", s["newton"]["min"].get<long long>(),
+                            s["newton"]["mean"].get<double>(), s["newton"]["max"].get<long long>(),
+                            s["newton"]["stagnated"].get<long long>()));
+  }
+  for (const auto& [key, value] : s["events"].items()) text += row("event " + key, value.dump());
+  text += row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s["wall_seconds"].get<double>(),
+                                       s["steps_per_second"].get<double>()));
+  return text;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,56 @@
+// A scenario: everything a run needs, read from TOML and checked before anything runs.   [spec: product, section 3]
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamflow/run/catalog.hpp"
+
+namespace hamflow {
+
+/// One thing wrong with a scenario. `line` 0: the value came from --set.
+struct Complaint {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  std::string key;      // dotted path, e.g. "problem.orbit.r_per"
+  std::string message;  // "found ...; allowed ...; did you mean ...?"
+
+  /// FILE:LINE:COL: error: KEY: message
+  std::string text() const;
+};
+
+struct Scenario {
+  std::string file;  // as named by the user
+  std::string text;  // what the file held, with a comment line for each --set
+  const ProblemEntry* problem = nullptr;
+  Request request;
+  double dt = 0;
+  std::int64_t steps = 0;
+  std::int64_t record_every = 1;
+  std::string folder;  // empty: derived from the file's name
+  std::vector<std::string> formats{"h5"};
+  std::vector<std::string> figures;
+  std::vector<double> start_q;  // in double, canonical
+  std::vector<double> start_p;
+};
+
+struct Reading {
+  std::optional<Scenario> scenario;  // set when there is nothing to complain about
+  std::vector<Complaint> complaints;
+};
+
+/// @param sets PATH=VALUE texts that override the file   @throws FileError when the file cannot be read
+Reading read_scenario(const std::filesystem::path& file, const std::vector<std::string>& sets);
+/// The same for a text that was read already; `name` stands in messages.
+Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets);
+
+/// The smallest spacing of samples, start and end included, that keeps at most 10^4 of them.
+std::int64_t default_record_every(std::int64_t steps);
+/// Samples kept: the start, every `record_every`-th step, and the last.
+std::int64_t sample_count(std::int64_t steps, std::int64_t record_every);
+
+}  // namespace hamflow

@@ -1,0 +1,212 @@
+#include "toml_table.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "hamflow/core/number.hpp"
+
+namespace hamflow {
+
+namespace {
+constexpr const char* number_forms = "a finite number, or a text such as \"0.1\", \"1/3\", \"2*pi/100\"";
+
+std::string shown(const toml::node& node) {
+  std::ostringstream out;
+  if (const auto* text = node.as_string()) {
+    out << '"' << text->get() << "\" (a string)";
+  } else if (const auto* integer = node.as_integer()) {
+    out << integer->get();
+  } else if (const auto* real = node.as_floating_point()) {
+    out << (std::isfinite(real->get()) ? shortest(real->get())
+            : std::isnan(real->get())  ? "nan"
+            : real->get() < 0          ? "-inf"
+                                       : "inf");
+  } else if (const auto* boolean = node.as_boolean()) {
+    out << (boolean->get() ? "true" : "false") << " (a boolean)";
+  } else if (node.is_array()) {
+    out << "an array";
+  } else if (node.is_table()) {
+    out << "a table";
+  } else {
+    out << "a date or time";
+  }
+  return out.str();
+}
+}  // namespace
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(name, candidates);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
+std::string Complaint::text() const {
+  const std::string where = line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : "--set";
+  return where + ": error: " + key + ": " + message;
+}
+
+TomlTable::TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints)
+    : table_(table), path_(std::move(path)), file_(std::move(file)), complaints_(&complaints) {}
+
+const toml::node* TomlTable::find(const std::string& key) {
+  know(key);
+  return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+void TomlTable::complain_at(const toml::source_region& where, const std::string& key, const std::string& message) {
+  complaints_->push_back(
+      {file_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), full(key), message});
+}
+
+void TomlTable::complain(const std::string& key, const std::string& message) {
+  if (has(key)) {
+    complain_at(table_->get(key)->source(), key, message);
+  } else if (table_ != nullptr && table_->source().begin.line > 0) {
+    complain_at(table_->source(), key, message);
+  } else {
+    complaints_->push_back({file_, 1, 1, full(key), message});
+  }
+}
+
+std::string TomlTable::found(const std::string& key) const {
+  return has(key) ? "found " + shown(*table_->get(key)) : "found nothing";
+}
+
+void TomlTable::missing(const std::string& key, const std::string& allowed) {
+  complain(key, "found nothing; allowed " + allowed);
+}
+
+std::optional<std::string> TomlTable::string(const std::string& key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* text = node->as_string()) return text->get();
+  complain(key, "found " + shown(*node) + "; allowed a string");
+  return std::nullopt;
+}
+
+std::optional<std::string> TomlTable::choice(const std::string& key, const std::vector<std::string>& allowed) {
+  auto text = string(key);
+  if (!text) return text;
+  for (const std::string& word : allowed) {
+    if (*text == word) return text;
+  }
+  complain(key, "found \"" + *text + "\"; allowed " + joined(allowed) + suggestion(*text, allowed));
+  return std::nullopt;
+}
+
+std::optional<Number> TomlTable::number_of(const toml::node& node, const std::string& key) {
+  Number number;
+  if (const auto* integer = node.as_integer()) {
+    number = {std::to_string(integer->get()), static_cast<double>(integer->get())};
+  } else if (const auto* real = node.as_floating_point()) {
+    number = {std::isfinite(real->get()) ? shortest(real->get()) : "", real->get()};
+  } else if (const auto* text = node.as_string()) {
+    try {
+      number = {text->get(), evaluate_number<double>(text->get())};
+    } catch (const Error&) {
+      complain(key, "found " + shown(node) + "; allowed " + number_forms);
+      return std::nullopt;
+    }
+  } else {
+    complain(key, "found " + shown(node) + "; allowed " + number_forms);
+    return std::nullopt;
+  }
+  if (!std::isfinite(number.value)) {
+    complain(key, "found " + shown(node) + "; allowed " + number_forms);
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<Number> TomlTable::number(const std::string& key) {
+  const toml::node* node = find(key);
+  return node == nullptr ? std::nullopt : number_of(*node, key);
+}
+
+std::optional<std::int64_t> TomlTable::whole(const std::string& key, std::int64_t least, std::int64_t most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto value = number_of(*node, key);
+  if (!value) return std::nullopt;
+  const bool fits = value->value == std::floor(value->value) && value->value >= static_cast<double>(least) &&
+                    value->value <= static_cast<double>(most);
+  if (fits) return static_cast<std::int64_t>(value->value);
+  complain(key, "found " + shown(*node) + "; allowed a whole number from " + std::to_string(least) + " to " +
+                    std::to_string(most));
+  return std::nullopt;
+}
+
+std::optional<std::vector<std::string>> TomlTable::numbers(const std::string& key, std::size_t count) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* array = node->as_array();
+  const std::string allowed = "allowed an array of " + std::to_string(count) + (count == 1 ? " number" : " numbers");
+  if (array == nullptr) {
+    complain(key, "found " + shown(*node) + "; " + allowed);
+    return std::nullopt;
+  }
+  if (array->size() != count) {
+    complain(key, "found " + std::to_string(array->size()) + " entries; " + allowed);
+    return std::nullopt;
+  }
+  std::vector<std::string> texts;
+  for (const toml::node& entry : *array) {
+    const auto value = number_of(entry, key);
+    if (!value) return std::nullopt;
+    texts.push_back(value->text);
+  }
+  return texts;
+}
+
+std::optional<std::vector<std::string>> TomlTable::choices(const std::string& key,
+                                                           const std::vector<std::string>& allowed) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  std::vector<std::string> words;
+  const auto take = [&](const toml::node& entry) {
+    const auto* text = entry.as_string();
+    if (text == nullptr) {
+      complain(key, "found " + shown(entry) + "; allowed a list out of " + joined(allowed));
+      return false;
+    }
+    for (const std::string& word : allowed) {
+      if (text->get() == word) {
+        words.push_back(word);
+        return true;
+      }
+    }
+    complain(key, "found \"" + text->get() + "\"; allowed " + joined(allowed) + suggestion(text->get(), allowed));
+    return false;
+  };
+  if (const auto* array = node->as_array()) {
+    bool good = true;
+    for (const toml::node& entry : *array) good = take(entry) && good;
+    return good ? std::optional(words) : std::nullopt;
+  }
+  return take(*node) ? std::optional(words) : std::nullopt;
+}
+
+TomlTable TomlTable::table(const std::string& key) {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_table()) complain(key, "found " + shown(*node) + "; allowed a table");
+  return {node == nullptr ? nullptr : node->as_table(), full(key), file_, *complaints_};
+}
+
+void TomlTable::finish() {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_) {
+    const std::string name(key.str());
+    bool is_known = false;
+    for (const std::string& known : known_) is_known = is_known || known == name;
+    if (is_known) continue;
+    const toml::source_region& where = key.source().begin.line > 0 ? key.source() : node.source();
+    complain_at(where, name, "found an unknown key; allowed " + joined(known_) + suggestion(name, known_));
+  }
+}
+
+}  // namespace hamflow

@@ -1,0 +1,27 @@
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow {
+
+CostMeasurement measure_cost(const StepMap& map, const Region& region) {
+  // A first step may do more than the later ones, so that steps 9 to 136 are counted.
+  constexpr std::int64_t skipped = 8;
+  constexpr std::int64_t counted = 128;
+  const Effort before = map.cost(region.centre, region.step, skipped);
+  const Effort after = map.cost(region.centre, region.step, skipped + counted);
+  const auto per_step = [](long long x, long long y) { return static_cast<double>(y - x) / counted; };
+  CostMeasurement found{per_step(before.force, after.force), per_step(before.gradient, after.gradient),
+                        per_step(before.hessian, after.hessian), per_step(before.linear_solves, after.linear_solves)};
+
+  found.explicit_step = after.linear_solves == 0 && after.steps == 0;
+  Effort last = before;
+  for (std::int64_t k = 1; k <= 8 && found.explicit_step; ++k) {
+    const Effort now = map.cost(region.centre, region.step, skipped + k);
+    found.explicit_step = static_cast<double>(now.force - last.force) == found.force &&
+                          static_cast<double>(now.gradient - last.gradient) == found.gradient;
+    last = now;
+  }
+  found.most_solves = map.cost(region.centre, 4 * region.step, counted).solves_max;
+  return found;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include "hamflow/core/math.hpp"
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow {
+
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr std::uint64_t starts = 32;  // the growth exponent of a random walk is then known to about 0.06
+constexpr int blocks = 127;           // seven dyadic windows
+constexpr std::int64_t block_steps = 64;
+constexpr int fine_factor = 128;
+
+/// What rounding explains: H is evaluated from rounded coordinates, a few units; increments of a step are rounded
+/// relatively to themselves, h (|v F|) eps, and add up like the square root of their number. 8 units of each.
+double rounding_level(double h, double steps) { return epsilon * (8 + 8 * h * std::sqrt(steps)); }
+
+double scale(const StepMap& map, const Region& region) {
+  double largest = 0;
+  for (std::uint64_t k = 0; k < starts; ++k) largest = larger(largest, map.energy_scale(random_state(region, k)));
+  return largest;
+}
+
+/// max |H - H0|; infinite when a run broke down.
+double largest_error(const std::vector<double>& energies, std::size_t expected) {
+  if (energies.size() < expected) return std::numeric_limits<double>::infinity();
+  double largest = 0;
+  for (double h : energies) {
+    const double error = abs(h - energies.front());
+    if (!(error <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::infinity();
+    largest = larger(largest, error);
+  }
+  return largest;
+}
+
+/// The level over a fixed time of 16 units, looked at about every eighth of a unit whatever h is.
+double short_level(const StepMap& map, const Region& region, double h) {
+  const auto per_look = std::max<std::int64_t>(1, std::llround(region.step / h));
+  const int looks = static_cast<int>(std::lround(16 / (static_cast<double>(per_look) * h)));
+  double largest = 0;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    const auto energies = map.energies(random_state(region, k), h, looks, per_look);
+    largest = larger(largest, largest_error(energies, static_cast<std::size_t>(looks) + 1));
+  }
+  return largest;
+}
+
+/// The exponent of the level in h, from the finest four of steps between 4 h and h/8 whose error is not rounding.
+double step_exponent(const StepMap& map, const Region& region, double unit) {
+  std::vector<double> log_step;
+  std::vector<double> log_level;
+  for (int k = 2; k >= -3; --k) {
+    const double h = std::ldexp(region.step, k);
+    const double level = short_level(map, region, h) / unit;
+    if (!(level < 1)) continue;                               // no step that large
+    if (level < 16 * rounding_level(h, 16 / h)) break;  // less than four binary digits are signal
+    log_step.push_back(std::log2(h));
+    log_level.push_back(std::log2(level));
+  }
+  const std::size_t surplus = log_step.size() > 4 ? log_step.size() - 4 : 0;
+  log_step.erase(log_step.begin(), log_step.begin() + static_cast<std::ptrdiff_t>(surplus));
+  log_level.erase(log_level.begin(), log_level.begin() + static_cast<std::ptrdiff_t>(surplus));
+  return log_step.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : fitted_slope(log_step, log_level);
+}
+}  // namespace
+
+EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
+  EnergyMeasurement found;
+  const double h = region.step;
+  const double unit = scale(map, region);
+  std::vector<std::vector<double>> energies;
+  for (std::uint64_t k = 0; k < starts; ++k) {
+    energies.push_back(map.energies(random_state(region, k), h, blocks, block_steps));
+    found.level = larger(found.level, largest_error(energies.back(), blocks + 1) / unit);
+  }
+  found.step = h;
+  found.rounding = rounding_level(h, static_cast<double>(blocks * block_steps));
+  found.drift = classify_drift(energies);
+
+  const double fine_step = h / fine_factor;
+  for (std::uint64_t k = 0; k < starts; ++k) {
+    const auto fine = map.energies(random_state(region, k), fine_step, blocks / 8, block_steps * 8);
+    found.fine_level = larger(found.fine_level, largest_error(fine, blocks / 8 + 1) / unit);
+  }
+  found.fine_rounding = rounding_level(fine_step, static_cast<double>(blocks / 8 * block_steps * 8));
+  found.step_exponent = step_exponent(map, region, unit);
+  return found;
+}
+
+Conservation EnergyMeasurement::conserving(int order) const {
+  if (drift.drift == DriftClass::linear) return Conservation::no;
+  if (level <= rounding) return fine_level <= fine_rounding ? Conservation::yes : Conservation::no;
+  // A method of order r without any conservation has level ~ h^r; with s > k quadrature points cg(k) has h^(2 s),
+  // 2 s >= r + 2.
+  return step_exponent >= order + 1.5 ? Conservation::up_to_quadrature : Conservation::no;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,125 @@
+// Claims against measurements.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hamflow/core/error.hpp"
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow {
+
+namespace {
+const char* text(bool claimed) { return claimed ? "yes" : "no"; }
+
+/// yes when it holds everywhere, no when it fails somewhere.
+Finding everywhere(std::span<const Measurement> on, const auto& holds) {
+  Finding all = Finding::yes;
+  for (const Measurement& m : on) all = std::min(all, holds(m));  // no < unclear < yes
+  return all;
+}
+
+PropertyCell cell(std::string property, bool claimed, Finding found, std::size_t problems) {
+  Finding agrees = found == Finding::unclear ? Finding::unclear
+                   : (found == Finding::yes) == claimed ? Finding::yes
+                                                        : Finding::no;
+  // On one problem a property may hold by the problem's merit.
+  if (!claimed && problems == 1) agrees = Finding::yes;
+  return {std::move(property), text(claimed), std::string(name(found)), agrees};
+}
+
+PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> on) {
+  double least = std::numeric_limits<double>::infinity();
+  Finding agrees = Finding::yes;
+  for (const Measurement& m : on) {
+    const double slope = m.order.slope;
+    least = std::min(least, slope);
+    if (std::isinf(slope)) continue;  // exact here
+    if (m.order.points < OrderMeasurement::fewest_points) {
+      agrees = std::min(agrees, Finding::unclear);
+    } else if (!(slope > claims.order - OrderMeasurement::tolerance)) {
+      agrees = Finding::no;
+    }
+  }
+  const bool more = least >= claims.order + OrderMeasurement::tolerance;
+  if (agrees == Finding::yes && more && on.size() > 1) agrees = Finding::no;
+  return {"order", std::to_string(claims.order), fmt::format("{:.2f}", least), agrees};
+}
+
+PropertyCell energy_cell(const MethodInfo& claims, std::span<const Measurement> on) {
+  Conservation least = Conservation::yes;
+  for (const Measurement& m : on) least = std::min(least, m.energy.conserving(claims.order));
+  const Conservation claimed = claims.energy_conserving;
+  // Quadrature may be exact to rounding on these problems with this step.
+  const bool enough = claimed == Conservation::up_to_quadrature ? least >= claimed : least == claimed;
+  const bool agrees = enough || (on.size() == 1 && claimed == Conservation::no);
+  return {"energy conserving", std::string(name(claimed)), std::string(name(least)),
+          agrees ? Finding::yes : Finding::no};
+}
+
+PropertyCell forces_cell(const MethodInfo& claims, std::span<const Measurement> on) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const Measurement& m : on) {
+    least = std::min(least, m.cost.force);
+    most = std::max(most, m.cost.force);
+  }
+  const bool claimed = claims.forces_per_step > 0;
+  const double wanted = claims.forces_per_step;
+  const std::string measured = least == most ? fmt::format("{:g}", most) : fmt::format("{:.3g}-{:.3g}", least, most);
+  return {"forces per step", claimed ? std::to_string(claims.forces_per_step) : "-", measured,
+          !claimed || (least == wanted && most == wanted) ? Finding::yes : Finding::no};
+}
+
+PropertyCell newton_cell(std::span<const Measurement> on) {
+  long long most = 0;
+  for (const Measurement& m : on) most = std::max(most, m.cost.most_solves);
+  return {"Newton corrections", fmt::format("<= {}", most_newton_corrections), std::to_string(most),
+          most > 0 && most <= most_newton_corrections ? Finding::yes : Finding::no};
+}
+}  // namespace
+
+PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on) {
+  if (on.empty()) throw Error("a method is judged by at least one problem");
+  const std::size_t problems = on.size();
+  const auto defect = [&](const char* property, bool claimed, DefectMeasurement Measurement::*which) {
+    return cell(property, claimed, everywhere(on, [&](const Measurement& m) { return (m.*which).holds; }), problems);
+  };
+  PropertyRow row{claims, {}, {}};
+  row.cells.push_back(order_cell(claims, on));
+  row.cells.push_back(cell("explicit", claims.explicit_step, everywhere(on, [](const Measurement& m) {
+                             return m.cost.explicit_step ? Finding::yes : Finding::no;
+                           }),
+                           problems));
+  row.cells.push_back(defect("symplectic", claims.symplectic, &Measurement::symplectic));
+  row.cells.push_back(defect("weakly reversible", claims.weakly_reversible, &Measurement::weakly_reversible));
+  row.cells.push_back(defect("symmetric", claims.symmetric, &Measurement::symmetric));
+  row.cells.push_back(defect("reversible", claims.reversible, &Measurement::reversible));
+  row.cells.push_back(energy_cell(claims, on));
+  row.cells.push_back(forces_cell(claims, on));
+  row.cells.push_back(defect("Jacobian is the step's", true, &Measurement::jacobian));
+  if (!claims.explicit_step) row.cells.push_back(newton_cell(on));
+  row.on = std::move(on);
+  return row;
+}
+
+bool PropertyRow::agrees() const {
+  return std::all_of(cells.begin(), cells.end(), [](const PropertyCell& c) { return c.agrees == Finding::yes; });
+}
+
+std::string PropertyRow::differing() const {
+  std::string all;
+  for (const PropertyCell& c : cells) {
+    if (c.agrees != Finding::yes) all += (all.empty() ? "" : ", ") + c.property;
+  }
+  return all;
+}
+
+const PropertyCell& PropertyRow::operator[](std::string_view property) const {
+  for (const PropertyCell& c : cells) {
+    if (c.property == property) return c;
+  }
+  throw Error("the property table has no column '" + std::string(property) + "'");
+}
+
+}  // namespace hamflow

@@ -1,0 +1,128 @@
+// The property table as text and as JSON.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow {
+
+namespace {
+using Lines = std::vector<std::vector<std::string>>;
+
+/// Columns as wide as their widest entry, two blanks between them.
+std::string aligned(const Lines& lines) {
+  std::vector<std::size_t> width;
+  for (const auto& line : lines) {
+    width.resize(std::max(width.size(), line.size()));
+    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+  }
+  std::string out;
+  for (const auto& line : lines) {
+    std::string row;
+    for (std::size_t i = 0; i < line.size(); ++i) row += fmt::format("{:<{}}  ", line[i], width[i]);
+    row.erase(row.find_last_not_of(' ') + 1);
+    out += row + '\n';
+  }
+  return out;
+}
+
+std::string flag(Finding agrees) { return agrees == Finding::yes ? "" : agrees == Finding::no ? " !!" : " ??"; }
+
+std::string units(const DefectMeasurement& d) { return fmt::format("{:.0e} ({})", d.defect, name(d.holds)); }
+
+nlohmann::json json_of(const DefectMeasurement& d) {
+  return {{"defect", d.defect}, {"units_of_rounding", d.units}, {"holds", name(d.holds)}};
+}
+
+nlohmann::json json_of(const Measurement& m) {
+  const EnergyMeasurement& e = m.energy;
+  return {{"problem", m.problem},
+          {"order",
+           {{"slope", m.order.slope},
+            {"points", m.order.points},
+            {"finest_step", m.order.finest_step},
+            {"finest_error", m.order.finest_error}}},
+          {"jacobian", json_of(m.jacobian)},
+          {"symplectic", json_of(m.symplectic)},
+          {"weakly_reversible", json_of(m.weakly_reversible)},
+          {"symmetric", json_of(m.symmetric)},
+          {"reversible", json_of(m.reversible)},
+          {"energy",
+           {{"step", e.step},
+            {"level", e.level},
+            {"rounding", e.rounding},
+            {"fine_level", e.fine_level},
+            {"fine_rounding", e.fine_rounding},
+            {"step_exponent", e.step_exponent},
+            {"drift", name(e.drift.drift)},
+            {"growth_exponent", e.drift.growth_exponent},
+            {"p_value", e.drift.p_value}}},
+          {"cost",
+           {{"force", m.cost.force},
+            {"gradient", m.cost.gradient},
+            {"hessian", m.cost.hessian},
+            {"linear_solves", m.cost.linear_solves},
+            {"most_solves", m.cost.most_solves}}}};
+}
+}  // namespace
+
+std::string property_table(std::span<const PropertyRow> rows) {
+  // claimed/measured, the names of the columns in full below the table
+  Lines table{{"method", "order", "explicit", "symplectic", "weakly rev.", "symmetric", "reversible",
+               "energy conserving", "forces/step", "Newton", "verdict"}};
+  const std::vector<std::string> properties{"order",      "explicit",   "symplectic",        "weakly reversible",
+                                            "symmetric",  "reversible", "energy conserving", "forces per step",
+                                            "Newton corrections"};
+  for (const PropertyRow& row : rows) {
+    std::vector<std::string> line{row.claims.name};
+    for (const std::string& property : properties) {
+      const auto c = std::find_if(row.cells.begin(), row.cells.end(),
+                                  [&](const PropertyCell& x) { return x.property == property; });
+      line.push_back(c == row.cells.end() ? "" : c->claimed + " / " + c->measured + flag(c->agrees));
+    }
+    line.push_back(row.agrees() ? "agrees" : "DIFFERS: " + row.differing());
+    table.push_back(line);
+  }
+  Lines numbers{{"method", "problem", "order", "symplectic", "weakly rev.", "symmetric", "reversible", "energy level",
+                 "(rounding)", "fine level", "~ h^c", "drift", "exponent", "p", "force", "Hessian", "solves"}};
+  for (const PropertyRow& row : rows) {
+    for (const Measurement& m : row.on) {
+      const EnergyMeasurement& e = m.energy;
+      numbers.push_back({row.claims.name, m.problem, fmt::format("{:.3f}", m.order.slope), units(m.symplectic),
+                         units(m.weakly_reversible), units(m.symmetric), units(m.reversible),
+                         fmt::format("{:.1e}", e.level), fmt::format("{:.1e}", e.rounding),
+                         fmt::format("{:.1e}", e.fine_level),
+                         std::isnan(e.step_exponent) ? "-" : fmt::format("{:.1f}", e.step_exponent),
+                         std::string(name(e.drift.drift)), fmt::format("{:.2f}", e.drift.growth_exponent),
+                         fmt::format("{:.1g}", e.drift.p_value), fmt::format("{:.4g}", m.cost.force),
+                         fmt::format("{:.4g}", m.cost.hessian), fmt::format("{:.4g}", m.cost.linear_solves)});
+    }
+  }
+  return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + "\nmeasured\n" + aligned(numbers);
+}
+
+std::string property_json(std::span<const PropertyRow> rows) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const PropertyRow& row : rows) {
+    nlohmann::json properties = nlohmann::json::array();
+    for (const PropertyCell& c : row.cells) {
+      properties.push_back({{"property", c.property},
+                            {"claimed", c.claimed},
+                            {"measured", c.measured},
+                            {"agrees", c.agrees == Finding::yes}});
+    }
+    nlohmann::json on = nlohmann::json::array();
+    for (const Measurement& m : row.on) on.push_back(json_of(m));
+    all.push_back({{"method", row.claims.name},
+                   {"reference", row.claims.reference},
+                   {"agrees", row.agrees()},
+                   {"properties", properties},
+                   {"measurements", on}});
+  }
+  return nlohmann::json{{"methods", all}}.dump(2) + "\n";
+}
+
+}  // namespace hamflow

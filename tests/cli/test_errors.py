@@ -1,0 +1,143 @@
+"""Bad input: everything wrong is told at once, before anything runs, with file, line, column, key, what was found, what is
+allowed and the nearest name; exit 2 for a wrong request, 3 for files."""
+
+import json
+import pathlib
+import unittest
+
+from command import CommandCase
+
+
+class Errors(CommandCase):
+    def complaint(self, *sets, status=2):
+        """What a run with these --set says on stderr."""
+        arguments = [word for text in sets for word in ("--set", text)]
+        done = self.hamflow("run", "kepler.toml", "--out", "none", *arguments, status=status)
+        self.assertEqual(done.stdout, "")
+        return done.stderr
+
+    def test_all_errors_at_once_in_the_given_form(self):
+        self.write("bad.toml", """[problem]
+name = "central-force"
+potentail = "kepler"
+potential = "kepler"
+mass = -2.0
+k = "abc"
+orbit = { kind = "ellipse", r_per = 3.0, r_aph = 1.0, foo = 1 }
+[methd]
+[method]
+name = "verlt"
+[run]
+dt = 0
+steps = 4.5
+t_end = 3
+arithmetic = "lattic"
+record_every = true
+""")
+        done = self.hamflow("run", "bad.toml", "--json", status=2)
+        lines = done.stderr.splitlines()
+        starts = ["bad.toml:3:1: error: problem.potentail: ", "bad.toml:5:8: error: problem.mass: ",
+                  "bad.toml:6:5: error: problem.k: ", "bad.toml:7:55: error: problem.orbit.foo: ",
+                  "bad.toml:8:2: error: methd: ", "bad.toml:10:8: error: method.name: ", "bad.toml:12:6: error: run.dt: ",
+                  "bad.toml:13:9: error: run.steps: ", "bad.toml:14:9: error: run.t_end: ",
+                  "bad.toml:15:14: error: run.arithmetic: ", "bad.toml:16:16: error: run.record_every: "]
+        self.assertEqual(len(lines), len(starts), done.stderr)
+        for line, start in zip(lines, starts):
+            self.assertTrue(line.startswith(start), f"{line!r} should start with {start!r}")
+            self.assertRegex(line, "found .*; allowed ")
+        self.assertTrue(lines[0].endswith("; did you mean potential?"))
+        self.assertTrue(lines[5].endswith("; did you mean verlet?"))
+        rejection = json.loads(done.stdout)
+        self.assertEqual(rejection["status"], "rejected")
+        self.assertEqual([e["message"] for e in rejection["errors"]], lines)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["bad.toml", "kepler.toml"])
+
+    def test_numbers(self):
+        for value in ("0", "nan", "inf", "-inf", '"abc"', "true", "[1]", "1979-05-27"):
+            self.assertIn("run.dt", self.complaint(f"run.dt={value}"))
+        self.assertIn("positive", self.complaint("problem.mass=-1"))
+        self.assertIn("positive", self.complaint("problem.mass=0"))
+        self.assertIn("1 numbers", self.complaint("problem.initial={q=[1],p=[0,1]}").replace("2 numbers", "1 numbers"))
+        self.assertIn("did you mean central-force?", self.complaint("problem.name=centralforce"))
+
+    def test_geometry_says_which_inequality_fails_and_by_how_much(self):
+        text = self.complaint("problem.orbit.r_per=4")
+        self.assertIn("allowed r_per <= r_aph, but 4 > 3: fails by 1", text)
+        text = self.complaint('problem.orbit={kind="hyperbola",r_per=2,angular_momentum=1}')
+        self.assertIn("sqrt(2 mass k r_per) < angular_momentum", text)
+        self.assertIn("0 < k", self.complaint("problem.k=-1"))
+        self.assertIn("0 < r0", self.complaint('problem.orbit={kind="circle",r0=-1}'))
+
+    def test_exactly_the_keys_of_a_start(self):
+        self.assertIn("unknown key", self.complaint('problem.orbit={kind="circle",r0=1,r_per=1}'))
+        self.assertIn("found nothing", self.complaint('problem.orbit={kind="circle"}'))
+        self.assertIn("allowed circle, ellipse, parabola, hyperbola", self.complaint('problem.orbit={kind="line",r_per=1}'))
+
+    def test_starts_that_cannot_be(self):
+        self.assertIn("not finite", self.complaint("problem.initial={q=[0,0],p=[0,1]}"))
+        self.assertIn("p and v together", self.complaint("problem.initial={q=[1,0],p=[0,1],v=[0,1]}"))
+        self.assertIn("neither p nor v", self.complaint("problem.initial={q=[1,0]}"))
+        self.write("pendulum.toml", '[problem]\nname="pendulum"\n[method]\nname="verlet"\n[run]\ndt=0.1\nsteps=1\n')
+        self.assertIn("initial", self.hamflow("run", "pendulum.toml", status=2).stderr)
+
+    def test_steps_and_t_end(self):
+        self.assertIn("together", self.complaint("run.t_end=3"))
+        self.write("time.toml", '[problem]\nname="pendulum"\ninitial={q=[1],p=[0]}\n[method]\nname="verlet"\n[run]\ndt=0.1\nt_end=3.05\n')
+        text = self.hamflow("run", "time.toml", status=2).stderr
+        self.assertIn("nearest dt = ", text)
+        self.assertIn("t_end = ", text)
+        self.hamflow("run", "time.toml", "--set", "run.t_end=-3", status=2)
+        self.hamflow("run", "time.toml", "--set", "run.t_end=3", "--out", "none")
+
+    def test_methods_and_arithmetic(self):
+        self.assertIn("bijection", self.complaint("run.arithmetic=lattice"))
+        self.assertIn("power of two", self.complaint("method={name='stv4'}", "run.arithmetic=lattice",
+                                                     "run.lattice={position=0.3}"))
+        self.assertIn("2^62", self.complaint("method={name='stv4'}", "run.arithmetic=lattice",
+                                             "run.lattice={position='2^-70'}"))
+        self.assertIn("unknown key", self.complaint("method={name='stv4',quadrature=3}"))
+        self.assertIn('or "auto"', self.complaint("method.quadrature=0"))
+        self.assertIn("allowed exact", self.complaint("run.kernel=fast"))
+        self.assertIn("degree of freedom", self.complaint(
+            "problem={name='pendulum',initial={q=[1],p=[0]}}", "output.figures=['orbit']"))
+
+    def test_syntax(self):
+        self.write("syntax.toml", "[problem\nname = 1\n")
+        text = self.hamflow("run", "syntax.toml", status=2).stderr
+        self.assertTrue(text.startswith("syntax.toml:1:9: error: syntax: "), text)
+        self.write("empty.toml", "")
+        text = self.hamflow("run", "empty.toml", status=2).stderr
+        for key in ("problem.name", "method.name", "run.dt", "run.steps"):
+            self.assertIn(f"empty.toml:1:1: error: {key}: found nothing", text)
+
+    def test_files(self):
+        self.hamflow("run", "nowhere.toml", status=3)
+        self.hamflow("run", str(self.folder), status=3)
+        self.hamflow("run", "kepler.toml", "--out", "/proc/nowhere/x", status=3)
+        self.hamflow("run", "kepler.toml")
+        text = self.hamflow("run", "kepler.toml", status=3).stderr
+        self.assertIn("--force", text)
+        self.hamflow("run", "kepler.toml", "--force")
+        self.write("a_file", "")
+        self.hamflow("run", "kepler.toml", "--out", "a_file", "--force", status=3)
+        self.hamflow("run", "kepler.toml", "--out", "a_file/below", status=3)
+        pathlib.Path(self.folder / "kepler.run" / "notes.txt").write_text("mine")
+        self.hamflow("run", "kepler.toml", "--force")
+        self.assertTrue((self.folder / "kepler.run" / "notes.txt").exists())
+
+    def test_command_line(self):
+        self.hamflow(status=2)
+        self.assertIn("did you mean run?", self.hamflow("runn", status=2).stderr)
+        self.hamflow("run", status=2)
+        self.hamflow("run", "kepler.toml", "--nonsense", status=2)
+        self.assertIn("did you mean stv4", self.hamflow("show", "stv44", status=2).stderr)
+        self.hamflow("list", "planets", status=2)
+        self.hamflow("verify", status=2)
+        self.hamflow("verify", "nonsense", status=2)
+        self.assertIn("PATH=VALUE", self.complaint("nonsense"))
+        for command in ([], ["run"], ["plot"], ["list"], ["show"], ["verify"]):
+            self.assertIn("Examples:", self.hamflow(*command, "--help").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,115 @@
+// run.h5 under kill -9: every row that was confirmed (flushed) before the kill has to be read back, bit for bit.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "run_file.hpp"
+
+namespace hamflow {
+namespace {
+
+/// The k-th row, recognisable in every column.
+Frame row(std::int64_t k) {
+  Frame frame;
+  frame.step = k;
+  frame.time = 0.1 * static_cast<double>(k);
+  frame.q = {1.0 / static_cast<double>(k + 1), -static_cast<double>(k)};
+  frame.p = {static_cast<double>(k) * 3.0, 0.5};
+  frame.energy = -static_cast<double>(k) / 7;
+  frame.invariants = {static_cast<double>(k) + 0.25};
+  return frame;
+}
+
+const RunDescription description{.scenario = "text",
+                                 .version = "0",
+                                 .host = "h",
+                                 .problem = "p",
+                                 .method = "m",
+                                 .arithmetic = "double",
+                                 .kernel = "exact",
+                                 .dimension = 2,
+                                 .invariants = {"angular_momentum"}};
+
+class RunFileTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = std::filesystem::temp_directory_path() / ("hamflow_" + std::to_string(getpid()) + ".h5");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+  std::filesystem::path file_;
+};
+
+void expect_rows(const RunSamples& run, std::int64_t at_least) {
+  ASSERT_GE(static_cast<std::int64_t>(run.t.size()), at_least);
+  for (std::size_t k = 0; k < run.t.size(); ++k) {
+    const Frame wanted = row(static_cast<std::int64_t>(k));
+    ASSERT_EQ(run.t[k], wanted.time);
+    ASSERT_EQ(run.energy[k], wanted.energy);
+    for (std::size_t i = 0; i < 2; ++i) {
+      ASSERT_EQ(run.q[i][k], wanted.q[i]);
+      ASSERT_EQ(run.p[i][k], wanted.p[i]);
+    }
+  }
+}
+
+TEST_F(RunFileTest, RoundTrip) {
+  {
+    RunFile file(file_, description);
+    for (std::int64_t k = 0; k < 20000; ++k) file.append(row(k));
+  }
+  const RunSamples run = read_run_file(file_);
+  EXPECT_EQ(run.t.size(), 20000u);
+  expect_rows(run, 20000);
+  EXPECT_EQ(run.description.scenario, "text");
+  EXPECT_EQ(run.description.method, "m");
+}
+
+TEST_F(RunFileTest, ReadableWhileItGrows) {
+  RunFile file(file_, description);
+  for (std::int64_t k = 0; k < 100; ++k) file.append(row(k));
+  file.flush();
+  expect_rows(read_run_file(file_), 100);
+}
+
+TEST_F(RunFileTest, NotARunFileIsSaid) {
+  EXPECT_THROW(read_run_file("no such file"), FileError);
+  EXPECT_THROW(RunFile("no such folder/run.h5", description), FileError);
+}
+
+TEST_F(RunFileTest, ConfirmedRowsSurviveKill) {
+  for (int round = 0; round < 30; ++round) {
+    std::filesystem::remove(file_);
+    int confirmed[2];
+    ASSERT_EQ(pipe(confirmed), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      close(confirmed[0]);
+      RunFile file(file_, description);
+      for (std::int64_t k = 0;; ++k) {
+        file.append(row(k));
+        if (k % 37 != 36) continue;
+        file.flush();
+        const std::int64_t count = k + 1;
+        if (write(confirmed[1], &count, sizeof count) != sizeof count) _exit(1);
+      }
+    }
+    close(confirmed[1]);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 + 7 * round));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    std::int64_t last = 0;
+    for (std::int64_t count = 0; read(confirmed[0], &count, sizeof count) == sizeof count;) last = count;
+    close(confirmed[0]);
+    if (last == 0) continue;  // killed before the first flush
+    expect_rows(read_run_file(file_), last);
+    if (HasFatalFailure()) FAIL() << "round " << round;
+  }
+}
+
+}  // namespace
+}  // namespace hamflow
