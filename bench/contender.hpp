@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hamflow/core/vector.hpp"
+#include "latency.hpp"
 
 namespace bench {
 
@@ -46,6 +47,7 @@ struct Contender {
 struct Workload {
   std::string method;
   std::string h_text;
+  Chain chain;  // of one step of the hand-written loop
   std::vector<Contender> contenders;
   /// How far two end states of contenders without the same arithmetic may lie apart after so many steps.
   std::function<double(std::int64_t steps)> bound;

@@ -35,6 +35,7 @@ Json json_of(const Table& table, const Result& r) {
              {"dt", std::stod(table.h_text)},
              {"contender", r.contender},
              {"steps", table.steps},
+             {"limit_ns_per_step", table.limit.median},
              {"ns_per_step", json_of(r.ns_per_step)},
              {"ns_per_force", json_of(r.ns_per_force)},
              {"forces_per_step", r.forces_per_step},
@@ -73,6 +74,7 @@ std::string as_text(const std::vector<Table>& tables, const Plan& plan) {
   for (const Table& table : tables) {
     out += fmt::format("\n{}, dt = {}, {} steps a round\n", table.method, table.h_text, table.steps);
     out += fmt::format("  {:17} {:>24} {:>9}   {}\n", "", "ns/step", "ns/force", "ratio");
+    out += fmt::format("  {:17} {:8.2f}\n", "limit of the chain", table.limit.median);
     for (const Result& r : table.results) {
       out += fmt::format("  {:17} {:8.2f} [{:6.2f}, {:6.2f}] {:9.2f}", r.contender, r.ns_per_step.median,
                          r.ns_per_step.low, r.ns_per_step.high, r.ns_per_force.median);

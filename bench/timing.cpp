@@ -84,8 +84,12 @@ std::vector<double> divide(const std::vector<double>& a, const std::vector<doubl
   return ratios;
 }
 
-Table summarise(const Workload& workload, std::int64_t steps, const std::vector<Series>& all) {
-  Table table{workload.method, workload.h_text, steps, workload.bound ? workload.bound(steps) : 0, {}};
+Table summarise(const Workload& workload, std::int64_t steps, const std::vector<Series>& all,
+                const std::vector<Latencies>& latencies) {
+  Table table{workload.method, workload.h_text, steps, workload.bound(steps), {}, {}};
+  std::vector<double> limits;
+  for (const Latencies& l : latencies) limits.push_back(l.of(workload.chain));
+  table.limit = spread_of(limits);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Contender& contender = workload.contenders[i];
     Result result{contender.name, contender.against, contender.goal, spread_of(all[i].ns_per_step), {}, {}};
@@ -115,7 +119,9 @@ std::vector<Table> measure(const std::vector<Workload>& workloads, const Plan& p
     steps.push_back(calibrate(workload, plan));
     all.emplace_back(workload.contenders.size());
   }
+  std::vector<Latencies> latencies;
   for (int round = 0; round < plan.rounds; ++round) {
+    latencies.push_back(measure_latencies());
     for (std::size_t w = 0; w < workloads.size(); ++w) {
       const auto played = play_round(workloads[w], steps[w], static_cast<std::size_t>(round));
       for (std::size_t i = 0; i < played.size(); ++i) {
@@ -126,7 +132,8 @@ std::vector<Table> measure(const std::vector<Workload>& workloads, const Plan& p
     }
   }
   std::vector<Table> tables;
-  for (std::size_t w = 0; w < workloads.size(); ++w) tables.push_back(summarise(workloads[w], steps[w], all[w]));
+  for (std::size_t w = 0; w < workloads.size(); ++w)
+    tables.push_back(summarise(workloads[w], steps[w], all[w], latencies));
   return tables;
 }
 

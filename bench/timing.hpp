@@ -35,6 +35,7 @@ struct Table {
   std::string h_text;
   std::int64_t steps = 0;  // in a block
   double bound = 0;        // of the differences that are not exact
+  Spread limit;            // ns per step by latencies along the chain
   std::vector<Result> results;
 };
 

@@ -36,8 +36,8 @@ void Extent::include(std::span<const double> xs) {
 double Extent::largest() const { return empty() ? 0 : std::max(std::abs(low), std::abs(high)); }
 
 int common_exponent(double largest) {
-  if (!(largest > 0) || (largest >= 1e-2 && largest < 1e4)) return 0;
-  return static_cast<int>(std::floor(std::log10(largest)));
+  if (!(largest > 0) || (largest >= 0.99e-2 && largest < 1e4)) return 0;
+  return static_cast<int>(std::floor(std::log10(largest) + 0.02));  // 9.99e5 belongs to 1e6
 }
 
 double scaled(double x, int exponent) {

@@ -22,9 +22,11 @@ void Curve::lift() {
   if (!x.empty() && !std::isnan(x.back())) add(nan, nan);
 }
 
+bool is_polar(const FigureData& data) { return data.coordinates == std::vector<std::string>{"r", "phi"}; }
+
 Curve orbit_track(const FigureData& data) {
   if (data.q.size() != 2) return {};
-  if (data.coordinates != std::vector<std::string>{"r", "phi"}) return finite_points(data.q[0], data.q[1]);
+  if (!is_polar(data)) return finite_points(data.q[0], data.q[1]);
   const Curve polar = finite_points(data.q[0], data.q[1]);
   Curve track;
   for (std::size_t k = 0; k < polar.x.size(); ++k) {
@@ -33,10 +35,14 @@ Curve orbit_track(const FigureData& data) {
   return track;
 }
 
-Curve finite_points(std::span<const double> x, std::span<const double> y) {
+Curve finite_points(std::span<const double> x, std::span<const double> y, Gaps gaps) {
   Curve result;
   for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k) {
-    if (std::isfinite(x[k]) && std::isfinite(y[k])) result.add(x[k], y[k]);
+    if (std::isfinite(x[k]) && std::isfinite(y[k])) {
+      result.add(x[k], y[k]);
+    } else if (gaps == Gaps::kept) {
+      result.lift();
+    }
   }
   return result;
 }
@@ -52,19 +58,19 @@ double path_length(const Curve& curve) {
 Curve thin_out(const Curve& curve, std::size_t limit) {
   const std::size_t n = curve.x.size();
   if (n <= limit) return curve;
-  const auto pick = [&](bool varied) {
+  const auto pick = [&](const std::function<std::size_t(std::size_t)>& place) {
     Curve result;
-    for (std::size_t k = 0; k < limit; ++k) {
-      const std::size_t begin = k * n / limit;
-      const std::size_t length = (k + 1) * n / limit - begin;
-      const double place = std::fmod(static_cast<double>(k) / std::numbers::phi, 1.0);  // fills [0, 1) evenly
-      const std::size_t at = begin + (varied ? static_cast<std::size_t>(place * static_cast<double>(length)) : 0);
-      result.add(curve.x[at], curve.y[at]);
-    }
+    for (std::size_t k = 0; k < limit; ++k) result.add(curve.x[place(k)], curve.y[place(k)]);
     return result;
   };
-  const Curve regular = pick(false);
-  return path_length(regular) >= 0.8 * path_length(curve) ? regular : pick(true);
+  const Curve regular = pick([&](std::size_t k) { return k * (n - 1) / (limit - 1); });
+  if (path_length(regular) >= 0.8 * path_length(curve)) return regular;
+  return pick([&](std::size_t k) {
+    const std::size_t begin = k * n / limit;
+    const auto length = static_cast<double>((k + 1) * n / limit - begin);
+    const double part = std::fmod(static_cast<double>(k) / std::numbers::phi, 1.0);  // fills [0, 1) evenly
+    return begin + static_cast<std::size_t>(part * length);
+  });
 }
 
 Curve envelope(const Curve& curve, std::size_t stretches) {
@@ -74,14 +80,22 @@ Curve envelope(const Curve& curve, std::size_t stretches) {
   for (std::size_t s = 0; s < stretches; ++s) {
     const std::size_t begin = s * n / stretches;
     const std::size_t end = (s + 1) * n / stretches;
-    const auto first = curve.y.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto [least, most] = std::minmax_element(first, curve.y.begin() + static_cast<std::ptrdiff_t>(end));
-    std::array<std::size_t, 4> kept{begin, begin + static_cast<std::size_t>(least - first),
-                                    begin + static_cast<std::size_t>(most - first), end - 1};
+    std::size_t least = begin;
+    std::size_t most = begin;
+    bool gap = false;
+    for (std::size_t k = begin; k < end; ++k) {
+      gap = gap || std::isnan(curve.y[k]);
+      if (curve.y[k] < curve.y[least] || std::isnan(curve.y[least])) least = k;
+      if (curve.y[k] > curve.y[most] || std::isnan(curve.y[most])) most = k;
+    }
+    std::array<std::size_t, 4> kept{begin, least, most, end - 1};
     std::sort(kept.begin(), kept.end());
     for (std::size_t k = 0; k < kept.size(); ++k) {
-      if (k == 0 || kept[k] != kept[k - 1]) result.add(curve.x[kept[k]], curve.y[kept[k]]);
+      if ((k == 0 || kept[k] != kept[k - 1]) && !std::isnan(curve.y[kept[k]])) {
+        result.add(curve.x[kept[k]], curve.y[kept[k]]);
+      }
     }
+    if (gap) result.lift();
   }
   return result;
 }

@@ -31,15 +31,19 @@ Curve sample_orbit(const std::function<double(double)>& r_of_phi, double first, 
 /// grid, so that branches join at their turning points, whatever the shape of H in p.
 Curve level_curve(const std::function<double(double, double)>& h, double level, const Extent& q, const Extent& p);
 
+/// Whether q is (r, phi).
+bool is_polar(const FigureData& data);
 /// The path in the plane, from cartesian or from polar coordinates; empty unless there are two.
 Curve orbit_track(const FigureData& data);
 
-/// The samples in which both numbers are finite.
-Curve finite_points(std::span<const double> x, std::span<const double> y);
+enum class Gaps { closed, kept };
+
+/// The samples in which both numbers are finite; a line over them can be broken where others were.
+Curve finite_points(std::span<const double> x, std::span<const double> y, Gaps gaps = Gaps::closed);
 /// The sum of the chords.
 double path_length(const Curve& curve);
-/// At most `limit` points, one from each of as many equal stretches. Where their chords lose the path, the place within
-/// a stretch varies: a fixed stride in step with a period would show a few places of an orbit and hide the rest.
+/// At most `limit` >= 2 points, evenly spaced in their order. Where their chords lose the path, the place within each
+/// stretch varies: a fixed stride in step with a period would show a few places of an orbit and hide the rest.
 Curve thin_out(const Curve& curve, std::size_t limit);
 /// A line over many samples, with the extremes of every stretch of them kept: noise keeps its width.
 Curve envelope(const Curve& curve, std::size_t stretches);

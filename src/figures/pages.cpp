@@ -42,7 +42,7 @@ Curve dots_on_line(const Curve& track, const Panel& panel) {
 /// Over time: one line over all samples; dots as well while they can be told apart.
 Panel over_time(const std::vector<double>& t, const std::vector<double>& y) {
   Panel panel;
-  const Curve curve = finite_points(t, y);
+  const Curve curve = finite_points(t, y, Gaps::kept);
   Extent times;
   times.include(curve.x);
   panel.x = fit_axis(times, 0, {7, 40});
@@ -74,10 +74,10 @@ void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y) {
   const double y_low = scaled(y.low, exponent);
   const double y_high = scaled(y.high, exponent);
   const double size = std::max({std::abs(x_low), std::abs(x_high), std::abs(y_low), std::abs(y_high)});
-  double longest = std::max(x_high - x_low, y_high - y_low);
-  if (longest <= 1e-5 * size) longest = size;
-  if (!(longest > 0)) longest = 1;
-  const double margin = padding * longest;
+  const double longest = std::max(x_high - x_low, y_high - y_low);
+  double margin = padding * longest;
+  if (longest <= 1e-5 * size) margin = 0.1 * size;
+  if (!(size > 0)) margin = 1;
   double width = x_high - x_low + 2 * margin;
   double height = y_high - y_low + 2 * margin;
 
@@ -102,7 +102,7 @@ Panel phase_panel(const FigureData& data, std::size_t i, std::size_t columns) {
   q.include(track.x);
   p.include(track.y);
   Panel panel;
-  panel.x = fit_axis(q, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 17});
+  panel.x = fit_axis(q, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 18});
   panel.y = fit_axis(p, padding, {columns == 1 ? 7U : 5U});
   panel.x_label = symbol(data.coordinates[i]);
   panel.y_label = momentum_symbol(data.coordinates[i]);
@@ -152,7 +152,7 @@ Page orbit_page(const FigureData& data) {
     y.include(0);
   }
   fit_equal_axes(panel, x, y);
-  const bool polar = data.coordinates[0] == "r";
+  const bool polar = is_polar(data);
   panel.x_label = polar ? symbol("x") : symbol(data.coordinates[0]);
   panel.y_label = polar ? symbol("y") : symbol(data.coordinates[1]);
   if (exact) {
@@ -178,11 +178,14 @@ Page energy_page(const FigureData& data) {
       if (std::isfinite(e)) worst = std::max(worst, std::abs(e));
     }
     const std::string divisor = scale_name(data);
-    panel.note = fmt::format("max |{} − {}|{}{} = {}", energy_name, energy_start, divisor.empty() ? "" : "/", divisor,
-                             short_number(worst));
     const double start = start_of(data.energy);
-    range.include(start - scale);
-    range.include(start + scale);
+    if (std::isfinite(start)) {
+      panel.note = fmt::format("max |{} − {}|{}{} = {}", energy_name, energy_start, divisor.empty() ? "" : "/", divisor,
+                               short_number(worst));
+    }
+    constexpr double most = std::numeric_limits<double>::max();
+    range.include(std::max(start - scale, -most));
+    range.include(std::min(start + scale, most));
   }
   panel.y = fit_axis(range, padding, {6});
   panel.y_label = energy_name;
@@ -205,9 +208,9 @@ Page energy_error_page(const FigureData& data) {
   const std::string divisor = scale_name(data);
   const std::string difference = energy_name + " − " + energy_start;
   panel.y_label = divisor.empty() ? difference : "(" + difference + ")/" + divisor;
-  const double left = data.t.empty() ? 0 : *std::min_element(data.t.begin(), data.t.end());
-  const double right = data.t.empty() ? 1 : *std::max_element(data.t.begin(), data.t.end());
-  panel.series.insert(panel.series.begin(), {Ink::zero, "", {{left, right}, {0, 0}}});
+  Extent times;
+  times.include(data.t);
+  panel.series.insert(panel.series.begin(), {Ink::zero, "", {{times.low, times.high}, {0, 0}}});
   return {data.title, {panel}, 1};
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -65,6 +66,8 @@ Name cut(const std::string& name) {
   while (end < name.size() && std::isalpha(static_cast<unsigned char>(name[end]))) ++end;
   Name result{name.substr(0, end), name.substr(end)};
   if (result.index.size() > 1 && result.index[0] == '_') result.index.erase(0, 1);
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0; };
+  if (!std::all_of(result.index.begin(), result.index.end(), plain)) return {};  // not a name but a text
   return result;
 }
 
@@ -110,7 +113,8 @@ std::string symbol(const std::string& name) {
 std::string momentum_symbol(const std::string& coordinate) {
   const Name parts = cut(coordinate);
   if (parts.base == "q") return symbol(fmt::format("p{}", coordinate.substr(1)));
-  return fmt::format("{{/:Italic p}}_{{{}}}", escaped(letter(parts.base) + parts.index));
+  const std::string index = parts.base.empty() ? coordinate : letter(parts.base) + parts.index;
+  return fmt::format("{{/:Italic p}}_{{{}}}", escaped(index));
 }
 
 std::string power_of_ten(int exponent) {

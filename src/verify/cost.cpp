@@ -20,7 +20,9 @@ CostMeasurement measure_cost(const StepMap& map, const Region& region) {
                           static_cast<double>(now.gradient - last.gradient) == found.gradient;
     last = now;
   }
-  found.most_solves = map.cost(region.centre, 4 * region.step, counted).solves_max;
+  const long long coarse_before = map.cost(region.centre, 4 * region.step, skipped).linear_solves;
+  const long long coarse_after = map.cost(region.centre, 4 * region.step, skipped + counted).linear_solves;
+  found.coarse_solves = per_step(coarse_before, coarse_after);
   return found;
 }
 

@@ -77,10 +77,9 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
   std::size_t longest = 0;
   for (const auto& series : energies) longest = std::max(longest, series.size());
   const bool broken = longest < 33 || std::any_of(energies.begin(), energies.end(), [&](const auto& series) {
-    return series.size() < longest || !std::all_of(series.begin(), series.end(), [](double h) {
-      return std::isfinite(h);
-    });
-  });
+                        return series.size() < longest ||
+                               !std::all_of(series.begin(), series.end(), [](double h) { return std::isfinite(h); });
+                      });
   if (broken) return {0, std::numeric_limits<double>::infinity(), DriftClass::linear};
   // The smallest of m p-values, times m (Bonferroni): a drift whose sign depends on the start is found too.
   double smallest = 1;

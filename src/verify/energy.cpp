@@ -9,13 +9,18 @@ namespace hamflow {
 namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t starts = 32;  // the growth exponent of a random walk is then known to about 0.06
-constexpr int blocks = 127;           // seven dyadic windows
+constexpr int blocks = 511;           // nine dyadic windows
 constexpr std::int64_t block_steps = 64;
 constexpr int fine_factor = 128;
+constexpr int fine_blocks = 31;
+constexpr std::int64_t fine_block_steps = 1024;
 
 /// What rounding explains: H is evaluated from rounded coordinates, a few units; increments of a step are rounded
-/// relatively to themselves, h (|v F|) eps, and add up like the square root of their number. 8 units of each.
-double rounding_level(double h, double steps) { return epsilon * (8 + 8 * h * std::sqrt(steps)); }
+/// relatively to themselves, h |v F| eps, and add up like the square root of their number. 16 units of each. The time
+/// in which forces change the energy by its own size is taken to be eight steps of the region, a sixth of a period.
+double rounding_level(const Region& region, double h, double steps) {
+  return 16 * epsilon * (1 + h / (8 * region.step) * std::sqrt(steps));
+}
 
 double scale(const StepMap& map, const Region& region) {
   double largest = 0;
@@ -35,10 +40,10 @@ double largest_error(const std::vector<double>& energies, std::size_t expected) 
   return largest;
 }
 
-/// The level over a fixed time of 16 units, looked at about every eighth of a unit whatever h is.
+/// The level over a fixed time of 128 steps of the region, looked at once in each of them whatever h is.
 double short_level(const StepMap& map, const Region& region, double h) {
   const auto per_look = std::max<std::int64_t>(1, std::llround(region.step / h));
-  const int looks = static_cast<int>(std::lround(16 / (static_cast<double>(per_look) * h)));
+  const int looks = static_cast<int>(std::lround(128 * region.step / (static_cast<double>(per_look) * h)));
   double largest = 0;
   for (std::uint64_t k = 0; k < 4; ++k) {
     const auto energies = map.energies(random_state(region, k), h, looks, per_look);
@@ -54,8 +59,9 @@ double step_exponent(const StepMap& map, const Region& region, double unit) {
   for (int k = 2; k >= -3; --k) {
     const double h = std::ldexp(region.step, k);
     const double level = short_level(map, region, h) / unit;
-    if (!(level < 1)) continue;                               // no step that large
-    if (level < 16 * rounding_level(h, 16 / h)) break;  // less than four binary digits are signal
+    if (!(level < 1)) continue;  // no step that large
+    if (level < 16 * rounding_level(region, h, 128 * region.step / h))
+      break;  // less than four binary digits are signal
     log_step.push_back(std::log2(h));
     log_level.push_back(std::log2(level));
   }
@@ -76,15 +82,15 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
     found.level = larger(found.level, largest_error(energies.back(), blocks + 1) / unit);
   }
   found.step = h;
-  found.rounding = rounding_level(h, static_cast<double>(blocks * block_steps));
+  found.rounding = rounding_level(region, h, static_cast<double>(blocks * block_steps));
   found.drift = classify_drift(energies);
 
   const double fine_step = h / fine_factor;
   for (std::uint64_t k = 0; k < starts; ++k) {
-    const auto fine = map.energies(random_state(region, k), fine_step, blocks / 8, block_steps * 8);
-    found.fine_level = larger(found.fine_level, largest_error(fine, blocks / 8 + 1) / unit);
+    const auto fine = map.energies(random_state(region, k), fine_step, fine_blocks, fine_block_steps);
+    found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);
   }
-  found.fine_rounding = rounding_level(fine_step, static_cast<double>(blocks / 8 * block_steps * 8));
+  found.fine_rounding = rounding_level(region, fine_step, static_cast<double>(fine_blocks * fine_block_steps));
   found.step_exponent = step_exponent(map, region, unit);
   return found;
 }

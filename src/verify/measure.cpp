@@ -15,7 +15,7 @@ const std::vector<Region>& known_regions() {
   static const std::vector<Region> all{
       {.problem = "pendulum", .centre = {2.0, 0.5}, .spread = 0.15, .time = 2.5},
       {.problem = "henon-heiles", .centre = {0.3, -0.15, 0.2, 0.25}, .spread = 0.08, .time = 3.25},
-      {.problem = "lennard-jones-oscillator", .centre = {1.25, 0.25}, .spread = 0.05, .step = 0.015625, .time = 0.4},
+      {.problem = "lennard-jones-oscillator", .centre = {1.25, 0.25}, .spread = 0.05, .step = 0.025, .time = 0.7},
       {.problem = "harmonic", .centre = {1.0, 0.5}, .spread = 0.2},
   };
   return all;

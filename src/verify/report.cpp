@@ -65,7 +65,7 @@ nlohmann::json json_of(const Measurement& m) {
             {"gradient", m.cost.gradient},
             {"hessian", m.cost.hessian},
             {"linear_solves", m.cost.linear_solves},
-            {"most_solves", m.cost.most_solves}}}};
+            {"coarse_solves", m.cost.coarse_solves}}}};
 }
 }  // namespace
 
@@ -73,9 +73,9 @@ std::string property_table(std::span<const PropertyRow> rows) {
   // claimed/measured, the names of the columns in full below the table
   Lines table{{"method", "order", "explicit", "symplectic", "weakly rev.", "symmetric", "reversible",
                "energy conserving", "forces/step", "Newton", "verdict"}};
-  const std::vector<std::string> properties{"order",      "explicit",   "symplectic",        "weakly reversible",
-                                            "symmetric",  "reversible", "energy conserving", "forces per step",
-                                            "Newton corrections"};
+  const std::vector<std::string> properties{
+      "order",      "explicit",          "symplectic",      "weakly reversible", "symmetric",
+      "reversible", "energy conserving", "forces per step", "Newton corrections"};
   for (const PropertyRow& row : rows) {
     std::vector<std::string> line{row.claims.name};
     for (const std::string& property : properties) {
@@ -86,22 +86,25 @@ std::string property_table(std::span<const PropertyRow> rows) {
     line.push_back(row.agrees() ? "agrees" : "DIFFERS: " + row.differing());
     table.push_back(line);
   }
-  Lines numbers{{"method", "problem", "order", "symplectic", "weakly rev.", "symmetric", "reversible", "energy level",
-                 "(rounding)", "fine level", "~ h^c", "drift", "exponent", "p", "force", "Hessian", "solves"}};
+  Lines structure{{"method", "problem", "order", "(points)", "symplectic", "weakly rev.", "symmetric", "reversible"}};
+  Lines energy{{"method", "problem", "level", "rounding", "~ h^c", "fine level", "drift", "~ t^e", "p", "force",
+                "Hessian", "solves"}};
   for (const PropertyRow& row : rows) {
     for (const Measurement& m : row.on) {
       const EnergyMeasurement& e = m.energy;
-      numbers.push_back({row.claims.name, m.problem, fmt::format("{:.3f}", m.order.slope), units(m.symplectic),
-                         units(m.weakly_reversible), units(m.symmetric), units(m.reversible),
-                         fmt::format("{:.1e}", e.level), fmt::format("{:.1e}", e.rounding),
-                         fmt::format("{:.1e}", e.fine_level),
-                         std::isnan(e.step_exponent) ? "-" : fmt::format("{:.1f}", e.step_exponent),
-                         std::string(name(e.drift.drift)), fmt::format("{:.2f}", e.drift.growth_exponent),
-                         fmt::format("{:.1g}", e.drift.p_value), fmt::format("{:.4g}", m.cost.force),
-                         fmt::format("{:.4g}", m.cost.hessian), fmt::format("{:.4g}", m.cost.linear_solves)});
+      structure.push_back({row.claims.name, m.problem, fmt::format("{:.3f}", m.order.slope),
+                           std::to_string(m.order.points), units(m.symplectic), units(m.weakly_reversible),
+                           units(m.symmetric), units(m.reversible)});
+      energy.push_back({row.claims.name, m.problem, fmt::format("{:.1e}", e.level), fmt::format("{:.1e}", e.rounding),
+                        std::isnan(e.step_exponent) ? "-" : fmt::format("{:.1f}", e.step_exponent),
+                        fmt::format("{:.1e}", e.fine_level), std::string(name(e.drift.drift)),
+                        fmt::format("{:.2f}", e.drift.growth_exponent), fmt::format("{:.1g}", e.drift.p_value),
+                        fmt::format("{:.4g}", m.cost.force), fmt::format("{:.4g}", m.cost.hessian),
+                        fmt::format("{:.4g}", m.cost.linear_solves)});
     }
   }
-  return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + "\nmeasured\n" + aligned(numbers);
+  return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + "\norder and structure: defects\n" +
+         aligned(structure) + "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy);
 }
 
 std::string property_json(std::span<const PropertyRow> rows) {

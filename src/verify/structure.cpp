@@ -1,9 +1,10 @@
 // Symplecticity and the reversibilities: defects of identities that hold to rounding or not at all.
+#include "structure.hpp"
+
 #include <cmath>
 
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
-#include "structure.hpp"
 
 namespace hamflow {
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "hamflow/core/error.hpp"
 #include "run_file.hpp"
 
 namespace hamflow {

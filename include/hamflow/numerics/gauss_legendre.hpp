@@ -9,11 +9,13 @@
 
 namespace hamflow {
 
-/// s points c and weights b, exact for polynomials of degree 2 s - 1; ascending and symmetric about 1/2 bit for bit.
+/// s points c = 1/2 + offset and weights b, exact for polynomials of degree 2 s - 1, ascending. Offsets and weights are
+/// symmetric bit for bit; c cannot be (1/2 + offset rounds), so what has to be symmetric is computed from the offsets.
 template <class R>
 struct GaussRule {
   int points = 0;
   std::vector<R> c;
+  std::vector<R> offset;
   std::vector<R> b;
 };
 
@@ -23,7 +25,8 @@ namespace detail {
 /// Newton on the Legendre polynomial P_s, x in (-1, 1), from the Chebyshev-like first guess of Tricomi.
 template <class R>
 GaussRule<R> make_gauss_rule(int s) {
-  GaussRule<R> rule{s, std::vector<R>(static_cast<std::size_t>(s)), std::vector<R>(static_cast<std::size_t>(s))};
+  const auto count = static_cast<std::size_t>(s);
+  GaussRule<R> rule{s, std::vector<R>(count), std::vector<R>(count), std::vector<R>(count)};
   for (int i = 0; i < (s + 1) / 2; ++i) {
     R x = cos(pi_value<R>() * (R(4 * i + 3)) / R(4 * s + 2));
     if (2 * i + 1 == s) x = R(0);
@@ -43,8 +46,10 @@ GaussRule<R> make_gauss_rule(int s) {
     const R weight = R(1) / ((R(1) - x * x) * derivative * derivative);  // half of the weight on [-1, 1]
     const auto low = static_cast<std::size_t>(i);
     const auto high = static_cast<std::size_t>(s - 1 - i);
+    rule.offset[low] = -x / R(2);
+    rule.offset[high] = x / R(2);
     rule.c[low] = (R(1) - x) / R(2);
-    rule.c[high] = R(1) - rule.c[low];
+    rule.c[high] = (R(1) + x) / R(2);
     rule.b[low] = rule.b[high] = weight;
   }
   return rule;

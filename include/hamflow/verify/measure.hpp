@@ -36,16 +36,16 @@ struct Region {
   std::string problem;
   State<double> centre;  // bounded, far from turning points and apsides
   double spread = 0.1;   // random states: each coordinate uniform within centre +- spread
-  double step = 0.125;   // for structure and energy, about a fiftieth of a period
-  double time = 2.5;     // over which the order is measured: neither a period nor an apsis
+  double step = 0.1;  // for structure and energy, a sixtieth of a period; no power of two, whose products do not round
+  double time = 2.5;  // over which the order is measured: neither a period nor an apsis
 };
 
 struct OrderMeasurement {
-  static constexpr int fewest_points = 5;     // four halvings of h
-  static constexpr double tolerance = 0.15;   // on the slope
-  double slope = 0;                           // d log(error)/d log(h); infinite where every error is rounding
-  int points = 0;                             // in the fit
-  double finest_step = 0, finest_error = 0;   // of the points used
+  static constexpr int fewest_points = 5;    // four halvings of h
+  static constexpr double tolerance = 0.15;  // on the slope
+  double slope = 0;                          // d log(error)/d log(h); infinite where every error is rounding
+  int points = 0;                            // in the fit
+  double finest_step = 0, finest_error = 0;  // of the points used
   Finding is(int order) const;
 };
 
@@ -70,8 +70,8 @@ struct EnergyMeasurement {
 
 struct CostMeasurement {
   double force = 0, gradient = 0, hessian = 0, linear_solves = 0;  // per step
-  bool explicit_step = false;  // no solves, and every step costs the same
-  long long most_solves = 0;   // linear solves in one step, at four times the step of the region
+  bool explicit_step = false;                                      // no solves, and every step costs the same
+  double coarse_solves = 0;  // linear solves per step at four times the step of the region
 };
 
 /// One method on one problem.
@@ -103,9 +103,9 @@ struct PropertyRow {
   const PropertyCell& operator[](std::string_view property) const;
 };
 
-/// Newton is quadratic if no step needs more corrections than this: a first guess that is right to a factor of 2
+/// Newton is quadratic if a step needs no more corrections than this: a first guess that is right to a factor of 2
 /// leaves 2^(-2^k) after k corrections, and 2^-64 is below the rounding of a double.
-inline constexpr long long most_newton_corrections = 6;
+inline constexpr int most_newton_corrections = 6;
 
 OrderMeasurement measure_order(const StepMap& map, const Region& region);
 EnergyMeasurement measure_energy(const StepMap& map, const Region& region);

@@ -1,0 +1,227 @@
+// The curves, axes and texts below the figures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "axis.hpp"
+#include "curves.hpp"
+#include "figure.hpp"
+#include "text.hpp"
+
+namespace hamflow::figures {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A conic of parameter 1.5 with its pericentre on the x-axis.
+std::function<double(double)> conic(double eccentricity) {
+  return [=](double phi) { return 1.5 / (1 + eccentricity * std::cos(phi)); };
+}
+
+FigureData on_conic(double eccentricity, double first, double last) {
+  FigureData data;
+  data.coordinates = {"x", "y"};
+  data.q.resize(2);
+  for (int k = 0; k <= 200; ++k) {
+    const double phi = first + (last - first) * k / 200;
+    data.t.push_back(k);
+    data.q[0].push_back(conic(eccentricity)(phi) * std::cos(phi));
+    data.q[1].push_back(conic(eccentricity)(phi) * std::sin(phi));
+  }
+  sample_polar_curve(conic(eccentricity), data);
+  return data;
+}
+
+/// The largest violation of the equation of the conic, r + e x = p, and the longest chord.
+struct Quality {
+  double residual = 0;
+  double gap = 0;
+  double reach = 0;
+};
+Quality quality(const FigureData& data, double eccentricity) {
+  Quality result;
+  for (std::size_t k = 0; k < data.curve_x.size(); ++k) {
+    const double r = std::hypot(data.curve_x[k], data.curve_y[k]);
+    if (std::isnan(r)) continue;
+    result.reach = std::max(result.reach, r);
+    result.residual = std::max(result.residual, std::abs(r + eccentricity * data.curve_x[k] - 1.5) / r);
+    if (k > 0 && !std::isnan(data.curve_x[k - 1])) {
+      result.gap = std::max(result.gap,
+                            std::hypot(data.curve_x[k] - data.curve_x[k - 1], data.curve_y[k] - data.curve_y[k - 1]));
+    }
+  }
+  return result;
+}
+
+TEST(ExactOrbit, EllipseClosesWhenDataGoRoundIt) {
+  const FigureData data = on_conic(0.5, 0, 4 * pi);
+  ASSERT_GT(data.curve_x.size(), 100U);
+  EXPECT_NEAR(data.curve_x.front(), data.curve_x.back(), 1e-12);
+  EXPECT_NEAR(data.curve_y.front(), data.curve_y.back(), 1e-12);
+  const Quality q = quality(data, 0.5);
+  EXPECT_LT(q.residual, 1e-13);
+  EXPECT_LT(q.gap, 0.2);
+  EXPECT_NEAR(q.reach, 3, 1e-3);
+}
+
+TEST(ExactOrbit, PartOfAnEllipseStaysPart) {
+  const FigureData data = on_conic(0.5, 0, pi / 2);
+  EXPECT_NEAR(data.curve_x.front(), 1, 1e-12);
+  EXPECT_NEAR(data.curve_x.back(), 0, 1e-12);
+  EXPECT_NEAR(data.curve_y.back(), 1.5, 1e-12);
+}
+
+TEST(ExactOrbit, OpenConicsEndWithTheData) {
+  for (const double eccentricity : {1.0, 2.0}) {
+    const double last = eccentricity == 1 ? 3.0 : std::acos(-0.5) - 0.01;
+    const FigureData data = on_conic(eccentricity, -last, last);
+    ASSERT_GT(data.curve_x.size(), 50U);
+    const double reach = conic(eccentricity)(last);
+    const Quality q = quality(data, eccentricity);
+    EXPECT_LT(q.residual, 1e-12) << eccentricity;
+    EXPECT_NEAR(q.reach, reach, 0.02 * reach) << eccentricity;
+    for (const double x : data.curve_x) EXPECT_FALSE(std::isnan(x)) << "one branch only";
+  }
+}
+
+TEST(ExactOrbit, NumericAnglesBeyondTheAsymptoteDrawNothingThere) {
+  FigureData data = on_conic(2, 0, 2);
+  data.q[0].push_back(-3);  // phi = pi, where the hyperbola has no point
+  data.q[1].push_back(0.001);
+  data.t.push_back(201);
+  sample_polar_curve(conic(2), data);
+  EXPECT_LT(quality(data, 2).residual, 1e-12);
+  for (std::size_t k = 0; k < data.curve_x.size(); ++k) {
+    EXPECT_FALSE(std::atan2(data.curve_y[k], data.curve_x[k]) > std::acos(-0.5)) << "beyond the asymptote";
+  }
+}
+
+TEST(ExactOrbit, RosetteIsDrawnOverEveryTurn) {
+  FigureData data;
+  data.coordinates = {"r", "phi"};
+  data.q.resize(2);
+  const auto r = [](double phi) { return 1 / (1 + 0.5 * std::cos(0.9 * phi)); };
+  for (int k = 0; k <= 300; ++k) {
+    data.t.push_back(k);
+    data.q[0].push_back(r(0.1 * k));
+    data.q[1].push_back(0.1 * k);
+  }
+  sample_polar_curve(r, data);
+  EXPECT_NEAR(std::hypot(data.curve_x.back(), data.curve_y.back()), r(30), 1e-9);
+  EXPECT_NEAR(data.curve_x.back(), r(30) * std::cos(30.0), 1e-9);
+}
+
+TEST(LevelCurve, CircleIsClosedAndExact) {
+  const auto h = [](double q, double p) { return (q * q + p * p) / 2; };
+  const Curve curve = level_curve(h, 0.5, {-1.1, 1.1}, {-1.1, 1.1});
+  ASSERT_GT(curve.x.size(), 1000U);
+  double leftmost = 0;
+  std::size_t branches = 0;
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    if (std::isnan(curve.x[k])) {
+      ++branches;
+      continue;
+    }
+    EXPECT_NEAR(h(curve.x[k], curve.y[k]), 0.5, 1e-14);
+    leftmost = std::min(leftmost, curve.x[k]);
+  }
+  EXPECT_EQ(branches, 1U);
+  EXPECT_EQ(curve.x.front(), curve.x[curve.x.size() - 2]);
+  EXPECT_NEAR(leftmost, -1, 1e-5) << "the turning point";
+}
+
+TEST(LevelCurve, TwoWellsAndThreeBranchesInP) {
+  const auto branches = [](const Curve& curve) {
+    return std::count_if(curve.x.begin(), curve.x.end(), [](double x) { return std::isnan(x); });
+  };
+  const auto wells = [](double q, double p) { return p * p / 2 + (q * q - 1) * (q * q - 1); };
+  EXPECT_EQ(branches(level_curve(wells, 0.5, {-2, 2}, {-2, 2})), 2);
+  EXPECT_EQ(branches(level_curve(wells, 1.5, {-2, 2}, {-2, 2})), 1);
+  const auto cubic = [](double, double p) { return p * p * p - p; };
+  EXPECT_EQ(branches(level_curve(cubic, 0.1, {-1, 1}, {-2, 2})), 3);
+}
+
+TEST(LevelCurve, APoleIsNoCurve) {
+  const auto h = [](double q, double p) { return p * p / 2 - 1 / q; };
+  const Curve curve = level_curve(h, -1, {-1, 2}, {-3, 3});
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    if (std::isnan(curve.x[k])) continue;
+    EXPECT_NEAR(h(curve.x[k], curve.y[k]), -1, 1e-9);
+  }
+}
+
+TEST(Thinning, KeepsEveryPlaceOfAnOrbit) {
+  Curve orbit;  // 100 samples a turn: every 50th shows two places only
+  for (int k = 0; k < 10000; ++k) orbit.add(std::cos(2 * pi * k / 100), std::sin(2 * pi * k / 100));
+  const Curve thin = thin_out(orbit, 200);
+  ASSERT_EQ(thin.x.size(), 200U);
+  std::vector<int> sector(12);
+  for (std::size_t k = 0; k < thin.x.size(); ++k) {
+    ++sector[static_cast<std::size_t>((std::atan2(thin.y[k], thin.x[k]) + pi) / (2 * pi) * 11.999)];
+  }
+  for (const int count : sector) EXPECT_GT(count, 8);
+}
+
+TEST(Thinning, EnvelopeKeepsExtremesAndGaps) {
+  Curve line;
+  for (int k = 0; k < 50000; ++k) {
+    if (k == 20000) line.lift();
+    line.add(k, k == 33333 ? 7 : k == 44444 ? -7 : std::sin(k));
+  }
+  const Curve short_line = envelope(line, 500);
+  Extent range;
+  range.include(short_line.y);
+  EXPECT_LT(short_line.x.size(), 2100U);
+  EXPECT_EQ(range.low, -7);
+  EXPECT_EQ(range.high, 7);
+  EXPECT_EQ(std::count_if(short_line.x.begin(), short_line.x.end(), [](double x) { return std::isnan(x); }), 1);
+}
+
+TEST(Axis, LabelsStayReadable) {
+  const Axis rounding = fit_axis({-1e-15, 1e-15}, 0, {6});
+  EXPECT_EQ(rounding.exponent, -15);
+  EXPECT_EQ(rounding.ticks().front().second, "\u22121.0");
+  EXPECT_EQ(rounding.ticks().back().second, "1.0");
+  const Axis huge = fit_axis({-1.7e308, 1.7e308}, 0.05, {6});
+  EXPECT_EQ(huge.exponent, 308);
+  EXPECT_NEAR(huge.high, 1.87, 1e-9);
+  for (const Extent extent :
+       {Extent{0, 0}, Extent{5.25, 5.25}, Extent{1e6, 1e6 + 1e-3}, Extent{-3e-320, 0}, Extent{}}) {
+    const Axis axis = fit_axis(extent, 0.05, {6});
+    EXPECT_LT(axis.low, axis.high);
+    EXPECT_GE(axis.ticks().size(), 2U);
+    EXPECT_LE(axis.ticks().size(), 6U);
+    EXPECT_LE(axis.widest_label(), 8U);
+  }
+}
+
+TEST(Text, GnuplotSeesNoCode) {
+  EXPECT_EQ(quoted("it's"), "'it''s'");
+  EXPECT_EQ(quoted("a\nb\x80"), "'a b\uFFFD'");
+  EXPECT_EQ(quoted("`ls` $x \"y\" é"), "'`ls` $x \"y\" é'");
+  EXPECT_EQ(escaped("a_b^{c}@&~\\"), "a\\_b\\^\\{c\\}\\@\\&\\~\\\\");
+}
+
+TEST(Text, Symbols) {
+  EXPECT_EQ(symbol("q1"), "{/:Italic q}_{1}");
+  EXPECT_EQ(symbol("phi_2"), "{/:Italic φ}_{2}");
+  EXPECT_EQ(symbol("angle"), "angle");
+  EXPECT_EQ(symbol("a{b}"), "a\\{b\\}");
+  EXPECT_EQ(momentum_symbol("q"), "{/:Italic p}");
+  EXPECT_EQ(momentum_symbol("q12"), "{/:Italic p}_{12}");
+  EXPECT_EQ(momentum_symbol("x"), "{/:Italic p}_{x}");
+  EXPECT_EQ(momentum_symbol("phi"), "{/:Italic p}_{φ}");
+  EXPECT_EQ(short_number(2.2e-16), "2.2·10^{\u221216}");
+}
+
+TEST(Text, LongTitlesBreakAfterCommas) {
+  EXPECT_EQ(wrapped("", 20, 3).size(), 0U);
+  EXPECT_EQ(wrapped("one, two three four five", 20, 3), (std::vector<std::string>{"one, two three four", "five"}));
+  EXPECT_EQ(wrapped("alpha beta, gamma delta", 20, 3), (std::vector<std::string>{"alpha beta,", "gamma delta"}));
+  EXPECT_EQ(wrapped(std::string(100, 'x'), 20, 2).back(), std::string(20, 'x') + "…");
+}
+
+}  // namespace
+}  // namespace hamflow::figures
