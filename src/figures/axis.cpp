@@ -51,7 +51,7 @@ std::vector<std::pair<double, std::string>> Axis::ticks() const {
   const double slack = 1e-9 * (high - low);
   for (double n = std::ceil((low - slack) / step); n * step <= high + slack && result.size() < 50; n += 1) {
     std::string label = fmt::format("{:.{}f}", std::abs(n) * step, decimals);
-    if (n < 0) label = "\u2212" + label;
+    if (n < 0) label.insert(0, "\u2212");
     result.emplace_back(n * step, label);
   }
   return result;

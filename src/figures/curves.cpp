@@ -63,13 +63,13 @@ Curve thin_out(const Curve& curve, std::size_t limit) {
     for (std::size_t k = 0; k < limit; ++k) result.add(curve.x[place(k)], curve.y[place(k)]);
     return result;
   };
-  const Curve regular = pick([&](std::size_t k) { return k * (n - 1) / (limit - 1); });
+  Curve regular = pick([&](std::size_t k) { return k * (n - 1) / (limit - 1); });
   if (path_length(regular) >= 0.8 * path_length(curve)) return regular;
   return pick([&](std::size_t k) {
     const std::size_t begin = k * n / limit;
-    const auto length = static_cast<double>((k + 1) * n / limit - begin);
+    const std::size_t length = (k + 1) * n / limit - begin;
     const double part = std::fmod(static_cast<double>(k) / std::numbers::phi, 1.0);  // fills [0, 1) evenly
-    return begin + static_cast<std::size_t>(part * length);
+    return begin + static_cast<std::size_t>(part * static_cast<double>(length));
   });
 }
 

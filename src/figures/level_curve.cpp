@@ -19,7 +19,7 @@ struct Point {
 class LevelTracer {
  public:
   LevelTracer(const std::function<double(double, double)>& h, double level, const Extent& q, const Extent& p)
-      : h_(h), level_(level), q_(q), p_(p), value_((cells + 1) * (cells + 1)) {
+      : h_(h), level_(level), q_(q), p_(p), value_(nodes * nodes) {
     for (int j = 0; j <= cells; ++j) {
       for (int i = 0; i <= cells; ++i) value_[node(i, j)] = excess(q_at(i), p_at(j));
     }
@@ -40,9 +40,10 @@ class LevelTracer {
 
  private:
   static constexpr int cells = 400;
+  static constexpr std::size_t nodes = cells + 1;
   using Edge = std::size_t;  // twice its lower left node, plus one if it goes up
 
-  static std::size_t node(int i, int j) { return static_cast<std::size_t>(j * (cells + 1) + i); }
+  static std::size_t node(int i, int j) { return static_cast<std::size_t>(j) * nodes + static_cast<std::size_t>(i); }
   static double between(double low, double high, double part) { return low * (1 - part) + high * part; }
   double q_at(double i) const { return between(q_.low, q_.high, i / cells); }
   double p_at(double j) const { return between(p_.low, p_.high, j / cells); }
@@ -73,9 +74,8 @@ class LevelTracer {
   /// Where the curve crosses an edge; false at a pole, where H changes sign without being zero.
   bool find(Edge edge) {
     if (points_.contains(edge)) return true;
-    const auto columns = static_cast<std::size_t>(cells + 1);
-    const int i = static_cast<int>((edge / 2) % columns);
-    const int j = static_cast<int>((edge / 2) / columns);
+    const int i = static_cast<int>((edge / 2) % nodes);
+    const int j = static_cast<int>((edge / 2) / nodes);
     const bool up = edge % 2 == 1;
     const auto at = [&](double part) { return up ? Point{q_at(i), p_at(j + part)} : Point{q_at(i + part), p_at(j)}; };
     const auto f = [&](double part) { return excess(at(part).x, at(part).y); };

@@ -265,7 +265,8 @@ TEST_F(Figures, UnwritableFilesAreFileErrors) {
 }
 
 TEST_F(Figures, GnuplotMissingOrFailingIsToldInItsWords) {
-  const std::string path = std::getenv("PATH");
+  const char* const search = std::getenv("PATH");
+  const std::string path = search ? search : "";
   setenv("PATH", folder_.c_str(), 1);
   const std::string missing = message_of([&] { write_figure(ellipse(), "orbit", folder_ / "a.svg"); });
   std::ofstream(folder_ / "gnuplot") << "#!/bin/sh\necho 'line 3: no such terminal' >&2\nexit 3\n";

@@ -1,0 +1,49 @@
+// The walk through a parsed document, table by table.
+#pragma once
+
+#include "toml_table.hpp"
+
+namespace hamflow {
+
+inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // t = n h needs n exact in double
+
+/// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
+class ScenarioReader {
+ public:
+  ScenarioReader(const toml::table& root, const std::string& file, std::vector<Complaint>& complaints)
+      : root_(&root, "", file, complaints), complaints_(complaints) {
+    scenario_.file = file;
+  }
+
+  Scenario read() {
+    TomlTable problem = root_.table("problem");
+    TomlTable method = root_.table("method");
+    TomlTable run = root_.table("run");
+    TomlTable output = root_.table("output");
+    read_problem(problem);
+    read_method(method);
+    read_run(run);
+    read_output(output);
+    root_.finish();
+    return scenario_;
+  }
+
+ private:
+  void read_problem(TomlTable& table);
+  void read_variant(TomlTable& table, const std::string& name);
+  void read_orbit(TomlTable& table);
+  void read_initial(TomlTable& table);
+  void check_start(TomlTable& table);
+  void read_method(TomlTable& table);
+  void read_cg(TomlTable& table);
+  void read_run(TomlTable& table);
+  void read_length(TomlTable& table);
+  void read_lattice(TomlTable& table);
+  void read_output(TomlTable& table);
+
+  TomlTable root_;
+  std::vector<Complaint>& complaints_;
+  Scenario scenario_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,177 @@
+// [method], [run] and [output].
+#include <algorithm>
+#include <cmath>
+
+#include "scenario_reader.hpp"
+
+namespace hamflow {
+
+namespace {
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+  return names;
+}
+}  // namespace
+
+void ScenarioReader::read_method(TomlTable& table) {
+  if (!table.has("name")) {
+    table.missing("name", joined(method_names()));
+    return;
+  }
+  const auto name = table.choice("name", method_names());
+  if (!name) return;
+  scenario_.request.method.name = *name;
+  if (*name == "cg") read_cg(table);
+  table.finish();
+}
+
+void ScenarioReader::read_cg(TomlTable& table) {
+  CgOptions& cg = scenario_.request.method.cg;
+  if (const auto degree = table.whole("degree", 1, 1)) cg.degree = static_cast<int>(*degree);
+  if (table.has("quadrature") && table.found("quadrature") == "found \"auto\" (a string)") {
+    table.know("quadrature");
+  } else if (table.has("quadrature")) {
+    if (const auto points = table.whole("quadrature", cg.degree, 64)) {
+      cg.quadrature = static_cast<int>(*points);
+    } else {
+      complaints_.back().message += ", or \"auto\"";
+    }
+  } else {
+    table.know("quadrature");
+  }
+  if (const auto tolerance = table.number("tolerance")) {
+    if (tolerance->value > 0) {
+      cg.tolerance = tolerance->value;
+    } else {
+      table.complain("tolerance", table.found("tolerance") + "; allowed a positive number");
+    }
+  }
+  if (const auto criterion = table.choice("criterion", {"stagnation", "seed"}); criterion == "seed") {
+    cg.seed_criterion = true;
+    if (!cg.tolerance) cg.tolerance = 1e-13;  // the listings' own
+  }
+  if (const auto most = table.whole("max_iterations", 1, 1000)) cg.max_iterations = static_cast<int>(*most);
+  (void)table.choice("iteration", {"newton"});
+  if (const auto remedy = table.choice("on_divergence", {"error", "halve"})) cg.halve = *remedy == "halve";
+}
+
+void ScenarioReader::read_run(TomlTable& table) {
+  if (!table.has("dt")) {
+    table.know("dt");
+    table.missing("dt", "a number other than 0");
+  } else if (const auto dt = table.number("dt")) {
+    if (dt->value == 0) table.complain("dt", table.found("dt") + "; allowed a number other than 0");
+    scenario_.dt = dt->value;
+    scenario_.request.dt = dt->text;
+  }
+  read_length(table);
+  if (const auto every = table.whole("record_every", 1, most_steps)) {
+    scenario_.record_every = *every;
+  } else {
+    scenario_.record_every = default_record_every(scenario_.steps);
+  }
+  if (const auto arithmetic = table.choice("arithmetic", arithmetics())) {
+    scenario_.request.arithmetic = *arithmetic;
+    const std::string why_not =
+        scenario_.request.method.name.empty() ? "" : refusal(scenario_.request.method, *arithmetic);
+    if (!why_not.empty()) table.complain("arithmetic", table.found("arithmetic") + "; " + why_not);
+  }
+  (void)table.choice("kernel", {"exact"});
+  read_lattice(table);
+  table.finish();
+}
+
+void ScenarioReader::read_length(TomlTable& table) {
+  const bool by_steps = table.has("steps");
+  const bool by_time = table.has("t_end");
+  const auto steps = table.whole("steps", 0, most_steps);
+  const auto t_end = table.number("t_end");
+  if (by_steps && by_time) {
+    table.complain("t_end", "found steps and t_end together; allowed exactly one of them");
+  } else if (!by_steps && !by_time) {
+    table.missing("steps", "exactly one of steps, t_end");
+  } else if (steps) {
+    scenario_.steps = *steps;
+  } else if (t_end && scenario_.dt != 0) {
+    const double ratio = t_end->value / scenario_.dt;
+    const double whole = std::round(ratio);
+    if (ratio < 0) {
+      table.complain("t_end",
+                     table.found("t_end") + " with dt = " + shortest(scenario_.dt) + "; allowed the sign of dt");
+    } else if (whole > static_cast<double>(most_steps)) {
+      table.complain("t_end", table.found("t_end") + "; allowed at most 2^53 steps of dt");
+    } else if (std::abs(ratio - whole) > 1e-9 * std::max(1.0, whole)) {
+      const double fitting = std::max(whole, 1.0);
+      table.complain(
+          "t_end", table.found("t_end") + ", which is " + shortest(ratio) + " steps of dt = " + shortest(scenario_.dt) +
+                       "; allowed a whole number of steps, nearest dt = " + shortest(t_end->value / fitting) +
+                       " or t_end = " + shortest(whole * scenario_.dt));
+    } else {
+      scenario_.steps = static_cast<std::int64_t>(whole);
+    }
+  }
+}
+
+void ScenarioReader::read_lattice(TomlTable& table) {
+  const bool on_lattice = scenario_.request.arithmetic == "lattice";
+  if (table.has("lattice")) {
+    TomlTable lattice = table.table("lattice");
+    const auto unit = [&](const char* key, double& out) {
+      const auto value = lattice.number(key);
+      if (!value) return;
+      int exponent = 0;
+      if (std::frexp(value->value, &exponent) != 0.5 || std::abs(exponent) > 500) {
+        lattice.complain(key, lattice.found(key) + "; allowed a power of two such as \"2^-52\"");
+      }
+      out = value->value;
+    };
+    unit("position", scenario_.request.position_unit);
+    unit("momentum", scenario_.request.momentum_unit);
+    lattice.finish();
+    if (!on_lattice) {
+      table.complain("lattice", "found units for arithmetic \"" + scenario_.request.arithmetic +
+                                    "\"; allowed with arithmetic = \"lattice\"");
+    }
+  } else {
+    table.know("lattice");
+  }
+  if (!on_lattice) return;
+  const auto reach = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    return most;
+  };
+  const auto check = [&](const char* what, double largest, double unit) {
+    if (largest < unit * 0x1p62) return;
+    table.complain("lattice", std::string("found ") + what + " up to " + shortest(largest) +
+                                  " at the start, with a unit of " + shortest(unit) +
+                                  "; allowed below 2^62 units: choose a larger power of two");
+  };
+  check("positions", reach(scenario_.start_q), scenario_.request.position_unit);
+  check("momenta", reach(scenario_.start_p), scenario_.request.momentum_unit);
+}
+
+void ScenarioReader::read_output(TomlTable& table) {
+  if (const auto folder = table.string("folder")) {
+    if (folder->empty()) table.complain("folder", "found an empty name; allowed a folder");
+    scenario_.folder = *folder;
+  }
+  if (const auto formats = table.choices("formats", {"h5", "csv"})) scenario_.formats = *formats;
+  if (const auto figures = table.choices("figures", {"orbit", "energy", "energy-error", "phase"}))
+    scenario_.figures = *figures;
+  const auto wants = [&](const std::vector<std::string>& list, const char* word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  };
+  if (!scenario_.figures.empty() && !wants(scenario_.formats, "h5")) {
+    table.complain("figures",
+                   "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
+  }
+  if (wants(scenario_.figures, "orbit") && scenario_.problem != nullptr && scenario_.problem->dimension != 2) {
+    table.complain("figures", "found \"orbit\" for a problem with " + std::to_string(scenario_.problem->dimension) +
+                                  " degree of freedom; allowed phase, energy, energy-error");
+  }
+  table.finish();
+}
+
+}  // namespace hamflow

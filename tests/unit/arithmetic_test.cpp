@@ -1,0 +1,162 @@
+// What each arithmetic promises of `add`.
+#include "../support/near.hpp"
+#include "hamflow/arithmetic/compensated.hpp"
+#include "hamflow/arithmetic/lattice.hpp"
+#include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/verify/counter_random.hpp"
+
+namespace hamflow {
+namespace {
+
+static_assert(Arithmetic<Plain<double>> && Arithmetic<Plain<long double>>);
+static_assert(Arithmetic<Compensated<double>> && Arithmetic<Lattice>);
+static_assert(Lattice::exact_undo && !Plain<double>::exact_undo && !Compensated<double>::exact_undo);
+
+TEST(Compensated, KeepsWhatPlainAdditionLoses) {
+  Plain<double> plain;
+  Compensated<double> compensated;
+  auto a = plain.position.store(1.0);
+  auto b = compensated.position.store(1.0);
+  constexpr int times = 1'000'000;
+  const double small = 0x1p-60;  // below half a unit of 1
+  for (int i = 0; i < times; ++i) {
+    plain.position.add(a, small);
+    compensated.position.add(b, small);
+  }
+  EXPECT_EQ(plain.position.read(a), 1.0);
+  EXPECT_EQ(compensated.position.read(b) + b.low, 1.0 + times * small);
+}
+
+TEST(Compensated, TheTwoPartsAreTheExactSumAfterOneAddition) {
+  Compensated<double> arithmetic;
+  for (std::uint64_t k = 0; k < 2000; ++k) {
+    const double x = std::ldexp(counter_uniform(5, 2 * k), static_cast<int>(k % 41) - 20);
+    const double y = counter_uniform(5, 2 * k + 1);
+    auto s = arithmetic.position.store(x);
+    arithmetic.position.add(s, y);
+    // x + y needs at most 53 + 21 bits: more than a long double has, so compare the parts with the two-sum of x and y
+    // in the order of magnitude, which is exact by Dekker's theorem.
+    const double large = std::fabs(x) > std::fabs(y) ? x : y;
+    const double little = std::fabs(x) > std::fabs(y) ? y : x;
+    const double sum = x + y;
+    EXPECT_EQ(s.high, sum);
+    EXPECT_EQ(s.low, little - (sum - large));
+  }
+}
+
+TEST(Compensated, AMillionIncrementsRoundLikeTheIncrements) {
+  Compensated<double> arithmetic;
+  auto s = arithmetic.position.store(0.0);
+  double plain = 0;
+  long double exact = 0;
+  constexpr int times = 1'000'000;
+  for (std::uint64_t k = 0; k < times; ++k) {
+    const double r = 0.1 * (1 + counter_uniform(6, k));
+    arithmetic.position.add(s, r);
+    plain += r;
+    exact += r;  // 64 bits: its own error is 10^6 steps of a walk at 1e5 * 5e-20
+  }
+  // Each addition rounds r + low to 53 bits of r: a walk of 1e-17 per step, 1e-14 after 10^6; half a unit of the sum
+  // besides. Plain addition rounds at the size of the sum.
+  EXPECT_TRUE(test::within(s.high, exact, 1e5L * test::epsilon));
+  EXPECT_GT(std::fabs(plain - static_cast<double>(exact)), 20 * 1e5 * test::epsilon);
+}
+
+TEST(Lattice, RoundsToNearestTiesToEvenAndOddly) {
+  Lattice lattice;
+  lattice.position.set_unit(1.0);
+  const std::pair<double, std::int64_t> rounded[] = {{0.4, 0}, {0.5, 0}, {0.6, 1}, {1.5, 2}, {2.5, 2}, {3.5, 4}, {7.49, 7}};
+  for (const auto& [x, n] : rounded) {
+    EXPECT_EQ(lattice.position.store(x), n);
+    EXPECT_EQ(lattice.position.store(-x), -n);
+  }
+  for (std::uint64_t k = 0; k < 10000; ++k) {
+    const double x = 1000 * counter_uniform(7, k);
+    EXPECT_EQ(lattice.position.store(-x), -lattice.position.store(x));
+  }
+}
+
+TEST(Lattice, EveryAdditionIsUndoneExactly) {
+  Lattice lattice;
+  std::int64_t s = lattice.position.store(0.3);
+  const std::int64_t before = s;
+  for (std::uint64_t k = 0; k < 10000; ++k) lattice.position.add(s, counter_uniform(8, k));
+  EXPECT_NE(s, before);
+  for (std::uint64_t k = 10000; k-- > 0;) lattice.position.add(s, -counter_uniform(8, k));
+  EXPECT_EQ(s, before);
+  EXPECT_FALSE(lattice.lost());
+  // Plain addition does not return.
+  double x = 0.3;
+  for (std::uint64_t k = 0; k < 10000; ++k) x += counter_uniform(8, k);
+  for (std::uint64_t k = 10000; k-- > 0;) x -= counter_uniform(8, k);
+  EXPECT_NE(x, 0.3);
+}
+
+TEST(Lattice, UnitsArePowersOfTwoForPositionsAndMomentaApart) {
+  Lattice lattice;
+  lattice.position.set_unit(0x1p-30);
+  lattice.momentum.set_unit(0x1p-10);
+  EXPECT_EQ(lattice.position.store(1.0), std::int64_t{1} << 30);
+  EXPECT_EQ(lattice.momentum.store(-3.0), -3 * (std::int64_t{1} << 10));
+  EXPECT_EQ(lattice.position.read(std::int64_t{3} << 29), 1.5);
+  EXPECT_EQ(lattice.momentum.read(1), 0x1p-10);
+}
+
+TEST(Lattice, LeavingTheRangeIsFoundAndChangesNothing) {
+  const double limit = 0x1p63 * Lattice::default_unit;  // 2048
+  const auto lost_after = [](double start, double step) {
+    Lattice lattice;
+    std::int64_t s = lattice.position.store(start);
+    EXPECT_FALSE(lattice.lost());
+    const std::int64_t before = s;
+    lattice.position.add(s, step);
+    if (lattice.lost()) {
+      EXPECT_EQ(s, before);
+    }
+    return lattice.lost();
+  };
+  EXPECT_FALSE(lost_after(limit / 4, limit / 4));
+  EXPECT_TRUE(lost_after(0, limit));
+  EXPECT_TRUE(lost_after(0, -limit));
+  EXPECT_TRUE(lost_after(1, std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(lost_after(1, std::numeric_limits<double>::quiet_NaN()));
+
+  Lattice lattice;  // a sum that overflows though both parts are inside
+  std::int64_t s = lattice.momentum.store(0.49 * limit);
+  lattice.momentum.add(s, 0.49 * limit);
+  EXPECT_FALSE(lattice.lost());
+  const std::int64_t before = s;
+  lattice.momentum.add(s, 0.49 * limit);
+  EXPECT_TRUE(lattice.lost());
+  EXPECT_EQ(s, before);
+  lattice.momentum.add(s, -0.2 * limit);
+  EXPECT_TRUE(lattice.lost()) << "the flag stays";
+}
+
+TEST(Lattice, TheRangeIsSymmetricSoThatMomentaCanBeNegated) {
+  Lattice lattice;
+  std::int64_t s = -(std::int64_t{1} << 62);
+  lattice.momentum.set_unit(1.0);
+  lattice.momentum.add(s, -0x1.fffffffffffffp61);
+  std::int64_t least = INT64_MIN + 1;
+  lattice.momentum.add(least, -1.0);
+  EXPECT_TRUE(lattice.lost());
+  EXPECT_EQ(least, INT64_MIN + 1);
+  EXPECT_EQ(Lattice::Axis::negated(least), INT64_MAX);
+}
+
+TEST(PhasePoint, StoresReadsMovesAndNegates) {
+  PhasePoint<Plain<double>, 2> z;
+  z.store({1, 2}, {3, 4});
+  z.move(0.5, {2, 4});
+  z.push(2.0, {1, -1});
+  EXPECT_EQ(z.positions(), (Vector<double, 2>{2, 4}));
+  EXPECT_EQ(z.momenta(), (Vector<double, 2>{5, 2}));
+  z.negate_momenta();
+  EXPECT_EQ(z.momenta(), (Vector<double, 2>{-5, -2}));
+  EXPECT_EQ(z.positions(), (Vector<double, 2>{2, 4}));
+}
+
+}  // namespace
+}  // namespace hamflow

@@ -1,0 +1,119 @@
+// Gauss rules and small linear systems.
+#include "../support/near.hpp"
+#include "hamflow/numerics/dense.hpp"
+#include "hamflow/numerics/gauss_legendre.hpp"
+#include "hamflow/verify/counter_random.hpp"
+
+namespace hamflow {
+namespace {
+
+template <class R>
+R integral_of_power(const GaussRule<R>& rule, int power) {
+  R sum(0);
+  for (std::size_t l = 0; l < rule.c.size(); ++l) sum += rule.b[l] * std::pow(rule.c[l], R(power));
+  return sum;
+}
+
+template <class R>
+class GaussRuleIn : public ::testing::Test {};
+using Numbers = ::testing::Types<double, long double>;
+TYPED_TEST_SUITE(GaussRuleIn, Numbers);
+
+TYPED_TEST(GaussRuleIn, IsExactUpToDegreeTwiceThePointsMinusOne) {
+  using R = TypeParam;
+  for (int s = 1; s <= most_gauss_points; ++s) {
+    const auto& rule = gauss_rule<R>(s);
+    for (int power = 0; power < 2 * s; ++power) {
+      // s products are added; c^power carries the rounding of c `power` times.
+      const R bound = std::numeric_limits<R>::epsilon() * R(s + 2);
+      EXPECT_TRUE(test::within(integral_of_power(rule, power), R(1) / R(power + 1), bound))
+          << s << " points, x^" << power;
+    }
+  }
+}
+
+TYPED_TEST(GaussRuleIn, IsWrongAtTwiceThePointsByTheKnownAmount) {
+  using R = TypeParam;
+  // int x^(2s) - rule = (s!)^4/((2s + 1) ((2s)!)^2), the square norm of the monic Legendre polynomial on [0, 1].
+  R expected = R(1) / R(12);
+  for (int s = 1; expected > 1e6L * std::numeric_limits<R>::epsilon(); ++s) {
+    const R error = R(1) / R(2 * s + 1) - integral_of_power(gauss_rule<R>(s), 2 * s);
+    EXPECT_TRUE(test::within(error, expected, 1e-5L * expected)) << s << " points";
+    const R k(s + 1);
+    expected *= k * k * k * k * R(2 * s + 1) / (R(2 * s + 3) * (R(2 * s + 1) * R(2 * s + 2)) * (R(2 * s + 1) * R(2 * s + 2)));
+  }
+}
+
+TYPED_TEST(GaussRuleIn, IsSymmetricBitForBitAndAscending) {
+  for (int s = 1; s <= most_gauss_points; ++s) {
+    const auto& rule = gauss_rule<TypeParam>(s);
+    const auto n = static_cast<std::size_t>(s);
+    ASSERT_EQ(rule.c.size(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+      EXPECT_EQ(rule.b[i], rule.b[n - 1 - i]);
+      EXPECT_EQ(rule.offset[i], -rule.offset[n - 1 - i]);
+      EXPECT_TRUE(test::within(rule.c[i], TypeParam(0.5) + rule.offset[i], std::numeric_limits<TypeParam>::epsilon()));
+      if (i > 0) {
+        EXPECT_LT(rule.c[i - 1], rule.c[i]);
+      }
+    }
+  }
+}
+
+TEST(GaussRule, RefusesNumbersOfPointsThatItDoesNotHave) {
+  EXPECT_EQ(test::message_of<Error>([] { (void)gauss_rule<double>(0); }), "a Gauss rule has 1 to 64 points, not 0");
+  EXPECT_EQ(test::message_of<Error>([] { (void)gauss_rule<double>(65); }), "a Gauss rule has 1 to 64 points, not 65");
+}
+
+template <std::size_t N>
+void solve_random_systems() {
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    Matrix<double, N> m{};
+    Vector<double, N> x{};
+    std::uint64_t k = 1000 * trial;
+    for (std::size_t i = 0; i < N; ++i) {
+      x[i] = counter_uniform(11, k++);
+      for (std::size_t j = 0; j < N; ++j) m[i][j] = counter_uniform(11, k++);
+      m[i][i] += 4.0;  // well conditioned: diagonally dominant up to N = 4, at worst condition 50 above
+    }
+    const Vector<double, N> b = apply(m, x);
+    const Vector<double, N> found = solve(m, b);
+    const Matrix<double, N> product_with_inverse = [&] {
+      const Matrix<double, N> r = inverse(m);
+      Matrix<double, N> product{};
+      for (std::size_t j = 0; j < N; ++j) {
+        Vector<double, N> column{};
+        for (std::size_t i = 0; i < N; ++i) column[i] = r[i][j];
+        const Vector<double, N> image = apply(m, column);
+        for (std::size_t i = 0; i < N; ++i) product[i][j] = image[i];
+      }
+      return product;
+    }();
+    const double bound = 50 * 8 * static_cast<double>(N * N) * test::epsilon;
+    for (std::size_t i = 0; i < N; ++i) {
+      EXPECT_TRUE(test::within(found[i], x[i], bound)) << N << " unknowns";
+      for (std::size_t j = 0; j < N; ++j) EXPECT_TRUE(test::within(product_with_inverse[i][j], i == j ? 1 : 0, bound));
+    }
+  }
+}
+
+TEST(Dense, SolvesAndInverts) {
+  solve_random_systems<1>();
+  solve_random_systems<2>();
+  solve_random_systems<3>();
+  solve_random_systems<4>();
+  solve_random_systems<6>();
+}
+
+TEST(Dense, ASingularMatrixGivesEntriesThatAreNotFinite) {
+  const Vector<double, 2> x = solve(Matrix<double, 2>{Vector<double, 2>{1, 2}, Vector<double, 2>{2, 4}}, {1, 1});
+  EXPECT_FALSE(std::isfinite(x[0]) && std::isfinite(x[1]));
+  EXPECT_FALSE(std::isfinite(solve(Matrix<double, 1>{Vector<double, 1>{0}}, {1})[0]));
+}
+
+TEST(Dense, MaxNormIsTheLargestAbsoluteEntry) {
+  EXPECT_EQ(max_norm(Vector<double, 3>{1, -3, 2}), 3);
+}
+
+}  // namespace
+}  // namespace hamflow
