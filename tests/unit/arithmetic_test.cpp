@@ -66,7 +66,8 @@ TEST(Compensated, AMillionIncrementsRoundLikeTheIncrements) {
 TEST(Lattice, RoundsToNearestTiesToEvenAndOddly) {
   Lattice lattice;
   lattice.position.set_unit(1.0);
-  const std::pair<double, std::int64_t> rounded[] = {{0.4, 0}, {0.5, 0}, {0.6, 1}, {1.5, 2}, {2.5, 2}, {3.5, 4}, {7.49, 7}};
+  const std::pair<double, std::int64_t> rounded[] = {{0.4, 0}, {0.5, 0}, {0.6, 1}, {1.5, 2},
+                                                     {2.5, 2}, {3.5, 4}, {7.49, 7}};
   for (const auto& [x, n] : rounded) {
     EXPECT_EQ(lattice.position.store(x), n);
     EXPECT_EQ(lattice.position.store(-x), -n);

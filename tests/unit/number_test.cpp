@@ -56,12 +56,24 @@ struct Wrong {
 
 TEST(Number, SaysInWhichColumnItStopsMakingSense) {
   const Wrong all[] = {
-      {"", 1, "a number"},           {"1 +", 4, "a number"},         {"2 pi", 3, "an operator or the end"},
-      {"(1", 3, "')'"},              {"1)", 2, "an operator"},       {"foo", 1, "a number"},
-      {"nan", 1, "a number"},        {"inf", 1, "a number"},         {"NaN", 1, "a number"},
-      {"2e", 2, "an operator"},      {"1.2.3", 6, "a decimal"},      {".", 2, "a decimal"},
-      {"sqrt 2", 6, "'(' after sqrt"}, {"sin(1", 6, "')'"},          {"3 * * 2", 5, "a number"},
-      {"0x10", 2, "an operator"},    {"1,5", 2, "an operator"},      {"2 ^ ", 5, "a number"},
+      {"", 1, "a number"},
+      {"1 +", 4, "a number"},
+      {"2 pi", 3, "an operator or the end"},
+      {"(1", 3, "')'"},
+      {"1)", 2, "an operator"},
+      {"foo", 1, "a number"},
+      {"nan", 1, "a number"},
+      {"inf", 1, "a number"},
+      {"NaN", 1, "a number"},
+      {"2e", 2, "an operator"},
+      {"1.2.3", 6, "a decimal"},
+      {".", 2, "a decimal"},
+      {"sqrt 2", 6, "'(' after sqrt"},
+      {"sin(1", 6, "')'"},
+      {"3 * * 2", 5, "a number"},
+      {"0x10", 2, "an operator"},
+      {"1,5", 2, "an operator"},
+      {"2 ^ ", 5, "a number"},
   };
   for (const Wrong& wrong : all) {
     const std::string message = test::message_of<Error>([&] { (void)number(wrong.text); });

@@ -40,7 +40,8 @@ TYPED_TEST(GaussRuleIn, IsWrongAtTwiceThePointsByTheKnownAmount) {
     const R error = R(1) / R(2 * s + 1) - integral_of_power(gauss_rule<R>(s), 2 * s);
     EXPECT_TRUE(test::within(error, expected, 1e-5L * expected)) << s << " points";
     const R k(s + 1);
-    expected *= k * k * k * k * R(2 * s + 1) / (R(2 * s + 3) * (R(2 * s + 1) * R(2 * s + 2)) * (R(2 * s + 1) * R(2 * s + 2)));
+    expected *=
+        k * k * k * k * R(2 * s + 1) / (R(2 * s + 3) * (R(2 * s + 1) * R(2 * s + 2)) * (R(2 * s + 1) * R(2 * s + 2)));
   }
 }
 
@@ -111,9 +112,7 @@ TEST(Dense, ASingularMatrixGivesEntriesThatAreNotFinite) {
   EXPECT_FALSE(std::isfinite(solve(Matrix<double, 1>{Vector<double, 1>{0}}, {1})[0]));
 }
 
-TEST(Dense, MaxNormIsTheLargestAbsoluteEntry) {
-  EXPECT_EQ(max_norm(Vector<double, 3>{1, -3, 2}), 3);
-}
+TEST(Dense, MaxNormIsTheLargestAbsoluteEntry) { EXPECT_EQ(max_norm(Vector<double, 3>{1, -3, 2}), 3); }
 
 }  // namespace
 }  // namespace hamflow

@@ -187,15 +187,15 @@ class SimulationOf final : public Simulation {
   Real scale_{};
 };
 
-/// What implicit elements add to the state is compensated; explicit methods compute in plain double.
-template <class Recipe>
-using DefaultArithmetic = std::conditional_t<Recipe::implicit, Compensated<double>, Plain<double>>;
+/// What implicit elements add to the state is compensated; explicit methods compute in the plain type of the problem.
+template <class P, class Recipe>
+using DefaultArithmetic = std::conditional_t<Recipe::implicit, Compensated<RealOf<P>>, Plain<RealOf<P>>>;
 
 /// A simulation whose method is a type: everything is inlined into one loop.
 ///     auto orbit = hamflow::simulate(problem, Composition<compositions::stv4>{}, {0.4, 0}, {0, 2}, 0.1);
 /// @param q, p canonical start   @param h step length
 /// @tparam Watch false drops the probe that looks at energy and invariants in every step
-template <bool Watch = true, class P, class Recipe, class A = DefaultArithmetic<Recipe>>
+template <bool Watch = true, class P, class Recipe, class A = DefaultArithmetic<P, Recipe>>
 auto simulate(const P& problem, const Recipe& recipe, const Vector<typename A::Real, P::dimension>& q,
               const Vector<typename A::Real, P::dimension>& p, typename A::Real h, A arithmetic = {}) {
   using M = typename Recipe::template Stepper<P, A>;

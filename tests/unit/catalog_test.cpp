@@ -1,0 +1,192 @@
+// Names to types: the catalogue, what it refuses and how it says so.
+#include "hamflow/run/catalog.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "../support/near.hpp"
+
+namespace hamflow {
+namespace {
+
+std::set<std::string> files_of(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(std::string(HAMFLOW_INCLUDE) + "/hamflow/" + folder)) {
+    if (!file.is_regular_file()) continue;
+    std::string name = file.path().stem().string();
+    std::replace(name.begin(), name.end(), '_', '-');
+    names.insert(name);
+  }
+  return names;
+}
+
+TEST(Catalog, MethodsAreTheFilesOfTheFolders) {
+  std::set<std::string> expected{"cg"};
+  for (const std::string& name : files_of("methods/compositions")) {
+    expected.insert(name);
+    expected.insert(name + "-dkd");
+  }
+  for (const char* folder : {"methods/splittings", "methods/tableaus"}) expected.merge(files_of(folder));
+  std::set<std::string> found;
+  for (const MethodEntry& entry : methods()) EXPECT_TRUE(found.insert(entry.name).second) << entry.name << " twice";
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Catalog, ProblemsAreTheFilesOfTheFolders) {
+  std::set<std::string> found;
+  std::set<std::string> potentials;
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name == "central-force") {
+      for (const auto& [key, value] : entry.info.variant) {
+        if (key == "potential") potentials.insert(value);
+      }
+    } else {
+      found.insert(entry.info.name);
+    }
+  }
+  EXPECT_EQ(found, files_of("problems"));
+  EXPECT_EQ(potentials, files_of("problems/potentials"));
+}
+
+TEST(Catalog, EveryEntryIsComplete) {
+  for (const ProblemEntry& entry : problems()) {
+    SCOPED_TRACE(entry.info.name);
+    EXPECT_FALSE(entry.info.formula.empty() || entry.info.reference.empty());
+    EXPECT_EQ(entry.info.coordinates.size(), entry.dimension);
+    EXPECT_EQ(entry.info.default_q.size(), entry.info.default_p.size());
+    for (const ParameterInfo& p : entry.info.parameters) {
+      EXPECT_FALSE(p.meaning.empty()) << p.name;
+      EXPECT_NO_THROW((void)evaluate_number<double>(p.default_value)) << p.name;
+    }
+  }
+  for (const MethodEntry& entry : methods()) {
+    const MethodInfo info = describe(parse_method(entry.name));
+    SCOPED_TRACE(entry.name);
+    EXPECT_FALSE(info.summary.empty() || info.reference.empty());
+    EXPECT_GE(info.order, 1);
+    EXPECT_TRUE(info.name == entry.name || entry.kind == MethodKind::cg);
+  }
+}
+
+TEST(Catalog, NearestNameIsTheOneWithFewestEdits) {
+  const std::vector<std::string> names{"verlet", "stv4", "suzuki4", "yoshida6"};
+  EXPECT_EQ(nearest("verlett", names), "verlet");
+  EXPECT_EQ(nearest("stv", names), "stv4");
+  EXPECT_EQ(nearest("yosida6", names), "yoshida6");
+  EXPECT_EQ(nearest("completely-different", names), "");
+  EXPECT_EQ(nearest("x", std::vector<std::string>{}), "");
+}
+
+TEST(Catalog, ParsesMethodsWithTheirOptions) {
+  EXPECT_EQ(parse_method("stv4").name, "stv4");
+  EXPECT_EQ(parse_method(" stv4 ").name, "stv4");
+  EXPECT_EQ(parse_method("cg").cg.quadrature, 0);
+  EXPECT_EQ(parse_method("cg(1,5)").cg.quadrature, 5);
+  EXPECT_EQ(parse_method("cg(1,auto)").cg.quadrature, 0);
+  EXPECT_EQ(parse_method("cg( degree = 1 , quadrature = 7 )").cg.quadrature, 7);
+  EXPECT_EQ(parse_method("cg(quadrature=2,tolerance=1e-13)").cg.tolerance, 1e-13);
+  EXPECT_FALSE(parse_method("cg(1,2)").cg.tolerance.has_value());
+  EXPECT_EQ(describe(parse_method("cg(1,5)")).name, "cg(1,5)");
+  EXPECT_EQ(describe(parse_method("cg")).name, "cg(1,auto)");
+}
+
+TEST(Catalog, SaysWhatIsWrongWithAMethod) {
+  const auto message = [](const char* text) { return test::message_of<Error>([&] { (void)parse_method(text); }); };
+  EXPECT_EQ(message("verlett"),
+            "method 'verlett' is unknown; did you mean verlet? (list them with: hamflow list methods)");
+  EXPECT_EQ(message("qqqqqqqqqqqq"), "method 'qqqqqqqqqqqq' is unknown (list them with: hamflow list methods)");
+  EXPECT_EQ(message("cg(1,5"), "method 'cg(1,5' lacks its closing parenthesis");
+  EXPECT_EQ(message("stv4(2)"), "method 'stv4' takes no options");
+  EXPECT_EQ(message("cg(1.5)"), "cg: degree has to be a whole number, not '1.5'");
+  EXPECT_EQ(message("cg(1,many)"), "cg: quadrature has to be a whole number, not 'many'");
+  EXPECT_EQ(message("cg(1,0)"), "cg: quadrature is a number of Gauss points from the degree to 64, or auto, not 0");
+  EXPECT_EQ(message("cg(1,65)"), "cg: quadrature is a number of Gauss points from the degree to 64, or auto, not 65");
+  EXPECT_EQ(message("cg(1,5,7)"), "method 'cg(1,5,7)' has too many options; cg takes (degree, quadrature)");
+  EXPECT_EQ(message("cg(tolerance=0)"), "cg: tolerance has to be positive, not 0");
+  EXPECT_EQ(message("cg(tolerance=-1)"), "cg: tolerance has to be positive, not -1");
+  EXPECT_EQ(message("cg(stages=3)"), "cg: option 'stages' is unknown; allowed: degree, quadrature, tolerance");
+  EXPECT_NE(message("cg(tolerance=x)").find("not a number: \"x\", column 1"), std::string::npos);
+  EXPECT_NE(message("cg(1,)").find("cg: quadrature has to be a whole number"), std::string::npos);
+}
+
+TEST(Catalog, SaysWhatIsWrongWithAProblem) {
+  const auto message = [](const char* name, std::map<std::string, std::string> variant) {
+    return test::message_of<Error>([&] { (void)find_problem(name, variant); });
+  };
+  EXPECT_EQ(message("pendulm", {}),
+            "problem 'pendulm' is unknown; did you mean pendulum? (list them with: hamflow list problems)");
+  EXPECT_EQ(message("central-force", {{"potential", "coulomb"}}),
+            "problem 'central-force' has no variant with potential = coulomb (hamflow show central-force)");
+  EXPECT_EQ(find_problem("central-force", {{"potential", "kepler"}}).info.variant.front().second, "kepler");
+  EXPECT_EQ(test::message_of<Error>([] {
+              (void)complete(find_problem("pendulum", {}).info, {{"weight", "1"}});
+            }),
+            "problem 'pendulum' has no parameter 'weight'");
+  const Texts all = complete(find_problem("pendulum", {}).info, {{"length", "2"}});
+  EXPECT_EQ(all.at("length"), "2");
+  EXPECT_EQ(all.at("mass"), "1");
+}
+
+Request pendulum_request() {
+  Request request;
+  request.problem = "pendulum";
+  request.start.q = {"1"};
+  request.start.p = {"0.5"};
+  return request;
+}
+
+TEST(Catalog, RefusesWhatCannotBeRunAndSaysWhy) {
+  Request request = pendulum_request();
+  request.arithmetic = "lattice";
+  request.method = parse_method("rk4");
+  const auto message = [&] { return test::message_of<Error>([&] { (void)make_simulation(request); }); };
+  EXPECT_NE(message().find("method rk4 cannot run in lattice: rk4 is no bijection of the lattice"), std::string::npos)
+      << message();
+  request.method = parse_method("cg");
+  EXPECT_NE(message().find("an implicit step is no bijection of the lattice"), std::string::npos) << message();
+  request.arithmetic = "octuple";
+  EXPECT_NE(message().find("arithmetic 'octuple' is unknown; allowed: double, compensated, lattice"),
+            std::string::npos);
+  request = pendulum_request();
+  request.start.q = {"1", "2"};
+  EXPECT_EQ(message(), "a state of this problem has 1 coordinates, not 2");
+}
+
+TEST(Catalog, MomentaFromVelocitiesAreMassTimesVelocity) {
+  Request request = pendulum_request();  // p = m l^2 v
+  request.parameters = {{"mass", "3"}, {"length", "2"}};
+  request.start.p.clear();
+  request.start.v = {"0.25"};
+  Frame frame;
+  make_simulation(request)->look(frame);
+  EXPECT_EQ(frame.p[0], 3.0);
+}
+
+TEST(Catalog, AGeometricStartMeetsItsGeometry) {
+  const ProblemEntry& entry = find_problem("central-force", {{"potential", "kepler"}});
+  Request request;
+  request.problem = "central-force";
+  request.parameters = complete(entry.info, {{"mass", "2"}, {"k", "1"}});
+  request.start = {.kind = "ellipse", .orbit = {{"r_per", "1"}, {"r_aph", "3"}}};
+  const Frame frame = entry.start(request);
+  EXPECT_EQ(frame.q, (std::vector<double>{1, 0}));
+  EXPECT_TRUE(test::same_to_rounding(frame.p[1], std::sqrt(3.0), 2.0));  // l = sqrt(2 k mu r_per r_aph/(r_per + r_aph))
+  // E = -k/(r_per + r_aph)
+  EXPECT_TRUE(test::within(entry.energy(request.parameters, frame.q, frame.p), -0.25, 4 * test::epsilon));
+  request.start.direction = -1;
+  EXPECT_EQ(entry.start(request).p[1], -frame.p[1]);
+  request.start = {.kind = "ellipse", .orbit = {{"r_per", "3"}, {"r_aph", "1"}}};
+  EXPECT_EQ(test::message_of<Error>([&] { (void)entry.start(request); }),
+            "problem.orbit.r_aph: the start needs r_per <= r_aph");
+}
+
+TEST(Catalog, KnowsWhereAProblemIsSingular) {
+  const ProblemEntry& kepler = find_problem("central-force", {});
+  const Texts parameters = complete(kepler.info, {});
+  EXPECT_FALSE(kepler.regular(parameters, {0, 0}, {1, 0}));
+  EXPECT_TRUE(kepler.regular(parameters, {1, 0}, {0, 1}));
+}
+
+}  // namespace
+}  // namespace hamflow
