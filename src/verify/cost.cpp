@@ -20,9 +20,11 @@ CostMeasurement measure_cost(const StepMap& map, const Region& region) {
                           static_cast<double>(now.gradient - last.gradient) == found.gradient;
     last = now;
   }
-  const long long coarse_before = map.cost(region.centre, 4 * region.step, skipped).linear_solves;
-  const long long coarse_after = map.cost(region.centre, 4 * region.step, skipped + counted).linear_solves;
-  found.coarse_solves = per_step(coarse_before, coarse_after);
+  const Effort coarse_before = map.cost(region.centre, 4 * region.step, skipped);
+  const Effort coarse_after = map.cost(region.centre, 4 * region.step, skipped + counted);
+  found.coarse_solves = per_step(coarse_before.linear_solves, coarse_after.linear_solves);
+  const bool failed = !found.explicit_step && coarse_after.steps < skipped + counted;
+  if (failed) found.coarse_solves = std::numeric_limits<double>::infinity();
   return found;
 }
 

@@ -1,0 +1,80 @@
+// The evaluations that a method reports are those that the problem sees.
+#include <gtest/gtest.h>
+
+#include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/compositions/stv4.hpp"
+#include "hamflow/methods/runge_kutta.hpp"
+#include "hamflow/methods/splitting.hpp"
+#include "hamflow/methods/splittings/euler_a.hpp"
+#include "hamflow/methods/tableaus/rk4.hpp"
+#include "hamflow/problems/henon_heiles.hpp"
+#include "hamflow/run/simulation_of.hpp"
+
+namespace hamflow {
+namespace {
+
+/// Henon-Heiles that counts.
+struct Counting {
+  using Real = double;
+  static constexpr std::size_t dimension = 2;
+  static constexpr bool quadratic_kinetic = true;
+  HenonHeiles<double> problem{};
+  long long* forces;
+  long long* hessians;
+
+  template <class S>
+  S kinetic(const Vector<S, 2>& p) const {
+    return problem.kinetic(p);
+  }
+  template <class S>
+  S potential(const Vector<S, 2>& q) const {
+    return problem.potential(q);
+  }
+  template <class S>
+  void velocity(const Vector<S, 2>& p, Vector<S, 2>& v) const {
+    problem.velocity(p, v);
+  }
+  template <class S>
+  void force(const Vector<S, 2>& q, Vector<S, 2>& f) const {
+    ++*forces;
+    problem.force(q, f);
+  }
+  template <class S>
+  void potential_hessian(const Vector<S, 2>& q, Matrix<S, 2>& out) const {
+    ++*hessians;
+    problem.potential_hessian(q, out);
+  }
+};
+
+template <class Recipe>
+void expect_counts(const Recipe& recipe, long long forces_per_step, long long at_first) {
+  long long forces = 0;
+  long long hessians = 0;
+  const Counting problem{.forces = &forces, .hessians = &hessians};
+  auto simulation = simulate<false>(problem, recipe, {0.3, -0.15}, {0.2, 0.25}, 0.1);
+  for (const std::int64_t steps : {1, 9, 100}) {
+    const long long before = forces;
+    const long long extra = simulation.step() == 0 ? at_first : 0;
+    ASSERT_EQ(simulation.advance(steps), Outcome::done);
+    EXPECT_EQ(forces, simulation.effort().force);
+    EXPECT_EQ(hessians, simulation.effort().hessian);
+    if (forces_per_step > 0) {
+      EXPECT_EQ(forces - before, forces_per_step * steps + extra);
+    }
+  }
+  if (forces_per_step > 0) {
+    EXPECT_EQ(simulation.method().forces_per_step, forces_per_step);
+  }
+}
+
+TEST(Cost, ReportedEvaluationsAreThoseTheProblemSees) {
+  expect_counts(Composition<compositions::stv4>{}, 3, 1);  // kick first: the last force serves the next step
+  expect_counts(Composition<compositions::stv4, StartsWith::drift>{}, 3, 0);
+  expect_counts(SplittingBy<splittings::euler_a>{}, 1, 0);
+  expect_counts(RungeKuttaBy<tableaus::rk4>{}, 4, 0);
+  expect_counts(Cg{CgOptions{.quadrature = 5}}, 0, 0);
+  expect_counts(Cg{}, 0, 0);
+}
+
+}  // namespace
+}  // namespace hamflow

@@ -1,0 +1,245 @@
+// Laws of every pair of a method and an arithmetic on every problem: blocks do not matter, watching does not matter,
+// nothing is allocated, and trouble leaves the last good state.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "../support/allocations.hpp"
+#include "hamflow/run/catalog.hpp"
+#include "hamflow/run/observer.hpp"
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow {
+namespace {
+
+/// Every request that the catalogue accepts: problem x method x arithmetic.
+std::vector<Request> every_request() {
+  std::vector<Request> all;
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+  names.insert(names.end(), {"cg(1,1)", "cg(1,5)", "cg(quadrature=5,tolerance=1e-13)"});
+  for (const ProblemEntry& problem : problems()) {
+    const Region region = region_of(problem.info.name);
+    for (const std::string& name : names) {
+      const MethodSpec method = parse_method(name);
+      for (const std::string& arithmetic : arithmetics()) {
+        if (!refusal(method, arithmetic).empty()) continue;
+        Request request;
+        request.problem = problem.info.name;
+        request.variant.insert(problem.info.variant.begin(), problem.info.variant.end());
+        for (std::size_t i = 0; i < problem.dimension; ++i) {
+          request.start.q.push_back(shortest(region.centre[i]));
+          request.start.p.push_back(shortest(region.centre[problem.dimension + i]));
+        }
+        request.method = method;
+        request.dt = shortest(region.step / 10);  // such that explicit Euler survives 1000 of them
+        request.arithmetic = arithmetic;
+        all.push_back(request);
+      }
+    }
+  }
+  return all;
+}
+
+std::string label(const Request& request) {
+  return describe(request.method).name + " on " + request.problem + " in " + request.arithmetic;
+}
+
+constexpr int steps = 1000;
+
+TEST(Simulation, OneBlockOfAThousandStepsIsAThousandBlocksOfOne) {
+  int pairs = 0;
+  for (const Request& request : every_request()) {
+    const auto whole = make_simulation(request);
+    const auto single = make_simulation(request);
+    const auto odd = make_simulation(request);
+    const auto before = whole->bits();
+    ASSERT_EQ(whole->advance(steps), Outcome::done) << label(request);
+    for (int i = 0; i < steps; ++i) ASSERT_EQ(single->advance(1), Outcome::done) << label(request);
+    for (const int part : {1, 0, 2, 7, 490, 500}) ASSERT_EQ(odd->advance(part), Outcome::done) << label(request);
+    EXPECT_NE(whole->bits(), before) << label(request);
+    EXPECT_EQ(whole->bits(), single->bits()) << label(request);
+    EXPECT_EQ(whole->bits(), odd->bits()) << label(request);
+    EXPECT_EQ(whole->step(), steps);
+    EXPECT_EQ(whole->energy().max_error, single->energy().max_error) << label(request);
+    EXPECT_EQ(whole->effort().force, single->effort().force) << label(request);
+    ++pairs;
+  }
+  std::cout << pairs << " pairs of method and arithmetic on a problem\n";
+}
+
+TEST(Simulation, WatchingDoesNotChangeABit) {
+  for (Request request : every_request()) {
+    const auto watched = make_simulation(request);
+    request.watch = false;
+    const auto alone = make_simulation(request);
+    ASSERT_EQ(watched->advance(steps), Outcome::done) << label(request);
+    ASSERT_EQ(alone->advance(steps), Outcome::done) << label(request);
+    EXPECT_EQ(watched->bits(), alone->bits()) << label(request);
+  }
+}
+
+/// Looks at every third step.
+class EveryThird final : public Observer {
+ public:
+  std::int64_t next_due(std::int64_t step) const override { return (step + 2) / 3 * 3; }
+  Verdict observe(const Frame& frame) override {
+    looks += frame.step % 3 == 0 ? 1 : 1000000;
+    return Verdict::go_on;
+  }
+  int looks = 0;
+};
+
+TEST(Simulation, ObserversAreWokenWhenDueAndDoNotChangeABit) {
+  for (const Request& request : every_request()) {
+    const auto observed = make_simulation(request);
+    const auto alone = make_simulation(request);
+    EveryThird third;
+    Observer* const observers[] = {&third};
+    ASSERT_EQ(run(*observed, steps, observers), Outcome::done) << label(request);
+    ASSERT_EQ(alone->advance(steps), Outcome::done) << label(request);
+    EXPECT_EQ(third.looks, steps / 3 + 1);
+    EXPECT_EQ(observed->bits(), alone->bits()) << label(request);
+  }
+}
+
+TEST(Simulation, AdvancingAllocatesNothing) {
+  for (const Request& request : every_request()) {
+    const auto simulation = make_simulation(request);
+    const long long before = test::allocations();
+    const Outcome outcome = simulation->advance(steps);
+    EXPECT_EQ(test::allocations(), before) << label(request);
+    ASSERT_EQ(outcome, Outcome::done) << label(request);
+  }
+  const long long before = test::allocations();
+  const std::vector<double> one(1);
+  EXPECT_EQ(test::allocations(), before + static_cast<long long>(one.size())) << "the counter counts";
+}
+
+TEST(Simulation, ReversedTimeMeetsTheSameTimesAndNearlyTheSameStates) {
+  for (const Request& request : every_request()) {
+    const auto simulation = make_simulation(request);
+    if (!simulation->method().symmetric) continue;
+    Frame start;
+    Frame end;
+    simulation->look(start);
+    ASSERT_EQ(simulation->advance(200), Outcome::done);
+    simulation->reverse_time();
+    ASSERT_EQ(simulation->advance(200), Outcome::done) << label(request);
+    simulation->look(end);
+    EXPECT_EQ(end.time, start.time);
+    EXPECT_EQ(end.step, 400);
+    for (std::size_t i = 0; i < start.q.size(); ++i) {
+      // 400 steps of rounding, amplified at most linearly on these regular orbits: 400^1.5 eps.
+      const double bound = 8000 * std::numeric_limits<double>::epsilon() * 10;
+      EXPECT_NEAR(end.q[i], start.q[i], bound) << label(request);
+      EXPECT_NEAR(end.p[i], start.p[i], bound) << label(request);
+    }
+  }
+}
+
+/// Advances until trouble, in blocks of `block`; the state has to be that of a fresh run of as many steps, finite, and
+/// trying again has to change nothing.
+void expect_last_good_state(const Request& request, Outcome expected, std::int64_t block) {
+  SCOPED_TRACE(label(request) + ", blocks of " + std::to_string(block));
+  const auto simulation = make_simulation(request);
+  Outcome outcome = Outcome::done;
+  for (int i = 0; i < 100000 && outcome == Outcome::done; ++i) outcome = simulation->advance(block);
+  ASSERT_EQ(name(outcome), name(expected));
+  const std::int64_t good = simulation->step();
+  Frame frame;
+  simulation->look(frame);
+  EXPECT_EQ(frame.step, good);
+  if (request.watch) {
+    EXPECT_TRUE(std::isfinite(frame.energy));
+  }
+  for (const double x : frame.q) EXPECT_TRUE(std::isfinite(x));
+  for (const double x : frame.p) EXPECT_TRUE(std::isfinite(x));
+  const auto bits = simulation->bits();
+  EXPECT_EQ(name(simulation->advance(1)), name(expected));
+  EXPECT_EQ(simulation->bits(), bits);
+  EXPECT_EQ(simulation->step(), good);
+
+  const auto fresh = make_simulation(request);
+  ASSERT_EQ(fresh->advance(good), Outcome::done);
+  EXPECT_EQ(fresh->bits(), bits);
+  std::cout << label(request) << ": " << name(expected) << " after " << good << " good steps\n";
+}
+
+Request request_of(const std::string& problem, const std::string& method, std::vector<std::string> q,
+                   std::vector<std::string> p, const std::string& dt) {
+  Request request;
+  request.problem = problem;
+  request.method = parse_method(method);
+  request.start.q = std::move(q);
+  request.start.p = std::move(p);
+  request.dt = dt;
+  return request;
+}
+
+TEST(Simulation, AnInfiniteStateLeavesTheLastFiniteOne) {
+  for (const char* method : {"rk4", "verlet", "euler-a", "verlet-dkd"}) {
+    for (const char* arithmetic : {"double", "compensated"}) {
+      for (const std::int64_t block : {1, 7, 1000}) {
+        for (const bool watch : {true, false}) {
+          // Beyond the saddle of Henon-Heiles the particle falls for ever, faster and faster.
+          Request request = request_of("henon-heiles", method, {"0", "3"}, {"0", "1"}, "0.1");
+          request.arithmetic = arithmetic;
+          request.watch = watch;
+          expect_last_good_state(request, Outcome::non_finite, block);
+        }
+      }
+    }
+  }
+}
+
+TEST(Simulation, LeavingTheLatticeLeavesTheLastStateInside) {
+  for (const char* method : {"verlet", "stv4-dkd", "euler-b"}) {
+    for (const std::int64_t block : {1, 7, 1000}) {
+      Request request = request_of("pendulum", method, {"0"}, {"3"}, "0.1");  // rotates: q grows for ever
+      request.arithmetic = "lattice";
+      request.position_unit = 0x1p-60;  // range +-8
+      expect_last_good_state(request, Outcome::lattice_overflow, block);
+      request.position_unit = 0x1p-52;
+      request.momentum_unit = 0x1p-62;  // range +-2, the momentum is 3
+      const auto outside = make_simulation(request);
+      EXPECT_EQ(outside->advance(1), Outcome::lattice_overflow);
+      EXPECT_EQ(outside->step(), 0);
+    }
+  }
+}
+
+TEST(Simulation, AStepWithoutSolutionIsNotTakenAndSaysWhatHappened) {
+  // A fall into the singularity with a step that jumps over it.
+  Request request = request_of("central-force", "cg(1,5)", {"0.01", "0"}, {"0", "0"}, "10");
+  const auto simulation = make_simulation(request);
+  const auto before = simulation->bits();
+  const Outcome outcome = simulation->advance(5);
+  ASSERT_EQ(name(outcome), name(Outcome::not_converged));
+  if (simulation->step() == 0) {
+    EXPECT_EQ(simulation->bits(), before);
+  }
+  EXPECT_NE(simulation->failure().find("Newton did not converge in 15 iterations"), std::string::npos)
+      << simulation->failure();
+}
+
+TEST(Simulation, BlockIndependenceWouldNoticeAForgottenForce) {
+  // What the first test is for: the force kept from the last step is dropped when the state is changed from outside.
+  Request request = request_of("pendulum", "verlet", {"1"}, {"0.5"}, "0.1");
+  const auto a = make_simulation(request);
+  const auto b = make_simulation(request);
+  (void)a->advance(10);
+  (void)b->advance(10);
+  a->negate_momenta();
+  a->negate_momenta();
+  EXPECT_EQ(a->bits(), b->bits());
+  const long long forces = a->effort().force;
+  (void)a->advance(1);
+  (void)b->advance(1);
+  EXPECT_EQ(a->effort().force, forces + 2) << "not the kept force but a new one";
+  EXPECT_EQ(a->bits(), b->bits());
+}
+
+}  // namespace
+}  // namespace hamflow

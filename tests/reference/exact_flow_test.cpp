@@ -1,0 +1,99 @@
+// Exact flows to 25 digits: the reference flow of the verification reproduces them to the rounding of long double, and
+// the methods of the catalogue come to them at their order.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hamflow/run/catalog.hpp"
+#include "reference_data.hpp"
+
+namespace hamflow::test {
+namespace {
+
+struct Case {
+  const char* reference;
+  const char* problem;
+};
+
+class ExactFlow : public ::testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    const nlohmann::json file = reference_file("exact_flow.json");
+    for (const auto& p : file["problems"]) {
+      if (p["problem"] == GetParam().reference) data_ = p;
+    }
+    ASSERT_FALSE(data_.is_null());
+    const ProblemEntry& entry = find_problem(GetParam().problem, {});
+    parameters_ = complete(entry.info, {});
+    map_ = entry.step_map(parameters_, parse_method("yoshida6"));
+    for (const std::string& x : texts(data_["initial_state_values"])) start_.push_back(evaluate_number<long double>(x));
+  }
+  static long double time_of(const nlohmann::json& result) {
+    const std::string text =
+        result.contains("t_value") ? result["t_value"].get<std::string>() : result["t"].get<std::string>();
+    return evaluate_number<long double>(text);
+  }
+  static State<long double> state_of(const nlohmann::json& result) {
+    State<long double> z;
+    for (const std::string& x : texts(result["state"])) z.push_back(evaluate_number<long double>(x));
+    return z;
+  }
+  static long double distance(const State<long double>& a, const State<long double>& b) {
+    long double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+    return most;
+  }
+
+  nlohmann::json data_;
+  Texts parameters_;
+  std::unique_ptr<StepMap> map_;
+  State<long double> start_;
+};
+
+TEST_P(ExactFlow, ReferenceFlow) {
+  for (const auto& result : data_["results"]) {
+    const long double t = time_of(result);
+    if (t > 150) continue;  // minutes, for nothing new
+    // Each of about 8 t extrapolated steps rounds by a few 2^-64; along an orbit of a regular system errors grow like
+    // t.
+    const long double bound = 64 * 0x1p-63L * (1 + t) * (1 + t);
+    const long double error = distance(map_->flow(start_, t), state_of(result));
+    EXPECT_LE(error, bound) << "t = " << static_cast<double>(t);
+    std::printf("  %s, t = %.6g: %.1Le\n", GetParam().reference, static_cast<double>(t), error);
+  }
+}
+
+TEST_P(ExactFlow, Yoshida6ConvergesToIt) {
+  const auto& result = data_["results"][data_["results"].size() > 3 ? 4 : 0];  // t = 1
+  ASSERT_EQ(time_of(result), 1.0L);
+  const State<long double> wanted = state_of(result);
+  constexpr long double rounding = 4096 * 0x1p-63L;  // some hundred steps of some ten roundings: slopes end there
+  long double previous = 0;
+  int slopes = 0;
+  for (const int steps : {8, 16, 32, 64, 128, 256}) {
+    State<long double> z = start_;
+    ASSERT_TRUE(map_->advance(z, 1.0L / steps, steps));
+    const long double error = distance(z, wanted);
+    if (previous > 0 && previous < 1e-7L && error > rounding) {  // small enough for the leading term to rule
+      EXPECT_NEAR(static_cast<double>(std::log2(previous / error)), 6.0, 0.3) << steps;
+      ++slopes;
+    }
+    previous = error;
+  }
+  EXPECT_GE(slopes, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Problems, ExactFlow,
+                         ::testing::Values(Case{"kepler_e0.6", "central-force"},
+                                           Case{"henon_heiles_regular_gni", "henon-heiles"},
+                                           Case{"pendulum_q2.5", "pendulum"},
+                                           Case{"lj_oscillator", "lennard-jones-oscillator"}),
+                         [](const auto& each) {
+                           std::string name = each.param.problem;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace hamflow::test
