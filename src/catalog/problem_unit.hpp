@@ -20,18 +20,29 @@ class ProblemUnit {
     e.dimension = n;
     e.simulate = simulate;
     e.step_map = step_map;
+    e.derived = [](const Texts& parameters, const StartSpec& spec) {
+      Texts all = parameters;
+      if constexpr (has_derived) {
+        Parameters<double> given(parameters);
+        P::derive(spec.kind, Parameters<double>(spec.orbit), given);
+        for (auto& [name, text] : all) {
+          if (given[name] != evaluate_number<double>(text)) text = shortest(given[name]);
+        }
+      }
+      return all;
+    };
     e.conditions = [](const Texts& parameters, const StartSpec& spec) {
-      std::vector<Condition> conditions;
+      Conditions conditions;
       if constexpr (has_starts)
         (void)P::start(spec.kind, Parameters<double>(parameters), Parameters<double>(spec.orbit), conditions);
-      return conditions;
+      return conditions.all();
     };
     e.energy = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
       return hamflow::energy(P(Parameters<double>(parameters)), vector_of(q), vector_of(p));
     };
     e.regular = regular;
     e.start = [](const Request& request) {
-      const auto s = start<double>(P(Parameters<double>(request.parameters)), request);
+      const auto s = start<double>(P(parameters_of<double>(request)), request);
       Frame frame;
       frame.q.assign(s.q.begin(), s.q.end());
       frame.p.assign(s.p.begin(), s.p.end());
@@ -46,7 +57,8 @@ class ProblemUnit {
   }
 
  private:
-  static constexpr bool has_starts = requires(std::vector<Condition> & c) {
+  static constexpr bool has_derived = requires(Parameters<double> & p) { P::derive(std::string(), p, p); };
+  static constexpr bool has_starts = requires(Conditions & c) {
     P::start(std::string(), Parameters<double>(), Parameters<double>(), c);
   };
 
@@ -66,15 +78,27 @@ class ProblemUnit {
     return sum <= std::numeric_limits<double>::max();
   }
 
+  /// In the arithmetic of the run, with what follows from the start.
+  template <class R>
+  static Parameters<R> parameters_of(const Request& request) {
+    Parameters<R> parameters(request.parameters);
+    if constexpr (has_derived) {
+      if (!request.start.kind.empty()) {
+        Family<R>::derive(request.start.kind, Parameters<R>(request.start.orbit), parameters);
+      }
+    }
+    return parameters;
+  }
+
   template <class R>
   static Start<R, n> start(const Family<R>& problem, const Request& request) {
     const StartSpec& spec = request.start;
     Start<R, n> s;
     if (!spec.kind.empty()) {
       if constexpr (has_starts) {
-        std::vector<Condition> conditions;
-        s = Family<R>::start(spec.kind, Parameters<R>(request.parameters), Parameters<R>(spec.orbit), conditions);
-        for (const Condition& c : conditions) {
+        Conditions conditions;
+        s = Family<R>::start(spec.kind, parameters_of<R>(request), Parameters<R>(spec.orbit), conditions);
+        for (const Condition& c : conditions.all()) {
           if (!c.holds()) throw Error(c.key + ": the start needs " + c.statement);
         }
         for (R& x : s.p) x = R(spec.direction) * x;
@@ -107,7 +131,7 @@ class ProblemUnit {
   template <class A, class Recipe>
   static std::unique_ptr<Simulation> build(const Request& request, const Recipe& recipe) {
     using R = typename A::Real;
-    const Family<R> problem{Parameters<R>(request.parameters)};
+    const Family<R> problem{parameters_of<R>(request)};
     const auto s = start<R>(problem, request);
     const R h = evaluate_number<R>(request.dt);
     auto method = recipe.template bind<Family<R>, A>(problem);

@@ -119,6 +119,11 @@ void ScenarioReader::read_orbit(TomlTable& table) {
     spec.direction = direction->value < 0 ? -1 : 1;
   }
   orbit.finish();
+  for (const std::string& parameter : start.derives) {
+    if (!table.has(parameter)) continue;
+    table.complain(parameter, table.found(parameter) +
+                                  ", but it follows from the orbit; allowed nothing with kind = \"" + *kind + "\"");
+  }
   spec.kind = *kind;
 }
 
@@ -162,6 +167,7 @@ void ScenarioReader::check_start(TomlTable& table) {
   const bool geometric = !request.start.kind.empty();
   bool possible = true;
   if (geometric) {
+    scenario_.request.parameters = problem.derived(request.parameters, request.start);
     for (const Condition& condition : problem.conditions(request.parameters, request.start)) {
       if (condition.holds()) continue;
       possible = false;

@@ -1,5 +1,6 @@
 #include "hamflow/verify/measure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hamflow/verify/counter_random.hpp"
@@ -10,20 +11,28 @@ namespace hamflow {
 namespace {
 constexpr std::uint64_t seed = 20100617;  // any number: fixed, so that a measurement can be repeated
 
-/// Regions by hand, where the dynamics is nonlinear, bounded and regular; libration, no turning point, no apsis.
+/// Regions by hand, where the dynamics is bounded and regular, and, where the problem is, nonlinear: no turning point,
+/// no apsis but that of the ellipses, where the defects are largest.
 const std::vector<Region>& known_regions() {
   static const std::vector<Region> all{
       {.problem = "pendulum", .centre = {2.0, 0.5}, .spread = 0.15, .time = 2.5},
       {.problem = "henon-heiles", .centre = {0.3, -0.15, 0.2, 0.25}, .spread = 0.08, .time = 3.25},
       {.problem = "lennard-jones-oscillator", .centre = {1.25, 0.25}, .spread = 0.05, .step = 0.025, .time = 0.7},
       {.problem = "harmonic", .centre = {1.0, 0.5}, .spread = 0.2},
+      // From r = 1 to r = 3 for mass 1 and k = 1; the time is a seventh of the period, 2 pi sqrt(8).
+      {.problem = "central-force", .variant = {{"potential", "kepler"}}, .centre = {1, 0, 0, std::sqrt(1.5)}},
+      {.problem = "central-force",
+       .variant = {{"potential", "hooke"}},
+       .parameters = {{"k", "-1"}},
+       .centre = {1, 0.3, -0.2, 0.6}},
+      {.problem = "central-force", .variant = {{"potential", "linear"}}, .centre = {1, 0.3, -0.2, 0.9}},
+      {.problem = "central-force",
+       .variant = {{"potential", "binomial"}},
+       .centre = {1.2, 0.3, -0.2, 0.9},
+       .step = 0.04},
   };
   return all;
 }
-
-/// The ellipse from r = 1 to r = 3 of mass 1 and k = 1, at its pericentre where the defects are largest; the time is
-/// about a seventh of its period, 2 pi sqrt(8).
-Region kepler_region() { return {.problem = "central-force", .centre = {1, 0, 0, std::sqrt(1.5)}, .spread = 0.1}; }
 }  // namespace
 
 State<double> random_state(const Region& region, std::uint64_t k) {
@@ -32,14 +41,18 @@ State<double> random_state(const Region& region, std::uint64_t k) {
   return z;
 }
 
-Region region_of(const std::string& problem) {
+Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant) {
   for (const Region& region : known_regions()) {
-    if (region.problem == problem) return region;
+    if (region.problem != problem) continue;
+    const bool matches = std::all_of(region.variant.begin(), region.variant.end(), [&](const auto& choice) {
+      const auto given = variant.find(choice.first);
+      return given == variant.end() || given->second == choice.second;
+    });
+    if (matches) return region;
   }
-  if (problem == "central-force") return kepler_region();
   // The start of the catalogue, or any state when there is none, moved a little: no coordinate at rest.
-  const ProblemEntry& entry = find_problem(problem, {});
-  Region region{.problem = problem};
+  const ProblemEntry& entry = find_problem(problem, variant);
+  Region region{.problem = problem, .variant = variant};
   for (std::size_t i = 0; i < 2 * entry.dimension; ++i) {
     const auto& texts = i < entry.dimension ? entry.info.default_q : entry.info.default_p;
     const std::size_t at = i % entry.dimension;
@@ -47,6 +60,11 @@ Region region_of(const std::string& problem) {
                             0.1 * counter_uniform(seed + 1, i));
   }
   return region;
+}
+
+std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method) {
+  const ProblemEntry& entry = find_problem(region.problem, region.variant);
+  return entry.step_map(complete(entry.info, region.parameters), method);
 }
 
 std::vector<Region> default_regions() { return {region_of("pendulum"), region_of("henon-heiles")}; }
@@ -65,8 +83,7 @@ PropertyRow measure_method(const MethodSpec& method, std::span<const Region> reg
   std::vector<Measurement> on;
   MethodInfo claims = describe(method);
   for (const Region& region : regions) {
-    const ProblemEntry& entry = find_problem(region.problem, {});
-    const auto map = entry.step_map(complete(entry.info, {}), method);
+    const auto map = step_map_on(region, method);
     claims = map->claims();
     on.push_back(measure(*map, region));
   }

@@ -2,5 +2,6 @@
 #include "hamflow/hamflow.hpp"
 
 void misuse() {
-  (void)hamflow::simulate(hamflow::HenonHeiles<double>(), hamflow::Cg{}, {0.1, 0.1}, {0.1, 0.1}, 0.1, hamflow::Lattice{});
+  (void)hamflow::simulate(hamflow::HenonHeiles<double>(), hamflow::Cg{}, {0.1, 0.1}, {0.1, 0.1}, 0.1,
+                          hamflow::Lattice{});
 }

@@ -20,14 +20,16 @@ std::vector<Request> every_request() {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   names.insert(names.end(), {"cg(1,1)", "cg(1,5)", "cg(quadrature=5,tolerance=1e-13)"});
   for (const ProblemEntry& problem : problems()) {
-    const Region region = region_of(problem.info.name);
+    const std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
+    const Region region = region_of(problem.info.name, variant);
     for (const std::string& name : names) {
       const MethodSpec method = parse_method(name);
       for (const std::string& arithmetic : arithmetics()) {
         if (!refusal(method, arithmetic).empty()) continue;
         Request request;
         request.problem = problem.info.name;
-        request.variant.insert(problem.info.variant.begin(), problem.info.variant.end());
+        request.variant = variant;
+        request.parameters = region.parameters;
         for (std::size_t i = 0; i < problem.dimension; ++i) {
           request.start.q.push_back(shortest(region.centre[i]));
           request.start.p.push_back(shortest(region.centre[problem.dimension + i]));
@@ -44,6 +46,37 @@ std::vector<Request> every_request() {
 
 std::string label(const Request& request) {
   return describe(request.method).name + " on " + request.problem + " in " + request.arithmetic;
+}
+
+TEST(Problem, EnergyAndInvariantsAreConstantAlongTheExactFlow) {
+  for (const ProblemEntry& problem : problems()) {
+    const std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
+    const Region region = region_of(problem.info.name, variant);
+    const auto map = step_map_on(region, parse_method("verlet"));
+    const State<long double> start(region.centre.begin(), region.centre.end());
+    std::vector<double> first;
+    for (const long double t : {0.0L, 0.3L, 1.7L, 4.0L}) {
+      const State<long double> z = map->flow(start, t * region.step * 10);
+      Request request;
+      request.problem = problem.info.name;
+      request.variant = variant;
+      request.parameters = region.parameters;
+      for (std::size_t i = 0; i < z.size(); ++i) {
+        auto& texts = i < problem.dimension ? request.start.q : request.start.p;
+        texts.push_back(shortest(static_cast<double>(z[i])));
+      }
+      Frame frame;
+      make_simulation(request)->look(frame);
+      EXPECT_EQ(frame.invariants.size(), problem.info.invariants.size());
+      std::vector<double> values = frame.invariants;
+      values.push_back(frame.energy);
+      if (first.empty()) first = values;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        // The states are rounded to double; derivatives of energy and invariants are at most some tens here.
+        EXPECT_NEAR(values[i], first[i], 64 * std::numeric_limits<double>::epsilon()) << problem.info.name << ' ' << i;
+      }
+    }
+  }
 }
 
 constexpr int steps = 1000;
@@ -164,7 +197,7 @@ void expect_last_good_state(const Request& request, Outcome expected, std::int64
   const auto fresh = make_simulation(request);
   ASSERT_EQ(fresh->advance(good), Outcome::done);
   EXPECT_EQ(fresh->bits(), bits);
-  std::cout << label(request) << ": " << name(expected) << " after " << good << " good steps\n";
+  if (block == 1) std::cout << label(request) << ": " << name(expected) << " after " << good << " good steps\n";
 }
 
 Request request_of(const std::string& problem, const std::string& method, std::vector<std::string> q,
@@ -213,6 +246,7 @@ TEST(Simulation, LeavingTheLatticeLeavesTheLastStateInside) {
 TEST(Simulation, AStepWithoutSolutionIsNotTakenAndSaysWhatHappened) {
   // A fall into the singularity with a step that jumps over it.
   Request request = request_of("central-force", "cg(1,5)", {"0.01", "0"}, {"0", "0"}, "10");
+  request.variant = {{"potential", "kepler"}};
   const auto simulation = make_simulation(request);
   const auto before = simulation->bits();
   const Outcome outcome = simulation->advance(5);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hamflow/run/catalog.hpp"
+#include "hamflow/verify/measure.hpp"
 #include "reference_data.hpp"
 
 namespace hamflow::test {
@@ -14,6 +14,7 @@ namespace {
 struct Case {
   const char* reference;
   const char* problem;
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.problem; }
 };
 
 class ExactFlow : public ::testing::TestWithParam<Case> {
@@ -24,9 +25,7 @@ class ExactFlow : public ::testing::TestWithParam<Case> {
       if (p["problem"] == GetParam().reference) data_ = p;
     }
     ASSERT_FALSE(data_.is_null());
-    const ProblemEntry& entry = find_problem(GetParam().problem, {});
-    parameters_ = complete(entry.info, {});
-    map_ = entry.step_map(parameters_, parse_method("yoshida6"));
+    map_ = step_map_on(region_of(GetParam().problem), parse_method("yoshida6"));  // of a central force: Kepler
     for (const std::string& x : texts(data_["initial_state_values"])) start_.push_back(evaluate_number<long double>(x));
   }
   static long double time_of(const nlohmann::json& result) {
@@ -46,7 +45,6 @@ class ExactFlow : public ::testing::TestWithParam<Case> {
   }
 
   nlohmann::json data_;
-  Texts parameters_;
   std::unique_ptr<StepMap> map_;
   State<long double> start_;
 };
@@ -82,6 +80,20 @@ TEST_P(ExactFlow, Yoshida6ConvergesToIt) {
     previous = error;
   }
   EXPECT_GE(slopes, 1);
+}
+
+TEST_P(ExactFlow, BackwardsIsTheInverse) {
+  const State<long double> end = map_->flow(start_, 2.5L);
+  EXPECT_GT(distance(end, start_), 0.01L);
+  // The bound of the flow, once there and once back.
+  EXPECT_LE(distance(map_->flow(end, -2.5L), start_), 2 * 64 * 0x1p-63L * 3.5L * 3.5L);
+}
+
+TEST(ReferenceFlow, ACollisionIsNotANumberAndEnds) {
+  const auto map = step_map_on(region_of("central-force"), parse_method("verlet"));
+  // From rest at r = 0.4 the centre is reached after pi sqrt(0.4^3/8) = 0.28.
+  const State<long double> end = map->flow({0.4L, 0.0L, 0.0L, 0.0L}, 1.0L);
+  EXPECT_TRUE(std::isnan(end[0]));
 }
 
 INSTANTIATE_TEST_SUITE_P(Problems, ExactFlow,

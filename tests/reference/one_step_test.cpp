@@ -17,6 +17,7 @@ constexpr double ten_steps_bound = 10 * 10 * one_step_bound;
 struct Case {
   const char* method;     // hamflow's
   const char* reference;  // the file's
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.method; }
 };
 
 class OneStep : public ::testing::TestWithParam<Case> {};
@@ -50,6 +51,34 @@ TEST_P(OneStep, MatchesTheDefinition) {
         EXPECT_NEAR(frame.q[i], q[i], bound) << arithmetic << " " << q_key;
         EXPECT_NEAR(frame.p[i], p[i], bound) << arithmetic << " " << p_key;
       }
+    }
+  }
+}
+
+TEST_P(OneStep, MatchesTheDefinitionInLongDouble) {
+  // The same to the digits of long double: nothing on the way, no coefficient either, is a double.
+  const auto file = reference_file("one_step.json")["one_step"][0];
+  const ProblemEntry& entry = find_problem("central-force", {{"potential", "kepler"}});
+  const auto map = entry.step_map(complete(entry.info, {}), parse_method(GetParam().method));
+  const auto state = [](const nlohmann::json& q, const nlohmann::json& p) {
+    State<long double> z;
+    for (const auto& part : {texts(q), texts(p)}) {
+      for (const std::string& x : part) z.push_back(evaluate_number<long double>(x));
+    }
+    return z;
+  };
+  const auto h = evaluate_number<long double>(file["h"].get<std::string>());
+  for (const auto& m : file["methods"]) {
+    if (m["method"] != GetParam().reference) continue;
+    for (const auto& [steps, q_key, p_key, bound] :
+         {std::tuple{1, "q1", "p1", one_step_bound}, std::tuple{10, "q10", "p10", ten_steps_bound}}) {
+      State<long double> z = state(file["q0"], file["p0"]);
+      ASSERT_TRUE(map->advance(z, h, steps));
+      const State<long double> wanted = state(m[q_key], m[p_key]);
+      long double distance = 0;
+      for (std::size_t i = 0; i < z.size(); ++i) distance = std::max(distance, std::fabs(z[i] - wanted[i]));
+      EXPECT_LE(distance, 0x1p-11L * bound) << q_key;  // 64 bits instead of 53
+      std::printf("  %s, %d steps: %.1Le\n", GetParam().method, steps, distance);
     }
   }
 }

@@ -167,6 +167,7 @@ TEST(Catalog, AGeometricStartMeetsItsGeometry) {
   const ProblemEntry& entry = find_problem("central-force", {{"potential", "kepler"}});
   Request request;
   request.problem = "central-force";
+  request.variant = {{"potential", "kepler"}};
   request.parameters = complete(entry.info, {{"mass", "2"}, {"k", "1"}});
   request.start = {.kind = "ellipse", .orbit = {{"r_per", "1"}, {"r_aph", "3"}}};
   const Frame frame = entry.start(request);
@@ -182,7 +183,7 @@ TEST(Catalog, AGeometricStartMeetsItsGeometry) {
 }
 
 TEST(Catalog, KnowsWhereAProblemIsSingular) {
-  const ProblemEntry& kepler = find_problem("central-force", {});
+  const ProblemEntry& kepler = find_problem("central-force", {{"potential", "kepler"}});
   const Texts parameters = complete(kepler.info, {});
   EXPECT_FALSE(kepler.regular(parameters, {0, 0}, {1, 0}));
   EXPECT_TRUE(kepler.regular(parameters, {1, 0}, {0, 1}));

@@ -32,6 +32,7 @@ struct StartInfo {
   std::string kind;
   std::vector<std::string> keys;
   std::string meaning;
+  std::vector<std::string> derives{};  // parameters of the problem that follow from the start and must not be given
 };
 
 struct ProblemInfo {
@@ -56,6 +57,7 @@ class Parameters {
     for (const auto& [name, text] : texts) values_[name] = evaluate_number<R>(text);
   }
   R operator[](const std::string& name) const { return values_.at(name); }
+  void set(const std::string& name, const R& value) { values_[name] = value; }
 
  private:
   std::map<std::string, R> values_;
@@ -68,7 +70,7 @@ struct Start {
   Vector<R, N> p{};
 };
 
-/// A condition on a geometric start: lhs < rhs or lhs <= rhs has to hold. The message says by how much it fails.
+/// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
 struct Condition {
   std::string key;        // the scenario key to blame
   std::string statement;  // e.g. "r_per <= r_aph"
@@ -76,6 +78,19 @@ struct Condition {
   double right = 0;
   bool strict = false;
   bool holds() const { return strict ? left < right : left <= right; }
+};
+
+/// The conditions of one start, in the order in which they were asked.
+class Conditions {
+ public:
+  template <class R>
+  void require(const char* key, const char* statement, const R& left, const R& right, bool strict) {
+    all_.push_back({key, statement, static_cast<double>(left), static_cast<double>(right), strict});
+  }
+  const std::vector<Condition>& all() const { return all_; }
+
+ private:
+  std::vector<Condition> all_;
 };
 
 }  // namespace hamflow

@@ -108,7 +108,7 @@ class ContinuousGalerkin {
     Outcome outcome = converge(problem, h, q0, p0, d, impulse, history);
     if (options_.quadrature == 0) {
       while (outcome == Outcome::done && rule_->points < most_gauss_points &&
-             quadrature_too_coarse(problem, h, q0, p0, d, impulse)) {
+             quadrature_too_coarse(problem, h, q0, d, impulse)) {
         rule_ = &gauss_rule<Real>(rule_->points + 1);
         outcome = converge(problem, h, q0, p0, d, impulse, history);
       }
@@ -139,6 +139,8 @@ class ContinuousGalerkin {
                    Vector<Real, n>& d, Vector<Real, n>& impulse, std::string* history) {
     Real previous(0);          // |correction| of the iteration before
     bool at_rounding = false;  // no further correction can be told from rounding
+    // |h M^-1 p0|: what the target rounds by, however far p0 and the impulse cancel at a turning point.
+    const Real flight = max_norm(displacement(problem, h, p0, Vector<Real, n>{}));
     for (int k = 0;; ++k) {
       Matrix<Real, n> stiffness{};
       integrate(problem, h, q0, d, impulse, stiffness);
@@ -171,7 +173,7 @@ class ContinuousGalerkin {
       // same sign at the same phase of every orbit and adds up linearly, rounding only as a square root: it has to lie
       // so far below the noise that 10^6 steps (a walk of 10^3 noises) do not show it, hence 1/1024.
       const Real size = max_norm(correction);
-      const Real noise = epsilon * (max_norm(target) + max_norm(d));
+      const Real noise = epsilon * (larger(flight, max_norm(target)) + max_norm(d));
       if (!(size <= std::numeric_limits<Real>::max())) return Outcome::not_converged;  // not finite
       const Real rate = k > 0 && previous > Real(0) ? size / previous : Real(1);
       at_rounding =
@@ -280,27 +282,35 @@ class ContinuousGalerkin {
   }
 
   /// Whether one more point changes the work done by the mean force, which is the energy error of the step, by more
-  /// than a sixteenth of the rounding level of H (so that a bias stays below the random walk) and by more than its own
-  /// rounding.
-  bool quadrature_too_coarse(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
-                             const Vector<Real, n>& d, const Vector<Real, n>& impulse) {
+  /// than rounding can: two sums of at most s + 1 terms round by less than s + 4 units of |F| <= |F(middle)| + |V''|
+  /// |d|, the forces by what rounded coordinates make of them, |V''| |q| epsilon, three times that where terms cancel
+  /// as in a Lennard-Jones well. A bias of that size adds up to some tens of roundings of H over a part of an orbit,
+  /// however small h is; one in units of H would add up to 1/h of them.
+  bool quadrature_too_coarse(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& d,
+                             const Vector<Real, n>& impulse) {
     const GaussRule<Real>& finer = gauss_rule<Real>(rule_->points + 1);
     const Vector<Real, n> middle = midpoint(q0, d);
+    Vector<Real, n> f{};
+    Matrix<Real, n> hessian{};
+    force_and_hessian(problem, middle, f, hessian);
+    Real rounding(0);
+    for (std::size_t i = 0; i < n; ++i) {
+      Real units = Real(finer.points + 4) * abs(f[i]);
+      for (std::size_t j = 0; j < n; ++j) {
+        units += abs(hessian[i][j]) * (3 * abs(middle[j]) + Real(finer.points + 4) * abs(d[j]));
+      }
+      rounding += epsilon * abs(d[i]) * units;
+    }
     Real difference(0);
-    Real work(0);
     for (std::size_t l = 0; l < finer.c.size(); ++l) {
       Vector<Real, n> q{};
-      Vector<Real, n> f{};
       for (std::size_t i = 0; i < n; ++i) q[i] = middle[i] + finer.offset[l] * d[i];
       force(problem, q, f);
-      for (std::size_t i = 0; i < n; ++i) {
-        difference += finer.b[l] * d[i] * (f[i] - impulse[i] / h);
-        work += finer.b[l] * abs(d[i] * f[i]);
-      }
+      for (std::size_t i = 0; i < n; ++i) difference += finer.b[l] * d[i] * (f[i] - impulse[i] / h);
     }
-    effort_.force += finer.points;
-    const Real level = abs(kinetic_energy(problem, p0)) + abs(potential_energy(problem, q0));
-    return abs(difference) > epsilon * larger(level / 16, 8 * work);
+    effort_.force += finer.points + 1;
+    ++effort_.hessian;
+    return abs(difference) > rounding;
   }
 
   /// The impulse of this step, extrapolated from the last three; at the start, that of the force at q0.

@@ -66,6 +66,8 @@ struct ProblemEntry {
   std::size_t dimension = 0;
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&)> step_map;
+  /// The parameters with those that follow from a geometric start set. @param parameters complete
+  std::function<Texts(const Texts& parameters, const StartSpec&)> derived;
   /// The conditions that a geometric start has to meet. @param parameters complete
   std::function<std::vector<Condition>(const Texts& parameters, const StartSpec&)> conditions;
   /// H(q, p). @param parameters complete

@@ -34,8 +34,10 @@ constexpr std::string_view name(Finding finding) {
 /// Where to measure: states around a generic one, and a step that is large but safe there.
 struct Region {
   std::string problem;
-  State<double> centre;  // bounded, far from turning points and apsides
-  double spread = 0.1;   // random states: each coordinate uniform within centre +- spread
+  std::map<std::string, std::string> variant{};  // e.g. potential = kepler
+  Texts parameters{};                            // missing ones take their defaults
+  State<double> centre{};                        // bounded, far from turning points and apsides
+  double spread = 0.1;                           // random states: each coordinate uniform within centre +- spread
   double step = 0.1;  // for structure and energy, a sixtieth of a period; no power of two, whose products do not round
   double time = 2.5;  // over which the order is measured: neither a period nor an apsis
 };
@@ -118,8 +120,11 @@ PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on);
 
 /// A state of the region, the k-th of its own sequence of random ones.
 State<double> random_state(const Region& region, std::uint64_t k);
-/// The region used for a problem of the catalogue. @throws Error when there is no such problem
-Region region_of(const std::string& problem);
+/// The region used for a problem of the catalogue; of a central force, the Kepler ellipse unless the variant says
+/// otherwise. @throws Error when there is no such problem
+Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant = {});
+/// The step of a method on the region's problem. @throws Error when there is no such problem
+std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method);
 /// pendulum and henon-heiles.
 std::vector<Region> default_regions();
 /// A method of the catalogue. @throws Error when the method or a problem is unknown

@@ -39,34 +39,31 @@ class Kepler {
   }
 
   static Start<R, 2> start(const std::string& kind, R mass, const Parameters<R>& given, const Parameters<R>& orbit,
-                           std::vector<Condition>& conditions) {
+                           Conditions& conditions) {
     const R k = given["k"];
-    const auto require = [&](const char* key, const char* statement, R left, R right, bool strict) {
-      conditions.push_back({key, statement, static_cast<double>(left), static_cast<double>(right), strict});
-    };
-    require("problem.k", "0 < k", R(0), k, true);
+    conditions.require("problem.k", "0 < k", R(0), k, true);
     if (kind == "circle") {
       const R r0 = orbit["r0"];
-      require("problem.orbit.r0", "0 < r0", R(0), r0, true);
-      const R l = sqrt(mass * k * r0);
-      return {{R(0), r0}, {-l / r0, R(0)}};
+      conditions.require("problem.orbit.r0", "0 < r0", R(0), r0, true);
+      return circular_start(r0, R(sqrt(mass * k * r0)));
     }
     const R r_per = orbit["r_per"];
-    require("problem.orbit.r_per", "0 < r_per", R(0), r_per, true);
+    conditions.require("problem.orbit.r_per", "0 < r_per", R(0), r_per, true);
     R l{};
     if (kind == "ellipse") {
       const R r_aph = orbit["r_aph"];
-      require("problem.orbit.r_aph", "r_per <= r_aph", r_per, r_aph, false);
+      conditions.require("problem.orbit.r_aph", "r_per <= r_aph", r_per, r_aph, false);
       l = sqrt(R(2) * k * mass * r_per * r_aph / (r_per + r_aph));
     } else {
       const R parabolic = sqrt(R(2) * mass * k * r_per);
       l = parabolic;
       if (kind == "hyperbola") {
         l = orbit["angular_momentum"];
-        require("problem.orbit.angular_momentum", "sqrt(2 mass k r_per) < angular_momentum", parabolic, l, true);
+        conditions.require("problem.orbit.angular_momentum", "sqrt(2 mass k r_per) < angular_momentum", parabolic, l,
+                           true);
       }
     }
-    return {{r_per, R(0)}, {R(0), l / r_per}};
+    return pericentre_start(r_per, l);
   }
 
   /// r(phi) = (l^2/(mu k))/(1 + eps cos(phi - phi')), (2.112)-(2.118), with eps and phi' from the eccentricity vector

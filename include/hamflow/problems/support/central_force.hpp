@@ -9,6 +9,17 @@
 
 namespace hamflow {
 
+/// A start on the y-axis for circles, moving to the left: counter-clockwise.   [Gross1999, (2.127), (2.128)]
+template <class R>
+Start<R, 2> circular_start(const R& r0, const R& l) {
+  return {{R(0), r0}, {-l / r0, R(0)}};
+}
+/// A start at pericentre on the x-axis.   [Gross1999, (2.131)]
+template <class R>
+Start<R, 2> pericentre_start(const R& r_per, const R& l) {
+  return {{r_per, R(0)}, {R(0), l / r_per}};
+}
+
 /// What a potential says of its two derivatives at u = r^2.
 template <class S>
 struct CentralDerivatives {
@@ -74,14 +85,22 @@ class CentralForce {
     return {q[0] * p[1] - q[1] * p[0]};
   }
 
+  /// Sets the parameters that follow from a start, for potentials whose strength is derived from the orbit.
+  static void derive(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
+    if constexpr (requires { Potential<R>::derive(kind, orbit, given); }) Potential<R>::derive(kind, orbit, given);
+  }
   /// A geometric start. @param conditions receives every inequality that the geometry has to meet
   static Start<R, 2> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
-                           std::vector<Condition>& conditions) {
+                           Conditions& conditions) {
     return Potential<R>::start(kind, given["mass"], given, orbit, conditions);
   }
   /// The exact orbit through (q, p) as r(phi), empty where it is not known in closed form.
   std::function<double(double)> exact_radius(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
-    return potential_.exact_radius(static_cast<double>(R(1) / inverse_mass_), q, p);
+    if constexpr (requires { potential_.exact_radius(1.0, q, p); }) {
+      return potential_.exact_radius(static_cast<double>(R(1) / inverse_mass_), q, p);
+    } else {
+      return {};
+    }
   }
 
  private:

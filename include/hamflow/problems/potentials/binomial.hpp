@@ -1,0 +1,58 @@
+// Binomial potential V(r) = k/2 (r^2 - lambda)^2, W(u) = k/2 (u - lambda)^2.   [Gross1999, Sect. 2.11]
+// A polynomial of degree 4 in q: four Gauss points conserve the energy of cg(1) exactly. Stiff for large k.
+#pragma once
+
+#include "hamflow/problems/support/central_force.hpp"
+
+namespace hamflow {
+
+template <class R>
+class Binomial {
+ public:
+  explicit Binomial(R k = R(1), R lambda = R(1)) : k_(k), lambda_(lambda) {}
+  explicit Binomial(const Parameters<R>& given) : Binomial(given["k"], given["lambda"]) {}
+
+  static ProblemInfo info() {
+    return {.name = "binomial",
+            .formula = "V(r) = k/2 (r^2 - lambda)^2",
+            .reference = "Gross1999, Sect. 2.11",
+            .parameters = {{"k", "1", "strength"}, {"lambda", "1", "square of the radius of the minimum"}},
+            .starts = {{"bounded",
+                        {"r_per", "r_aph"},
+                        "at pericentre, lambda <= (r_per^2 + r_aph^2)/2, "
+                        "l = r_per r_aph sqrt(mu k (r_per^2 + r_aph^2 - 2 lambda))"}}};
+  }
+
+  template <class S>
+  S value(const S& u) const {
+    return (u - lambda_) * (u - lambda_) * (k_ / R(2));
+  }
+  template <class S>
+  S slope(const S& u) const {
+    return (u - lambda_) * (R(2) * k_);
+  }
+  template <class S>
+  CentralDerivatives<S> derivatives(const S& u) const {
+    return {slope(u), S(R(4) * k_)};
+  }
+
+  static Start<R, 2> start(const std::string&, R mass, const Parameters<R>& given, const Parameters<R>& orbit,
+                           Conditions& conditions) {
+    const R k = given["k"];
+    const R lambda = given["lambda"];
+    const R r_per = orbit["r_per"];
+    const R r_aph = orbit["r_aph"];
+    const R mean = (r_per * r_per + r_aph * r_aph) / R(2);
+    conditions.require("problem.k", "0 < k", R(0), k, true);
+    conditions.require("problem.orbit.r_per", "0 < r_per", R(0), r_per, true);
+    conditions.require("problem.orbit.r_aph", "r_per <= r_aph", r_per, r_aph, false);
+    conditions.require("problem.lambda", "lambda <= (r_per^2 + r_aph^2)/2", lambda, mean, false);
+    return pericentre_start(r_per, r_per * r_aph * sqrt(R(2) * mass * k * (mean - lambda)));
+  }
+
+ private:
+  R k_;
+  R lambda_;
+};
+
+}  // namespace hamflow

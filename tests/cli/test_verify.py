@@ -1,0 +1,57 @@
+"""hamflow verify: exit 0 when every claim agrees with its measurement, 2 for a wrong request; the table and the JSON."""
+
+import json
+import unittest
+
+from command import CommandCase
+
+
+class Verify(CommandCase):
+    def test_table_of_claims_and_measurements(self):
+        out = self.hamflow("verify", "stv4", "cg(1,5)").stdout
+        self.assertIn("claimed / measured", out)
+        row = next(line for line in out.splitlines() if line.startswith("stv4"))
+        self.assertIn("4 / 4.00", row)
+        self.assertTrue(row.endswith("agrees"), row)
+        for problem in ("pendulum", "henon-heiles"):
+            self.assertIn(problem, out)
+
+    def test_json_has_every_property_and_problem(self):
+        answer = json.loads(self.hamflow("verify", "rk4", "--json").stdout)
+        (method,) = answer["methods"]
+        self.assertEqual(method["method"], "rk4")
+        self.assertTrue(method["agrees"])
+        found = {p["property"]: p["measured"] for p in method["properties"]}
+        self.assertEqual(found["symplectic"], "no")
+        self.assertEqual(found["energy conserving"], "no")
+        self.assertEqual([m["problem"] for m in method["measurements"]], ["pendulum", "henon-heiles"])
+        for measurement in method["measurements"]:
+            self.assertAlmostEqual(measurement["order"]["slope"], 4, delta=0.15)
+            self.assertEqual(measurement["energy"]["drift"], "linear")
+
+    def test_one_problem(self):
+        answer = json.loads(self.hamflow("verify", "verlet", "--problem", "central-force", "--json").stdout)
+        self.assertEqual([m["problem"] for m in answer["methods"][0]["measurements"]], ["central-force"])
+
+    def test_all_of_the_catalogue(self):
+        answer = json.loads(self.hamflow("verify", "--all", "--json").stdout)
+        names = {m["method"] for m in answer["methods"]}
+        listed = json.loads(self.hamflow("list", "methods", "--json").stdout)
+        self.assertLessEqual({m["name"] for m in listed if not m["name"].startswith("cg")}, names)
+        self.assertLessEqual({"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}, names)
+        self.assertEqual([m["method"] for m in answer["methods"] if not m["agrees"]], [])
+
+    def test_wrong_requests_name_what_is_meant(self):
+        for arguments, words in (
+            (["stv5"], "did you mean stv4?"),
+            (["verlet", "--problem", "pendulun"], "did you mean pendulum?"),
+            (["cg(1,0)"], "quadrature is a number of Gauss points"),
+            ([], "METHOD"),
+        ):
+            done = self.hamflow("verify", *arguments, status=2)
+            self.assertEqual(done.stdout, "")
+            self.assertIn(words, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
