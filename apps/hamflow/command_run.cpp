@@ -30,16 +30,18 @@ class Recorder final : public Observer {
     if (wants("h5")) {
       char host[256] = "";
       (void)gethostname(host, sizeof host - 1);
-      h5_ =
-          std::make_unique<RunFile>(folder / "run.h5", RunDescription{.scenario = scenario.text,
-                                                                      .version = HAMFLOW_VERSION,
-                                                                      .host = host,
-                                                                      .problem = scenario.request.problem,
-                                                                      .method = describe(scenario.request.method).name,
-                                                                      .arithmetic = scenario.request.arithmetic,
-                                                                      .kernel = "exact",
-                                                                      .dimension = scenario.problem->dimension,
-                                                                      .invariants = invariants});
+      h5_ = std::make_unique<RunFile>(
+          folder / "run.h5",
+          RunDescription{.scenario = scenario.text,
+                         .version = HAMFLOW_VERSION,
+                         .host = host,
+                         .problem = scenario.request.problem,
+                         .method = describe(scenario.request.method).name,
+                         .arithmetic = scenario.request.arithmetic,
+                         .kernel = "exact",
+                         .dimension = scenario.problem->dimension,
+                         .invariants = invariants,
+                         .samples = static_cast<std::size_t>(sample_count(scenario.steps, scenario.record_every))});
     }
     if (wants("csv"))
       csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.problem->dimension, invariants);
@@ -79,22 +81,29 @@ class Recorder final : public Observer {
 
 int file_trouble(const RunOptions& options, const std::string& message) {
   std::cerr << "error: " << message << '\n';
-  if (options.json) {
-    std::cout << nlohmann::ordered_json{{"status", "failed"}, {"error", {{"kind", "file"}, {"message", message}}}}.dump(
-                     2)
-              << '\n';
-  }
+  if (options.json) std::cout << json_text({{"status", "failed"}, {"error", {{"kind", "file"}, {"message", message}}}});
   return exit_file;
 }
 
 int rejected(const RunOptions& options, const std::vector<Complaint>& complaints) {
   for (const Complaint& complaint : complaints) std::cerr << complaint.text() << '\n';
-  if (options.json) std::cout << rejection_of(complaints).dump(2) << '\n';
+  if (options.json) std::cout << json_text(rejection_of(complaints));
   return exit_rejected;
+}
+
+void draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
+  if (scenario.figures.empty()) return;
+  std::filesystem::create_directories(folder / "figures");
+  for (const std::string& kind : scenario.figures) {
+    for (const char* format : {".svg", ".pdf", ".png"}) draw_figure(folder, kind, folder / "figures" / (kind + format));
+  }
 }
 
 int carry_out(const Scenario& scenario, const RunOptions& options) {
   const bool writes = options.out != "none";
+  if (!options.quiet) {
+    for (const std::string& note : scenario.notes) std::cerr << "note: " << note << '\n';
+  }
   const std::filesystem::path folder = folder_of(scenario, options.out);
   std::unique_ptr<Recorder> recorder;
   if (writes) {
@@ -110,37 +119,48 @@ int carry_out(const Scenario& scenario, const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   {
     Progress progress(scenario.steps, options.quiet);
-    result.outcome = run(*simulation, scenario.steps, observers, [&](std::int64_t step) {
-      progress.show(step);
-      if (recorder) recorder->flush_if_due();
-      return !interrupted();
-    });
+    try {
+      result.outcome = run(*simulation, scenario.steps, observers, [&](std::int64_t step) {
+        progress.show(step);
+        if (recorder) recorder->flush_if_due();
+        return !interrupted();
+      });
+    } catch (const FileError& error) {  // a full disk, say: what was computed is still told
+      result.file_trouble = error.what();
+    }
   }
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.steps_taken = simulation->step();
   if (result.outcome == Outcome::not_converged) result.failure = simulation->failure();
-  // Ctrl-C within the last block still ends as asked for.
-  if (recorder) recorder->finish(*simulation);
+  try {
+    if (recorder && result.file_trouble.empty()) recorder->finish(*simulation);
+  } catch (const FileError& error) {
+    result.file_trouble = error.what();
+  }
 
   const auto summary = summary_of(scenario, *simulation, result);
+  const bool failed = summary["status"] == "failed";
+  std::string late_trouble;
   if (writes) {
-    write_text(folder / "summary.json", summary.dump(2) + "\n");
-    recorder.reset();  // closes run.h5, from which the figures are drawn
-    if (!scenario.figures.empty()) {
-      std::filesystem::create_directories(folder / "figures");
-      for (const std::string& kind : scenario.figures) {
-        for (const char* format : {".svg", ".pdf", ".png"})
-          draw_figure(folder, kind, folder / "figures" / (kind + format));
-      }
+    try {
+      write_text(folder / "summary.json", json_text(summary));
+      recorder.reset();  // closes run.h5, from which the figures are drawn
+      if (!failed) draw_figures(scenario, folder);
+    } catch (const std::exception& error) {  // the run itself is done: say what it came to all the same
+      late_trouble = error.what();
     }
   }
-  std::cout << (options.json ? summary.dump(2) + "\n" : readable(summary));
+  std::cout << (options.json ? json_text(summary) : readable(summary));
   if (writes && !options.json && !options.quiet) std::cout << fmt::format("{:<20}{}\n", "written to", folder.string());
-  if (summary["status"] == "failed") {
+  if (failed) {
     std::cerr << "error: " << summary["error"]["message"].get<std::string>()
               << "\nhint: " << summary["error"]["hint"].get<std::string>() << '\n';
     if (writes) std::cerr << "what was computed is in " << folder.string() << '\n';
-    return exit_failed;
+    return result.file_trouble.empty() ? exit_failed : exit_file;
+  }
+  if (!late_trouble.empty()) {
+    std::cerr << "error: " << late_trouble << '\n';
+    return exit_file;
   }
   return result.outcome == Outcome::stopped ? exit_interrupted : exit_done;
 }

@@ -7,6 +7,7 @@
 #include "command_verify.hpp"
 #include "commands.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "summary.hpp"
 
 namespace {
 
@@ -53,7 +54,9 @@ int main(int argc, char** argv) {
   run_command->add_option("--set", run.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  run_command->add_option("--out", run.out, "folder for the results; \"none\" writes nothing")->type_name("DIR");
+  run_command->add_option("--out", run.out, "folder for the results; \"none\" writes nothing")
+      ->type_name("DIR")
+      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
   run_command->add_flag("--force", run.force, "replace the run in an existing folder");
   run_command->add_flag("--json", run.json, "print the summary as JSON, and nothing else, on stdout");
   run_command->add_flag("--quiet", run.quiet, "no progress, no notes");
@@ -64,7 +67,9 @@ int main(int argc, char** argv) {
       add(app, "plot", "Draw a figure of a run, also of one that goes on or was cut short",
           "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n");
   plot_command->add_option("run", plot.run, "the folder of a run, or its run.h5")->required()->type_name("RUN");
-  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase")->type_name("KIND");
+  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"orbit", "energy", "energy-error", "phase"}));
   plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
       ->required()
       ->type_name("FILE");
@@ -100,7 +105,11 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11's own statuses start at 100: help is 0, everything else a wrong request.
-    return app.exit(error) == 0 ? exit_done : exit_rejected;
+    status = app.exit(error) == 0 ? exit_done : exit_rejected;
+    const std::vector<std::string> words(argv, argv + argc);
+    if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
+      std::cout << hamflow::json_text({{"status", "rejected"}, {"errors", {{{"key", ""}, {"message", error.what()}}}}});
+    }
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return exit_failed;

@@ -20,12 +20,12 @@ void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 template <class T>
 class Column {
  public:
-  Column(hid_t file, std::string name, std::size_t width) : name_(std::move(name)), width_(width) {
+  Column(hid_t file, std::string name, std::size_t width, std::size_t rows) : name_(std::move(name)), width_(width) {
     const int rank = width > 0 ? 2 : 1;
     const hsize_t columns = std::max<std::size_t>(width, 1);
     const hsize_t size[2] = {0, columns};
     const hsize_t most[2] = {H5S_UNLIMITED, columns};
-    const hsize_t chunk[2] = {std::max<hsize_t>(batch_rows / columns, 1), columns};
+    const hsize_t chunk[2] = {std::max<hsize_t>(std::min(batch_rows, rows) / columns, 16), columns};
     const Hdf5Handle space(H5Screate_simple(rank, size, most), H5Sclose, "make a data space");
     const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
     check_hdf5(H5Pset_chunk(plist, rank, chunk), "chunk " + name_);
@@ -132,14 +132,16 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     check_hdf5(H5Dwrite(text, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, description.scenario.c_str()), "write the scenario");
   }
   const Hdf5Handle groups[] = {make_group(id, "invariants"), make_group(id, "solver"), make_group(id, "events")};
-  impl_->vectors.emplace_back(id, "q", description.dimension);
-  impl_->vectors.emplace_back(id, "p", description.dimension);
-  impl_->scalars.emplace_back(id, "energy", 0);
-  for (const std::string& name : description.invariants) impl_->invariants.emplace_back(id, "invariants/" + name, 0);
+  const std::size_t rows = description.samples > 0 ? description.samples : batch_rows;
+  impl_->vectors.emplace_back(id, "q", description.dimension, rows);
+  impl_->vectors.emplace_back(id, "p", description.dimension, rows);
+  impl_->scalars.emplace_back(id, "energy", 0, rows);
+  for (const std::string& name : description.invariants)
+    impl_->invariants.emplace_back(id, "invariants/" + name, 0, rows);
   for (const char* name : {"step", "solver/force", "solver/hessian", "solver/linear_solves", "events/halved"}) {
-    impl_->counts.emplace_back(id, name, 0);
+    impl_->counts.emplace_back(id, name, 0, rows);
   }
-  impl_->time.emplace_back(id, "t", 0);
+  impl_->time.emplace_back(id, "t", 0, rows);
   // Every object has to exist before this; from here on readers may look in, and a crash leaves a readable file.
   check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
 }
@@ -205,11 +207,15 @@ std::vector<std::vector<double>> by_coordinate(const std::vector<double>& rows, 
 }
 }  // namespace
 
-RunSamples read_run_file(const std::filesystem::path& path) {
+namespace {
+RunSamples read_samples(const std::filesystem::path& path) {
   silence_hdf5();
-  if (!std::filesystem::exists(path)) throw FileError("there is no " + path.string());
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose,
-                        "open " + path.string() + " (is it a run of hamflow?)");
+  if (!std::filesystem::exists(path)) throw FileError("there is no such file");
+  // A reader beside a writer may meet metadata half written and tries again, each time twice as long after. HDF5's own
+  // 100 attempts would wait for ever on a damaged file; 24 are over in a few hundredths of a second each.
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
+  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open it");
   RunSamples run;
   {
     const Hdf5Handle dataset(H5Dopen2(file, "scenario", H5P_DEFAULT), H5Dclose, "open dataset scenario");
@@ -238,6 +244,20 @@ RunSamples read_run_file(const std::filesystem::path& path) {
   run.p = by_coordinate(p, p_width, count);
   run.description.dimension = q_width;
   return run;
+}
+
+}  // namespace
+
+RunSamples read_run_file(const std::filesystem::path& path) {
+  try {
+    return read_samples(path);
+  } catch (const FileError& error) {
+    throw FileError(path.string() + " cannot be read, damaged or no run of hamflow: " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
+  } catch (const std::length_error&) {
+    throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
+  }
 }
 
 }  // namespace hamflow

@@ -28,6 +28,7 @@ struct RunDescription {
   std::string kernel;
   std::size_t dimension = 0;
   std::vector<std::string> invariants;
+  std::size_t samples = 0;  // expected, so that a short run leaves a small file; 0: unknown
 };
 
 /// Writes one row per sample.

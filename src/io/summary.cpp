@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace hamflow {
 
 namespace {
@@ -16,18 +18,18 @@ Json parameters_of(const Scenario& scenario) {
   return parameters;
 }
 
-std::string hint_for(Outcome outcome) {
+std::string hint_for(const Request& request, Outcome outcome) {
   switch (outcome) {
     case Outcome::not_converged:
-      return "try a smaller dt, method.on_divergence = \"halve\", or, if the residual stagnates above "
-             "method.tolerance, a "
-             "larger tolerance or none";
+      return std::string("try a smaller dt, ") + (request.method.cg.halve ? "" : "method.on_divergence = \"halve\", ") +
+             "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
     case Outcome::non_finite:
-      return "try a smaller dt: the energy error in the samples before shows where it went wrong";
+      return "try a smaller dt: the energy in the samples before shows where it went wrong";
     case Outcome::lattice_overflow:
-      return "a position or momentum left the range of 2^63 lattice units: give larger powers of two in run.lattice, "
-             "e.g. "
-             "{ position = \"2^-44\", momentum = \"2^-44\" }";
+      return fmt::format(
+          "a position or momentum left the range of 2^62 lattice units: give larger powers of two in run.lattice, e.g. "
+          "{{ position = \"2^{}\", momentum = \"2^{}\" }}",
+          std::ilogb(request.position_unit) + 8, std::ilogb(request.momentum_unit) + 8);
     case Outcome::done:
     case Outcome::stopped:
       break;
@@ -36,9 +38,16 @@ std::string hint_for(Outcome outcome) {
 }
 
 /// What was computed is kept; here is how to look at it and how to go on.
-Json error_of(const Simulation& simulation, const RunResult& result) {
+Json error_of(const Request& request, const Simulation& simulation, const RunResult& result) {
   Frame frame;
   simulation.look(frame);
+  if (!result.file_trouble.empty()) {
+    return {{"kind", "file"},
+            {"step", frame.step},
+            {"t", frame.time},
+            {"message", result.file_trouble},
+            {"hint", "make room, or write elsewhere with --out; the samples up to the last flush are kept"}};
+  }
   std::string message = result.failure;
   if (result.outcome == Outcome::non_finite) message = "the energy or the state became infinite or NaN";
   if (result.outcome == Outcome::lattice_overflow) message = "a number left the range of the lattice";
@@ -48,7 +57,7 @@ Json error_of(const Simulation& simulation, const RunResult& result) {
           {"step", step},
           {"t", frame.time},
           {"message", message},
-          {"hint", hint_for(result.outcome)}};
+          {"hint", hint_for(request, result.outcome)}};
 }
 }  // namespace
 
@@ -64,7 +73,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   const Excursion energy = simulation.energy();
   const double scale = simulation.energy_scale();
   Json s;
-  s["status"] = status_of(result.outcome);
+  s["status"] = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
   s["problem"] = scenario.request.problem;
   s["method"] = describe(scenario.request.method).name;
   s["arithmetic"] = scenario.request.arithmetic;
@@ -97,7 +106,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
-  if (s["status"] == "failed") s["error"] = error_of(simulation, result);
+  if (s["status"] == "failed") s["error"] = error_of(scenario.request, simulation, result);
   return s;
 }
 
@@ -108,6 +117,8 @@ Json rejection_of(const std::vector<Complaint>& complaints) {
   }
   return {{"status", "rejected"}, {"errors", errors}};
 }
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 std::string readable(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {

@@ -11,7 +11,8 @@ namespace hamflow {
 /// What the run itself found out.
 struct RunResult {
   Outcome outcome = Outcome::done;
-  std::string failure;  // a sentence about the step that failed
+  std::string failure;       // a sentence about the step that failed
+  std::string file_trouble;  // why the samples could not be written any further
   double wall_seconds = 0;
   std::int64_t steps_taken = 0;
 };
@@ -23,5 +24,7 @@ nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& si
 nlohmann::ordered_json rejection_of(const std::vector<Complaint>& complaints);
 /// The same summary for people.
 std::string readable(const nlohmann::ordered_json& summary);
+/// JSON as text, also of strings that are no UTF-8: names of files may be anything.
+std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace hamflow

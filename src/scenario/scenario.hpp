@@ -34,7 +34,8 @@ struct Scenario {
   std::string folder;  // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
-  std::vector<double> start_q;  // in double, canonical
+  std::vector<std::string> notes;  // worth saying, but no errors
+  std::vector<double> start_q;     // in double, canonical
   std::vector<double> start_p;
 };
 

@@ -21,29 +21,71 @@ void ScenarioReader::read_problem(TomlTable& table) {
     return;
   }
   const auto name = table.choice("name", problem_names());
-  if (!name) return;
+  if (!name) {
+    const std::string meant = nearest(table.string("name").value_or(""), problem_names());
+    if (!meant.empty()) read_uncertain(table, meant);
+    return;
+  }
   scenario_.request.problem = *name;
   read_variant(table, *name);
-  if (scenario_.problem == nullptr) return;
+  if (scenario_.problem == nullptr) {
+    read_uncertain(table, *name);
+    return;
+  }
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
-    const auto value = table.number(parameter.name);
-    if (!value) continue;
-    if (parameter.range == Range::positive && !(value->value > 0)) {
-      table.complain(parameter.name,
-                     table.found(parameter.name) + "; allowed a positive number (" + parameter.meaning + ")");
-    } else if (parameter.range == Range::not_negative && value->value < 0) {
-      table.complain(parameter.name,
-                     table.found(parameter.name) + "; allowed a number not below 0 (" + parameter.meaning + ")");
-    }
-    scenario_.request.parameters[parameter.name] = value->text;
+    if (const auto value = read_parameter(table, parameter)) scenario_.request.parameters[parameter.name] = *value;
   }
   scenario_.request.parameters = complete(info, scenario_.request.parameters);
   if (!info.starts.empty()) read_orbit(table);
   read_initial(table);
   table.finish();
   if (complaints_.size() == before) check_start(table);
+}
+
+std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, const ParameterInfo& parameter) {
+  const auto value = table.number(parameter.name);
+  if (!value) return std::nullopt;
+  const bool positive = parameter.range == Range::positive;
+  if (positive ? !(value->value > 0) : parameter.range == Range::not_negative && value->value < 0) {
+    table.complain(parameter.name, table.found(parameter.name) + "; allowed a " +
+                                       (positive ? "positive number (" : "number not below 0 (") + parameter.meaning +
+                                       ")");
+  }
+  return value->text;
+}
+
+/// The variant or the name is wrong, which has been said; what else is wrong whatever was meant is told at once.
+void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
+  std::vector<std::string> seen;
+  std::vector<std::string> kinds;
+  std::vector<std::string> orbit_keys{"direction"};
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name != name) continue;
+    for (const auto& choice : entry.info.variant) table.know(choice.first);
+    for (const ParameterInfo& parameter : entry.info.parameters) {
+      if (std::find(seen.begin(), seen.end(), parameter.name) != seen.end()) continue;
+      seen.push_back(parameter.name);
+      (void)read_parameter(table, parameter);
+    }
+    for (const StartInfo& start : entry.info.starts) {
+      if (std::find(kinds.begin(), kinds.end(), start.kind) == kinds.end()) kinds.push_back(start.kind);
+      orbit_keys.insert(orbit_keys.end(), start.keys.begin(), start.keys.end());
+    }
+  }
+  table.know_all({"name", "initial"});
+  if (!kinds.empty() && table.has("orbit")) {
+    TomlTable orbit = table.table("orbit");
+    (void)orbit.choice("kind", kinds);
+    for (const std::string& key : orbit_keys) {
+      if (orbit.has(key)) (void)orbit.number(key);
+    }
+    orbit.know_all(orbit_keys);
+    orbit.finish();
+  }
+  table.know("orbit");
+  table.finish();
 }
 
 void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {

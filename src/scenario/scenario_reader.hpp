@@ -30,6 +30,8 @@ class ScenarioReader {
 
  private:
   void read_problem(TomlTable& table);
+  std::optional<std::string> read_parameter(TomlTable& table, const ParameterInfo& parameter);
+  void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
   void read_orbit(TomlTable& table);
   void read_initial(TomlTable& table);

@@ -12,17 +12,29 @@ std::vector<std::string> method_names() {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   return names;
 }
+const std::vector<std::string> cg_keys{"degree",         "quadrature", "tolerance",    "criterion",
+                                       "max_iterations", "iteration",  "on_divergence"};
 }  // namespace
 
 void ScenarioReader::read_method(TomlTable& table) {
   if (!table.has("name")) {
     table.missing("name", joined(method_names()));
-    return;
+    table.know_all(cg_keys);
+  } else if (const auto name = table.choice("name", method_names()); !name) {
+    table.know_all(cg_keys);  // it may have been meant to be cg
+  } else {
+    scenario_.request.method.name = *name;
+    if (*name == "cg") {
+      read_cg(table);
+    } else if (table.from_set("name")) {
+      // Another method from the command line: the options of the one in the file do not apply.
+      for (const std::string& key : cg_keys) {
+        if (!table.has(key) || table.from_set(key)) continue;
+        table.know(key);
+        scenario_.notes.push_back("method." + key + " of the file is not used: " + *name + " has no such option");
+      }
+    }
   }
-  const auto name = table.choice("name", method_names());
-  if (!name) return;
-  scenario_.request.method.name = *name;
-  if (*name == "cg") read_cg(table);
   table.finish();
 }
 
@@ -66,6 +78,9 @@ void ScenarioReader::read_run(TomlTable& table) {
     scenario_.request.dt = dt->text;
   }
   read_length(table);
+  if (!std::isfinite(scenario_.dt * static_cast<double>(scenario_.steps))) {
+    table.complain("dt", table.found("dt") + "; allowed a dt whose product with the number of steps is finite");
+  }
   if (const auto every = table.whole("record_every", 1, most_steps)) {
     scenario_.record_every = *every;
   } else {
@@ -101,7 +116,7 @@ void ScenarioReader::read_length(TomlTable& table) {
                      table.found("t_end") + " with dt = " + shortest(scenario_.dt) + "; allowed the sign of dt");
     } else if (whole > static_cast<double>(most_steps)) {
       table.complain("t_end", table.found("t_end") + "; allowed at most 2^53 steps of dt");
-    } else if (std::abs(ratio - whole) > 1e-9 * std::max(1.0, whole)) {
+    } else if (std::abs(ratio - whole) > std::max(1e-9, 4 * whole * 0x1p-52)) {  // the quotient itself rounds
       const double fitting = std::max(whole, 1.0);
       table.complain(
           "t_end", table.found("t_end") + ", which is " + shortest(ratio) + " steps of dt = " + shortest(scenario_.dt) +
@@ -121,8 +136,9 @@ void ScenarioReader::read_lattice(TomlTable& table) {
       const auto value = lattice.number(key);
       if (!value) return;
       int exponent = 0;
-      if (std::frexp(value->value, &exponent) != 0.5 || std::abs(exponent) > 500) {
-        lattice.complain(key, lattice.found(key) + "; allowed a power of two such as \"2^-52\"");
+      if (std::frexp(value->value, &exponent) != 0.5 || std::abs(exponent) > 1000) {
+        lattice.complain(key, lattice.found(key) + "; allowed a power of two from 2^-1000 to 2^999, such as \"2^-52\"");
+        return;
       }
       out = value->value;
     };
@@ -137,6 +153,14 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     table.know("lattice");
   }
   if (!on_lattice) return;
+  const auto rounding = [](const std::vector<double>& values, double unit) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(std::remainder(x, unit)));
+    return most;
+  };
+  const double lost = std::max(rounding(scenario_.start_q, scenario_.request.position_unit),
+                               rounding(scenario_.start_p, scenario_.request.momentum_unit));
+  if (lost > 1e-12) scenario_.notes.push_back("the start is rounded to the lattice by up to " + shortest(lost));
   const auto reach = [](const std::vector<double>& values) {
     double most = 0;
     for (const double x : values) most = std::max(most, std::abs(x));

@@ -1,5 +1,6 @@
 #include "toml_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -13,7 +14,9 @@ constexpr const char* number_forms = "a finite number, or a text such as \"0.1\"
 std::string shown(const toml::node& node) {
   std::ostringstream out;
   if (const auto* text = node.as_string()) {
-    out << '"' << text->get() << "\" (a string)";
+    constexpr std::size_t most = 60;
+    const std::string& value = text->get();
+    out << '"' << value.substr(0, most) << (value.size() > most ? "..." : "") << "\" (a string)";
   } else if (const auto* integer = node.as_integer()) {
     out << integer->get();
   } else if (const auto* real = node.as_floating_point()) {
@@ -46,8 +49,22 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 }
 
 std::string Complaint::text() const {
+  // One line each, whatever a key or a string holds; and nothing that a terminal would obey.
+  const auto plain = [](const std::string& raw) {
+    std::string out;
+    for (const char c : raw) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte >= 0x20 && byte != 0x7f) {
+        out += c;
+      } else {
+        constexpr const char* digits = "0123456789abcdef";
+        out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : std::string("\\x") + digits[byte >> 4] + digits[byte & 15];
+      }
+    }
+    return out;
+  };
   const std::string where = line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : "--set";
-  return where + ": error: " + key + ": " + message;
+  return plain(where + ": error: " + key + ": " + message);
 }
 
 TomlTable::TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints)
@@ -100,6 +117,8 @@ std::optional<std::string> TomlTable::choice(const std::string& key, const std::
 }
 
 std::optional<Number> TomlTable::number_of(const toml::node& node, const std::string& key) {
+  // At the node itself: an entry of an array has its own place.
+  const auto wrong = [&] { complain_at(node.source(), key, "found " + shown(node) + "; allowed " + number_forms); };
   Number number;
   if (const auto* integer = node.as_integer()) {
     number = {std::to_string(integer->get()), static_cast<double>(integer->get())};
@@ -109,15 +128,15 @@ std::optional<Number> TomlTable::number_of(const toml::node& node, const std::st
     try {
       number = {text->get(), evaluate_number<double>(text->get())};
     } catch (const Error&) {
-      complain(key, "found " + shown(node) + "; allowed " + number_forms);
+      wrong();
       return std::nullopt;
     }
   } else {
-    complain(key, "found " + shown(node) + "; allowed " + number_forms);
+    wrong();
     return std::nullopt;
   }
   if (!std::isfinite(number.value)) {
-    complain(key, "found " + shown(node) + "; allowed " + number_forms);
+    wrong();
     return std::nullopt;
   }
   return number;
@@ -133,8 +152,11 @@ std::optional<std::int64_t> TomlTable::whole(const std::string& key, std::int64_
   if (node == nullptr) return std::nullopt;
   const auto value = number_of(*node, key);
   if (!value) return std::nullopt;
-  const bool fits = value->value == std::floor(value->value) && value->value >= static_cast<double>(least) &&
-                    value->value <= static_cast<double>(most);
+  if (const auto* integer = node->as_integer()) {  // beyond 2^53 the double would hide what was written
+    if (integer->get() >= least && integer->get() <= most) return integer->get();
+  }
+  const bool fits = !node->is_integer() && value->value == std::floor(value->value) &&
+                    value->value >= static_cast<double>(least) && value->value <= static_cast<double>(most);
   if (fits) return static_cast<std::int64_t>(value->value);
   complain(key, "found " + shown(*node) + "; allowed a whole number from " + std::to_string(least) + " to " +
                     std::to_string(most));
@@ -199,6 +221,11 @@ TomlTable TomlTable::table(const std::string& key) {
 
 void TomlTable::finish() {
   if (table_ == nullptr) return;
+  std::vector<std::string> distinct;
+  for (const std::string& key : known_) {
+    if (std::find(distinct.begin(), distinct.end(), key) == distinct.end()) distinct.push_back(key);
+  }
+  known_ = distinct;
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
     bool is_known = false;

@@ -37,6 +37,9 @@ class TomlTable {
   std::optional<std::vector<std::string>> choices(const std::string& key, const std::vector<std::string>& allowed);
   TomlTable table(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
+  void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
+  /// Whether the value came from the command line and not from the file.
+  bool from_set(const std::string& key) const { return has(key) && table_->get(key)->source().begin.line == 0; }
 
   /// Complains about every key nobody asked for, naming the nearest that is known.
   void finish();

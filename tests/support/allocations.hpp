@@ -3,4 +3,6 @@
 
 namespace hamflow::test {
 long long allocations();
-}
+/// False under the address sanitizer, which brings an operator new of its own.
+bool counts_allocations();
+}  // namespace hamflow::test

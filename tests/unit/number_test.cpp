@@ -28,6 +28,10 @@ TEST(Number, FollowsTheUsualRules) {
   EXPECT_EQ(number("exp(1)"), std::exp(1.0));
   EXPECT_EQ(number("log(10)"), std::log(10.0));
   EXPECT_EQ(number("sin(1)+cos(1)"), std::sin(1.0) + std::cos(1.0));
+  EXPECT_EQ(number("tan(1)+asin(1)+acos(0.5)+atan(2)"),
+            std::tan(1.0) + std::asin(1.0) + std::acos(0.5) + std::atan(2.0));
+  EXPECT_EQ(number("sinh(1)+cosh(1)+tanh(1)+abs(-3)"), std::sinh(1.0) + std::cosh(1.0) + std::tanh(1.0) + 3);
+  EXPECT_EQ(number("atan2(-1, -2)"), std::atan2(-1.0, -2.0));
 }
 
 TEST(Number, PowersBindTighterThanSignsAndToTheRight) {
@@ -68,9 +72,11 @@ TEST(Number, SaysInWhichColumnItStopsMakingSense) {
       {"2e", 2, "an operator"},
       {"1.2.3", 6, "a decimal"},
       {".", 2, "a decimal"},
-      {"sqrt 2", 6, "'(' after sqrt"},
+      {"sqrt 2", 1, "a number, pi, a function such as sqrt(2)"},
       {"sin(1", 6, "')'"},
       {"3 * * 2", 5, "a number"},
+      {"1 + sinus(2)", 5, "one of sqrt, exp"},
+      {"atan2(1)", 8, "','"},
       {"0x10", 2, "an operator"},
       {"1,5", 2, "an operator"},
       {"2 ^ ", 5, "a number"},

@@ -110,21 +110,42 @@ class NumberReader {
       return value;
     }
     if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return literal();
+    const std::size_t begin = at_;
     std::string word;
-    while (at_ < text_.size() && is_letter(text_[at_])) word += text_[at_++];
+    while (at_ < text_.size() && (is_letter(text_[at_]) || (!word.empty() && is_digit(text_[at_]))))
+      word += text_[at_++];
     if (word == "pi" || word == "Pi") return pi_value<R>();
-    if (word == "sqrt" || word == "exp" || word == "log" || word == "sin" || word == "cos") {
-      if (!take("(")) fail("'(' after " + word);
-      const R x = sum();
+    if (!word.empty() && take("(")) return function_of(word, begin);
+    at_ = begin;
+    fail("a number, pi, a function such as sqrt(2), or '('");
+  }
+  /// What follows "word(".
+  R function_of(const std::string& word, std::size_t begin) {
+    const auto close = [this](const R& value) {
       if (!take(")")) fail("')'");
-      return word == "sqrt"  ? R(sqrt(x))
-             : word == "exp" ? R(exp(x))
-             : word == "log" ? R(log(x))
-             : word == "sin" ? R(sin(x))
-                             : R(cos(x));
+      return value;
+    };
+    const R x = sum();
+    if (word == "atan2") {
+      if (!take(",")) fail("',': atan2 takes two numbers");
+      const R y = sum();
+      return close(atan2(x, y));
     }
-    at_ -= word.size();
-    fail("a number, pi, sqrt, exp, log, sin, cos or '('");
+    if (word == "sqrt") return close(sqrt(x));
+    if (word == "exp") return close(exp(x));
+    if (word == "log") return close(log(x));
+    if (word == "sin") return close(sin(x));
+    if (word == "cos") return close(cos(x));
+    if (word == "tan") return close(tan(x));
+    if (word == "asin") return close(asin(x));
+    if (word == "acos") return close(acos(x));
+    if (word == "atan") return close(atan(x));
+    if (word == "sinh") return close(sinh(x));
+    if (word == "cosh") return close(cosh(x));
+    if (word == "tanh") return close(tanh(x));
+    if (word == "abs") return close(abs(x));
+    at_ = begin;
+    fail("one of sqrt, exp, log, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, abs");
   }
   R literal() {
     const std::size_t begin = at_;

@@ -68,8 +68,14 @@ class ContinuousGalerkin {
     std::string history;
     again.options_.halve = false;
     (void)again.attempt(problem, h, copy, 0, &history);
-    return "Newton did not converge in " + std::to_string(options_.max_iterations) + " iterations with " +
-           std::to_string(again.quadrature()) + " Gauss points; residual (2.63) per iteration: " + history;
+    const std::string points = std::to_string(again.quadrature()) + " Gauss points";
+    if (options_.quadrature == 0 && again.quadrature() == most_gauss_points - 1) {
+      return "the force varies so much along the step that " + points + " do not keep the energy at rounding level";
+    }
+    return "Newton did not converge in " + std::to_string(options_.max_iterations) +
+           (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + points +
+           (options_.halve ? ", nor in ten halvings of the step" : "") +
+           "; residual (2.63) per iteration of the whole step: " + history;
   }
 
   /// The equations of the step for any number type: r = 0 and p1 - p0. The verification differentiates them.
@@ -107,11 +113,17 @@ class ContinuousGalerkin {
     Vector<Real, n> d = displacement(problem, h, p0, impulse);
     Outcome outcome = converge(problem, h, q0, p0, d, impulse, history);
     if (options_.quadrature == 0) {
-      while (outcome == Outcome::done && rule_->points < most_gauss_points &&
-             quadrature_too_coarse(problem, h, q0, d, impulse)) {
+      const GaussRule<Real>* const before = rule_;
+      while (outcome == Outcome::done && quadrature_too_coarse(problem, h, q0, d, impulse)) {
+        if (rule_->points ==
+            most_gauss_points - 1) {  // one more is needed to judge: the step is too long for the force
+          outcome = Outcome::not_converged;
+          break;
+        }
         rule_ = &gauss_rule<Real>(rule_->points + 1);
         outcome = converge(problem, h, q0, p0, d, impulse, history);
       }
+      if (outcome != Outcome::done && history == nullptr) rule_ = before;  // the points of a step that was not taken
     }
     if (outcome == Outcome::done) {
       z.move(Real(1), d);
