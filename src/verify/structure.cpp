@@ -16,7 +16,7 @@ using Rows = std::vector<std::vector<double>>;
 
 /// Collects defects in units of rounding. A step of at most some twenty actions rounds each coordinate a few times in
 /// each, with coefficients up to 3: 512 units and less is rounding. Without the property the defect is c h^(r+1), at
-/// h = 1/8 and r <= 6 far above 2^20 units, that is 2.3e-10.
+/// a twentieth of a period and r <= 6 far above 2^20 units, that is 2.3e-10.
 class Defects {
  public:
   void add(double defect, double size) {
@@ -106,7 +106,7 @@ void measure_structure(const StepMap& map, const Region& region, Measurement& fo
   Defects weak;
   Defects symmetric;
   Defects reversible;
-  const double h = region.step;
+  const double h = 3 * region.step;  // a twentieth of a period: defects of order 6 and more have to be seen
   for (std::uint64_t k = 0; k < states; ++k) {
     const State<double> z = random_state(region, k);
     const Rows m = map.jacobian(z, h);
