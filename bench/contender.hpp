@@ -27,6 +27,8 @@ struct Task {
   std::string h_text;  // the same step length as a scenario gives it
 };
 Task kepler_task(const std::string& h_text);
+/// The same with r = 0.4 .. 1.6 (e = 0.6, a = 1), unit mass and k, period 2 pi.
+Task unit_task(double h);
 
 /// One timed block of steps from the start of the task.
 struct Run {
@@ -38,10 +40,15 @@ struct Run {
 struct Contender {
   std::string name;
   std::function<Run(std::int64_t steps)> run;
-  std::string against;    // the contender whose time divides this one's; empty: none
-  double goal = 0;        // the ratio wanted; 0: none, for information
-  bool same_bits = true;  // the end state has the bits of the first contender's; else it lies within the bound
+  std::string against;           // the contender whose time divides this one's; empty: none
+  double goal = 0;               // the ratio wanted; 0: none, for information
+  bool same_bits = true;         // the end state has the bits of the first contender's; else it lies within the bound
+  double slack = 1;              // times the bound
+  bool bits_of_against = false;  // beside that: the bits of the contender it is compared to
 };
+
+/// A method of another library, or of hamflow by type: any task, any number of steps.
+using Runner = std::function<Run(const Task&, std::int64_t steps)>;
 
 /// Contenders of one method at one step length; the first is the hand-written loop.
 struct Workload {
@@ -53,7 +60,17 @@ struct Workload {
   std::function<double(std::int64_t steps)> bound;
 };
 
+/// A ratio of two contenders of different workloads, or against a peer, with the goal that it be at most so large.
+struct Comparison {
+  std::string method, contender;
+  std::string peer_method, peer;
+  bool per_force = false;  // else per step
+  double goal = 1;
+};
+
 std::vector<Workload> explicit_workloads(const Task& task);
 std::vector<Workload> element_workloads(const Task& task);
+/// For verlet and stv4.
+void add_fast_contenders(Workload& workload, const Task& task);
 
 }  // namespace bench

@@ -8,6 +8,7 @@
 
 #include "hamflow/methods/cg.hpp"
 #include "library.hpp"
+#include "peers.hpp"
 
 namespace bench {
 
@@ -154,7 +155,14 @@ std::vector<Workload> element_workloads(const Task& task) {
       {"hand, two lanes", [=](std::int64_t steps) { return run_hand<Two>(task, steps); }, "hand", 0, false});
   add_library_contenders(w, task, hamflow::Cg{{.quadrature = 5}}, 1.2, false);
   w.bound = [h = task.h](std::int64_t steps) { return parting(h, 4, steps); };
-  return {w};
+
+  // The implicit midpoint rule, which a peer has too.
+  Workload midpoint{"cg(1,1)", task.h_text, {}, {}, w.bound};
+  add_typed(midpoint, task, hamflow::Cg{{.quadrature = 1}}, 0, true);
+  midpoint.contenders.front().against.clear();
+  add_peers(midpoint, task);
+  if (midpoint.contenders.size() == 1) return {w};
+  return {w, midpoint};
 }
 
 }  // namespace bench

@@ -1,54 +1,19 @@
 // The explicit methods. The hand-written loops do the operations of the method in the order of hamflow, so that all end
 // states must agree in every bit; only their parameters come at run time. The folded loops, for information, show what
 // algebra could still take off the chain of dependent operations at the price of other roundings.
-#include <array>
-#include <cmath>
-
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/compositions/yoshida6.hpp"
 #include "hamflow/methods/splitting.hpp"
+#include "hamflow/methods/splittings/euler_a.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
-#include "library.hpp"
+#include "mclachlan.hpp"
+#include "peers.hpp"
+#include "plane.hpp"
 
 namespace bench {
 
 namespace {
-
-constexpr std::array<double, 1> verlet_weights{1};
-constexpr std::array<double, 3> stv4_weights = [] {
-  constexpr double g1 = 1.3512071919596576340476878089714608269219993762171;
-  return std::array{g1, 1 - 2 * g1, g1};
-}();
-constexpr std::array<double, 7> yoshida6_weights = [] {
-  constexpr double g1 = 0.7845136104775572638194976338663498757768;
-  constexpr double g2 = 0.2355732133593581336847931829785346016865;
-  constexpr double g3 = -1.177679984178871006946415680964315734639;
-  return std::array{g1, g2, g3, 1 - 2 * (g1 + g2 + g3), g3, g2, g1};
-}();
-
-/// The state and force of a hand-written loop, in locals of the loop's function.
-struct Plane {
-  double x, y, px, py;
-  double fx = 0, fy = 0;  // V'(q)
-};
-
-inline void update_force(Plane& s, double k) {
-  const double u = s.x * s.x + s.y * s.y;
-  const double slope = k / (u * std::sqrt(u));
-  s.fx = slope * s.x;
-  s.fy = slope * s.y;
-}
-inline void kick(Plane& s, double c) {
-  s.px -= c * s.fx;
-  s.py -= c * s.fy;
-}
-inline void drift(Plane& s, double d, double inverse_mass) {
-  s.x += d * (s.px * inverse_mass);
-  s.y += d * (s.py * inverse_mass);
-}
-inline Plane load(const Orbit& z) { return {z.q[0], z.q[1], z.p[0], z.p[1]}; }
-inline void save(const Plane& s, Orbit& z) { z = {{s.x, s.y}, {s.px, s.py}}; }
 
 [[gnu::noinline]] void hand_verlet(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   Plane s = load(z);
@@ -166,47 +131,83 @@ template <const auto& weights>
   save(s, z);
 }
 
-using HandLoop = void (*)(Orbit&, double mass, double k, double h, std::int64_t steps);
-
-Run run_hand(const Task& task, HandLoop loop, int forces, std::int64_t steps) {
-  Run run;
-  run.end = task.start;
-  run.nanoseconds = timed([&] { loop(run.end, task.mass, task.k, task.h, steps); });
-  run.forces = static_cast<double>(forces) * static_cast<double>(steps);
-  return run;
+/// A splitting that begins with a drift, as a table has it: a drift, a kick, ..., perhaps a drift.
+template <const auto& table>
+[[gnu::noinline]] void hand_drift_first(Orbit& z, double mass, double k, double h, std::int64_t steps) {
+  constexpr std::size_t count = table.size();
+  Plane s = load(z);
+  const double inverse_mass = 1 / mass;
+  for (std::int64_t i = 0; i < steps; ++i) {
+#pragma GCC unroll 16
+    for (std::size_t j = 0; j + 1 < count; j += 2) {
+      drift(s, h * table[j], inverse_mass);
+      update_force(s, k);
+      kick(s, h * table[j + 1]);
+    }
+    if constexpr (count % 2 == 1) drift(s, h * table[count - 1], inverse_mass);
+  }
+  save(s, z);
 }
 
 /// The chain of a kick-drift-kick step runs q -> F -> p -> q: |q|^2 (two operations), its root, u sqrt(u), the
 /// division, the force, the kick (two) and the drift (three); where two steps meet, two kicks follow each other.
 constexpr Chain splitting_chain(int forces) { return {3 * forces + 1, 6 * forces, forces, forces}; }
+/// One that begins with a drift; two drifts follow each other where steps meet unless it ends with a kick.
+constexpr Chain drift_first_chain(std::size_t actions) {
+  const int forces = static_cast<int>(actions / 2);
+  return {3 * forces + (actions % 2 == 1 ? 1 : 0), 6 * forces, forces, forces};
+}
 /// Two of the four forces follow one another: F(q2) -> p3 -> q4 -> F(q4), and F(q1) -> p2 -> q3 -> F(q3) beside it.
 constexpr Chain rk4_chain{7, 13, 2, 2};
+
+Workload begin(const Task& task, const std::string& method, int forces, const Chain& chain, HandLoop loop) {
+  Workload w{method, task.h_text, chain, {}, {}};
+  w.contenders.push_back({"hand", [=](std::int64_t steps) { return run_hand(task, loop, forces, steps); }, {}});
+  w.bound = [=](std::int64_t steps) { return parting(task.h, 4 * forces, steps); };
+  return w;
+}
 
 /// @param folded may be null
 template <class Recipe>
 Workload workload(const Task& task, const std::string& method, int forces, const Chain& chain, HandLoop loop,
                   HandLoop folded, const Recipe& recipe) {
-  Workload w{method, task.h_text, chain, {}, {}};
-  w.contenders.push_back({"hand", [=](std::int64_t steps) { return run_hand(task, loop, forces, steps); }, {}});
+  Workload w = begin(task, method, forces, chain, loop);
   if (folded != nullptr) {
     w.contenders.push_back(
         {"hand, folded", [=](std::int64_t steps) { return run_hand(task, folded, forces, steps); }, "hand", 0, false});
   }
-  w.bound = [=](std::int64_t steps) { return parting(task.h, 4 * forces, steps); };
-  add_library_contenders(w, task, recipe, 1.05, true);
+  add_library_contenders(w, task, recipe, 1.03, true);
+  add_fast_contenders(w, task);
+  add_peers(w, task);
   return w;
 }
+
+/// A method that only the peers and this program know by name: without "named" and "watched".
+template <const auto& numbers, class Recipe>
+Workload drift_first(const Task& task, const std::string& method, const Recipe& recipe) {
+  constexpr std::size_t actions = numbers.size();
+  Workload w =
+      begin(task, method, static_cast<int>(actions / 2), drift_first_chain(actions), hand_drift_first<numbers>);
+  add_typed(w, task, recipe, 1.03, true);
+  add_peers(w, task);
+  return w;
+}
+
+constexpr std::array<double, 2> euler_a_numbers{1, 1};
 
 }  // namespace
 
 std::vector<Workload> explicit_workloads(const Task& task) {
   using namespace hamflow;
-  return {workload(task, "verlet", 1, splitting_chain(1), hand_verlet, hand_folded<verlet_weights>,
+  return {drift_first<euler_a_numbers>(task, "euler-a", SplittingBy<splittings::euler_a>{}),
+          workload(task, "verlet", 1, splitting_chain(1), hand_verlet, hand_folded<verlet_weights>,
                    Composition<compositions::verlet>{}),
           workload(task, "stv4", 3, splitting_chain(3), hand_stv4, hand_folded<stv4_weights>,
                    Composition<compositions::stv4>{}),
           workload(task, "yoshida6", 7, splitting_chain(7), hand_yoshida6, hand_folded<yoshida6_weights>,
                    Composition<compositions::yoshida6>{}),
+          drift_first<sb3a_m4_numbers>(task, "sb3a_m4", SplittingBy<sb3a_m4>{}),
+          drift_first<sb3a_numbers>(task, "sb3a", SplittingBy<sb3a>{}),
           workload(task, "rk4", 4, rk4_chain, hand_rk4, nullptr, RungeKuttaBy<tableaus::rk4>{})};
 }
 

@@ -7,6 +7,7 @@
 
 #include "contender.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
+#include "hamflow/problems/support/fast_kernel.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
 
@@ -51,27 +52,42 @@ Run run_typed(const Task& task, const Recipe& recipe, std::int64_t steps) {
   return run_block(simulation, steps);
 }
 
-inline Run run_named(const Task& task, const std::string& method, bool watch, std::int64_t steps) {
+template <class Recipe>
+Run run_typed_fast(const Task& task, const Recipe& recipe, std::int64_t steps) {
+  const hamflow::FastKernel problem{
+      hamflow::CentralForce<double, hamflow::Kepler>(task.mass, hamflow::Kepler<double>(task.k))};
+  auto simulation = hamflow::simulate<false>(problem, recipe, task.start.q, task.start.p, task.h);
+  return run_block(simulation, steps);
+}
+
+inline Run run_named(const Task& task, const std::string& method, bool watch, std::int64_t steps,
+                     const std::string& kernel = "exact") {
   hamflow::Request request;
   request.problem = "central-force";
   request.variant = {{"potential", "kepler"}};
   request.parameters = {{"mass", hamflow::shortest(task.mass)}, {"k", hamflow::shortest(task.k)}};
-  request.start.kind = "ellipse";
-  request.start.orbit = {{"r_per", "1"}, {"r_aph", "3"}};
+  for (const double x : task.start.q) request.start.q.push_back(hamflow::shortest(x));
+  for (const double x : task.start.p) request.start.p.push_back(hamflow::shortest(x));
   request.method = hamflow::parse_method(method);
   request.dt = task.h_text;
+  request.kernel = kernel;
   request.watch = watch;
   const auto simulation = hamflow::make_simulation(request);
   return run_block(*simulation, steps);
 }
 
-/// Appends (b), (c) and (d) of bench/README.md.
+template <class Recipe>
+void add_typed(Workload& workload, const Task& task, const Recipe& recipe, double goal, bool same_bits) {
+  workload.contenders.push_back(
+      {"typed", [=](std::int64_t steps) { return run_typed(task, recipe, steps); }, "hand", goal, same_bits});
+}
+
+/// Appends typed, named and watched.
 template <class Recipe>
 void add_library_contenders(Workload& workload, const Task& task, const Recipe& recipe, double typed_goal,
                             bool same_bits) {
   const std::string method = workload.method;
-  workload.contenders.push_back(
-      {"typed", [=](std::int64_t steps) { return run_typed(task, recipe, steps); }, "hand", typed_goal, same_bits});
+  add_typed(workload, task, recipe, typed_goal, same_bits);
   workload.contenders.push_back(
       {"named", [=](std::int64_t steps) { return run_named(task, method, false, steps); }, "typed", 1.1, same_bits});
   workload.contenders.push_back(

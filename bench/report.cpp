@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "hamflow/numerics/inverse_cube.hpp"
+#include "peers.hpp"
+
 namespace bench {
 
 namespace {
@@ -51,30 +54,81 @@ Json json_of(const Table& table, const Result& r) {
   return entry;
 }
 
+Json json_of(const Compared& c) {
+  return {{"method", c.comparison.method},
+          {"contender", c.comparison.contender},
+          {"against", {{"method", c.comparison.peer_method}, {"contender", c.comparison.peer}}},
+          {"dt", std::stod(c.h_text)},
+          {"per", c.comparison.per_force ? "force" : "step"},
+          {"ratio", json_of(c.ratio)},
+          {"goal", c.comparison.goal},
+          {"met", c.met()}};
+}
+
+Json json_of(const Race& race) {
+  Json racers = Json::array();
+  for (const Placed& r : race.placed) {
+    racers.push_back({{"contender", r.name},
+                      {"steps_per_period", r.steps},
+                      {"error", r.error},
+                      {"us_per_period", json_of(r.us_per_period)},
+                      {"ratio_to_first", json_of(r.ratio)}});
+  }
+  return {{"target", race.target}, {"contenders", racers}};
+}
+
+std::string text_of(const Compared& c) {
+  return fmt::format("  {:36} / {:28} dt = {:5} per {:6} {:.3f} [{:.3f}, {:.3f}], goal {:.2f} {}\n",
+                     c.comparison.method + " " + c.comparison.contender,
+                     c.comparison.peer_method + " " + c.comparison.peer, c.h_text,
+                     c.comparison.per_force ? "force" : "step", c.ratio.median, c.ratio.low, c.ratio.high,
+                     c.comparison.goal, c.met() ? "met" : "MISSED");
+}
+
+std::string text_of(const Race& race) {
+  std::string out =
+      fmt::format("\nOne period of the ellipse e = 0.6 with an error of the position of at most {:.0e}\n", race.target);
+  out += fmt::format("  {:24} {:>12} {:>9} {:>30}   {}\n", "", "steps/period", "error", "us/period", "ratio");
+  for (const Placed& r : race.placed) {
+    out += fmt::format("  {:24} {:12} {:9.1e} {:12.2f} [{:.2f}, {:.2f}]   {:.2f} [{:.2f}, {:.2f}]\n", r.name, r.steps,
+                       r.error, r.us_per_period.median, r.us_per_period.low, r.us_per_period.high, r.ratio.median,
+                       r.ratio.low, r.ratio.high);
+  }
+  return out;
+}
+
 }  // namespace
 
-std::string as_json(const std::vector<Table>& tables, const Plan& plan) {
+std::string as_json(const Measured& measured, const std::vector<Race>& races, const Plan& plan) {
   Json document{{"benchmark", "hamflow"},
                 {"machine", {{"cpu", cpu_model()}, {"threads", std::thread::hardware_concurrency()}}},
                 {"compiler", compiler},
                 {"build", HAMFLOW_BENCH_BUILD},
                 {"flags", HAMFLOW_BENCH_FLAGS},
+                {"fast_kernel", hamflow::name(hamflow::fast_kernel_instruction_set())},
+                {"peers", {odeint_version(), gsl_version()}},
                 {"rounds", plan.rounds},
                 {"block_ms", plan.block_nanoseconds / 1e6},
-                {"results", Json::array()}};
-  for (const Table& table : tables) {
+                {"results", Json::array()},
+                {"compared", Json::array()},
+                {"equal_error", Json::array()}};
+  for (const Table& table : measured.tables) {
     for (const Result& r : table.results) document["results"].push_back(json_of(table, r));
   }
+  for (const Compared& c : measured.compared) document["compared"].push_back(json_of(c));
+  for (const Race& race : races) document["equal_error"].push_back(json_of(race));
   return document.dump(2);
 }
 
-std::string as_text(const std::vector<Table>& tables, const Plan& plan) {
-  std::string out = fmt::format("{}, {}, {} ({})\n{} interleaved rounds; median [quartiles]\n", cpu_model(), compiler,
-                                HAMFLOW_BENCH_BUILD, HAMFLOW_BENCH_FLAGS, plan.rounds);
-  for (const Table& table : tables) {
+std::string as_text(const Measured& measured, const std::vector<Race>& races, const Plan& plan) {
+  std::string out = fmt::format("{}, {}, {} ({})\n", cpu_model(), compiler, HAMFLOW_BENCH_BUILD, HAMFLOW_BENCH_FLAGS);
+  out += fmt::format("fast kernel: {}; {}; {}\n", hamflow::name(hamflow::fast_kernel_instruction_set()),
+                     odeint_version(), gsl_version());
+  out += fmt::format("{} interleaved rounds; median [quartiles]\n", plan.rounds);
+  for (const Table& table : measured.tables) {
     out += fmt::format("\n{}, dt = {}, {} steps a round\n", table.method, table.h_text, table.steps);
     out += fmt::format("  {:17} {:>24} {:>9}   {}\n", "", "ns/step", "ns/force", "ratio");
-    out += fmt::format("  {:17} {:8.2f}\n", "limit of the chain", table.limit.median);
+    if (table.limit.median > 0) out += fmt::format("  {:17} {:7.2f}\n", "limit of the chain", table.limit.median);
     for (const Result& r : table.results) {
       out += fmt::format("  {:17} {:8.2f} [{:6.2f}, {:6.2f}] {:9.2f}", r.contender, r.ns_per_step.median,
                          r.ns_per_step.low, r.ns_per_step.high, r.ns_per_force.median);
@@ -86,6 +140,9 @@ std::string as_text(const std::vector<Table>& tables, const Plan& plan) {
       out += "\n";
     }
   }
+  if (!measured.compared.empty()) out += "\nAcross methods\n";
+  for (const Compared& c : measured.compared) out += text_of(c);
+  for (const Race& race : races) out += text_of(race);
   return out;
 }
 

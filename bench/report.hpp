@@ -3,11 +3,12 @@
 
 #include <string>
 
+#include "equal_error.hpp"
 #include "timing.hpp"
 
 namespace bench {
 
-std::string as_text(const std::vector<Table>& tables, const Plan& plan);
-std::string as_json(const std::vector<Table>& tables, const Plan& plan);
+std::string as_text(const Measured& measured, const std::vector<Race>& races, const Plan& plan);
+std::string as_json(const Measured& measured, const std::vector<Race>& races, const Plan& plan);
 
 }  // namespace bench

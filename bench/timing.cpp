@@ -17,11 +17,6 @@ double quantile(const std::vector<double>& sorted, double at) {
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75)};
-}
-
 double distance(const Orbit& a, const Orbit& b) {
   double largest = 0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -30,15 +25,22 @@ double distance(const Orbit& a, const Orbit& b) {
   return largest;
 }
 
-/// @param first the end state of the first contender
-void check(const Workload& workload, const Contender& contender, const Orbit& first, const Orbit& end,
-           std::int64_t steps) {
-  const double apart = distance(first, end);
-  const double bound = contender.same_bits ? 0 : workload.bound(steps);
-  if (contender.same_bits ? first == end : apart <= bound) return;  // false for NaN
-  throw std::runtime_error(fmt::format("{}, h = {}: after {} steps '{}' ends {:.3g} away from '{}', allowed {:.3g}",
-                                       workload.method, workload.h_text, steps, contender.name, apart,
-                                       workload.contenders.front().name, bound));
+void check(const Workload& workload, const std::vector<Run>& runs, std::size_t i, std::int64_t steps) {
+  const auto fail = [&](std::size_t other, double apart, double bound) {
+    throw std::runtime_error(fmt::format("{}, h = {}: after {} steps '{}' ends {:.3g} away from '{}', allowed {:.3g}",
+                                         workload.method, workload.h_text, steps, workload.contenders[i].name, apart,
+                                         workload.contenders[other].name, bound));
+  };
+  const Contender& contender = workload.contenders[i];
+  const double apart = distance(runs[0].end, runs[i].end);
+  const double bound = contender.same_bits ? 0 : contender.slack * workload.bound(steps);
+  if (!(contender.same_bits ? runs[0].end == runs[i].end : apart <= bound)) fail(0, apart, bound);  // NaN fails
+  if (!contender.bits_of_against) return;
+  for (std::size_t j = 0; j < runs.size(); ++j) {
+    if (workload.contenders[j].name == contender.against && !(runs[i].end == runs[j].end)) {
+      fail(j, distance(runs[i].end, runs[j].end), 0);
+    }
+  }
 }
 
 /// Steps in a block, from a hand-written loop run long enough to be timed, rounded to three digits.
@@ -70,7 +72,7 @@ std::vector<Series> play_round(const Workload& workload, std::int64_t steps, std
   }
   std::vector<Series> round(count);
   for (std::size_t i = 0; i < count; ++i) {
-    check(workload, workload.contenders[i], runs[0].end, runs[i].end, steps);
+    check(workload, runs, i, steps);
     round[i].ns_per_step = {runs[i].nanoseconds / static_cast<double>(steps)};
     round[i].forces_per_step = runs[i].forces / static_cast<double>(steps);
     round[i].difference = distance(runs[0].end, runs[i].end);
@@ -108,9 +110,48 @@ Table summarise(const Workload& workload, std::int64_t steps, const std::vector<
   return table;
 }
 
+/// The series of a contender, null when it takes no part.
+const Series* find(const std::vector<Workload>& workloads, const std::vector<std::vector<Series>>& all,
+                   const std::string& h_text, const std::string& method, const std::string& contender) {
+  for (std::size_t w = 0; w < workloads.size(); ++w) {
+    if (workloads[w].method != method || workloads[w].h_text != h_text) continue;
+    for (std::size_t i = 0; i < all[w].size(); ++i) {
+      if (workloads[w].contenders[i].name == contender) return &all[w][i];
+    }
+  }
+  return nullptr;
+}
+
+std::vector<Compared> compare(const std::vector<Workload>& workloads, const std::vector<std::vector<Series>>& all,
+                              const std::vector<Comparison>& comparisons) {
+  std::vector<Compared> compared;
+  std::vector<std::string> seen;
+  for (const Workload& workload : workloads) {
+    const std::string& h = workload.h_text;
+    if (std::find(seen.begin(), seen.end(), h) != seen.end()) continue;
+    seen.push_back(h);
+    for (const Comparison& c : comparisons) {
+      const Series* mine = find(workloads, all, h, c.method, c.contender);
+      const Series* theirs = find(workloads, all, h, c.peer_method, c.peer);
+      if (mine == nullptr || theirs == nullptr) continue;
+      std::vector<double> ratios = divide(mine->ns_per_step, theirs->ns_per_step);
+      if (c.per_force) {
+        for (double& x : ratios) x *= theirs->forces_per_step / mine->forces_per_step;
+      }
+      compared.push_back({c, h, spread_of(ratios)});
+    }
+  }
+  return compared;
+}
+
 }  // namespace
 
-std::vector<Table> measure(const std::vector<Workload>& workloads, const Plan& plan) {
+Spread spread_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75)};
+}
+
+Measured measure(const std::vector<Workload>& workloads, const std::vector<Comparison>& comparisons, const Plan& plan) {
   std::vector<std::int64_t> steps;
   std::vector<std::vector<Series>> all;
   for (const Workload& workload : workloads) {
@@ -131,10 +172,12 @@ std::vector<Table> measure(const std::vector<Workload>& workloads, const Plan& p
       }
     }
   }
-  std::vector<Table> tables;
-  for (std::size_t w = 0; w < workloads.size(); ++w)
-    tables.push_back(summarise(workloads[w], steps[w], all[w], latencies));
-  return tables;
+  Measured measured;
+  for (std::size_t w = 0; w < workloads.size(); ++w) {
+    measured.tables.push_back(summarise(workloads[w], steps[w], all[w], latencies));
+  }
+  measured.compared = compare(workloads, all, comparisons);
+  return measured;
 }
 
 }  // namespace bench

@@ -39,7 +39,22 @@ struct Table {
   std::vector<Result> results;
 };
 
+struct Compared {
+  Comparison comparison;
+  std::string h_text;
+  Spread ratio;
+  /// Missed only beyond the spread: by the first quartile too.
+  bool met() const { return ratio.low <= comparison.goal; }
+};
+
+struct Measured {
+  std::vector<Table> tables;
+  std::vector<Compared> compared;  // those whose two contenders both took part
+};
+
+Spread spread_of(std::vector<double> values);
+
 /// @throws std::runtime_error when contenders do not end in the same state
-std::vector<Table> measure(const std::vector<Workload>& workloads, const Plan& plan);
+Measured measure(const std::vector<Workload>& workloads, const std::vector<Comparison>& comparisons, const Plan& plan);
 
 }  // namespace bench

@@ -42,6 +42,7 @@ set(problem_calls "")
 set(unit_text [[
 #include "problem_unit.hpp"
 #include "hamflow/problems/@header@.hpp"
+#include "hamflow/problems/support/polar.hpp"
 namespace hamflow {
 // The alias has a name of its own: two units with one name for different problems would be merged by the linker.
 template <class R>
@@ -64,6 +65,9 @@ foreach(potential IN LISTS potential_names)
   set(name central_force_${potential})
   set(header potentials/${potential})
   set(family "CentralForce<R, ${type}>")
+  hamflow_problem_unit(${header} ${name} "${unit_text}")
+  set(name polar_${potential})
+  set(family "PolarCentralForce<R, ${type}>")
   hamflow_problem_unit(${header} ${name} "${unit_text}")
 endforeach()
 

@@ -13,7 +13,7 @@ ALLOWED = {
     "numerics": {"core", "arithmetic"},
     "problems": {"core", "arithmetic", "numerics"},
     "methods": {"core", "arithmetic", "numerics"},
-    "run": {"core", "arithmetic", "numerics", "methods", "verify"},
+    "run": {"core", "arithmetic", "numerics", "methods"},
     "verify": {"core", "arithmetic", "numerics", "methods", "run"},
 }
 

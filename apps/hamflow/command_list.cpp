@@ -28,18 +28,32 @@ std::string variant_text(const ProblemInfo& info) {
 void show_problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
-                           info.variant.empty() ? "" : " with " + variant_text(info), info.formula, entry.dimension,
+                           info.variant.empty() ? "" : " with " + variant_text(info), info.formula,
+                           entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
                            info.reference);
   if (!info.parameters.empty()) std::cout << "  keys of [problem]:\n";
   for (const ParameterInfo& p : info.parameters) {
     const char* range = p.range == Range::positive       ? ", positive"
                         : p.range == Range::not_negative ? ", not negative"
+                        : p.range == Range::count        ? ", a whole number from 1"
                                                          : "";
-    std::cout << fmt::format("    {:<18} [{}]{}  {}\n", p.name, p.default_value, range, p.meaning);
+    const std::string list = p.kind == ParameterKind::number ? ""
+                             : p.length > 0 ? fmt::format(", a list of {}", p.length)
+                             : p.kind == ParameterKind::list ? ", a list" : ", a number or a list";
+    std::cout << fmt::format("    {:<18} [{}]{}{}  {}\n", p.name, p.required ? "required" : p.default_value.empty() ? "not given" : p.default_value,
+                             range, list, p.meaning);
   }
-  if (!info.starts.empty()) std::cout << "  orbit = { kind = ..., direction = 1 or -1 } with\n";
+  if (!info.start_key.empty()) {
+    std::cout << fmt::format("  {} = 1, ..., {}, each with its keys beside it:\n", info.start_key, info.starts.size());
+  } else if (!info.starts.empty()) {
+    std::cout << "  orbit = { kind = ..., direction = 1 or -1 } with\n";
+  }
   for (const StartInfo& s : info.starts) {
-    std::cout << fmt::format("    {:<18} {}  {}\n", s.kind, fmt::join(s.keys, ", "), s.meaning);
+    std::cout << fmt::format("    {:<18} {}  {}\n", s.kind.empty() ? "(without kind)" : s.kind, fmt::join(s.keys, ", "),
+                             s.meaning);
+  }
+  if (info.name == "central-force") {
+    std::cout << "  bodies = [{ mass, position = [3], velocity = [3] }, { ... }]: two bodies in space, reduced\n";
   }
   std::cout << fmt::format(
       "  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n", fmt::join(info.coordinates, ", "),
@@ -64,7 +78,8 @@ void show_method(const MethodSpec& spec) {
            "    criterion          [stagnation] \"seed\": stagnation above the tolerance is an error\n"
            "    max_iterations     [15]\n"
            "    iteration          [newton]\n"
-           "    on_divergence      [error]     \"halve\": two half steps in place of one that does not converge\n";
+           "    on_divergence      [error]     \"halve\": two half steps in place of one that does not converge\n"
+           "    diagnostics        [false]     condition and determinant of the tangent, condition of M^-1, each step\n";
   }
   std::cout << "  measured properties: hamflow verify " << (spec.name == "cg" ? "'" + info.name + "'" : info.name)
             << "\n";

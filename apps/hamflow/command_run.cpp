@@ -25,8 +25,11 @@ class Recorder final : public Observer {
     const auto wants = [&](const char* format) {
       return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
     };
-    std::vector<std::string> invariants;
-    for (const InvariantInfo& invariant : scenario.problem->info.invariants) invariants.push_back(invariant.name);
+    const std::vector<InvariantInfo>& declared = scenario.problem->info.invariants;
+    const std::vector<std::size_t> sizes =
+        scenario.problem->invariant_sizes(scenario.request.parameters, scenario.start_q.size());
+    std::vector<std::pair<std::string, std::size_t>> invariants;
+    for (std::size_t i = 0; i < declared.size(); ++i) invariants.emplace_back(declared[i].name, sizes[i]);
     if (wants("h5")) {
       char host[256] = "";
       (void)gethostname(host, sizeof host - 1);
@@ -38,13 +41,14 @@ class Recorder final : public Observer {
                          .problem = scenario.request.problem,
                          .method = describe(scenario.request.method).name,
                          .arithmetic = scenario.request.arithmetic,
-                         .kernel = "exact",
-                         .dimension = scenario.problem->dimension,
+                         .kernel = scenario.request.kernel,
+                         .dimension = scenario.start_q.size(),
                          .invariants = invariants,
+                         .diagnostics = scenario.request.method.cg.diagnostics,
                          .samples = static_cast<std::size_t>(sample_count(scenario.steps, scenario.record_every))});
     }
     if (wants("csv"))
-      csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.problem->dimension, invariants);
+      csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.start_q.size(), invariants);
   }
 
   std::int64_t next_due(std::int64_t step) const override {

@@ -24,11 +24,12 @@ std::vector<hamflow::MethodSpec> methods_of(const VerifyOptions& options) {
 
 /// The rows in the order of the methods, measured on all cores.
 std::vector<hamflow::PropertyRow> measure_all(const std::vector<hamflow::MethodSpec>& specs,
-                                              const std::vector<hamflow::Region>& regions) {
+                                              const std::vector<hamflow::Region>& given) {
   std::vector<std::optional<hamflow::PropertyRow>> measured(specs.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < specs.size(); i = next++) measured[i] = hamflow::measure_method(specs[i], regions);
+    for (std::size_t i = next++; i < specs.size(); i = next++) 
+      measured[i] = hamflow::measure_method(specs[i], given.empty() ? hamflow::default_regions(specs[i]) : given);
   };
   {
     std::vector<std::jthread> helpers;
@@ -48,8 +49,10 @@ int run_verify(const VerifyOptions& options) {
   try {
     specs = methods_of(options);
     if (specs.empty()) throw hamflow::Error("verify needs at least one METHOD, or --all");
-    regions = options.problem.empty() ? hamflow::default_regions()
-                                      : std::vector<hamflow::Region>{hamflow::region_of(options.problem)};
+    if (!options.problem.empty()) regions = {hamflow::region_of(options.problem)};
+    for (const hamflow::Region& region : regions) {
+      for (const hamflow::MethodSpec& spec : specs) (void)hamflow::step_map_on(region, spec);  // throws where refused
+    }
   } catch (const hamflow::Error& error) {
     fmt::print(stderr, "hamflow verify: error: {}\n", error.what());
     return 2;

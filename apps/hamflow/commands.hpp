@@ -2,6 +2,7 @@
 // ran; 3 input or output failed; 130 stopped by Ctrl-C.   [spec: product, section 2]
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,32 @@ struct PlotOptions {
   std::string file;
 };
 int plot_run(const PlotOptions& options);
+
+struct NewOptions {
+  std::string problem;
+  std::map<std::string, std::string> variant;  // e.g. potential = kepler; empty: not given
+};
+int new_scenario(const NewOptions& options);
+
+struct ConvertOptions {
+  std::string input;  // a scenario, the folder of a run or its run.h5; empty: a state is given
+  std::string to;
+  std::string from;  // of a given state
+  std::string q;     // numbers with commas between
+  std::string p;
+  std::string output;  // empty: standard output
+  std::vector<std::string> sets;
+  bool json = false;
+};
+int convert_coordinates(const ConvertOptions& options);
+
+struct ShellOptions {
+  std::string scenario;
+  std::vector<std::string> sets;
+  bool json = false;
+  bool quiet = false;
+};
+int run_shell(const ShellOptions& options);
 
 int list_catalogue(const std::string& what, bool json);
 int show_entry(const std::string& name);

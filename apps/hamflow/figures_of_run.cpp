@@ -48,10 +48,23 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
     const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);
     if (radius) sample_polar_curve(radius, data);
   }
+  data.diagnostics = std::move(samples.diagnostics);
+  for (const InvariantInfo& invariant : problem.info.invariants) {
+    if (problem.dimension > 0 || invariant.components != Components::space) continue;
+    const auto sizes = problem.invariant_sizes(parameters, scenario.start_q.size());
+    data.space = sizes[static_cast<std::size_t>(&invariant - problem.info.invariants.data())];
+  }
+  if (problem.dimension == 0 && data.space == 0) {  // a chain: q1, ..., qn
+    data.coordinates.clear();
+    for (std::size_t i = 1; i <= data.q.size(); ++i) data.coordinates.push_back("q" + std::to_string(i));
+  }
   if (problem.dimension == 1) {
     data.hamiltonian_1d = [&problem, &parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
-  write_figure(data, !kind.empty() ? kind : problem.dimension == 2 ? "orbit" : "phase", file);
+  const char* const usual = problem.dimension == 2 || data.space > 0 ? "orbit"
+                            : data.q.size() <= 12                    ? "phase"
+                                                                     : "energy-error";
+  write_figure(data, !kind.empty() ? kind : usual, file);
 }
 
 }  // namespace hamflow::app

@@ -67,9 +67,9 @@ int main(int argc, char** argv) {
       add(app, "plot", "Draw a figure of a run, also of one that goes on or was cut short",
           "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n");
   plot_command->add_option("run", plot.run, "the folder of a run, or its run.h5")->required()->type_name("RUN");
-  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase")
+  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase, condition")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"orbit", "energy", "energy-error", "phase"}));
+      ->check(CLI::IsMember({"orbit", "energy", "energy-error", "phase", "condition"}));
   plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
       ->required()
       ->type_name("FILE");
@@ -84,6 +84,51 @@ int main(int argc, char** argv) {
   verify_command->add_option("--problem", verify.problem, "measure on this problem alone")->type_name("PROBLEM");
   verify_command->add_flag("--json", verify.json, "print JSON");
   verify_command->callback([&] { status = run_verify(verify); });
+
+  ShellOptions shell;
+  CLI::App* shell_command = add(
+      app, "shell", "Steer a run line by line: step n, dt x, tol x, method m, show, save, reset, reverse, help, quit",
+      "  hamflow shell kepler.toml\n  printf 'step 100\\ndt 0.01\\nstep 100\\nshow\\nsave fine.run\\n' | hamflow shell "
+      "kepler.toml\n");
+  shell_command->add_option("scenario", shell.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
+  shell_command->add_option("--set", shell.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  shell_command->add_flag("--json", shell.json, "show prints one JSON object per line");
+  shell_command->add_flag("--quiet", shell.quiet, "no progress, no notes");
+  shell_command->callback([&] { status = run_shell(shell); });
+
+  NewOptions fresh;
+  CLI::App* new_command = add(app, "new", "Print a scenario for a problem, every key of it explained",
+                              "  hamflow new central-force > my.toml && hamflow run my.toml\n"
+                              "  hamflow new central-force --potential hooke --coordinates polar > hooke.toml\n");
+  new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
+  for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
+    for (const auto& [key, value] : entry.info.variant) {
+      if (!fresh.variant.contains(key)) new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
+    }
+  }
+  new_command->callback([&] { status = new_scenario(fresh); });
+
+  ConvertOptions convert;
+  CLI::App* convert_command =
+      add(app, "convert", "Convert a scenario, a run or a state to other coordinates of its problem",
+          "  hamflow convert kepler.toml --to polar -o polar.toml\n  hamflow convert kepler.run --to polar -o polar.csv\n"
+          "  hamflow convert --from cartesian --to polar --q 1,0 --p 0,1\n");
+  convert_command->add_option("input", convert.input, "a scenario, the folder of a run, or its run.h5")
+      ->type_name("INPUT");
+  convert_command->add_option("--to", convert.to, "cartesian, polar (central-force); absolute, relative (double-pendulum)")
+      ->required()
+      ->type_name("COORDINATES");
+  convert_command->add_option("--from", convert.from, "the coordinates of --q and --p")->type_name("COORDINATES");
+  convert_command->add_option("--q", convert.q, "a state: positions, commas between")->type_name("Q1,Q2");
+  convert_command->add_option("--p", convert.p, "its canonical momenta")->type_name("P1,P2");
+  convert_command->add_option("--set", convert.sets, "override a key of the scenario first, e.g. method.name=cg")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  convert_command->add_option("-o,--output", convert.output, "write to a file; of a run .h5 or .csv")->type_name("FILE");
+  convert_command->add_flag("--json", convert.json, "print the state, or those of a run, as JSON");
+  convert_command->callback([&] { status = convert_coordinates(convert); });
 
   std::string what;
   bool list_json = false;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/methods/boris.hpp"
+#include "hamflow/problems/magnetic.hpp"
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
 
 namespace hamflow {
@@ -24,10 +27,12 @@ std::span<const MethodEntry> methods() {
     }
     for (const std::string& name : generated_tableaus()) list.push_back({name, MethodKind::runge_kutta});
     list.push_back({"cg", MethodKind::cg});
+    list.push_back({"boris", MethodKind::boris});
     // Explicit methods by order and cost, then the rest.
     std::stable_sort(list.begin(), list.end(), [](const MethodEntry& a, const MethodEntry& b) {
       const auto key = [](const MethodEntry& e) {
         if (e.kind == MethodKind::cg) return 1000;
+        if (e.kind == MethodKind::boris) return 1001;
         const MethodInfo info = describe(MethodSpec{e.name, {}});
         return 50 * info.order + info.forces_per_step;
       };
@@ -180,6 +185,7 @@ MethodInfo describe(const MethodSpec& spec) {
     if (spec.name == table->name) return describe(*table);
   }
   if (spec.name == "cg") return describe(spec.cg);
+  if (spec.name == "boris") return BorisStep<Magnetic<double>, Plain<double>>::describe();
   if (const auto info = generated_tableau_info(spec.name)) return *info;
   (void)find_method(spec.name);  // throws, naming the nearest
   throw Error("method '" + spec.name + "' has no description");
@@ -195,6 +201,49 @@ std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {
   if (entry.kind == MethodKind::cg) {
     return "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4";
   }
+  if (entry.kind == MethodKind::boris) return "boris rotates velocities, which is no bijection of the lattice";
+  return {};
+}
+
+std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
+  if (problem.accepts(spec)) return {};
+  std::string all;
+  for (const MethodEntry& entry : methods()) {
+    if (problem.accepts(MethodSpec{entry.name, {}})) all += (all.empty() ? "" : ", ") + entry.name;
+  }
+  std::string needs;
+  switch (find_method(spec.name).kind) {
+    case MethodKind::composition:
+    case MethodKind::splitting:
+      needs = "a separable H = T(p) + V(q)";
+      break;
+    case MethodKind::runge_kutta:
+      needs = "a differentiable H";
+      break;
+    case MethodKind::cg:
+      needs = "a twice differentiable H";
+      break;
+    case MethodKind::boris:
+      needs = "a charge in a uniform magnetic field (problem magnetic)";
+      break;
+  }
+  return spec.name + " needs " + needs + ", and that of " + problem.info.name + " is none; allowed here: " + all;
+}
+
+std::string refused_fast_kernel(const Request& request, const ProblemEntry& problem) {
+  if (!problem.has_fast_kernel) {
+    std::string all;
+    for (const ProblemEntry& entry : problems()) {
+      if (!entry.has_fast_kernel) continue;
+      all += (all.empty() ? "" : ", ") + entry.info.name;
+      for (const auto& [key, value] : entry.info.variant) all += " " + value;
+    }
+    return "there is no fast kernel for " + problem.info.name + "; there is for: " + all;
+  }
+  if (request.arithmetic == "lattice") return "on the lattice forces are exact; allowed exact";
+  if (find_method(request.method.name).kind == MethodKind::cg) {
+    return "an energy-conserving element needs the exact force; allowed exact";
+  }
   return {};
 }
 
@@ -206,6 +255,12 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const std::string why_not = refusal(request.method, request.arithmetic);
   if (!why_not.empty())
     throw Error("method " + request.method.name + " cannot run in " + request.arithmetic + ": " + why_not);
+  const std::string not_here = refusal(request.method, problem);
+  if (!not_here.empty()) throw Error(not_here);
+  if (request.kernel != "exact") {
+    const std::string no_kernel = request.kernel == "fast" ? refused_fast_kernel(request, problem) : "allowed exact, fast";
+    if (!no_kernel.empty()) throw Error("kernel '" + request.kernel + "': " + no_kernel);
+  }
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
   return problem.simulate(full);

@@ -33,7 +33,7 @@ std::string no_samples(const char* of) { return fmt::format("there is no sample 
 
 /// Lists that belong together have to be equally long.
 std::string inconsistency(const FigureData& data) {
-  if (data.coordinates.size() != data.q.size()) {
+  if (data.space == 0 && data.coordinates.size() != data.q.size()) {
     return fmt::format("there are {} names of coordinates for {}", data.coordinates.size(), count(data.q.size()));
   }
   const auto differs = [&](const std::vector<double>& x) { return x.size() != data.t.size(); };
@@ -45,6 +45,7 @@ std::string inconsistency(const FigureData& data) {
 }
 
 std::string orbit_obstacle(const FigureData& data) {
+  if (data.space >= 2) return both_finite(data.q[0], data.q[1]) ? "" : no_samples("position");
   if (data.q.size() != 2)
     return fmt::format("an orbit needs 2 degrees of freedom, and these data have {}", data.q.size());
   return figures::orbit_track(data).x.empty() ? no_samples("position") : "";
@@ -71,11 +72,22 @@ std::string phase_obstacle(const FigureData& data) {
   return "";
 }
 
+std::string condition_obstacle(const FigureData& data) {
+  if (data.diagnostics.empty()) {
+    return "the run has no diagnostics; they are recorded with method.diagnostics = true of an implicit method";
+  }
+  for (const auto& column : data.diagnostics) {
+    if (both_finite(data.t, column.second)) return "";
+  }
+  return no_samples("condition");
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{{"orbit", figures::orbit_page, orbit_obstacle},
                                       {"energy", figures::energy_page, energy_obstacle},
                                       {"energy-error", figures::energy_error_page, energy_error_obstacle},
-                                      {"phase", figures::phase_page, phase_obstacle}};
+                                      {"phase", figures::phase_page, phase_obstacle},
+                                      {"condition", figures::condition_page, condition_obstacle}};
   return list;
 }
 

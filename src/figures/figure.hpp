@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hamflow {
@@ -18,6 +19,10 @@ struct FigureData {
   double energy_scale = 1;      // max(|H0|, |T0| + |V0|)
   std::vector<double> curve_x;  // exact orbit, empty if unknown; NaN separates branches
   std::vector<double> curve_y;
+  /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies; 0 otherwise.
+  std::size_t space = 0;
+  /// Of the steps of an implicit method, names and values at each sample; empty unless the run was asked for them.
+  std::vector<std::pair<std::string, std::vector<double>>> diagnostics;
   /// H(q, p) of one degree of freedom, for the exact level curve in the phase plane; empty otherwise.
   std::function<double(double q, double p)> hamiltonian_1d;
 };
@@ -26,7 +31,7 @@ struct FigureData {
 /// whole if the data go round it. Does nothing without r(phi) or without an orbit in the data.
 void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureData& data);
 
-/// "orbit", "energy", "energy-error", "phase".
+/// "orbit", "energy", "energy-error", "phase", "condition".
 std::vector<std::string> figure_kinds();
 
 /// Empty if the kind can be drawn from these data, else a sentence saying why not and what can be.

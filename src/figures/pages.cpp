@@ -137,7 +137,26 @@ std::vector<double> relative_energy_error(const FigureData& data) {
   return error;
 }
 
+/// The paths of several bodies, seen along the third axis where there is one.
+Page bodies_page(const FigureData& data) {
+  Extent x;
+  Extent y;
+  std::vector<Curve> tracks;
+  for (std::size_t i = 0; i + 1 < data.q.size(); i += data.space) {
+    tracks.push_back(finite_points(data.q[i], data.q[i + 1]));
+    x.include(tracks.back().x);
+    y.include(tracks.back().y);
+  }
+  Panel panel;
+  fit_equal_axes(panel, x, y);
+  panel.x_label = symbol("x");
+  panel.y_label = symbol("y");
+  for (const Curve& track : tracks) panel.series.push_back(samples(track));
+  return {data.title, {panel}, 1};
+}
+
 Page orbit_page(const FigureData& data) {
+  if (data.space >= 2) return bodies_page(data);
   const Curve track = orbit_track(data);
   const bool exact = !data.curve_x.empty();
   Extent x;
@@ -212,6 +231,26 @@ Page energy_error_page(const FigureData& data) {
   times.include(data.t);
   panel.series.insert(panel.series.begin(), {Ink::zero, "", {{times.low, times.high}, {0, 0}}});
   return {data.title, {panel}, 1};
+}
+
+Page condition_page(const FigureData& data) {
+  const std::vector<std::pair<std::string, std::string>> labels{{"condition_tangent", "cond_∞({/:Italic K}_T)"},
+                                                                {"determinant_tangent", "det({/:Italic K}_T)"},
+                                                                {"condition_inverse_mass", "cond_∞({/:Italic M}^{−1})"},
+                                                                {"iterations", "Newton iterations"}};
+  Page page{data.title, {}, 1};
+  for (const auto& [name, label] : labels) {
+    for (const auto& [column, values] : data.diagnostics) {
+      if (column != name || finite_points(data.t, values).x.empty()) continue;
+      Panel panel = over_time(data.t, values);
+      Extent range;
+      range.include(values);
+      panel.y = fit_axis(range, padding, {5});
+      panel.y_label = label;
+      page.panels.push_back(panel);
+    }
+  }
+  return page;
 }
 
 Page phase_page(const FigureData& data) {

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t batch_rows = 8192;  // one write call per batch: 35 ns a row instead of 25 us
 constexpr double flush_seconds = 0.25;    // at most so much is lost by a crash
 using Clock = std::chrono::steady_clock;
+constexpr const char* diagnostic_names[] = {"iterations", "residual", "condition_tangent", "determinant_tangent",
+                                            "condition_inverse_mass"};
 
 /// HDF5 prints its error stack unless told not to; our messages say what failed.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
@@ -102,6 +104,8 @@ struct RunFile::Impl {
   Hdf5Handle file;
   std::vector<Column<double>> vectors;  // q, p
   std::vector<Column<double>> invariants;
+  std::vector<std::size_t> invariant_sizes;
+  std::vector<Column<double>> diagnostics;
   std::vector<Column<double>> scalars;  // energy
   std::vector<Column<std::int64_t>> counts;
   std::vector<Column<double>> time;  // last: its length tells how many rows are complete
@@ -136,8 +140,13 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   impl_->vectors.emplace_back(id, "q", description.dimension, rows);
   impl_->vectors.emplace_back(id, "p", description.dimension, rows);
   impl_->scalars.emplace_back(id, "energy", 0, rows);
-  for (const std::string& name : description.invariants)
-    impl_->invariants.emplace_back(id, "invariants/" + name, 0, rows);
+  for (const auto& [name, size] : description.invariants) {
+    impl_->invariants.emplace_back(id, "invariants/" + name, size == 1 ? 0 : size, rows);
+    impl_->invariant_sizes.push_back(size);
+  }
+  for (const char* name : diagnostic_names) {
+    if (description.diagnostics) impl_->diagnostics.emplace_back(id, std::string("solver/") + name, 0, rows);
+  }
   for (const char* name : {"step", "solver/force", "solver/hessian", "solver/linear_solves", "events/halved"}) {
     impl_->counts.emplace_back(id, name, 0, rows);
   }
@@ -157,7 +166,14 @@ void RunFile::append(const Frame& frame) {
   for (const double x : frame.q) impl_->vectors[0].add(x);
   for (const double x : frame.p) impl_->vectors[1].add(x);
   impl_->scalars[0].add(frame.energy);
-  for (std::size_t i = 0; i < impl_->invariants.size(); ++i) impl_->invariants[i].add(frame.invariants[i]);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < impl_->invariants.size(); ++i) {
+    for (std::size_t k = 0; k < impl_->invariant_sizes[i]; ++k) impl_->invariants[i].add(frame.invariants[at++]);
+  }
+  const StepDiagnostics& d = frame.diagnostics;
+  const double of_step[] = {d.iterations, d.residual, d.condition_tangent, d.determinant_tangent,
+                            d.condition_inverse_mass};
+  for (std::size_t i = 0; i < impl_->diagnostics.size(); ++i) impl_->diagnostics[i].add(of_step[i]);
   const std::int64_t counts[] = {frame.step, frame.effort.force, frame.effort.hessian, frame.effort.linear_solves,
                                  frame.effort.halved};
   for (std::size_t i = 0; i < impl_->counts.size(); ++i) impl_->counts[i].add(counts[i]);
@@ -168,7 +184,7 @@ void RunFile::append(const Frame& frame) {
 void RunFile::flush() {
   if (impl_->waiting == 0) return;
   const std::size_t rows = std::exchange(impl_->waiting, 0);
-  for (auto* columns : {&impl_->vectors, &impl_->scalars, &impl_->invariants}) {
+  for (auto* columns : {&impl_->vectors, &impl_->scalars, &impl_->invariants, &impl_->diagnostics}) {
     for (auto& column : *columns) column.write(rows);
   }
   for (auto& column : impl_->counts) column.write(rows);
@@ -236,8 +252,16 @@ RunSamples read_samples(const std::filesystem::path& path) {
   std::size_t p_width = 0;
   const std::vector<double> q = read_column(file, "q", q_width);
   const std::vector<double> p = read_column(file, "p", p_width);
+  std::size_t one = 0;
+  for (const char* name : diagnostic_names) {
+    const std::string path_in_file = std::string("solver/") + name;
+    if (H5Lexists(file, path_in_file.c_str(), H5P_DEFAULT) <= 0) continue;
+    run.diagnostics.emplace_back(name, read_column(file, path_in_file.c_str(), one));
+  }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
-  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
+  std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
+  for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
+  for (auto& column : run.diagnostics) column.second.resize(count);
   run.t.resize(count);
   run.energy.resize(count);
   run.q = by_coordinate(q, q_width, count);

@@ -1,6 +1,8 @@
 // run.h5: the samples of a run. Written in single-writer-multiple-readers mode and flushed several times a second, so
 // that it can be read while it grows, and after a crash at any moment, up to the last flush. Datasets, one row a
-// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n), and the totals since the start
+// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n, or n x components), where asked for
+// /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last step, NaN
+// at the start where there is none), and the totals since the start
 // /solver/force, /solver/hessian, /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps);
 // beside them /scenario, the scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic,
 // kernel, created. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
@@ -27,7 +29,8 @@ struct RunDescription {
   std::string arithmetic;
   std::string kernel;
   std::size_t dimension = 0;
-  std::vector<std::string> invariants;
+  std::vector<std::pair<std::string, std::size_t>> invariants;  // names and numbers of components
+  bool diagnostics = false;                                     // of implicit steps
   std::size_t samples = 0;  // expected, so that a short run leaves a small file; 0: unknown
 };
 
@@ -55,6 +58,7 @@ struct RunSamples {
   std::vector<std::vector<double>> q;  // q[i][k]: coordinate i at sample k
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
+  std::vector<std::pair<std::string, std::vector<double>>> diagnostics;  // empty unless the run was asked for them
 };
 
 /// @throws FileError naming the file and what is wrong with it

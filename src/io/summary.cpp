@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
+
+#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/problems/support/polar.hpp"
 
 namespace hamflow {
 
@@ -14,8 +19,68 @@ Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e
 Json parameters_of(const Scenario& scenario) {
   Json parameters = Json::object();
   for (const auto& [key, value] : scenario.problem->info.variant) parameters[key] = value;
-  for (const auto& [name, text] : scenario.request.parameters) parameters[name] = evaluate_number<double>(text);
+  const Parameters<double> values(scenario.request.parameters);
+  for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
+    if (!values.has(parameter.name)) continue;
+    const std::vector<double>& list = values.list(parameter.name);
+    const bool single = parameter.kind == ParameterKind::number ||
+                        (parameter.kind == ParameterKind::number_or_list && list.size() == 1);
+    parameters[parameter.name] = single ? Json(list[0]) : Json(list);
+  }
   return parameters;
+}
+
+/// The least and largest of each over every step, with the time at the end of that step.
+Json diagnostics_of(const StepDiagnostics& d, double dt) {
+  const auto extremes = [&](const StepDiagnostics::Extremes& e) -> Json {
+    if (!(e.least <= e.most)) return nullptr;  // no step yet
+    return {{"min", e.least},
+            {"t_min", static_cast<double>(e.step_of_least) * dt},
+            {"max", e.most},
+            {"t_max", static_cast<double>(e.step_of_most) * dt}};
+  };
+  return {{"condition_tangent", extremes(d.of_condition_tangent)},
+          {"determinant_tangent", extremes(d.of_determinant_tangent)},
+          {"condition_inverse_mass", extremes(d.of_condition_inverse_mass)}};
+}
+
+/// The two bodies in space, from the planar state.
+Json bodies_of(const Scenario& scenario, const Frame& frame) {
+  Start<double, 2> planar{{frame.q[0], frame.q[1]}, {frame.p[0], frame.p[1]}};
+  if (scenario.request.variant.at("coordinates") == "polar") planar = to_cartesian(planar);
+  const auto [first, second] = scenario.bodies->at(frame.time, planar.q, planar.p);
+  Json all = Json::array();
+  for (const Body& body : {first, second}) {
+    all.push_back({{"mass", body.mass},
+                   {"position", std::vector<double>(body.position.begin(), body.position.end())},
+                   {"velocity", std::vector<double>(body.velocity.begin(), body.velocity.end())}});
+  }
+  return all;
+}
+
+/// What the effective potential tells of the start.
+Json orbit_of(const Scenario& scenario) {
+  Json facts = Json::object();
+  for (const auto& [name, value] :
+       scenario.problem->describe_orbit(scenario.request.parameters, scenario.start_q, scenario.start_p)) {
+    std::visit([&, key = name](const auto& x) { facts[key] = x; }, value);
+  }
+  return facts;
+}
+
+/// The exact state at the time reached, and how far the run is from it, coordinate by coordinate at most.
+std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
+  auto exact = scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, frame.time);
+  if (!exact) return std::nullopt;
+  const auto& coordinates = scenario.problem->info.coordinates;
+  double distance = 0;
+  for (std::size_t i = 0; i < frame.q.size(); ++i) {
+    if (i < coordinates.size() && coordinates[i] == "phi") {  // known up to whole turns: the nearest is meant
+      exact->q[i] += 2 * pi_value<double>() * std::round((frame.q[i] - exact->q[i]) / (2 * pi_value<double>()));
+    }
+    distance = std::max({distance, std::abs(frame.q[i] - exact->q[i]), std::abs(frame.p[i] - exact->p[i])});
+  }
+  return Json{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};
 }
 
 std::string hint_for(const Request& request, Outcome outcome) {
@@ -77,7 +142,8 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["problem"] = scenario.request.problem;
   s["method"] = describe(scenario.request.method).name;
   s["arithmetic"] = scenario.request.arithmetic;
-  s["kernel"] = "exact";
+  s["kernel"] = scenario.request.kernel;
+  if (scenario.request.kernel == "fast") s["instruction_set"] = std::string(name(fast_kernel_instruction_set()));
   s["parameters"] = parameters_of(scenario);
   s["dt"] = scenario.dt;
   s["steps"] = simulation.step();
@@ -86,9 +152,22 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["energy"]["scale"] = scale;
   s["energy"]["max_relative_error"] = scale > 0 ? energy.max_error / scale : energy.max_error;
   s["invariants"] = Json::object();
-  const std::vector<Excursion> invariants = simulation.invariants();
+  const std::vector<InvariantExcursion> invariants = simulation.invariants();
   for (std::size_t i = 0; i < invariants.size(); ++i) {
-    s["invariants"][scenario.problem->info.invariants[i].name] = excursion(invariants[i]);
+    const InvariantInfo& info = scenario.problem->info.invariants[i];
+    const bool one = info.components == Components::one ||
+                     (info.components == Components::rotations && invariants[i].initial.size() == 1);
+    s["invariants"][info.name] = {{"initial", one ? Json(invariants[i].initial[0]) : Json(invariants[i].initial)},
+                                  {"final", one ? Json(invariants[i].final[0]) : Json(invariants[i].final)},
+                                  {"max_error", invariants[i].max_error}};
+  }
+  if (scenario.request.method.cg.diagnostics && scenario.request.method.name == "cg") {
+    s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);
+  }
+  if (scenario.bodies) s["bodies"] = bodies_of(scenario, frame);
+  if (scenario.problem->describe_orbit) s["orbit"] = orbit_of(scenario);
+  if (scenario.problem->exact) {
+    if (const auto exact = exact_of(scenario, frame)) s["exact"] = *exact;
   }
   s["evaluations"] = {{"force", effort.force},
                       {"gradient", effort.gradient},

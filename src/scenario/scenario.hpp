@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
@@ -35,7 +36,8 @@ struct Scenario {
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
   std::vector<std::string> notes;  // worth saying, but no errors
-  std::vector<double> start_q;     // in double, canonical
+  std::optional<TwoBodies> bodies;  // of a start by two bodies in space
+  std::vector<double> start_q;      // in double, canonical
   std::vector<double> start_p;
 };
 

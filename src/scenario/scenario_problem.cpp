@@ -1,6 +1,8 @@
 // [problem]: which one, its parameters, where it starts.
 #include <algorithm>
+#include <cmath>
 
+#include "hamflow/problems/support/polar.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
@@ -13,6 +15,9 @@ std::vector<std::string> problem_names() {
   }
   return names;
 }
+/// What a selecting key is when it is not given.
+const std::map<std::string, std::string> default_choices{
+    {"coordinates", "cartesian"}, {"model", "nonlinear"}, {"angles", "absolute"}};
 }  // namespace
 
 void ScenarioReader::read_problem(TomlTable& table) {
@@ -35,25 +40,84 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
-    if (const auto value = read_parameter(table, parameter)) scenario_.request.parameters[parameter.name] = *value;
+    if (const auto value = read_parameter(table, parameter)) {
+      scenario_.request.parameters[parameter.name] = *value;
+    } else if (parameter.required && !table.has(parameter.name)) {
+      table.missing(parameter.name, allowed_form(parameter));
+    }
   }
   scenario_.request.parameters = complete(info, scenario_.request.parameters);
-  if (!info.starts.empty()) read_orbit(table);
+  if (!info.start_key.empty()) {
+    read_numbered_start(table);
+  } else if (!info.starts.empty()) {
+    read_orbit(table);
+  }
+  if (*name == "central-force") read_bodies(table);
   read_initial(table);
   table.finish();
+  if (complaints_.size() == before) check_parameters(table);
   if (complaints_.size() == before) check_start(table);
 }
 
-std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, const ParameterInfo& parameter) {
-  const auto value = table.number(parameter.name);
-  if (!value) return std::nullopt;
-  const bool positive = parameter.range == Range::positive;
-  if (positive ? !(value->value > 0) : parameter.range == Range::not_negative && value->value < 0) {
-    table.complain(parameter.name, table.found(parameter.name) + "; allowed a " +
-                                       (positive ? "positive number (" : "number not below 0 (") + parameter.meaning +
-                                       ")");
+std::string ScenarioReader::allowed_form(const ParameterInfo& parameter) {
+  const std::string of_each = parameter.range == Range::positive       ? "positive "
+                              : parameter.range == Range::not_negative ? "not negative "
+                              : parameter.range == Range::count        ? "whole, positive "
+                                                                       : "";
+  const std::string list = "an array of " + (parameter.length > 0 ? std::to_string(parameter.length) + " " : "") +
+                           of_each + "numbers";
+  const std::string meaning = " (" + parameter.meaning + ")";
+  switch (parameter.kind) {
+    case ParameterKind::number:
+      return "a " + of_each + "number" + meaning;
+    case ParameterKind::list:
+      return list + meaning;
+    case ParameterKind::number_or_list:
+      break;
   }
-  return value->text;
+  return "a number or " + list + meaning;
+}
+
+std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, const ParameterInfo& parameter) {
+  std::optional<std::vector<Number>> values;
+  if (parameter.kind == ParameterKind::number) {
+    const auto value = table.number(parameter.name);
+    if (value) values = {*value};
+  } else if (parameter.kind == ParameterKind::list) {
+    values = table.numbers(parameter.name, parameter.length);
+  } else {
+    values = table.number_or_numbers(parameter.name);
+  }
+  if (!values) return std::nullopt;
+  std::string text;
+  for (const Number& value : *values) {
+    const double x = value.value;
+    const bool fits = parameter.range == Range::positive       ? x > 0
+                      : parameter.range == Range::not_negative ? x >= 0
+                      : parameter.range == Range::count        ? x >= 1 && x <= 1e6 && x == std::floor(x)
+                                                               : true;
+    if (!fits) {
+      const std::string found = parameter.kind == ParameterKind::number ? table.found(parameter.name)
+                                                                        : "found an array with " + shortest(x);
+      table.complain(parameter.name, found + "; allowed " + allowed_form(parameter));
+      return std::nullopt;
+    }
+    text += (text.empty() ? "" : ", ") + value.text;
+  }
+  return parameter.kind == ParameterKind::number ? text : "[" + text + "]";
+}
+
+void ScenarioReader::check_parameters(TomlTable& table) {
+  const ProblemEntry& problem = *scenario_.problem;
+  Texts parameters = scenario_.request.parameters;
+  if (scenario_.request.start.geometric) parameters = problem.derived(parameters, scenario_.request.start);
+  const auto [key, message] = problem.refused_parameters(parameters);
+  if (message.empty()) return;
+  if (key.empty()) {
+    table.complain("name", "found parameters that do not go together; allowed: " + message);
+  } else {
+    table.complain(key, table.found(key) + "; " + message);
+  }
 }
 
 /// The variant or the name is wrong, which has been said; what else is wrong whatever was meant is told at once.
@@ -104,8 +168,9 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   for (const std::string& key : keys) {
     if (!table.has(key)) {
       table.know(key);
-      if (key == "coordinates") {  // cartesian unless said otherwise
-        scenario_.request.variant[key] = "cartesian";
+      const auto usual = default_choices.find(key);
+      if (usual != default_choices.end()) {
+        scenario_.request.variant[key] = usual->second;
       } else {
         table.missing(key, joined(choices[key]));
         complete_choice = false;
@@ -127,6 +192,44 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   }
 }
 
+/// `case = 1`, with the keys of that start beside it.
+void ScenarioReader::read_numbered_start(TomlTable& table) {
+  const ProblemInfo& info = scenario_.problem->info;
+  const auto number = table.whole(info.start_key, 1, static_cast<std::int64_t>(info.starts.size()));
+  std::vector<std::string> of_this;
+  if (number) {
+    const StartInfo& start = info.starts[static_cast<std::size_t>(*number - 1)];
+    of_this = start.keys;
+    for (const std::string& key : start.keys) {
+      const auto value = table.number(key);
+      if (value) scenario_.request.start.orbit[key] = value->text;
+      if (!table.has(key)) table.missing(key, "a number: " + info.start_key + " = " + std::to_string(*number) +
+                                                  " takes exactly " + joined(start.keys));
+    }
+    refuse_derived(table, start, info.start_key + " = " + std::to_string(*number));
+    scenario_.request.start.geometric = true;
+    scenario_.request.start.kind = start.kind;
+  }
+  for (const StartInfo& start : info.starts) {
+    for (const std::string& key : start.keys) {
+      table.know(key);
+      if (!table.has(key) || std::find(of_this.begin(), of_this.end(), key) != of_this.end()) continue;
+      if (table.has(info.start_key) && !number) continue;  // which case was meant is not known
+      const std::string message = table.found(key) + "; allowed only with " + info.start_key + " = ...";
+      if (!table.has(info.start_key)) table.complain(key, message);
+      if (number) table.complain(key, table.found(key) + "; allowed with this case: " + joined(of_this));
+      of_this.push_back(key);  // said once
+    }
+  }
+}
+
+void ScenarioReader::refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because) {
+  for (const std::string& parameter : start.derives) {
+    if (!table.has(parameter)) continue;
+    table.complain(parameter, table.found(parameter) + ", but it follows from the orbit; allowed nothing with " + because);
+  }
+}
+
 void ScenarioReader::read_orbit(TomlTable& table) {
   if (!table.has("orbit")) {
     table.know("orbit");
@@ -136,20 +239,40 @@ void ScenarioReader::read_orbit(TomlTable& table) {
   if (!orbit.exists()) return;
   const ProblemInfo& info = scenario_.problem->info;
   std::vector<std::string> kinds;
-  for (const StartInfo& start : info.starts) kinds.push_back(start.kind);
-  if (!orbit.has("kind")) {
-    orbit.missing("kind", joined(kinds));
-    return;
+  const StartInfo* by_keys = nullptr;  // the start that needs no kind
+  for (const StartInfo& start : info.starts) {
+    if (start.kind.empty()) {
+      by_keys = &start;
+    } else {
+      kinds.push_back(start.kind);
+    }
   }
-  const auto kind = orbit.choice("kind", kinds);
-  if (!kind) return;
-  const StartInfo& start =
-      info.starts[static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), *kind) - kinds.begin())];
+  const StartInfo* start = nullptr;
+  const bool has_these = by_keys != nullptr && std::all_of(by_keys->keys.begin(), by_keys->keys.end(),
+                                                           [&](const std::string& key) { return orbit.has(key); });
+  if (!orbit.has("kind")) {
+    if (!has_these) {
+      orbit.missing("kind", joined(kinds) + (by_keys == nullptr ? "" : (kinds.empty() ? "" : "; or, without kind, ") +
+                                                                          joined(by_keys->keys)));
+      for (const StartInfo& any : info.starts) orbit.know_all(any.keys);
+      orbit.know("direction");
+      orbit.finish();
+      return;
+    }
+    orbit.know("kind");
+    start = by_keys;
+  } else {
+    const auto kind = orbit.choice("kind", kinds);
+    if (!kind) return;
+    start = &*std::find_if(info.starts.begin(), info.starts.end(),
+                           [&](const StartInfo& one) { return one.kind == *kind; });
+  }
   StartSpec& spec = scenario_.request.start;
-  for (const std::string& key : start.keys) {
+  const std::string because = start->kind.empty() ? "energy and angular_momentum" : "kind = \"" + start->kind + "\"";
+  for (const std::string& key : start->keys) {
     if (!orbit.has(key)) {
       orbit.know(key);
-      orbit.missing(key, "a number: the start \"" + *kind + "\" takes exactly " + joined(start.keys));
+      orbit.missing(key, "a number: the start \"" + start->kind + "\" takes exactly " + joined(start->keys));
       continue;
     }
     const auto value = orbit.number(key);
@@ -161,56 +284,138 @@ void ScenarioReader::read_orbit(TomlTable& table) {
     spec.direction = direction->value < 0 ? -1 : 1;
   }
   orbit.finish();
-  for (const std::string& parameter : start.derives) {
-    if (!table.has(parameter)) continue;
-    table.complain(parameter, table.found(parameter) +
-                                  ", but it follows from the orbit; allowed nothing with kind = \"" + *kind + "\"");
+  refuse_derived(table, *start, because);
+  spec.geometric = true;
+  spec.kind = start->kind;
+}
+
+/// Two bodies in space, reduced to a planar state.
+void ScenarioReader::read_bodies(TomlTable& table) {
+  if (!table.has("bodies")) {
+    table.know("bodies");
+    return;
   }
-  spec.kind = *kind;
+  for (const char* other : {"mass", "orbit", "initial"}) {
+    if (table.has(other)) table.complain(other, std::string("found ") + other + " beside bodies; allowed one of them");
+  }
+  auto tables = table.tables("bodies", 2);
+  if (!tables) return;
+  const std::size_t before = complaints_.size();
+  Body bodies[2];
+  std::string masses[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    TomlTable& body = (*tables)[i];
+    if (!body.has("mass")) body.missing("mass", "a positive number");
+    if (const auto mass = body.number("mass")) {
+      if (!(mass->value > 0)) body.complain("mass", body.found("mass") + "; allowed a positive number");
+      bodies[i].mass = mass->value;
+      masses[i] = mass->text;
+    }
+    const auto read_vector = [&](const char* key, Vector<double, 3>& out) {
+      if (!body.has(key)) body.missing(key, "an array of 3 numbers");
+      const auto values = body.numbers(key, 3);
+      for (std::size_t k = 0; values && k < 3; ++k) out[k] = (*values)[k].value;
+    };
+    read_vector("position", bodies[i].position);
+    read_vector("velocity", bodies[i].velocity);
+    body.finish();
+  }
+  if (complaints_.size() != before) return;
+  if (bodies[0].position == bodies[1].position) {
+    table.complain("bodies", "found both bodies at one point; allowed different positions");
+    return;
+  }
+  scenario_.bodies = TwoBodies(bodies[0], bodies[1]);
+  Request& request = scenario_.request;
+  request.parameters["mass"] = "(" + masses[0] + ")*(" + masses[1] + ")/((" + masses[0] + ")+(" + masses[1] + "))";
+  Start<double, 2> start = scenario_.bodies->start();
+  if (scenario_.request.variant["coordinates"] == "polar") start = to_polar(start);
+  request.start.q = {shortest(start.q[0]), shortest(start.q[1])};
+  request.start.p = {shortest(start.p[0]), shortest(start.p[1])};
 }
 
 void ScenarioReader::read_initial(TomlTable& table) {
   const ProblemEntry& problem = *scenario_.problem;
   StartSpec& spec = scenario_.request.start;
+  const std::string numbers = problem.dimension == 0 ? "as many numbers as there are coordinates"
+                              : problem.dimension == 1 ? "1 number each"
+                                                       : std::to_string(problem.dimension) + " numbers each";
   if (!table.has("initial")) {
     table.know("initial");
-    if (!spec.kind.empty() || table.has("orbit")) return;
+    if (spec.geometric || table.has("orbit") || table.has("bodies")) return;
+    if (!problem.info.start_key.empty() && table.has(problem.info.start_key)) return;
     if (!problem.info.default_q.empty()) {
       spec.q = problem.info.default_q;
       spec.p = problem.info.default_p;
       return;
     }
-    table.missing("initial", std::string(problem.info.starts.empty() ? "" : "orbit = { kind, ... } or ") +
-                                 "initial = { q = [...], p = [...] } with " + std::to_string(problem.dimension) +
-                                 (problem.dimension == 1 ? " number each" : " numbers each") +
-                                 ", or { q, v } with velocities");
+    table.missing("initial", std::string(problem.info.starts.empty()       ? ""
+                                         : problem.info.start_key.empty() ? "orbit = { kind, ... } or "
+                                                                          : problem.info.start_key + " = 1, ... or ") +
+                                 "initial = { q = [...], p = [...] } with " + numbers + ", or { q, v } with velocities");
     return;
   }
   TomlTable initial = table.table("initial");
   if (!initial.exists()) return;
-  if (!initial.has("q")) initial.missing("q", "an array of " + std::to_string(problem.dimension) + " numbers");
+  if (!initial.has("q")) {
+    initial.missing("q", problem.dimension == 0 ? "an array of numbers"
+                                                : "an array of " + std::to_string(problem.dimension) + " numbers");
+  }
   if (initial.has("p") == initial.has("v")) {
     initial.complain(initial.has("p") ? "v" : "p", initial.has("p") ? "found p and v together; allowed one of them"
                                                                     : "found neither p nor v; allowed one of them");
   }
-  const auto q = initial.numbers("q", problem.dimension);
-  const auto p = initial.numbers("p", problem.dimension);
-  const auto v = initial.numbers("v", problem.dimension);
+  const auto texts = [&](const char* key) {
+    std::vector<std::string> all;
+    const auto values = initial.numbers(key, problem.dimension);
+    for (std::size_t i = 0; values && i < values->size(); ++i) all.push_back((*values)[i].text);
+    return all;
+  };
+  spec.geometric = false;  // a state overrides a geometric start
+  spec.kind.clear();
+  spec.q = texts("q");
+  spec.p = texts("p");
+  spec.v = texts("v");
   initial.finish();
-  spec.kind.clear();  // a state overrides a geometric start
-  spec.q = q.value_or(std::vector<std::string>{});
-  spec.p = p.value_or(std::vector<std::string>{});
-  spec.v = v.value_or(std::vector<std::string>{});
+}
+
+/// Where the size of the problem follows from the start.
+bool ScenarioReader::check_size(TomlTable& table) {
+  const StartSpec& spec = scenario_.request.start;
+  if (spec.geometric) return true;
+  const std::size_t before = complaints_.size();
+  TomlTable at = table.has("initial") ? table.table("initial") : table;
+  const auto check = [&](const char* key, std::size_t size) {
+    const std::string why_not = scenario_.problem->refused_size(scenario_.request.parameters, size);
+    if (!why_not.empty()) at.complain(key, "found " + std::to_string(size) + " entries; allowed " + why_not);
+  };
+  check("q", spec.q.size());
+  const char* const other = spec.v.empty() ? "p" : "v";
+  const std::size_t size = spec.v.empty() ? spec.p.size() : spec.v.size();
+  check(other, size);
+  if (complaints_.size() == before && size != spec.q.size()) {
+    at.complain(other, "found " + std::to_string(size) + " entries; allowed " + std::to_string(spec.q.size()) +
+                           ", as many as q has");
+  }
+  return complaints_.size() == before;
 }
 
 void ScenarioReader::check_start(TomlTable& table) {
   const ProblemEntry& problem = *scenario_.problem;
   const Request& request = scenario_.request;
-  const bool geometric = !request.start.kind.empty();
+  const bool geometric = request.start.geometric;
+  if (!check_size(table)) return;
   bool possible = true;
   if (geometric) {
     scenario_.request.parameters = problem.derived(request.parameters, request.start);
-    for (const Condition& condition : problem.conditions(request.parameters, request.start)) {
+    std::vector<Condition> conditions;
+    try {
+      conditions = problem.conditions(request.parameters, request.start);
+    } catch (const Error& error) {
+      table.complain("orbit", error.what());
+      return;
+    }
+    for (const Condition& condition : conditions) {
       if (condition.holds()) continue;
       possible = false;
       // The key to blame is dotted from the root; complain where it stands.
@@ -224,9 +429,20 @@ void ScenarioReader::check_start(TomlTable& table) {
     }
   }
   if (!possible) return;
-  const Frame start = problem.start(request);
+  Frame start;
+  try {
+    start = problem.start(request);
+  } catch (const Error& error) {
+    table.complain(table.has("initial") ? "initial" : "orbit", error.what());
+    return;
+  }
   scenario_.start_q = start.q;
   scenario_.start_p = start.p;
+  const std::string why_not = problem.refused_start(request.parameters, start.q);
+  if (!why_not.empty()) {
+    table.complain("initial", "found " + why_not);
+    return;
+  }
   if (!problem.regular(request.parameters, start.q, start.p)) {
     table.complain(
         geometric ? "orbit" : "initial",

@@ -33,7 +33,13 @@ class ScenarioReader {
   std::optional<std::string> read_parameter(TomlTable& table, const ParameterInfo& parameter);
   void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
+  static std::string allowed_form(const ParameterInfo& parameter);
+  void check_parameters(TomlTable& table);
+  void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
+  void refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because);
+  void read_bodies(TomlTable& table);
+  bool check_size(TomlTable& table);
   void read_initial(TomlTable& table);
   void check_start(TomlTable& table);
   void read_method(TomlTable& table);

@@ -12,8 +12,9 @@ std::vector<std::string> method_names() {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   return names;
 }
+const std::vector<std::string> figure_names{"orbit", "energy", "energy-error", "phase", "condition"};
 const std::vector<std::string> cg_keys{"degree",         "quadrature", "tolerance",    "criterion",
-                                       "max_iterations", "iteration",  "on_divergence"};
+                                       "max_iterations", "iteration",  "on_divergence", "diagnostics"};
 }  // namespace
 
 void ScenarioReader::read_method(TomlTable& table) {
@@ -33,6 +34,10 @@ void ScenarioReader::read_method(TomlTable& table) {
         table.know(key);
         scenario_.notes.push_back("method." + key + " of the file is not used: " + *name + " has no such option");
       }
+    }
+    if (scenario_.problem != nullptr) {
+      const std::string why_not = refusal(scenario_.request.method, *scenario_.problem);
+      if (!why_not.empty()) table.complain("name", table.found("name") + "; " + why_not);
     }
   }
   table.finish();
@@ -66,6 +71,7 @@ void ScenarioReader::read_cg(TomlTable& table) {
   if (const auto most = table.whole("max_iterations", 1, 1000)) cg.max_iterations = static_cast<int>(*most);
   (void)table.choice("iteration", {"newton"});
   if (const auto remedy = table.choice("on_divergence", {"error", "halve"})) cg.halve = *remedy == "halve";
+  cg.diagnostics = table.boolean("diagnostics").value_or(false);
 }
 
 void ScenarioReader::read_run(TomlTable& table) {
@@ -92,7 +98,13 @@ void ScenarioReader::read_run(TomlTable& table) {
         scenario_.request.method.name.empty() ? "" : refusal(scenario_.request.method, *arithmetic);
     if (!why_not.empty()) table.complain("arithmetic", table.found("arithmetic") + "; " + why_not);
   }
-  (void)table.choice("kernel", {"exact"});
+  if (const auto kernel = table.choice("kernel", {"exact", "fast"})) {
+    scenario_.request.kernel = *kernel;
+    if (*kernel == "fast" && scenario_.problem != nullptr && !scenario_.request.method.name.empty()) {
+      const std::string why_not = refused_fast_kernel(scenario_.request, *scenario_.problem);
+      if (!why_not.empty()) table.complain("kernel", table.found("kernel") + "; " + why_not);
+    }
+  }
   read_lattice(table);
   table.finish();
 }
@@ -182,7 +194,7 @@ void ScenarioReader::read_output(TomlTable& table) {
     scenario_.folder = *folder;
   }
   if (const auto formats = table.choices("formats", {"h5", "csv"})) scenario_.formats = *formats;
-  if (const auto figures = table.choices("figures", {"orbit", "energy", "energy-error", "phase"}))
+  if (const auto figures = table.choices("figures", figure_names))
     scenario_.figures = *figures;
   const auto wants = [&](const std::vector<std::string>& list, const char* word) {
     return std::find(list.begin(), list.end(), word) != list.end();
@@ -191,9 +203,13 @@ void ScenarioReader::read_output(TomlTable& table) {
     table.complain("figures",
                    "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
   }
-  if (wants(scenario_.figures, "orbit") && scenario_.problem != nullptr && scenario_.problem->dimension != 2) {
-    table.complain("figures", "found \"orbit\" for a problem with " + std::to_string(scenario_.problem->dimension) +
-                                  " degree of freedom; allowed phase, energy, energy-error");
+  const std::size_t dimension = scenario_.start_q.size();
+  if (wants(scenario_.figures, "orbit") && dimension == 1) {
+    table.complain("figures", "found \"orbit\" for a problem with 1 degree of freedom; allowed phase, energy, "
+                              "energy-error");
+  }
+  if (wants(scenario_.figures, "condition") && !scenario_.request.method.cg.diagnostics) {
+    table.complain("figures", "found \"condition\", which needs method.diagnostics = true of an implicit method");
   }
   table.finish();
 }

@@ -147,6 +147,14 @@ std::optional<Number> TomlTable::number(const std::string& key) {
   return node == nullptr ? std::nullopt : number_of(*node, key);
 }
 
+std::optional<bool> TomlTable::boolean(const std::string& key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (const auto* value = node->as_boolean()) return value->get();
+  complain(key, "found " + shown(*node) + "; allowed true, false");
+  return std::nullopt;
+}
+
 std::optional<std::int64_t> TomlTable::whole(const std::string& key, std::int64_t least, std::int64_t most) {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
@@ -163,26 +171,53 @@ std::optional<std::int64_t> TomlTable::whole(const std::string& key, std::int64_
   return std::nullopt;
 }
 
-std::optional<std::vector<std::string>> TomlTable::numbers(const std::string& key, std::size_t count) {
+std::optional<std::vector<Number>> TomlTable::numbers(const std::string& key, std::size_t count) {
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
   const auto* array = node->as_array();
-  const std::string allowed = "allowed an array of " + std::to_string(count) + (count == 1 ? " number" : " numbers");
+  const std::string allowed = "allowed an array of " + (count == 0 ? "" : std::to_string(count) + " ") +
+                              (count == 1 ? "number" : "numbers");
   if (array == nullptr) {
     complain(key, "found " + shown(*node) + "; " + allowed);
     return std::nullopt;
   }
-  if (array->size() != count) {
+  if (array->empty() || (count > 0 && array->size() != count)) {
     complain(key, "found " + std::to_string(array->size()) + " entries; " + allowed);
     return std::nullopt;
   }
-  std::vector<std::string> texts;
+  std::vector<Number> all;
   for (const toml::node& entry : *array) {
     const auto value = number_of(entry, key);
     if (!value) return std::nullopt;
-    texts.push_back(value->text);
+    all.push_back(*value);
   }
-  return texts;
+  return all;
+}
+
+std::optional<std::vector<Number>> TomlTable::number_or_numbers(const std::string& key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (node->is_array()) return numbers(key, 0);
+  const auto value = number_of(*node, key);
+  return value ? std::optional(std::vector<Number>{*value}) : std::nullopt;
+}
+
+std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, std::size_t count) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* array = node->as_array();
+  const bool fits = array != nullptr && array->size() == count &&
+                    std::all_of(array->begin(), array->end(), [](const toml::node& entry) { return entry.is_table(); });
+  if (!fits) {
+    complain(key, (array == nullptr ? "found " + shown(*node) : "found " + std::to_string(array->size()) + " entries") +
+                      "; allowed an array of " + std::to_string(count) + " tables");
+    return std::nullopt;
+  }
+  std::vector<TomlTable> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    all.emplace_back(array->get(i)->as_table(), full(key) + "[" + std::to_string(i) + "]", file_, *complaints_);
+  }
+  return all;
 }
 
 std::optional<std::vector<std::string>> TomlTable::choices(const std::string& key,

@@ -31,8 +31,13 @@ class TomlTable {
   /// A string out of a closed list.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& allowed);
   std::optional<Number> number(const std::string& key);
+  std::optional<bool> boolean(const std::string& key);
   std::optional<std::int64_t> whole(const std::string& key, std::int64_t least, std::int64_t most);
-  std::optional<std::vector<std::string>> numbers(const std::string& key, std::size_t count);
+  /// An array of so many numbers; 0: any, but not none.
+  std::optional<std::vector<Number>> numbers(const std::string& key, std::size_t count);
+  std::optional<std::vector<Number>> number_or_numbers(const std::string& key);
+  /// An array of so many tables.
+  std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
   /// A list of strings out of a closed list; a single string counts as a list of one.
   std::optional<std::vector<std::string>> choices(const std::string& key, const std::vector<std::string>& allowed);
   TomlTable table(const std::string& key);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/verify/measure.hpp"
@@ -26,6 +27,16 @@ PropertyCell cell(std::string property, bool claimed, Finding found, std::size_t
   // On one problem a property may hold by the problem's merit.
   if (!claimed && problems == 1) agrees = Finding::yes;
   return {std::move(property), text(claimed), std::string(name(found)), agrees};
+}
+
+/// Of a motion that is not reversed with its momenta nothing can be asked.
+PropertyCell reversal_cell(std::string property, bool claimed, std::span<const Measurement> on,
+                           DefectMeasurement Measurement::*which) {
+  std::vector<Measurement> even;
+  std::copy_if(on.begin(), on.end(), std::back_inserter(even), [](const Measurement& m) { return m.even_in_momenta; });
+  if (even.empty()) return {std::move(property), text(claimed), "-", Finding::yes};
+  return cell(std::move(property), claimed,
+              everywhere(even, [&](const Measurement& m) { return (m.*which).holds; }), even.size());
 }
 
 PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> on) {
@@ -68,8 +79,9 @@ PropertyCell forces_cell(const MethodInfo& claims, std::span<const Measurement> 
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
   for (const Measurement& m : on) {
-    least = std::min(least, m.cost.force);
-    most = std::max(most, m.cost.force);
+    const double evaluations = std::max(m.cost.force, m.cost.gradient);  // of a H that is not separable: the gradient
+    least = std::min(least, evaluations);
+    most = std::max(most, evaluations);
   }
   const bool claimed = claims.forces_per_step > 0;
   const double wanted = claims.forces_per_step;
@@ -99,9 +111,10 @@ PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on) {
            everywhere(on, [](const Measurement& m) { return m.cost.explicit_step ? Finding::yes : Finding::no; }),
            problems));
   row.cells.push_back(defect("symplectic", claims.symplectic, &Measurement::symplectic));
-  row.cells.push_back(defect("weakly reversible", claims.weakly_reversible, &Measurement::weakly_reversible));
+  row.cells.push_back(
+      reversal_cell("weakly reversible", claims.weakly_reversible, on, &Measurement::weakly_reversible));
   row.cells.push_back(defect("symmetric", claims.symmetric, &Measurement::symmetric));
-  row.cells.push_back(defect("reversible", claims.reversible, &Measurement::reversible));
+  row.cells.push_back(reversal_cell("reversible", claims.reversible, on, &Measurement::reversible));
   row.cells.push_back(energy_cell(claims, on));
   row.cells.push_back(forces_cell(claims, on));
   row.cells.push_back(defect("Jacobian is the step's", true, &Measurement::jacobian));

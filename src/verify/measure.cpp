@@ -30,6 +30,41 @@ const std::vector<Region>& known_regions() {
        .variant = {{"potential", "binomial"}},
        .centre = {1.2, 0.3, -0.2, 0.9},
        .step = 0.04},
+      {.problem = "central-force",
+       .variant = {{"potential", "power"}},
+       .parameters = {{"a", "[0.5, -0.5]"}, {"n", "[2, -2.5]"}},
+       .centre = {1.2, 0.3, -0.2, 0.9},
+       .step = 0.04},
+      {.problem = "central-force",
+       .variant = {{"potential", "hooke"}, {"coordinates", "polar"}},
+       .parameters = {{"k", "-1"}},
+       .centre = {1.2, 0.3, -0.2, 0.7}},
+      {.problem = "central-force",
+       .variant = {{"potential", "binomial"}, {"coordinates", "polar"}},
+       .centre = {1.2, 0.3, -0.2, 0.9},
+       .step = 0.04},
+      {.problem = "central-force",
+       .variant = {{"potential", "power"}, {"coordinates", "polar"}},
+       .parameters = {{"a", "[0.5, -0.5]"}, {"n", "[2, -2.5]"}},
+       .centre = {1.2, 0.3, -0.2, 0.9},
+       .step = 0.04},
+      {.problem = "central-force", .variant = {{"potential", "linear"}, {"coordinates", "polar"}}, .centre = {1.2, 0.3, -0.2, 0.9}},
+      {.problem = "central-force", .variant = {{"potential", "kepler"}, {"coordinates", "polar"}}, .centre = {1.2, 0.3, -0.2, 1.1}},
+      // A period of the faster mode is 2 pi/sqrt(5.65 g/l) = 0.84 for unit rods.
+      {.problem = "double-pendulum", .variant = {{"model", "linear"}, {"angles", "absolute"}}, .centre = {0.4, -0.3, 0.5, 0.2}, .step = 0.02, .time = 0.7},
+      {.problem = "double-pendulum", .variant = {{"model", "linear"}, {"angles", "relative"}}, .centre = {0.4, -0.7, 0.7, 0.2}, .step = 0.02, .time = 0.7},
+      {.problem = "double-pendulum", .variant = {{"model", "nonlinear"}, {"angles", "absolute"}}, .centre = {0.7, -0.5, 1.5, 0.6}, .step = 0.02, .time = 0.7},
+      {.problem = "double-pendulum", .variant = {{"model", "nonlinear"}, {"angles", "relative"}}, .centre = {0.7, -1.2, 2.1, 0.6}, .step = 0.02, .time = 0.7},
+      {.problem = "sextic", .centre = {0.6, 0.9}, .spread = 0.05, .step = 0.02},
+      {.problem = "duffing", .parameters = {{"alpha", "-1"}, {"beta", "1"}}, .centre = {1.3, 0.4}},
+      {.problem = "magnetic", .centre = {0.4, -0.3, 0.2, 0.5, 0.3, 0.4}},
+      // Two light bodies about a heavy one, softened, so that close encounters of random states do no harm.
+      {.problem = "n-body",
+       .parameters = {{"masses", "[1, 0.3, 0.2]"}, {"softening", "0.2"}},
+       .centre = {0, 0, 1, 0, 0, -1.5, 0, -0.1, 0, 0.3, 0.16, 0}},
+      {.problem = "fput",
+       .parameters = {{"n", "4"}, {"alpha", "0.25"}, {"beta", "0.5"}},
+       .centre = {0.5, 0.8, -0.3, 0.2, 0.1, -0.4, 0.3, 0.2}},
   };
   return all;
 }
@@ -42,20 +77,27 @@ State<double> random_state(const Region& region, std::uint64_t k) {
 }
 
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant) {
+  const auto polar = variant.find("coordinates");
   for (const Region& region : known_regions()) {
     if (region.problem != problem) continue;
+    if (polar != variant.end() && polar->second == "polar" && !region.variant.contains("coordinates")) continue;
     const bool matches = std::all_of(region.variant.begin(), region.variant.end(), [&](const auto& choice) {
       const auto given = variant.find(choice.first);
       return given == variant.end() || given->second == choice.second;
     });
-    if (matches) return region;
+    if (matches) {
+      Region found = region;
+      for (const auto& [key, value] : variant) found.variant[key] = value;
+      return found;
+    }
   }
   // The start of the catalogue, or any state when there is none, moved a little: no coordinate at rest.
   const ProblemEntry& entry = find_problem(problem, variant);
   Region region{.problem = problem, .variant = variant};
-  for (std::size_t i = 0; i < 2 * entry.dimension; ++i) {
-    const auto& texts = i < entry.dimension ? entry.info.default_q : entry.info.default_p;
-    const std::size_t at = i % entry.dimension;
+  const std::size_t dimension = entry.dimension > 0 ? entry.dimension : entry.info.default_q.size();
+  for (std::size_t i = 0; i < 2 * dimension; ++i) {
+    const auto& texts = i < dimension ? entry.info.default_q : entry.info.default_p;
+    const std::size_t at = i % dimension;
     region.centre.push_back((texts.empty() ? 0.5 : evaluate_number<double>(texts[at])) +
                             0.1 * counter_uniform(seed + 1, i));
   }
@@ -64,10 +106,15 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
 
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method) {
   const ProblemEntry& entry = find_problem(region.problem, region.variant);
-  return entry.step_map(complete(entry.info, region.parameters), method);
+  auto map = entry.step_map(complete(entry.info, region.parameters), method, region.centre.size() / 2);
+  if (!map) throw Error(refusal(method, entry));
+  return map;
 }
 
-std::vector<Region> default_regions() { return {region_of("pendulum"), region_of("henon-heiles")}; }
+std::vector<Region> default_regions(const MethodSpec& method) {
+  if (find_method(method.name).kind == MethodKind::boris) return {region_of("magnetic")};
+  return {region_of("pendulum"), region_of("henon-heiles")};
+}
 
 Measurement measure(const StepMap& map, const Region& region) {
   Measurement found;

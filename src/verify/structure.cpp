@@ -116,6 +116,8 @@ void measure_structure(const StepMap& map, const Region& region, Measurement& fo
       }
       continue;
     }
+    const double uneven = map.energies(reversed(z), h, 0, 0).front() - map.energies(z, h, 0, 0).front();
+    if (abs(uneven) > 64 * epsilon * map.energy_scale(z)) found.even_in_momenta = false;
     add_jacobian_mismatch(map, z, h, m, jacobian);
     add_symplectic_defect(m, symplectic);
 

@@ -29,7 +29,7 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
 class Claims : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Claims, AreWhatIsMeasured) {
-  const std::vector<Region> regions = default_regions();
+  const std::vector<Region> regions = default_regions(parse_method(GetParam()));
   const std::vector<PropertyRow> rows{measure_method(parse_method(GetParam()), regions)};
   EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
 }
@@ -37,6 +37,8 @@ TEST_P(Claims, AreWhatIsMeasured) {
 TEST_P(Claims, HoldOnEveryOtherProblem) {
   for (const ProblemEntry& problem : problems()) {
     std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
+    if (!problem.accepts(parse_method(GetParam()))) continue;
+    SCOPED_TRACE(problem.info.name + ": " + problem.info.formula);
     const std::vector<Region> regions{region_of(problem.info.name, variant)};
     const std::vector<PropertyRow> rows{measure_method(parse_method(GetParam()), regions)};
     EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
@@ -77,6 +79,7 @@ TEST(Expected, NobodyConservesEnergyButTheElementsWithTwoPointsAndMore) {
   const std::vector<Region> regions = default_regions();
   for (const std::string& name : method_names()) {
     const MethodSpec spec = parse_method(name);
+    if (spec.name == "boris") continue;  // a rotation keeps |v|, and there are no other forces
     const bool element = spec.name == "cg" && spec.cg.quadrature != 1;
     for (const Region& region : regions) {
       const auto map = step_map_on(region, spec);

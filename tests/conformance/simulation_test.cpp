@@ -25,14 +25,15 @@ std::vector<Request> every_request() {
     for (const std::string& name : names) {
       const MethodSpec method = parse_method(name);
       for (const std::string& arithmetic : arithmetics()) {
-        if (!refusal(method, arithmetic).empty()) continue;
+        if (!refusal(method, arithmetic).empty() || !refusal(method, problem).empty()) continue;
         Request request;
         request.problem = problem.info.name;
         request.variant = variant;
         request.parameters = region.parameters;
-        for (std::size_t i = 0; i < problem.dimension; ++i) {
+        const std::size_t size = region.centre.size() / 2;
+        for (std::size_t i = 0; i < size; ++i) {
           request.start.q.push_back(shortest(region.centre[i]));
-          request.start.p.push_back(shortest(region.centre[problem.dimension + i]));
+          request.start.p.push_back(shortest(region.centre[size + i]));
         }
         request.method = method;
         request.dt = shortest(region.step / 10);  // such that explicit Euler survives 1000 of them
@@ -52,7 +53,7 @@ TEST(Problem, EnergyAndInvariantsAreConstantAlongTheExactFlow) {
   for (const ProblemEntry& problem : problems()) {
     const std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
     const Region region = region_of(problem.info.name, variant);
-    const auto map = step_map_on(region, parse_method("verlet"));
+    const auto map = step_map_on(region, parse_method("rk4"));
     const State<long double> start(region.centre.begin(), region.centre.end());
     std::vector<double> first;
     for (const long double t : {0.0L, 0.3L, 1.7L, 4.0L}) {
@@ -62,13 +63,22 @@ TEST(Problem, EnergyAndInvariantsAreConstantAlongTheExactFlow) {
       request.variant = variant;
       request.parameters = region.parameters;
       for (std::size_t i = 0; i < z.size(); ++i) {
-        auto& texts = i < problem.dimension ? request.start.q : request.start.p;
+        auto& texts = i < z.size() / 2 ? request.start.q : request.start.p;
         texts.push_back(shortest(static_cast<double>(z[i])));
       }
       Frame frame;
       make_simulation(request)->look(frame);
-      EXPECT_EQ(frame.invariants.size(), problem.info.invariants.size());
-      std::vector<double> values = frame.invariants;
+      const auto sizes = problem.invariant_sizes(complete(problem.info, region.parameters), z.size() / 2);
+      EXPECT_EQ(sizes.size(), problem.info.invariants.size());
+      std::vector<double> values;
+      std::size_t at = 0;
+      for (std::size_t i = 0; i < sizes.size(); ++i) {
+        for (const std::size_t end = at + sizes[i]; at < end; ++at) {
+          // Of a simulation that begins there the time is 0, of which the centre of mass knows.
+          if (problem.info.invariants[i].name != "centre_of_mass") values.push_back(frame.invariants[at]);
+        }
+      }
+      EXPECT_EQ(frame.invariants.size(), at);
       values.push_back(frame.energy);
       if (first.empty()) first = values;
       for (std::size_t i = 0; i < values.size(); ++i) {
@@ -141,6 +151,7 @@ TEST(Simulation, AdvancingAllocatesNothing) {
   if (!test::counts_allocations()) GTEST_SKIP() << "the address sanitizer brings its own operator new";
   for (const Request& request : every_request()) {
     const auto simulation = make_simulation(request);
+    (void)simulation->advance(20);  // vectors of any size keep the memory of the first steps
     const long long before = test::allocations();
     const Outcome outcome = simulation->advance(steps);
     EXPECT_EQ(test::allocations(), before) << label(request);

@@ -8,6 +8,7 @@
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "hamflow/problems/support/from_functions.hpp"
+#include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "hamflow/verify/counter_random.hpp"
 #include "problem_list.hpp"  // generated: includes every problem, defines HAMFLOW_FOR_EACH_PROBLEM
@@ -32,72 +33,164 @@ struct PartsOnly {
   }
 };
 
-/// Parameters different from 1, so that a forgotten one shows.
-template <class R>
-Parameters<R> uncommon_parameters(const ProblemInfo& info) {
-  std::map<std::string, std::string> texts;
+/// Parameters different from 1 and from each other, so that a forgotten one shows.
+Texts uncommon_parameters(const ProblemInfo& info) {
+  Texts texts;
   int k = 0;
-  for (const ParameterInfo& p : info.parameters) texts[p.name] = std::to_string(1.3 + 0.4 * k++);
-  return Parameters<R>(texts);
+  const auto next = [&] { return std::to_string(1.3 + 0.4 * k++); };
+  for (const ParameterInfo& p : info.parameters) {
+    if (info.name == "duffing" && (p.name == "k" || p.name == "lambda")) continue;  // instead of alpha and beta
+    if (p.range == Range::count) {
+      texts[p.name] = "4";
+    } else if (p.kind == ParameterKind::number) {
+      texts[p.name] = next();
+    } else {
+      const std::size_t length = p.length > 0 ? p.length : 3;
+      for (std::size_t i = 0; i < length; ++i) texts[p.name] += (i == 0 ? "[" : ", ") + next();
+      texts[p.name] += "]";
+    }
+  }
+  return texts;
 }
 
+template <template <class> class Family, class R>
+Family<R> make(const Texts& texts, [[maybe_unused]] std::size_t size) {
+  if constexpr (Family<R>::dimension == dynamic) {
+    return Family<R>(Parameters<R>(texts), size);
+  } else {
+    return Family<R>(Parameters<R>(texts));
+  }
+}
+
+/// The numbers of coordinates that a problem can have.
+template <template <class> class Family>
+std::vector<std::size_t> sizes(const Texts& texts) {
+  if constexpr (Family<double>::dimension != dynamic) {
+    return {Family<double>::dimension};
+  } else {
+    std::vector<std::size_t> all;
+    for (std::size_t size = 1; size <= 18; ++size) {
+      if (Family<double>::refused_size(Parameters<double>(texts), size).empty()) all.push_back(size);
+    }
+    return all;
+  }
+}
+
+/// A state without zeros, away from a singularity at 0.
+template <std::size_t n>
+void random_state(std::uint64_t trial, Vector<double, n>& q, Vector<double, n>& p) {
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    q[i] = 1.1 + 0.6 * counter_uniform(21, (2 * trial) * q.size() + i);
+    p[i] = 1.5 * counter_uniform(21, (2 * trial + 1) * q.size() + i);
+  }
+}
+
+/// The derivative of f along coordinate k of (q, p), by dual numbers in long double.
+template <std::size_t n, class F>
+auto along(std::size_t k, const Vector<double, n>& q, const Vector<double, n>& p, const F& f) {
+  using D = Dual<long double, 1>;
+  auto dual_q = zeros<D, n>(q.size());
+  auto dual_p = dual_q;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    dual_q[i] = static_cast<long double>(q[i]);
+    dual_p[i] = static_cast<long double>(p[i]);
+  }
+  (k < q.size() ? dual_q[k] : dual_p[k - q.size()]).slope[0] = 1;
+  return f(dual_q, dual_p);
+}
+
+/// Gradient and Hessian by hand against derivatives of H, and of the gradient, by dual numbers. Bounds: a relative
+/// rounding of the coordinates, which is V'' |q| epsilon, and some roundings of the result.
 template <template <class> class Family>
 void derivatives_are_those_of_the_energy() {
-  using P = Family<double>;
-  using Exact = PartsOnly<Family<long double>>;
-  constexpr std::size_t n = P::dimension;
-  const P problem{uncommon_parameters<double>(P::info())};
-  const Exact exact{Family<long double>{uncommon_parameters<long double>(P::info())}};
-  SCOPED_TRACE(P::info().name);
-  for (std::uint64_t trial = 0; trial < 50; ++trial) {
-    Vector<double, n> q{};
-    Vector<double, n> p{};
-    for (std::size_t i = 0; i < n; ++i) {
-      q[i] = 1.1 + 0.6 * counter_uniform(21, (2 * trial) * n + i);  // away from a singularity at 0
-      p[i] = 1.5 * counter_uniform(21, (2 * trial + 1) * n + i);
-    }
-    const auto exact_q = cast<long double>(q);
-    const auto exact_p = cast<long double>(p);
-    Vector<long double, n> f{};
-    Vector<long double, n> v{};
-    Matrix<long double, n> hessian{};
-    force(exact, exact_q, f);
-    velocity(exact, exact_p, v);
-    potential_hessian(exact, exact_q, hessian);
-
-    Vector<double, n> hand_f{};
-    Vector<double, n> hand_v{};
-    Vector<double, n> both_f{};
-    Vector<double, n> dq{};
-    Vector<double, n> dp{};
-    Matrix<double, n> hand_hessian{};
-    Matrix<double, n> both_hessian{};
-    force(problem, q, hand_f);
-    velocity(problem, p, hand_v);
-    potential_hessian(problem, q, hand_hessian);
-    force_and_hessian(problem, q, both_f, both_hessian);
-    gradient(problem, q, p, dq, dp);
-
-    long double size = 0;  // of what a relative error eps in q makes of f and V''
-    for (std::size_t i = 0; i < n; ++i) {
-      size = larger(size, static_cast<long double>(std::fabs(f[i])));
-      for (std::size_t j = 0; j < n; ++j) size = larger(size, static_cast<long double>(std::fabs(hessian[i][j])) * 2);
-    }
-    const long double bound = 64 * test::epsilon * size;
-    EXPECT_TRUE(test::within(energy(problem, q, p), exact.kinetic(exact_p) + exact.potential(exact_q),
-                             64 * test::epsilon * (std::fabs(exact.kinetic(exact_p)) + size)));
-    for (std::size_t i = 0; i < n; ++i) {
-      EXPECT_TRUE(test::within(hand_f[i], f[i], bound)) << "force " << i;
-      EXPECT_TRUE(test::within(both_f[i], f[i], bound)) << "force of force_and_hessian " << i;
-      EXPECT_TRUE(test::within(dq[i], -f[i], bound)) << "dH/dq " << i;
-      EXPECT_TRUE(test::within(hand_v[i], v[i], 16 * test::epsilon * std::fabs(v[i]))) << "velocity " << i;
-      EXPECT_EQ(dp[i], hand_v[i]) << "dH/dp " << i;
-      for (std::size_t j = 0; j < n; ++j) {
-        EXPECT_TRUE(test::within(hand_hessian[i][j], hessian[i][j], bound * 16)) << "Hessian " << i << ", " << j;
-        EXPECT_TRUE(test::within(both_hessian[i][j], hessian[i][j], bound * 16)) << "Hessian " << i << ", " << j;
+  constexpr std::size_t n = Family<double>::dimension;
+  const ProblemInfo info = Family<double>::info();
+  SCOPED_TRACE(info.name + ": " + info.formula);
+  const Texts texts = uncommon_parameters(info);
+  for (const std::size_t size : sizes<Family>(texts)) {
+    const auto problem = make<Family, double>(texts, size);
+    const auto exact = make<Family, long double>(texts, size);
+    for (std::uint64_t trial = 0; trial < 50; ++trial) {
+      auto q = zeros<double, n>(size);
+      auto p = q;
+      random_state(trial, q, p);
+      auto dq = q;
+      auto dp = q;
+      auto qq = zero_matrix(q);
+      auto qp = qq;
+      auto pp = qq;
+      gradient(problem, q, p, dq, dp);
+      hessian(problem, q, p, qq, qp, pp);
+      const auto second = [&](std::size_t i, std::size_t j) {
+        if (i < size) return j < size ? qq[i][j] : qp[i][j - size];
+        return j < size ? qp[j][i - size] : pp[i - size][j - size];
+      };
+      for (std::size_t k = 0; k < 2 * size; ++k) {
+        long double units = 0;  // what rounded coordinates, and the rounded parameters of the double problem, change
+        for (std::size_t j = 0; j < 2 * size; ++j) units += std::fabs(second(k, j)) * 4;
+        const long double slope =
+            along(k, q, p, [&](const auto& x, const auto& y) { return energy(exact, x, y).slope[0]; });
+        EXPECT_TRUE(test::within(k < size ? dq[k] : dp[k - size], slope, 64 * test::epsilon * (std::fabs(slope) + units)))
+            << "dH/dz_" << k;
+        const auto column = along(k, q, p, [&](const auto& x, const auto& y) {
+          auto by_q = zeros_like(x);
+          auto by_p = by_q;
+          gradient(exact, x, y, by_q, by_p);
+          std::vector<long double> all;
+          for (const auto& d : by_q) all.push_back(d.slope[0]);
+          for (const auto& d : by_p) all.push_back(d.slope[0]);
+          return all;
+        });
+        for (std::size_t i = 0; i < 2 * size; ++i) {
+          EXPECT_TRUE(test::within(second(i, k), column[i], 1024 * test::epsilon * (units + std::fabs(slope))))
+              << "d2H/dz_" << i << "dz_" << k;
+        }
       }
     }
   }
+}
+
+/// What a separable problem gives by hand is one thing in several shapes.
+template <template <class> class Family>
+void parts_agree() {
+  if constexpr (Separable<Family<double>>) {
+    constexpr std::size_t n = Family<double>::dimension;
+    const Texts texts = uncommon_parameters(Family<double>::info());
+    for (const std::size_t size : sizes<Family>(texts)) {
+      const auto problem = make<Family, double>(texts, size);
+      auto q = zeros<double, n>(size);
+      auto p = q;
+      random_state(3, q, p);
+      auto f = q;
+      auto v = q;
+      auto both_f = q;
+      auto dq = q;
+      auto dp = q;
+      auto second = zero_matrix(q);
+      auto both_second = second;
+      force(problem, q, f);
+      velocity(problem, p, v);
+      potential_hessian(problem, q, second);
+      force_and_hessian(problem, q, both_f, both_second);
+      gradient(problem, q, p, dq, dp);
+      for (std::size_t i = 0; i < size; ++i) {
+        const long double bound = 64 * test::epsilon * (std::fabs(f[i]) + std::fabs(second[i][i]) * std::fabs(q[i]));
+        EXPECT_EQ(dq[i], -f[i]);
+        EXPECT_EQ(dp[i], v[i]);
+        EXPECT_TRUE(test::within(both_f[i], f[i], bound));
+        for (std::size_t j = 0; j < size; ++j) {
+          EXPECT_TRUE(test::within(both_second[i][j], second[i][j], 16 * bound));
+        }
+      }
+      EXPECT_TRUE(test::within(energy(problem, q, p), problem.kinetic(p) + problem.potential(q), 0));
+    }
+  }
+}
+
+TEST(Problems, TheShapesOfTheDerivativesAgree) {
+#define HAMFLOW_CHECK(Family) parts_agree<Family>();
+  HAMFLOW_FOR_EACH_PROBLEM(HAMFLOW_CHECK)
+#undef HAMFLOW_CHECK
 }
 
 TEST(Problems, DerivativesByHandAreThoseOfTheEnergy) {

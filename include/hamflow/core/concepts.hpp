@@ -61,6 +61,17 @@ concept HasForceAndHessian = requires(const P& problem, const VectorOf<P>& q, Ve
                                       Matrix<typename P::Real, P::dimension>& out) {
   problem.force_and_hessian(q, f, out);
 };
+template <class P>
+concept HasFullHessian = requires(const P& problem, const VectorOf<P>& x, Matrix<typename P::Real, P::dimension>& out) {
+  problem.hessian(x, x, out, out, out);
+};
+template <class P>
+concept HasDualGradient = requires(const P& problem, const VectorOf<P, Dual<typename P::Real, 2 * P::dimension>>& x,
+                                   VectorOf<P, Dual<typename P::Real, 2 * P::dimension>>& out) {
+  problem.gradient(x, x, out, out);
+};
+template <class P>
+using EnergyDual = Dual<typename P::Real, 2 * P::dimension>;
 }  // namespace detail
 
 /// **Problem**: a Hamiltonian and nothing else. `Real` is the type of its parameters, `dimension` the number of degrees
@@ -93,5 +104,30 @@ concept QuadraticKinetic = Separable<P> && requires {
 template <class P>
 concept TwiceDifferentiable = Separable<P> &&(detail::HasHessian<P> || detail::HasForceAndHessian<P> ||
                                               detail::HasParts<P, Dual<GradientDual<P>, P::dimension>>);
+
+/// **Smooth**: the whole Hessian of H, by hand or by nested dual numbers. Implicit methods for any H need it.
+template <class P>
+concept Smooth = Differentiable<P> &&
+    (detail::HasFullHessian<P> || (QuadraticKinetic<P> && TwiceDifferentiable<P>) ||
+     (P::dimension != dynamic &&
+      (detail::HasDualGradient<P> || detail::HasParts<P, Dual<GradientDual<P>, P::dimension>> ||
+       detail::HasEnergy<P, Dual<detail::EnergyDual<P>, 2 * P::dimension>>)));
+
+/// **Cyclic**: H does not depend on the last coordinate, and for its constant momentum the others are those of a
+/// QuadraticKinetic problem, reduced(p). Implicit elements then solve in the others alone.
+template <class P>
+concept Cyclic = Smooth<P> && requires(const P& problem, const VectorOf<P>& q, const typename P::Real& p) {
+  typename P::Reduced;
+  { problem.reduced(p) } -> std::same_as<typename P::Reduced>;
+  { problem.cyclic_rate(VectorOf<typename P::Reduced>{}, p) } -> std::convertible_to<typename P::Real>;  // dH/dp_last
+};
+
+/// **ChargeInField**: a charged particle in a uniform field; canonical momenta are not those of the motion.
+template <class P>
+concept ChargeInField = Smooth<P> && requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
+  problem.velocity_of(x, x, out);  // v from (q, p)
+  problem.momentum_of(x, x, out);  // p from (q, v)
+  { problem.rotation() } -> std::convertible_to<VectorOf<P>>;  // charge * field / mass: v' = v x rotation
+};
 
 }  // namespace hamflow

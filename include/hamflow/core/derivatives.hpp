@@ -19,6 +19,16 @@ S potential_energy(const P& problem, const VectorOf<P, S>& q) {
   return problem.potential(q);
 }
 
+/// The number of degrees of freedom.
+template <class P>
+constexpr std::size_t degrees_of_freedom(const P& problem) {
+  if constexpr (P::dimension == dynamic) {
+    return problem.size();
+  } else {
+    return P::dimension;
+  }
+}
+
 /// H(q, p), without any shift.
 template <class P, class S, std::size_t N>
 S energy(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p) {
@@ -93,7 +103,7 @@ void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Ve
     problem.gradient(q, p, dq, dp);
   } else if constexpr (Separable<P>) {
     force(problem, q, dq);
-    for (std::size_t i = 0; i < N; ++i) dq[i] = -dq[i];
+    for (std::size_t i = 0; i < q.size(); ++i) dq[i] = -dq[i];
     velocity(problem, p, dp);
   } else {
     using D = Dual<S, 2 * N>;
@@ -116,15 +126,48 @@ template <class P>
 Matrix<RealOf<P>, P::dimension> inverse_mass_matrix(const P& problem) {
   using R = RealOf<P>;
   constexpr std::size_t n = P::dimension;
-  Matrix<R, n> inverse{};
-  for (std::size_t j = 0; j < n; ++j) {
-    Vector<R, n> unit{};
-    Vector<R, n> column{};
+  const std::size_t size = degrees_of_freedom(problem);
+  Matrix<R, n> inverse = zero_matrix(zeros<R, n>(size));
+  for (std::size_t j = 0; j < size; ++j) {
+    Vector<R, n> unit = zeros<R, n>(size);
+    Vector<R, n> column = zeros<R, n>(size);
     unit[j] = R(1);
     velocity(problem, unit, column);
-    for (std::size_t i = 0; i < n; ++i) inverse[i][j] = column[i];
+    for (std::size_t i = 0; i < size; ++i) inverse[i][j] = column[i];
   }
   return inverse;
+}
+
+/// All second derivatives of H: qq[i][j] = d^2 H/dq_i dq_j, qp[i][j] = d^2 H/dq_i dp_j, pp[i][j] = d^2 H/dp_i dp_j.
+template <class P, class S, std::size_t N>
+void hessian(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Matrix<S, N>& qq, Matrix<S, N>& qp,
+             Matrix<S, N>& pp) {
+  if constexpr (requires { problem.hessian(q, p, qq, qp, pp); }) {
+    problem.hessian(q, p, qq, qp, pp);
+  } else if constexpr (QuadraticKinetic<P> && std::is_same_v<S, RealOf<P>>) {
+    potential_hessian(problem, q, qq);
+    qp = zero_matrix(q);
+    pp = inverse_mass_matrix(problem);
+  } else {
+    static_assert(N != dynamic, "hamflow: a problem of dynamic size has to give its Hessian by hand");
+    using D = Dual<S, 2 * N>;
+    Vector<D, N> dual_q{};
+    Vector<D, N> dual_p{};
+    Vector<D, N> dq{};
+    Vector<D, N> dp{};
+    for (std::size_t k = 0; k < N; ++k) {
+      dual_q[k] = D::variable(q[k], k);
+      dual_p[k] = D::variable(p[k], N + k);
+    }
+    gradient(problem, dual_q, dual_p, dq, dp);
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = 0; j < N; ++j) {
+        qq[i][j] = dq[i].slope[j];
+        qp[i][j] = dq[i].slope[N + j];
+        pp[i][j] = dp[i].slope[N + j];
+      }
+    }
+  }
 }
 
 }  // namespace hamflow

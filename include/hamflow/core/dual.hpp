@@ -204,8 +204,8 @@ Dual<T, N> abs(const Dual<T, N>& x) {
 }
 /// x^y for a constant exponent.
 template <class T, std::size_t N>
-Dual<T, N> pow(const Dual<T, N>& x, double y) {
-  return detail::chain(x, T(pow(x.value, y)), T(y) * T(pow(x.value, y - 1)));
+Dual<T, N> pow(const Dual<T, N>& x, const base_scalar<T>& y) {
+  return detail::chain(x, T(pow(x.value, y)), T(y) * T(pow(x.value, y - base_scalar<T>(1))));
 }
 
 }  // namespace hamflow

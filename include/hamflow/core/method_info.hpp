@@ -2,6 +2,7 @@
 // and `hamflow verify` prints them beside what was measured.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,39 @@ struct MethodInfo {
   bool reversible = false;         // S Psi_h S Psi_h = id
   Conservation energy_conserving = Conservation::no;
   int forces_per_step = 0;  // -dV/dq per step when none is computed twice; 0: depends on the iteration
+};
+
+/// Of an implicit step, on request: how well conditioned its Newton was.   [Gross1999, figures 3.27, 3.28]
+struct StepDiagnostics {
+  struct Extremes {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    long long step_of_least = 0;
+    long long step_of_most = 0;
+    void extend(double x, long long step) {
+      if (x < least) {
+        least = x;
+        step_of_least = step;
+      }
+      if (x > most) {
+        most = x;
+        step_of_most = step;
+      }
+    }
+  };
+  static constexpr double unset = std::numeric_limits<double>::quiet_NaN();  // before the first step
+  double iterations = unset;              // linear solves
+  double residual = unset;                // the last one that was computed
+  double condition_tangent = unset;       // cond_inf(K_T), of the last solve
+  double determinant_tangent = unset;     // det(K_T)
+  double condition_inverse_mass = unset;  // cond_inf(M^-1(q)) at the end of the step
+  Extremes of_condition_tangent, of_determinant_tangent, of_condition_inverse_mass;  // over every step
+
+  void extend(long long step) {
+    of_condition_tangent.extend(condition_tangent, step);
+    of_determinant_tangent.extend(determinant_tangent, step);
+    of_condition_inverse_mass.extend(condition_inverse_mass, step);
+  }
 };
 
 /// What a method has done since it was made.

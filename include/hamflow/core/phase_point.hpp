@@ -15,34 +15,46 @@ struct PhasePoint {
   [[no_unique_address]] A arithmetic{};
 
   void store(const Vector<Real, N>& q_values, const Vector<Real, N>& p_values) {
-    for (std::size_t i = 0; i < N; ++i) {
+    q = zeros<Stored, N>(q_values.size());
+    p = zeros<Stored, N>(p_values.size());
+    for (std::size_t i = 0; i < q.size(); ++i) {
       q[i] = arithmetic.position.store(q_values[i]);
       p[i] = arithmetic.momentum.store(p_values[i]);
     }
   }
-  Vector<Real, N> positions() const {
-    Vector<Real, N> x{};
-    for (std::size_t i = 0; i < N; ++i) x[i] = arithmetic.position.read(q[i]);
-    return x;
+  /// The positions as numbers; where they are stored as such, and in a vector of any size, a reference to them.
+  decltype(auto) positions() const {
+    if constexpr (N == dynamic && std::is_same_v<Stored, Real>) {
+      return static_cast<const Vector<Real, N>&>(q);
+    } else {
+      Vector<Real, N> x = zeros<Real, N>(q.size());
+      for (std::size_t i = 0; i < q.size(); ++i) x[i] = arithmetic.position.read(q[i]);
+      return x;
+    }
   }
-  Vector<Real, N> momenta() const {
-    Vector<Real, N> x{};
-    for (std::size_t i = 0; i < N; ++i) x[i] = arithmetic.momentum.read(p[i]);
-    return x;
+  /// The momenta likewise.
+  decltype(auto) momenta() const {
+    if constexpr (N == dynamic && std::is_same_v<Stored, Real>) {
+      return static_cast<const Vector<Real, N>&>(p);
+    } else {
+      Vector<Real, N> x = zeros<Real, N>(p.size());
+      for (std::size_t i = 0; i < p.size(); ++i) x[i] = arithmetic.momentum.read(p[i]);
+      return x;
+    }
   }
   /// q <- q + factor * direction (a drift, for direction = dT/dp).
   template <class F>
   void move(const F& factor, const Vector<Real, N>& direction) {
-    for (std::size_t i = 0; i < N; ++i) arithmetic.position.add(q[i], factor * direction[i]);
+    for (std::size_t i = 0; i < q.size(); ++i) arithmetic.position.add(q[i], factor * direction[i]);
   }
   /// p <- p + factor * direction (a kick, for direction = -dV/dq).
   template <class F>
   void push(const F& factor, const Vector<Real, N>& direction) {
-    for (std::size_t i = 0; i < N; ++i) arithmetic.momentum.add(p[i], factor * direction[i]);
+    for (std::size_t i = 0; i < p.size(); ++i) arithmetic.momentum.add(p[i], factor * direction[i]);
   }
   /// S z: the state with its momenta reversed.
   void negate_momenta() {
-    for (std::size_t i = 0; i < N; ++i) p[i] = A::Axis::negated(p[i]);
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = A::Axis::negated(p[i]);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "hamflow/core/number.hpp"
@@ -13,21 +14,31 @@
 
 namespace hamflow {
 
-enum class Range { any, positive, not_negative };
+enum class Range { any, positive, not_negative, count };  // count: a whole number from 1
+
+enum class ParameterKind { number, list, number_or_list };
 
 struct ParameterInfo {
   std::string name;
-  std::string default_value;  // a number expression
+  std::string default_value;  // a number expression, or "[...]"; empty: it need not be given, and has no default
   std::string meaning;
-  Range range = Range::any;
+  Range range = Range::any;  // of each number
+  ParameterKind kind = ParameterKind::number;
+  std::size_t length = 0;  // of a list; 0: any from 1
+  bool required = false;
 };
+
+/// How many numbers an invariant has: one, one for each dimension of space, or as many as space has rotations.
+enum class Components { one, space, rotations };
 
 struct InvariantInfo {
   std::string name;
   std::string meaning;
+  Components components = Components::one;
 };
 
-/// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them.
+/// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them. An
+/// empty kind: the keys alone tell it.
 struct StartInfo {
   std::string kind;
   std::vector<std::string> keys;
@@ -44,23 +55,54 @@ struct ProblemInfo {
   std::vector<ParameterInfo> parameters{};
   std::vector<InvariantInfo> invariants{};
   std::vector<StartInfo> starts{};
+  /// Empty: the starts are chosen by the kind of `orbit`. Else this key of the problem counts them, 1, 2, ..., and their
+  /// keys stand beside it.
+  std::string start_key{};
   std::vector<std::string> default_q{};  // number expressions; empty: a scenario has to give a start
   std::vector<std::string> default_p{};
 };
 
-/// Values by name, kept as the text that was given, so that every arithmetic reads its own digits.
+/// The parts of "[1, 2/3, atan2(1, 2)]", or the text itself when it is no list.
+inline std::vector<std::string> list_parts(const std::string& text) {
+  if (text.empty() || text.front() != '[') return {text};
+  std::vector<std::string> parts;
+  int depth = 0;
+  std::string part;
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '(') ++depth;
+    if (c == ')') --depth;
+    if (c == ',' && depth == 0) {
+      parts.push_back(part);
+      part.clear();
+    } else if (c != ' ' || !part.empty()) {
+      part += c;
+    }
+  }
+  if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+/// Values by name, read in R from the text that was given, so that every arithmetic reads its own digits.
 template <class R>
 class Parameters {
  public:
   Parameters() = default;
+  /// An empty text is a parameter that was not given.
   explicit Parameters(const std::map<std::string, std::string>& texts) {
-    for (const auto& [name, text] : texts) values_[name] = evaluate_number<R>(text);
+    for (const auto& [name, text] : texts) {
+      if (text.empty()) continue;
+      for (const std::string& part : list_parts(text)) values_[name].push_back(evaluate_number<R>(part));
+    }
   }
-  R operator[](const std::string& name) const { return values_.at(name); }
-  void set(const std::string& name, const R& value) { values_[name] = value; }
+  bool has(const std::string& name) const { return values_.contains(name); }
+  /// A single number.
+  R operator[](const std::string& name) const { return values_.at(name).at(0); }
+  const std::vector<R>& list(const std::string& name) const { return values_.at(name); }
+  void set(const std::string& name, const R& value) { values_[name] = {value}; }
 
  private:
-  std::map<std::string, R> values_;
+  std::map<std::string, std::vector<R>> values_;
 };
 
 /// A canonical state.
@@ -69,6 +111,9 @@ struct Start {
   Vector<R, N> q{};
   Vector<R, N> p{};
 };
+
+/// What is known of an orbit before it is integrated: names and values.
+using OrbitFacts = std::vector<std::pair<std::string, std::variant<double, std::string, bool>>>;
 
 /// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
 struct Condition {

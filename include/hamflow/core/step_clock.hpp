@@ -15,7 +15,9 @@ class StepClock {
 
   R step_length() const { return direction_ < 0 ? -step_ : step_; }
   /// t0 + n h, with one rounding in the product and one in the sum, whatever the number of steps taken.
-  R time() const { return start_ + static_cast<R>(position_) * step_; }
+  R time() const { return time_after(0); }
+  /// The time that so many steps from now will have.
+  R time_after(std::int64_t steps) const { return start_ + static_cast<R>(position_ + direction_ * steps) * step_; }
   /// Steps taken, in either direction.
   std::int64_t steps_taken() const { return taken_; }
 

@@ -1,9 +1,17 @@
-// A vector of N numbers: the coordinates q or the momenta p of one system, or a force, or a row of a matrix.
+// A vector of N numbers: the coordinates q or the momenta p of one system, or a force, or a row of a matrix. N is a
+// number, and the vector lives in place, or `dynamic`, and its length is known when a system is made.
 #pragma once
 
 #include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "hamflow/core/pool.hpp"
 
 namespace hamflow {
+
+/// The number of degrees of freedom of systems whose size is chosen at run time.
+inline constexpr std::size_t dynamic = static_cast<std::size_t>(-1);
 
 /// N numbers of type R, stored in place. Brace-initialised: Vector<double, 2>{1.0, 2.0}.
 template <class R, std::size_t N>
@@ -23,15 +31,80 @@ struct Vector {
   friend constexpr bool operator==(const Vector&, const Vector&) = default;
 };
 
+/// Any number of numbers, a value like the others. Its memory comes from a pool, so that the temporaries of a step cost
+/// no call of the allocator once the first steps are taken.
+template <class R>
+struct Vector<R, dynamic> {
+  using value_type = R;
+
+  Vector() = default;
+  explicit Vector(std::size_t size) : entry(size, R{}) {}
+  Vector(std::initializer_list<R> values) : entry(values) {}
+
+  R& operator[](std::size_t i) { return entry[i]; }
+  const R& operator[](std::size_t i) const { return entry[i]; }
+  std::size_t size() const { return entry.size(); }
+  R* begin() { return entry.data(); }
+  R* end() { return entry.data() + entry.size(); }
+  const R* begin() const { return entry.data(); }
+  const R* end() const { return entry.data() + entry.size(); }
+  friend bool operator==(const Vector&, const Vector&) = default;
+
+ private:
+  std::vector<R, PoolAllocator<R>> entry;
+};
+
+/// A square matrix of any size, row after row in one piece: m[row] is a pointer to its first entry.
+template <class R>
+struct Vector<Vector<R, dynamic>, dynamic> {
+  using value_type = R;
+
+  Vector() = default;
+  explicit Vector(std::size_t size) : size_(size), entry(size * size, R{}) {}
+
+  R* operator[](std::size_t row) { return entry.data() + row * size_; }
+  const R* operator[](std::size_t row) const { return entry.data() + row * size_; }
+  std::size_t size() const { return size_; }
+  friend bool operator==(const Vector&, const Vector&) = default;
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<R, PoolAllocator<R>> entry;
+};
+
 /// N x N numbers, m[row][column].
 template <class R, std::size_t N>
 using Matrix = Vector<Vector<R, N>, N>;
 
+/// Zeros; `size` counts for `dynamic` vectors only.
+template <class R, std::size_t N>
+constexpr Vector<R, N> zeros([[maybe_unused]] std::size_t size) {
+  if constexpr (N == dynamic) {
+    return Vector<R, N>(size);
+  } else {
+    return Vector<R, N>{};
+  }
+}
+/// As many zeros as x has entries.
+template <class R, std::size_t N>
+constexpr Vector<R, N> zeros_like(const Vector<R, N>& x) {
+  return zeros<R, N>(x.size());
+}
+/// A matrix of zeros with as many rows as x has entries.
+template <class R, std::size_t N>
+constexpr Matrix<R, N> zero_matrix(const Vector<R, N>& x) {
+  if constexpr (N == dynamic) {
+    return Matrix<R, N>(x.size());
+  } else {
+    return Matrix<R, N>{};
+  }
+}
+
 /// The same values in another number type.
 template <class To, class From, std::size_t N>
 constexpr Vector<To, N> cast(const Vector<From, N>& x) {
-  Vector<To, N> y{};
-  for (std::size_t i = 0; i < N; ++i) y[i] = static_cast<To>(x[i]);
+  Vector<To, N> y = zeros<To, N>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) y[i] = static_cast<To>(x[i]);
   return y;
 }
 

@@ -14,7 +14,8 @@ struct CgOptions {
   std::optional<double> tolerance{};  // on the 2-norm of the residual (2.63); unset: its rounding level
   bool seed_criterion = false;        // stagnation above the tolerance is an error, as in the first thesis' programs
   int max_iterations = 15;
-  bool halve = false;  // replace a step that does not converge by two half steps
+  bool halve = false;        // replace a step that does not converge by two half steps
+  bool diagnostics = false;  // condition and determinant of the tangent, condition of M^-1, at every step
 };
 
 inline MethodInfo describe(const CgOptions& options) {

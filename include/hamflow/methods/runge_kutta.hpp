@@ -62,13 +62,17 @@ class RungeKutta {
     const Vector<Real, n> p0 = z.momenta();
     std::array<Vector<Real, n>, stages> dq{};  // q' and p' of the stages
     std::array<Vector<Real, n>, stages> dp{};
+    if constexpr (n == dynamic) {
+      dq.fill(zeros_like(q0));
+      dp.fill(zeros_like(q0));
+    }
     for_each_stage([&]<std::size_t i>() __attribute__((always_inline)) {
       Vector<Real, n> q = q0;
       Vector<Real, n> p = p0;
       for_each_stage([&]<std::size_t j>() __attribute__((always_inline)) {
         if constexpr (j < i && !Tableau.a[i][j].is_zero()) {
           const Base factor = h * Tableau.a[i][j].template as<Base>();
-          for (std::size_t k = 0; k < n; ++k) {
+          for (std::size_t k = 0; k < q.size(); ++k) {
             q[k] += factor * dq[j][k];
             p[k] += factor * dp[j][k];
           }
@@ -76,12 +80,12 @@ class RungeKutta {
       });
       derivative(problem, q, p, dq[i], dp[i]);
     });
-    Vector<Real, n> sum_q{};
-    Vector<Real, n> sum_p{};
+    Vector<Real, n> sum_q = zeros_like(q0);
+    Vector<Real, n> sum_p = zeros_like(q0);
     for_each_stage([&]<std::size_t i>() __attribute__((always_inline)) {
       if constexpr (!Tableau.b[i].is_zero()) {
         const Base weight = Tableau.b[i].template as<Base>();
-        for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t k = 0; k < sum_q.size(); ++k) {
           sum_q[k] += weight * dq[i][k];
           sum_p[k] += weight * dp[i][k];
         }
@@ -111,7 +115,7 @@ class RungeKutta {
       force(problem, q, dp);
     } else {
       gradient(problem, q, p, dp, dq);
-      for (std::size_t k = 0; k < n; ++k) dp[k] = -dp[k];
+      for (std::size_t k = 0; k < dp.size(); ++k) dp[k] = -dp[k];
     }
   }
 
@@ -121,6 +125,8 @@ class RungeKutta {
 /// A Runge-Kutta method chosen by type.
 template <const auto& Tableau>
 struct RungeKuttaBy {
+  template <class P>
+  static constexpr bool accepts = Differentiable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = false;
   template <class P, class A>

@@ -23,7 +23,8 @@ enum class Shape {
   kick_drift_kick,   // K D ... D K: the last force serves the next step
   drift_kick_drift,  // D K ... K D
   kick_drift,        // K D ... K D
-  drift_kick         // D K ... D K
+  drift_kick,        // D K ... D K
+  any                // one of these, known at run time
 };
 
 /// The coefficients of one step in the order in which they act, in the working arithmetic.
@@ -120,8 +121,13 @@ class Splitting {
   Splitting(const SplittingSequence<Base>& sequence, MethodInfo (*describe_table)(const void*), const void* table)
       : info_(describe_table), table_(table) {
     const std::vector<Base>& c = sequence.coefficients;
+    if (shape == Shape::any) {
+      const Shape actual = sequence.shape();
+      leading_ = actual == Shape::kick_drift_kick || actual == Shape::kick_drift;
+      trailing_ = actual == Shape::kick_drift_kick || actual == Shape::drift_kick;
+    }
     std::size_t i = 0;
-    if constexpr (leading) leading_kick_ = c[i++];
+    if (leading()) leading_kick_ = c[i++];
     for (; i < c.size(); i += 2) {
       if (count_ == capacity) throw Error("hamflow: a splitting table is longer than the kernel's room for it");
       links_[count_++] = {c[i], i + 1 < c.size() ? c[i + 1] : Base(0)};
@@ -133,9 +139,12 @@ class Splitting {
   /// z <- Psi_h(z). Always done: trouble shows in the state. Inlined by force into the loop over steps, so that state
   /// and force stay in registers from step to step.
   [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
-    Vector<Real, n> f = force_;
-    if constexpr (leading) {
-      if (!(trailing && force_is_current_)) evaluate_force(problem, z, f);
+    auto&& f = working_copy(force_);
+    if constexpr (n == dynamic) {
+      if (f.size() == 0) f = zeros<Real, n>(z.p.size());
+    }
+    if (leading()) {
+      if (!(trailing() && force_is_current_)) evaluate_force(problem, z, f);
       z.push(h * leading_kick_, f);
     }
     const std::size_t count = Links == any_length ? count_ : static_cast<std::size_t>(Links);
@@ -146,10 +155,10 @@ class Splitting {
       z.push(h * links_[i].kick, f);
     }
     drift(problem, h * links_[count - 1].drift, z);
-    if constexpr (trailing) {
+    if (trailing()) {
       evaluate_force(problem, z, f);
       z.push(h * links_[count - 1].kick, f);
-      force_ = f;
+      if constexpr (n != dynamic) force_ = f;
       force_is_current_ = true;
     }
     return Outcome::done;
@@ -160,8 +169,20 @@ class Splitting {
   Effort effort() const { return {.force = forces_}; }
 
  private:
-  static constexpr bool leading = shape == Shape::kick_drift_kick || shape == Shape::kick_drift;
-  static constexpr bool trailing = shape == Shape::kick_drift_kick || shape == Shape::drift_kick;
+  constexpr bool leading() const {
+    if constexpr (shape == Shape::any) {
+      return leading_;
+    } else {
+      return shape == Shape::kick_drift_kick || shape == Shape::kick_drift;
+    }
+  }
+  constexpr bool trailing() const {
+    if constexpr (shape == Shape::any) {
+      return trailing_;
+    } else {
+      return shape == Shape::kick_drift_kick || shape == Shape::drift_kick;
+    }
+  }
   static constexpr std::size_t capacity = Links == any_length ? SplittingTable::most : static_cast<std::size_t>(Links);
   struct Link {
     Base drift;
@@ -173,15 +194,25 @@ class Splitting {
     ++forces_;
   }
   [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z) {
-    Vector<Real, n> v{};
+    Vector<Real, n> v = zeros<Real, n>(z.q.size());
     velocity(problem, z.momenta(), v);
     z.move(factor, v);
+  }
+  /// In place vectors are copied, to live in registers; others are used where they are.
+  [[gnu::always_inline]] static decltype(auto) working_copy(Vector<Real, n>& kept) {
+    if constexpr (n == dynamic) {
+      return (kept);
+    } else {
+      return Vector<Real, n>(kept);
+    }
   }
 
   Vector<Real, n> force_{};
   bool force_is_current_ = false;
   long long forces_ = 0;
   Base leading_kick_{};
+  bool leading_ = false;  // of Shape::any
+  bool trailing_ = false;
   std::size_t count_ = 0;
   std::array<Link, capacity> links_{};
   MethodInfo (*info_)(const void*);
@@ -199,11 +230,14 @@ inline MethodInfo describe_splitting(const void* table) { return describe(*stati
 }  // namespace detail
 
 // Recipes: what a user names, from which a stepper for a problem and an arithmetic is made. `implicit`: the step solves
-// equations. `bijective`: every action of the step is one-to-one on a lattice.
+// equations. `bijective`: every action of the step is one-to-one on a lattice. `accepts<P>`: the problem has what the
+// method needs.
 
 /// A composition chosen by type: Composition<compositions::stv4> has its length compiled in.
 template <const CompositionTable& Table, StartsWith starts_with = StartsWith::kick>
 struct Composition {
+  template <class P>
+  static constexpr bool accepts = Separable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
   static constexpr bool kick_first = starts_with == StartsWith::kick;
@@ -221,6 +255,8 @@ struct Composition {
 /// A general splitting chosen by type.
 template <const SplittingTable& Table>
 struct SplittingBy {
+  template <class P>
+  static constexpr bool accepts = Separable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
   static constexpr Shape shape() {

@@ -1,5 +1,5 @@
-// Small dense linear systems: Cramer's rule for 2 x 2, which is forward stable there [Higham2002, Sect. 1.10.1] and the
-// heart of Newton in the plane, else Eigen's closed-form inverses up to 4 x 4 and LU with partial pivoting above.
+// Dense linear systems: Cramer's rule for 2 x 2, which is forward stable there [Higham2002, Sect. 1.10.1] and the heart
+// of Newton in the plane, else Eigen's closed-form inverses up to 4 x 4 and LU with partial pivoting above.
 #pragma once
 
 #include <Eigen/LU>
@@ -10,6 +10,14 @@
 namespace hamflow {
 
 namespace detail {
+/// b <- m^-1 b for a matrix of `size` rows and a right side of so many columns, both row after row. LU with partial
+/// pivoting, compiled once (src/numerics/dense.cpp). A singular m shows as entries that are not finite.
+void solve_large(const double* m, double* b, std::size_t size, std::size_t columns);
+void solve_large(const long double* m, long double* b, std::size_t size, std::size_t columns);
+double determinant_large(const double* m, std::size_t size);
+long double determinant_large(const long double* m, std::size_t size);
+
+/// Up to 4 x 4.
 template <class R, std::size_t N>
 Eigen::Matrix<R, static_cast<int>(N), static_cast<int>(N)> to_eigen(const Matrix<R, N>& m) {
   Eigen::Matrix<R, static_cast<int>(N), static_cast<int>(N)> e;
@@ -17,6 +25,15 @@ Eigen::Matrix<R, static_cast<int>(N), static_cast<int>(N)> to_eigen(const Matrix
     for (std::size_t j = 0; j < N; ++j) e(static_cast<int>(i), static_cast<int>(j)) = m[i][j];
   }
   return e;
+}
+/// The entries row after row.
+template <class R, std::size_t N>
+std::vector<R, PoolAllocator<R>> flat(const Matrix<R, N>& m) {
+  std::vector<R, PoolAllocator<R>> all(m.size() * m.size());
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (std::size_t j = 0; j < m.size(); ++j) all[i * m.size() + j] = m[i][j];
+  }
+  return all;
 }
 }  // namespace detail
 
@@ -29,38 +46,71 @@ Vector<R, N> solve(const Matrix<R, N>& m, const Vector<R, N>& b) {
     const R inverse_determinant = R(1) / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
     return {(b[0] * m[1][1] - b[1] * m[0][1]) * inverse_determinant,
             (b[1] * m[0][0] - b[0] * m[1][0]) * inverse_determinant};
-  } else {
-    Eigen::Matrix<R, static_cast<int>(N), 1> right;
-    for (std::size_t i = 0; i < N; ++i) right(static_cast<int>(i)) = b[i];
+  } else if constexpr (N <= 4) {
     Eigen::Matrix<R, static_cast<int>(N), 1> x;
-    if constexpr (N <= 4) {
-      x = detail::to_eigen(m).inverse() * right;
-    } else {
-      x = detail::to_eigen(m).partialPivLu().solve(right);
-    }
+    for (std::size_t i = 0; i < N; ++i) x(static_cast<int>(i)) = b[i];
+    x = (detail::to_eigen(m).inverse() * x).eval();
     Vector<R, N> out{};
     for (std::size_t i = 0; i < N; ++i) out[i] = x(static_cast<int>(i));
     return out;
+  } else {
+    Vector<R, N> x = b;
+    detail::solve_large(detail::flat(m).data(), x.begin(), b.size(), 1);
+    return x;
   }
 }
 
 /// m^-1.
 template <class R, std::size_t N>
 Matrix<R, N> inverse(const Matrix<R, N>& m) {
-  const auto e = detail::to_eigen(m).inverse().eval();
-  Matrix<R, N> out{};
-  for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) out[i][j] = e(static_cast<int>(i), static_cast<int>(j));
+  Matrix<R, N> out = m;
+  if constexpr (N <= 4) {
+    const auto e = detail::to_eigen(m).inverse().eval();
+    for (std::size_t i = 0; i < N; ++i) {
+      for (std::size_t j = 0; j < N; ++j) out[i][j] = e(static_cast<int>(i), static_cast<int>(j));
+    }
+  } else {
+    const std::size_t size = m.size();
+    std::vector<R, PoolAllocator<R>> columns(size * size);
+    for (std::size_t i = 0; i < size; ++i) columns[i * size + i] = R(1);
+    detail::solve_large(detail::flat(m).data(), columns.data(), size, size);
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = 0; j < size; ++j) out[i][j] = columns[i * size + j];
+    }
   }
   return out;
+}
+
+template <class R, std::size_t N>
+R determinant(const Matrix<R, N>& m) {
+  if constexpr (N <= 4) {
+    return detail::to_eigen(m).determinant();
+  } else {
+    return detail::determinant_large(detail::flat(m).data(), m.size());
+  }
+}
+
+/// ||m|| ||m^-1|| with the largest row sums of absolute values; not finite where m is singular.
+template <class R, std::size_t N>
+R condition_number(const Matrix<R, N>& m) {
+  const auto largest_row_sum = [](const Matrix<R, N>& x) {
+    R largest(0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      R sum(0);
+      for (std::size_t j = 0; j < x.size(); ++j) sum += abs(x[i][j]);
+      largest = sum <= largest ? largest : sum;  // NaN is kept
+    }
+    return largest;
+  };
+  return largest_row_sum(m) * largest_row_sum(inverse(m));
 }
 
 /// m x.
 template <class R, std::size_t N>
 Vector<R, N> apply(const Matrix<R, N>& m, const Vector<R, N>& x) {
-  Vector<R, N> y{};
-  for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) y[i] += m[i][j] * x[j];
+  Vector<R, N> y = zeros_like(x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j < x.size(); ++j) y[i] += m[i][j] * x[j];
   }
   return y;
 }
@@ -69,7 +119,7 @@ Vector<R, N> apply(const Matrix<R, N>& m, const Vector<R, N>& x) {
 template <class R, std::size_t N>
 R max_norm(const Vector<R, N>& x) {
   R largest(0);
-  for (std::size_t i = 0; i < N; ++i) largest = larger(largest, R(abs(x[i])));
+  for (std::size_t i = 0; i < x.size(); ++i) largest = larger(largest, R(abs(x[i])));
   return largest;
 }
 

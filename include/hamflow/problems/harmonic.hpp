@@ -3,8 +3,11 @@
 // q(t) = q0 cos(omega t) + p0/(m omega) sin(omega t).
 #pragma once
 
+#include <optional>
+
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/problems/support/linear_oscillator.hpp"
 
 namespace hamflow {
 
@@ -45,6 +48,14 @@ class Harmonic {
   template <class S>
   void potential_hessian(const Vector<S, 1>&, Matrix<S, 1>& out) const {
     out[0][0] = S(stiffness_);
+  }
+
+  /// The exact state at time t.
+  std::optional<Start<long double, 1>> exact(const Vector<long double, 1>& q, const Vector<long double, 1>& p,
+                                             long double t) const {
+    const auto w = static_cast<long double>(inverse_mass_);
+    const LinearMotion x = linear_motion(q[0], p[0] * w, static_cast<long double>(stiffness_) * w, t);
+    return Start<long double, 1>{{x.position}, {x.velocity / w}};
   }
 
  private:

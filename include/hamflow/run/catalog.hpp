@@ -5,15 +5,18 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/methods/cg_options.hpp"
 #include "hamflow/methods/tables.hpp"
 #include "hamflow/run/simulation.hpp"
-#include "hamflow/verify/step_map.hpp"
+#include "hamflow/run/step_map.hpp"
 
 namespace hamflow {
 
@@ -23,7 +26,7 @@ struct MethodSpec {
   CgOptions cg{};
 };
 
-enum class MethodKind { composition, splitting, runge_kutta, cg };
+enum class MethodKind { composition, splitting, runge_kutta, cg, boris };
 
 /// One name of the closed list of methods.
 struct MethodEntry {
@@ -37,9 +40,10 @@ struct MethodEntry {
 /// Numbers are texts, read in the arithmetic of the run.
 using Texts = std::map<std::string, std::string>;
 
-/// Where a run begins: a geometric start (kind not empty) or a state; v, if not empty, stands for p = dL/dv.
+/// Where a run begins: a geometric start or a state; v, if not empty, stands for p = dL/dv.
 struct StartSpec {
-  std::string kind;
+  bool geometric = false;
+  std::string kind;  // of a geometric start; empty: by energy and angular momentum
   Texts orbit;
   int direction = 1;
   std::vector<std::string> q;
@@ -55,30 +59,49 @@ struct Request {
   MethodSpec method;
   std::string dt = "0.1";
   std::string arithmetic = "double";
+  std::string kernel = "exact";
   double position_unit = 0x1p-52;  // lattice spacings, powers of two
   double momentum_unit = 0x1p-52;
   bool watch = true;  // energy and invariants at every step
 };
 
-/// One problem of the catalogue (a problem with a choice of potential has one entry for each).
+/// One problem of the catalogue (a problem with a choice of potential has one entry for each). Parameters are complete.
 struct ProblemEntry {
   ProblemInfo info;
-  std::size_t dimension = 0;
+  std::size_t dimension = 0;  // degrees of freedom; 0: as many as the start has coordinates
+  /// What q and p have to be where `size` numbers cannot be one of them; empty where they can.
+  std::function<std::string(const Texts& parameters, std::size_t size)> refused_size;
+  /// The key to blame and what is wrong with parameters that do not go together.
+  std::function<std::pair<std::string, std::string>(const Texts& parameters)> refused_parameters;
+  /// What is wrong with a start; empty if nothing is.
+  std::function<std::string(const Texts& parameters, const std::vector<double>& q)> refused_start;
+  /// Whether the problem has what the method needs.
+  std::function<bool(const MethodSpec&)> accepts;
+  bool has_fast_kernel = false;
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
-  std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&)> step_map;
-  /// The parameters with those that follow from a geometric start set. @param parameters complete
+  /// Null where the method is not accepted.
+  std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
+  /// The parameters with those that follow from a geometric start set.
   std::function<Texts(const Texts& parameters, const StartSpec&)> derived;
-  /// The conditions that a geometric start has to meet. @param parameters complete
+  /// The conditions that a geometric start has to meet.
   std::function<std::vector<Condition>(const Texts& parameters, const StartSpec&)> conditions;
-  /// H(q, p). @param parameters complete
+  /// H(q, p).
   std::function<double(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> energy;
   /// Whether H and its derivatives are finite there.
   std::function<bool(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> regular;
+  /// How many numbers each invariant has.
+  std::function<std::vector<std::size_t>(const Texts& parameters, std::size_t size)> invariant_sizes;
   /// The canonical start of a request in double.
   std::function<Frame(const Request&)> start;
   /// r(phi) of the exact orbit through (q, p); empty where there is no closed form.
   std::function<std::function<double(double)>(const Texts&, const std::vector<double>& q, const std::vector<double>& p)>
       exact_radius;
+  /// The exact state at time t from (q, p) at 0; empty, or without value, where it is not known.
+  std::function<std::optional<Frame>(const Texts&, const std::vector<double>& q, const std::vector<double>& p,
+                                     double t)>
+      exact;
+  /// What the effective potential says of the orbit through (q, p); empty where there is none.
+  std::function<OrbitFacts(const Texts&, const std::vector<double>& q, const std::vector<double>& p)> describe_orbit;
 };
 
 std::span<const ProblemEntry> problems();
@@ -98,6 +121,10 @@ MethodInfo describe(const MethodSpec& spec);
 MethodSpec parse_method(const std::string& text);
 /// Why a method cannot run in an arithmetic; empty if it can.
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
+/// Why a method cannot run on a problem, and which can; empty if it can.
+std::string refusal(const MethodSpec& spec, const ProblemEntry& problem);
+/// Why a request cannot have kernel = "fast"; empty if it can.
+std::string refused_fast_kernel(const Request& request, const ProblemEntry& problem);
 /// The name nearest to `name` by edit distance, empty if none is near.
 std::string nearest(const std::string& name, std::span<const std::string> candidates);
 

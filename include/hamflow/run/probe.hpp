@@ -1,6 +1,9 @@
 // Quantities wanted at *every* step are a probe, a template argument of the step loop. `NoProbe` compiles to nothing.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/run/simulation.hpp"
 
@@ -8,71 +11,120 @@ namespace hamflow {
 
 namespace detail {
 template <class P, class R>
-concept HasInvariants = requires(const P& problem, const VectorOf<P, R>& x) {
+concept HasSteadyInvariants = requires(const P& problem, const VectorOf<P, R>& x) {
   problem.invariants(x, x);
 };
+template <class P, class R>
+concept HasTimedInvariants = requires(const P& problem, const VectorOf<P, R>& x, const R& t) {
+  problem.invariants(x, x, t);
+};
+template <class P, class R>
+concept HasInvariants = HasSteadyInvariants<P, R> || HasTimedInvariants<P, R>;
+
+/// All invariants in a row, each with as many numbers as it has components.
+template <class P, class R, std::size_t N>
+auto invariants_of(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, [[maybe_unused]] const R& t) {
+  if constexpr (HasTimedInvariants<P, R>) {
+    return problem.invariants(q, p, t);
+  } else {
+    return problem.invariants(q, p);
+  }
+}
 
 template <class P, class R>
-struct InvariantCount {
-  static constexpr std::size_t value = 0;
+struct InvariantsOf {
+  using type = Vector<R, 1>;  // never used
 };
 template <class P, class R>
 requires HasInvariants<P, R>
-struct InvariantCount<P, R> {
-  static constexpr std::size_t value = decltype(std::declval<const P&>().invariants(
-      std::declval<VectorOf<P, R>>(), std::declval<VectorOf<P, R>>()))::size();
+struct InvariantsOf<P, R> {
+  using type = decltype(invariants_of(std::declval<const P&>(), std::declval<const VectorOf<P, R>&>(),
+                                      std::declval<const VectorOf<P, R>&>(), R{}));
 };
+
+/// How many numbers each invariant has: ones unless the problem says otherwise.
+template <class P>
+std::vector<std::size_t> invariant_sizes(const P& problem, std::size_t numbers) {
+  if constexpr (requires { problem.invariant_sizes(); }) {
+    const auto sizes = problem.invariant_sizes();
+    return {sizes.begin(), sizes.end()};
+  } else {
+    return std::vector<std::size_t>(numbers, 1);
+  }
+}
 }  // namespace detail
 
 /// Watches nothing.
 struct NoProbe {
   template <class P, class R, std::size_t N>
-  void start(const P&, const Vector<R, N>&, const Vector<R, N>&) {}
+  void start(const P&, const Vector<R, N>&, const Vector<R, N>&, const R&) {}
   template <class P, class R, std::size_t N>
-  bool look(const P&, const Vector<R, N>&, const Vector<R, N>&) {
+  bool look(const P&, const Vector<R, N>&, const Vector<R, N>&, const R&) {
     return true;
   }
 };
 
-/// The largest deviation of the energy and of each invariant from its start.
+/// The largest deviation of the energy and of each invariant from its start; of an invariant with several components,
+/// the length of the deviation.
 template <class P, class R>
 class ConservationProbe {
  public:
-  static constexpr std::size_t count = detail::InvariantCount<P, R>::value;
+  static constexpr bool watches_invariants = detail::HasInvariants<P, R>;
+  using Invariants = typename detail::InvariantsOf<P, R>::type;
+
   template <std::size_t N>
-  void start(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
-    energy_ = {hamflow::energy(problem, q, p), R(0)};
-    if constexpr (count > 0) {
-      const auto values = problem.invariants(q, p);
-      for (std::size_t i = 0; i < count; ++i) invariants_[i] = {values[i], R(0)};
+  void start(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, const R& t) {
+    initial_energy_ = hamflow::energy(problem, q, p);
+    if constexpr (watches_invariants) {
+      initial_ = detail::invariants_of(problem, q, p, t);
+      worst_ = zeros_like(initial_);
     }
   }
   /// False where the energy is not finite. With all it calls it belongs into the loop over steps, where its square
   /// roots and divisions hide behind those of the step.
   template <std::size_t N>
-  [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
-    const R error = abs(hamflow::energy(problem, q, p) - energy_.initial);
-    energy_.worst = larger(energy_.worst, error);
-    if constexpr (count > 0) {
-      const auto values = problem.invariants(q, p);
-      for (std::size_t i = 0; i < count; ++i) {
-        invariants_[i].worst = larger(invariants_[i].worst, R(abs(values[i] - invariants_[i].initial)));
+  [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
+                             [[maybe_unused]] const R& t) {
+    const R error = abs(hamflow::energy(problem, q, p) - initial_energy_);
+    worst_energy_ = larger(worst_energy_, error);
+    if constexpr (watches_invariants) {
+      const auto values = detail::invariants_of(problem, q, p, t);
+      if constexpr (requires { problem.invariant_sizes(); }) {
+        look_at_groups(problem.invariant_sizes(), values);
+      } else {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          worst_[i] = larger(worst_[i], R(abs(values[i] - initial_[i])));
+        }
       }
     }
     return error <= std::numeric_limits<R>::max();  // false for NaN and infinity
   }
-  R initial_energy() const { return energy_.initial; }
-  R worst_energy_error() const { return energy_.worst; }
-  R initial(std::size_t i) const { return invariants_[i].initial; }
-  R worst(std::size_t i) const { return invariants_[i].worst; }
+  R initial_energy() const { return initial_energy_; }
+  R worst_energy_error() const { return worst_energy_; }
+  const Invariants& initial() const { return initial_; }
+  /// Of the k-th invariant.
+  R worst(std::size_t k) const { return worst_[k]; }
 
  private:
-  struct Watched {
-    R initial{};
-    R worst{};
-  };
-  Watched energy_;
-  Watched invariants_[count > 0 ? count : 1]{};
+  template <class Sizes>
+  void look_at_groups(const Sizes& sizes, const Invariants& values) {
+    std::size_t i = 0;
+    std::size_t k = 0;
+    for (const std::size_t size : sizes) {
+      R square(0);
+      for (const std::size_t end = i + size; i < end; ++i) {
+        const R difference = values[i] - initial_[i];
+        square += difference * difference;
+      }
+      worst_[k] = larger(worst_[k], R(sqrt(square)));
+      ++k;
+    }
+  }
+
+  R initial_energy_{};
+  R worst_energy_{};
+  Invariants initial_{};
+  Invariants worst_{};
 };
 
 }  // namespace hamflow

@@ -19,13 +19,21 @@ struct Frame {
   std::vector<double> p;
   double energy = 0;
   std::vector<double> invariants;
-  Effort effort;  // totals since the start
+  Effort effort;                // totals since the start
+  StepDiagnostics diagnostics;  // of the last step, where asked for
 };
 
 /// How far a conserved quantity was seen to go, over every step.
 struct Excursion {
   double initial = 0;
   double final = 0;
+  double max_error = 0;
+};
+
+/// The same of an invariant, with as many numbers as it has components. max_error is the length of the deviation.
+struct InvariantExcursion {
+  std::vector<double> initial;
+  std::vector<double> final;
   double max_error = 0;
 };
 
@@ -48,8 +56,10 @@ class Simulation {
   virtual Excursion energy() const = 0;
   virtual double energy_scale() const = 0;
   /// In the order of the problem's invariants.
-  virtual std::vector<Excursion> invariants() const = 0;
+  virtual std::vector<InvariantExcursion> invariants() const = 0;
   virtual Effort effort() const = 0;
+  /// Of implicit steps, where asked for; else unset.
+  virtual StepDiagnostics diagnostics() const = 0;
   virtual MethodInfo method() const = 0;
   /// After a failure: what went wrong in the step after the present one, in a sentence.
   virtual std::string failure() const = 0;

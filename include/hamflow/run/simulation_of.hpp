@@ -38,7 +38,7 @@ class SimulationOf final : public Simulation {
     z_.store(q, p);
     const auto stored_q = z_.positions();
     const auto stored_p = z_.momenta();
-    probe_.start(problem_, stored_q, stored_p);
+    probe_.start(problem_, stored_q, stored_p, t0);
     initial_energy_ = hamflow::energy(problem_, stored_q, stored_p);
     scale_ = abs(initial_energy_);
     if constexpr (Separable<P>) {
@@ -63,18 +63,20 @@ class SimulationOf final : public Simulation {
     const auto p = z_.momenta();
     frame.step = clock_.steps_taken();
     frame.time = static_cast<double>(clock_.time());
-    frame.q.assign(n, 0);
-    frame.p.assign(n, 0);
-    for (std::size_t i = 0; i < n; ++i) {
+    frame.q.assign(q.size(), 0);
+    frame.p.assign(p.size(), 0);
+    for (std::size_t i = 0; i < q.size(); ++i) {
       frame.q[i] = static_cast<double>(q[i]);
       frame.p[i] = static_cast<double>(p[i]);
     }
     frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
     frame.invariants.clear();
     if constexpr (detail::HasInvariants<P, Real>) {
-      for (const Real& value : problem_.invariants(q, p)) frame.invariants.push_back(static_cast<double>(value));
+      for (const Real& value : detail::invariants_of(problem_, q, p, clock_.time()))
+        frame.invariants.push_back(static_cast<double>(value));
     }
     frame.effort = method_.effort();
+    frame.diagnostics = diagnostics();
   }
 
   void reverse_time() override {
@@ -87,10 +89,11 @@ class SimulationOf final : public Simulation {
   }
   std::vector<std::byte> bits() const override {
     using Stored = typename A::Stored;
-    std::vector<std::byte> all(2 * n * sizeof(Stored));
-    for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t size = z_.q.size();
+    std::vector<std::byte> all(2 * size * sizeof(Stored));
+    for (std::size_t i = 0; i < size; ++i) {
       std::memcpy(all.data() + i * sizeof(Stored), &z_.q[i], sizeof(Stored));
-      std::memcpy(all.data() + (n + i) * sizeof(Stored), &z_.p[i], sizeof(Stored));
+      std::memcpy(all.data() + (size + i) * sizeof(Stored), &z_.p[i], sizeof(Stored));
     }
     return all;
   }
@@ -103,16 +106,28 @@ class SimulationOf final : public Simulation {
     return e;
   }
   double energy_scale() const override { return static_cast<double>(scale_); }
-  std::vector<Excursion> invariants() const override {
-    std::vector<Excursion> all;
+  std::vector<InvariantExcursion> invariants() const override {
+    std::vector<InvariantExcursion> all;
     if constexpr (detail::HasInvariants<P, Real> && requires { probe_.worst(0); }) {
-      const auto now = problem_.invariants(z_.positions(), z_.momenta());
-      for (std::size_t i = 0; i < now.size(); ++i) {
-        all.push_back({static_cast<double>(probe_.initial(i)), static_cast<double>(now[i]),
-                       static_cast<double>(probe_.worst(i))});
+      const auto now = detail::invariants_of(problem_, z_.positions(), z_.momenta(), clock_.time());
+      std::size_t i = 0;
+      for (const std::size_t size : detail::invariant_sizes(problem_, now.size())) {
+        InvariantExcursion e{{}, {}, static_cast<double>(probe_.worst(all.size()))};
+        for (const std::size_t end = i + size; i < end; ++i) {
+          e.initial.push_back(static_cast<double>(probe_.initial()[i]));
+          e.final.push_back(static_cast<double>(now[i]));
+        }
+        all.push_back(e);
       }
     }
     return all;
+  }
+  StepDiagnostics diagnostics() const override {
+    if constexpr (requires { method_.diagnostics(problem_, z_); }) {
+      return method_.diagnostics(problem_, z_);
+    } else {
+      return {};
+    }
   }
   Effort effort() const override { return method_.effort(); }
   MethodInfo method() const override { return method_.info(); }
@@ -140,11 +155,11 @@ class SimulationOf final : public Simulation {
         return retrace(i, outcome, taken, method_out, z_out, probe_out);
       if (z.arithmetic.lost()) [[unlikely]]
         return retrace(i, Outcome::lattice_overflow, taken, method_out, z_out, probe_out);
-      if (!probe.look(problem, z.positions(), z.momenta())) [[unlikely]] {
+      if (!probe.look(problem, z.positions(), z.momenta(), clock_.time_after(i + 1))) [[unlikely]] {
         return retrace(i, Outcome::non_finite, taken, method_out, z_out, probe_out);
       }
     }
-    if (!is_finite(z)) {  // without a probe nobody has looked yet
+    if (!is_finite(problem, z)) {  // without a probe nobody has looked yet
       if (steps == 1) return Outcome::non_finite;
       for (std::int64_t i = 0; i < steps; ++i) {
         const Outcome outcome = march(1, taken, method_out, z_out, probe_out);
@@ -168,11 +183,11 @@ class SimulationOf final : public Simulation {
     return why;
   }
 
-  static bool is_finite(const PhasePoint<A, n>& z) {
+  static bool is_finite(const P& problem, const PhasePoint<A, n>& z) {
     const auto q = z.positions();
     const auto p = z.momenta();
-    bool finite = true;
-    for (std::size_t i = 0; i < n; ++i) {
+    bool finite = abs(hamflow::energy(problem, q, p)) <= std::numeric_limits<Real>::max();
+    for (std::size_t i = 0; i < q.size(); ++i) {
       finite = finite && abs(q[i]) <= std::numeric_limits<Real>::max() && abs(p[i]) <= std::numeric_limits<Real>::max();
     }
     return finite;

@@ -21,7 +21,7 @@
 
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/verify/drift.hpp"
-#include "hamflow/verify/step_map.hpp"
+#include "hamflow/run/step_map.hpp"
 
 namespace hamflow {
 
@@ -82,6 +82,7 @@ struct Measurement {
   OrderMeasurement order;
   DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step: does it belong to it?
   DefectMeasurement symplectic, weakly_reversible, symmetric, reversible;
+  bool even_in_momenta = true;  // H(q, -p) = H(q, p): else the motion itself is not reversed with the momenta
   EnergyMeasurement energy;
   CostMeasurement cost;
 };
@@ -125,8 +126,8 @@ State<double> random_state(const Region& region, std::uint64_t k);
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant = {});
 /// The step of a method on the region's problem. @throws Error when there is no such problem
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method);
-/// pendulum and henon-heiles.
-std::vector<Region> default_regions();
+/// pendulum and henon-heiles; for methods that need another problem, that one.
+std::vector<Region> default_regions(const MethodSpec& method = {});
 /// A method of the catalogue. @throws Error when the method or a problem is unknown
 PropertyRow measure_method(const MethodSpec& method, std::span<const Region> regions);
 

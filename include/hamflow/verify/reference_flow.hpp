@@ -15,24 +15,25 @@ namespace hamflow {
 namespace detail {
 
 template <class P, std::size_t N = P::dimension>
-class Extrapolation {
+class ExtrapolatedFlow {
  public:
   using R = typename P::Real;
-  using Z = Vector<R, 2 * N>;
-  explicit Extrapolation(const P& problem) : problem_(problem) {}
+  static constexpr std::size_t M = N == dynamic ? dynamic : 2 * N;
+  using Z = Vector<R, M>;
+  explicit ExtrapolatedFlow(const P& problem) : problem_(problem), size_(degrees_of_freedom(problem)) {}
 
   /// z(t) from z(0). Not a number where the orbit cannot be followed (a collision).
   Z flow(const Z& start, R t) const {
     using Axis = typename Compensated<R>::Axis;
-    Vector<typename Compensated<R>::Stored, 2 * N> sum{};
-    for (std::size_t i = 0; i < 2 * N; ++i) sum[i] = Axis::store(start[i]);
+    auto sum = zeros<typename Compensated<R>::Stored, M>(2 * size_);
+    for (std::size_t i = 0; i < 2 * size_; ++i) sum[i] = Axis::store(start[i]);
     Z z = start;
     R done(0);
     R step = t;
     while (abs(done) < abs(t)) {
       if (abs(step) > longest_step) step = t < R(0) ? -longest_step : longest_step;
       if (abs(done + step) > abs(t)) step = t - done;
-      Z increment{};
+      Z increment = zeros_like(z);
       while (!try_step(z, step, increment)) {
         step = step / R(2);
         if (abs(step) < shortest_step) {
@@ -40,7 +41,7 @@ class Extrapolation {
           return z;
         }
       }
-      for (std::size_t i = 0; i < 2 * N; ++i) {
+      for (std::size_t i = 0; i < 2 * size_; ++i) {
         Axis::add(sum[i], increment[i]);
         z[i] = Axis::read(sum[i]);
       }
@@ -56,31 +57,31 @@ class Extrapolation {
   static constexpr R shortest_step = longest_step / R(1 << 24);
 
   Z derivative(const Z& z, const Z& increment) const {
-    Vector<R, N> q{};
-    Vector<R, N> p{};
-    Vector<R, N> dq{};
-    Vector<R, N> dp{};
-    for (std::size_t i = 0; i < N; ++i) {
+    Vector<R, N> q = zeros<R, N>(size_);
+    Vector<R, N> p = q;
+    Vector<R, N> dq = q;
+    Vector<R, N> dp = q;
+    for (std::size_t i = 0; i < size_; ++i) {
       q[i] = z[i] + increment[i];
-      p[i] = z[N + i] + increment[N + i];
+      p[i] = z[size_ + i] + increment[size_ + i];
     }
     gradient(problem_, q, p, dq, dp);
-    Z out{};
-    for (std::size_t i = 0; i < N; ++i) {
+    Z out = zeros_like(z);
+    for (std::size_t i = 0; i < size_; ++i) {
       out[i] = dp[i];
-      out[N + i] = -dq[i];
+      out[size_ + i] = -dq[i];
     }
     return out;
   }
-  static Z combine(const Z& z, R factor, const Z& direction) {
+  Z combine(const Z& z, R factor, const Z& direction) const {
     Z out = z;
-    for (std::size_t i = 0; i < 2 * N; ++i) out[i] += factor * direction[i];
+    for (std::size_t i = 0; i < 2 * size_; ++i) out[i] += factor * direction[i];
     return out;
   }
   /// The increment over `step` with an even number of parts, smoothed at the end (II.9.13c).
   Z modified_midpoint(const Z& z, R step, int parts) const {
     const R h = step / R(parts);
-    Z before{};
+    Z before = zeros_like(z);
     Z now = combine(before, h, derivative(z, before));
     for (int k = 1; k < parts; ++k) {
       const Z after = combine(before, R(2) * h, derivative(z, now));
@@ -88,8 +89,8 @@ class Extrapolation {
       now = after;
     }
     const Z last = combine(before, h, derivative(z, now));
-    Z mean{};
-    for (std::size_t i = 0; i < 2 * N; ++i) mean[i] = (now[i] + last[i]) / R(2);
+    Z mean = zeros_like(z);
+    for (std::size_t i = 0; i < 2 * size_; ++i) mean[i] = (now[i] + last[i]) / R(2);
     return mean;
   }
   static R size_of(const Z& z) {
@@ -108,14 +109,14 @@ class Extrapolation {
         const R ratio = R(j + 1) / R(j + 1 - k);
         const R divisor = ratio * ratio - R(1);
         Z better = next.back();
-        for (std::size_t i = 0; i < 2 * N; ++i) {
+        for (std::size_t i = 0; i < 2 * size_; ++i) {
           better[i] += (next.back()[i] - row[static_cast<std::size_t>(k - 1)][i]) / divisor;
         }
         next.push_back(better);
       }
       if (j >= 4) {
         R difference(0);
-        for (std::size_t i = 0; i < 2 * N; ++i) {
+        for (std::size_t i = 0; i < 2 * size_; ++i) {
           difference = larger(difference, R(abs(next.back()[i] - row.back()[i])));
         }
         const R rounding = std::numeric_limits<R>::epsilon() * larger(size_of(next.back()), R(abs(step)) * size_of(z));
@@ -135,16 +136,15 @@ class Extrapolation {
   }
 
   const P& problem_;
+  std::size_t size_;
 };
 
 }  // namespace detail
 
 /// z(t) for z = (q, p), to a few units of rounding per unit of time.
 template <class P>
-Vector<typename P::Real, 2 * P::dimension> reference_flow(const P& problem,
-                                                          const Vector<typename P::Real, 2 * P::dimension>& z,
-                                                          typename P::Real t) {
-  return detail::Extrapolation<P>(problem).flow(z, t);
+auto reference_flow(const P& problem, const typename detail::ExtrapolatedFlow<P>::Z& z, typename P::Real t) {
+  return detail::ExtrapolatedFlow<P>(problem).flow(z, t);
 }
 
 }  // namespace hamflow

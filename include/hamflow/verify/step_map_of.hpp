@@ -3,20 +3,20 @@
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/methods/element/context.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "hamflow/verify/reference_flow.hpp"
-#include "hamflow/verify/step_map.hpp"
+#include "hamflow/run/step_map.hpp"
 
 namespace hamflow {
 
 namespace detail {
 template <class R, std::size_t N>
-void split(const State<R>& z, Vector<R, N>& q, Vector<R, N>& p) {
-  for (std::size_t i = 0; i < N; ++i) {
-    q[i] = z[i];
-    p[i] = z[N + i];
-  }
+Vector<R, N> part_of(const State<R>& z, std::size_t first) {
+  Vector<R, N> x = zeros<R, N>(z.size() / 2);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = z[first + i];
+  return x;
 }
 template <class R, std::size_t N>
 State<R> joined(const Vector<R, N>& q, const Vector<R, N>& p) {
@@ -31,6 +31,7 @@ template <template <class> class Family, class Recipe>
 class StepMapOf final : public StepMap {
   using P = Family<double>;
   static constexpr std::size_t n = P::dimension;
+  using V = Vector<double, n>;
   /// Implicit elements add their increments with compensation.
   template <class R>
   using Arithmetic = std::conditional_t<Recipe::implicit, Compensated<R>, Plain<R>>;
@@ -41,42 +42,40 @@ class StepMapOf final : public StepMap {
   StepMapOf(Make&& make, Recipe recipe)
       : problem_(make.template operator()<double>()),
         long_problem_(make.template operator()<long double>()),
-        recipe_(std::move(recipe)) {}
+        recipe_(std::move(recipe)),
+        size_(degrees_of_freedom(problem_)) {}
 
-  std::size_t dimension() const override { return n; }
+  std::size_t dimension() const override { return size_; }
   MethodInfo claims() const override { return recipe_.template bind<P, Arithmetic<double>>(problem_).info(); }
   bool advance(State<double>& z, double h, std::int64_t steps) const override { return go(problem_, z, h, steps); }
   bool advance(State<long double>& z, long double h, std::int64_t steps) const override {
     return go(long_problem_, z, h, steps);
   }
 
+  /// One direction at a time: column k is the derivative along coordinate k of z.
   std::vector<std::vector<double>> jacobian(const State<double>& z, double h) const override {
     if constexpr (Recipe::implicit) {
       return implicit_jacobian(z, h);
     } else {
-      using D = Dual<double, 2 * n>;
+      using D = Dual<double, 1>;
       using A = Plain<D>;
-      auto method = recipe_.template bind<P, A>(problem_);
-      PhasePoint<A, n> point;
-      for (std::size_t i = 0; i < n; ++i) {
-        point.q[i] = D::variable(z[i], i);
-        point.p[i] = D::variable(z[n + i], n + i);
+      std::vector<std::vector<double>> rows(2 * size_, std::vector<double>(2 * size_));
+      for (std::size_t k = 0; k < 2 * size_; ++k) {
+        auto method = recipe_.template bind<P, A>(problem_);
+        PhasePoint<A, n> point;
+        point.store(seeded(detail::part_of<double, n>(z, 0), k, 0), seeded(detail::part_of<double, n>(z, size_), k, size_));
+        (void)method.step(problem_, h, point);
+        for (std::size_t i = 0; i < size_; ++i) {
+          rows[i][k] = point.q[i].slope[0];
+          rows[size_ + i][k] = point.p[i].slope[0];
+        }
       }
-      (void)method.step(problem_, h, point);
-      std::vector<std::vector<double>> rows;
-      for (const auto& x : point.q) rows.emplace_back(x.slope.begin(), x.slope.end());
-      for (const auto& x : point.p) rows.emplace_back(x.slope.begin(), x.slope.end());
       return rows;
     }
   }
 
   std::vector<double> energies(const State<double>& z, double h, int blocks, std::int64_t steps) const override {
-    using A = Arithmetic<double>;
-    Vector<double, n> q{};
-    Vector<double, n> p{};
-    detail::split(z, q, p);
-    auto method = recipe_.template bind<P, A>(problem_);
-    SimulationOf<P, decltype(method), A, NoProbe> simulation(problem_, method, q, p, h);
+    auto simulation = simulation_from(z, h);
     std::vector<double> all{simulation.energy().initial};
     for (int b = 0; b < blocks; ++b) {
       if (simulation.advance(steps) != Outcome::done) break;
@@ -84,84 +83,84 @@ class StepMapOf final : public StepMap {
     }
     return all;
   }
-  double energy_scale(const State<double>& z) const override {
-    Vector<double, n> q{};
-    Vector<double, n> p{};
-    detail::split(z, q, p);
-    return larger(abs(energy(problem_, q, p)), abs(problem_.kinetic(p)) + abs(problem_.potential(q)));
-  }
+  double energy_scale(const State<double>& z) const override { return simulation_from(z, 1.0).energy_scale(); }
   Effort cost(const State<double>& z, double h, std::int64_t steps) const override {
-    using A = Arithmetic<double>;
-    Vector<double, n> q{};
-    Vector<double, n> p{};
-    detail::split(z, q, p);
-    auto method = recipe_.template bind<P, A>(problem_);
-    SimulationOf<P, decltype(method), A, NoProbe> simulation(problem_, method, q, p, h);
+    auto simulation = simulation_from(z, h);
     (void)simulation.advance(steps);
     return simulation.effort();
   }
   State<long double> flow(const State<long double>& z, long double t) const override {
-    Vector<long double, 2 * n> point{};
-    for (std::size_t i = 0; i < 2 * n; ++i) point[i] = z[i];
+    auto point = zeros<long double, n == dynamic ? dynamic : 2 * n>(z.size());
+    for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
     const auto end = reference_flow(long_problem_, point, t);
     return {end.begin(), end.end()};
   }
 
  private:
+  auto simulation_from(const State<double>& z, double h) const {
+    using A = Arithmetic<double>;
+    auto method = recipe_.template bind<P, A>(problem_);
+    return SimulationOf<P, decltype(method), A, NoProbe>(problem_, method, detail::part_of<double, n>(z, 0),
+                                                         detail::part_of<double, n>(z, size_), h);
+  }
+
   template <class Q, class R>
   bool go(const Q& problem, State<R>& z, R h, std::int64_t steps) const {
     using A = Arithmetic<R>;
-    Vector<R, n> q{};
-    Vector<R, n> p{};
-    detail::split(z, q, p);
     auto method = recipe_.template bind<Q, A>(problem);
     PhasePoint<A, n> point;
-    point.store(q, p);
+    point.store(detail::part_of<R, n>(z, 0), detail::part_of<R, n>(z, size_));
     for (std::int64_t i = 0; i < steps; ++i) {
       if (method.step(problem, h, point) != Outcome::done) return false;
     }
-    z = detail::joined(point.positions(), point.momenta());
+    z = detail::joined<R, n>(point.positions(), point.momenta());
     return true;
   }
 
-  /// With r(q0, p0, d) = 0 and p1 = p0 + g(q0, p0, d): dd = -(dr/dd)^-1 (dr/dz0) dz0, q1 = q0 + d.
+  /// x as dual numbers; the k-th of all coordinates, of which x is `first` and following, is the variable.
+  static Vector<Dual<double, 1>, n> seeded(const V& x, std::size_t k, std::size_t first) {
+    auto y = zeros<Dual<double, 1>, n>(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      y[i] = x[i];
+      if (first + i == k) y[i].slope[0] = 1;
+    }
+    return y;
+  }
+
+  /// With r(z0, u) = 0 and z1 = z0 + u: du/dz0 = -(dr/du)^-1 dr/dz0, at the converged solution.
   std::vector<std::vector<double>> implicit_jacobian(const State<double>& z, double h) const {
     using A = Arithmetic<double>;
-    using D = Dual<double, 3 * n>;
-    Vector<double, n> q{};
-    Vector<double, n> p{};
-    detail::split(z, q, p);
+    using D = Dual<double, 1>;
+    const V q0 = detail::part_of<double, n>(z, 0);
+    const V p0 = detail::part_of<double, n>(z, size_);
     auto method = recipe_.template bind<P, A>(problem_);
     PhasePoint<A, n> point;
-    point.store(q, p);
+    point.store(q0, p0);
     if (method.step(problem_, h, point) != Outcome::done) return {};
-    Vector<D, n> q0{};
-    Vector<D, n> p0{};
-    Vector<D, n> d{};
-    Vector<D, n> r{};
-    Vector<D, n> g{};
-    const Vector<double, n> q1 = point.positions();
-    for (std::size_t i = 0; i < n; ++i) {
-      q0[i] = D::variable(q[i], i);
-      p0[i] = D::variable(p[i], n + i);
-      d[i] = D::variable(q1[i] - q[i], 2 * n + i);
+    V du_q = point.positions();
+    V du_p = point.momenta();
+    for (std::size_t i = 0; i < size_; ++i) {
+      du_q[i] -= q0[i];
+      du_p[i] -= p0[i];
     }
-    method.equations(problem_, h, q0, p0, d, r, g);
-    Matrix<double, n> by_d{};
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) by_d[i][j] = r[i].slope[2 * n + j];
-    }
-    std::vector<std::vector<double>> rows(2 * n, std::vector<double>(2 * n));
-    for (std::size_t k = 0; k < 2 * n; ++k) {
-      Vector<double, n> right{};
-      for (std::size_t i = 0; i < n; ++i) right[i] = -r[i].slope[k];
-      const Vector<double, n> dd = solve(by_d, right);
-      for (std::size_t i = 0; i < n; ++i) {
-        rows[i][k] = (i == k ? 1.0 : 0.0) + dd[i];
-        double dp = (n + i == k ? 1.0 : 0.0) + g[i].slope[k];
-        for (std::size_t j = 0; j < n; ++j) dp += g[i].slope[2 * n + j] * dd[j];
-        rows[n + i][k] = dp;
+    const std::size_t width = 2 * size_;
+    std::vector<double> by_u(width * width);
+    std::vector<double> by_z(width * width);
+    for (std::size_t k = 0; k < 4 * size_; ++k) {
+      const Increment<D, n> u{seeded(du_q, k, 0), seeded(du_p, k, size_)};
+      Increment<D, n> r;
+      method.equations(problem_, h, seeded(q0, k, 2 * size_), seeded(p0, k, 3 * size_), u, r);
+      auto& matrix = k < 2 * size_ ? by_u : by_z;
+      const std::size_t column = k % width;
+      for (std::size_t i = 0; i < size_; ++i) {
+        matrix[i * width + column] = r.q[i].slope[0];
+        matrix[(size_ + i) * width + column] = r.p[i].slope[0];
       }
+    }
+    detail::solve_large(by_u.data(), by_z.data(), width, width);
+    std::vector<std::vector<double>> rows(width, std::vector<double>(width));
+    for (std::size_t i = 0; i < width; ++i) {
+      for (std::size_t k = 0; k < width; ++k) rows[i][k] = (i == k ? 1.0 : 0.0) - by_z[i * width + k];
     }
     return rows;
   }
@@ -169,6 +168,7 @@ class StepMapOf final : public StepMap {
   P problem_;
   Family<long double> long_problem_;
   Recipe recipe_;
+  std::size_t size_;
 };
 
 }  // namespace hamflow

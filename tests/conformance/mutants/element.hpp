@@ -7,9 +7,7 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/methods/cg_options.hpp"
-#include "hamflow/numerics/dense.hpp"
-#include "hamflow/numerics/gauss_legendre.hpp"
+#include "hamflow/methods/element/context.hpp"
 
 namespace hamflow::mutants {
 
@@ -92,24 +90,24 @@ class Element {
   }
 
   template <class S>
-  void equations(const P& problem, const Real& h, const Vector<S, n>& q0, const Vector<S, n>& p0, const Vector<S, n>& d,
-                 Vector<S, n>& r, Vector<S, n>& p_increment) const {
+  void equations(const P& problem, const Real& h, const Vector<S, n>& q0, const Vector<S, n>& p0,
+                 const Increment<S, n>& u, Increment<S, n>& r) const {
     Vector<S, n> mean{};
     for (std::size_t l = 0; l < rule_.b.size(); ++l) {
       Vector<S, n> q{};
       Vector<S, n> f{};
-      for (std::size_t i = 0; i < n; ++i) q[i] = q0[i] + rule_.c[l] * d[i];
+      for (std::size_t i = 0; i < n; ++i) q[i] = q0[i] + rule_.c[l] * u.q[i];
       force(problem, q, f);
       for (std::size_t i = 0; i < n; ++i) mean[i] += rule_.b[l] * f[i];
     }
     Vector<S, n> middle{};
     Vector<S, n> v{};
-    for (std::size_t i = 0; i < n; ++i) {
-      middle[i] = p0[i] + (h / 2) * mean[i];
-      p_increment[i] = h * mean[i];
-    }
+    for (std::size_t i = 0; i < n; ++i) middle[i] = p0[i] + (h / 2) * mean[i];
     velocity(problem, middle, v);
-    for (std::size_t i = 0; i < n; ++i) r[i] = h * v[i] - d[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      r.q[i] = h * v[i] - u.q[i];
+      r.p[i] = h * mean[i] - u.p[i];
+    }
   }
 
   void invalidate() {}
@@ -153,6 +151,8 @@ class Element {
 };
 
 struct ElementBy {
+  template <class P>
+  static constexpr bool accepts = QuadraticKinetic<P>;
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
   ElementFaults faults;

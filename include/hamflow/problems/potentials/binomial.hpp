@@ -2,6 +2,7 @@
 // A polynomial of degree 4 in q: four Gauss points conserve the energy of cg(1) exactly. Stiff for large k.
 #pragma once
 
+#include "hamflow/problems/support/central_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 
 namespace hamflow {
@@ -48,6 +49,12 @@ class Binomial {
     conditions.require("problem.orbit.r_aph", "r_per <= r_aph", r_per, r_aph, false);
     conditions.require("problem.lambda", "lambda <= (r_per^2 + r_aph^2)/2", lambda, mean, false);
     return pericentre_start(r_per, r_per * r_aph * sqrt(R(2) * mass * k * (mean - lambda)));
+  }
+
+  /// The state after time t, by quadrature.
+  std::optional<Start<long double, 2>> exact(long double mass, const Vector<long double, 2>& q,
+                                             const Vector<long double, 2>& p, long double t) const {
+    return central_flow(*this, mass, q, p, t);
   }
 
  private:

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hamflow/problems/support/central_force.hpp"
+#include "hamflow/problems/support/hooke_flow.hpp"
 
 namespace hamflow {
 
@@ -97,6 +98,18 @@ class Hooke {
       const double s = sin(phi);
       return abs(l) / sqrt(yy * c * c - 2 * xy * c * s + xx * s * s);
     };
+  }
+
+  /// The conic. @param straight l = 0
+  const char* conic(bool circular, int /*energy*/, bool straight) const {
+    if (straight || k_ == R(0)) return "line";
+    if (circular) return "circle";
+    return k_ < R(0) ? "ellipse" : "hyperbola";
+  }
+  /// The state after time t.
+  std::optional<Start<long double, 2>> exact(long double mass, const Vector<long double, 2>& q,
+                                             const Vector<long double, 2>& p, long double t) const {
+    return hooke_flow(static_cast<long double>(k_), mass, q, p, t);
   }
 
  private:

@@ -2,7 +2,9 @@
 // Starts: the circle at phi = pi/2 (2.127), (2.128), the other conics at pericentre on the x-axis (2.131).
 #pragma once
 
+#include "hamflow/numerics/inverse_cube.hpp"
 #include "hamflow/problems/support/central_force.hpp"
+#include "hamflow/problems/support/kepler_flow.hpp"
 
 namespace hamflow {
 
@@ -30,6 +32,15 @@ class Kepler {
   template <class S>
   S slope(const S& u) const {
     return k_ / (u * sqrt(u));
+  }
+  /// The slope for FastKernel: other last bits where the machine has the instructions, and only in double.
+  template <class S>
+  S fast_slope(const S& u) const {
+    if constexpr (std::is_same_v<S, double> && std::is_same_v<R, double>) {
+      return inverse_cube(u, k_);
+    } else {
+      return slope(u);
+    }
   }
   template <class S>
   CentralDerivatives<S> derivatives(const S& u) const {
@@ -78,6 +89,19 @@ class Kepler {
     const double ey = -p[0] * l / (mass * k) - q[1] / r;
     const double parameter = l * l / (mass * k);
     return [=](double phi) { return parameter / (1 + ex * cos(phi) + ey * sin(phi)); };
+  }
+
+  /// The conic. @param energy its sign, 0 when it vanishes to rounding   @param straight l = 0
+  const char* conic(bool circular, int energy, bool straight) const {
+    if (straight || k_ == R(0)) return "line";
+    if (circular) return "circle";
+    if (k_ < R(0)) return "hyperbola";
+    return energy < 0 ? "ellipse" : energy == 0 ? "parabola" : "hyperbola";
+  }
+  /// The state after time t, on every conic.
+  std::optional<Start<long double, 2>> exact(long double mass, const Vector<long double, 2>& q,
+                                             const Vector<long double, 2>& p, long double t) const {
+    return kepler_flow(static_cast<long double>(k_), mass, q, p, t);
   }
 
  private:

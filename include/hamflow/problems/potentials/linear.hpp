@@ -1,6 +1,7 @@
 // Linear potential V(r) = k r, W(u) = k sqrt(u); k > 0 binds.   [Gross1999, Sect. 2.10; (2.165) lacks a factor k]
 #pragma once
 
+#include "hamflow/problems/support/central_flow.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 
 namespace hamflow {
@@ -57,6 +58,12 @@ class Linear {
     conditions.require("problem.k", "k < 0", k, R(0), true);
     conditions.require("problem.orbit.energy", "k r_per < energy", k * r_per, energy, true);
     return pericentre_start(r_per, r_per * sqrt(R(2) * mass * (energy - k * r_per)));
+  }
+
+  /// The state after time t, by quadrature.
+  std::optional<Start<long double, 2>> exact(long double mass, const Vector<long double, 2>& q,
+                                             const Vector<long double, 2>& p, long double t) const {
+    return central_flow(*this, mass, q, p, t);
   }
 
  private:

@@ -4,8 +4,13 @@
 //     grad V = 2 W'(u) q,     V'' = 2 W'(u) I + 4 W''(u) q q^T.
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/problems/support/effective_potential.hpp"
+#include "hamflow/problems/support/energy_start.hpp"
 
 namespace hamflow {
 
@@ -27,6 +32,9 @@ struct CentralDerivatives {
   S curvature;  // 4 W''(u)
 };
 
+/// The entries of a summary's `orbit`.
+OrbitFacts facts_of(const CentralOrbit& orbit);
+
 template <class R, template <class> class Potential>
 class CentralForce {
  public:
@@ -34,7 +42,7 @@ class CentralForce {
   static constexpr std::size_t dimension = 2;
   static constexpr bool quadratic_kinetic = true;
 
-  CentralForce(R mass, Potential<R> potential) : inverse_mass_(R(1) / mass), potential_(potential) {}
+  CentralForce(R mass, Potential<R> potential) : mass_(mass), inverse_mass_(R(1) / mass), potential_(potential) {}
   explicit CentralForce(const Parameters<R>& given) : CentralForce(given["mass"], Potential<R>(given)) {}
 
   static ProblemInfo info() {
@@ -47,6 +55,7 @@ class CentralForce {
                     .parameters = {{"mass", "1", "reduced mass mu", Range::positive}},
                     .invariants = {{"angular_momentum", "q1 p2 - q2 p1"}},
                     .starts = of_potential.starts};
+    all.starts.push_back({"", {"energy", "angular_momentum"}, "any orbit, at pericentre on the x-axis (circles on the y-axis)"});
     all.parameters.insert(all.parameters.end(), of_potential.parameters.begin(), of_potential.parameters.end());
     return all;
   }
@@ -70,6 +79,16 @@ class CentralForce {
     f[0] = -(slope * q[0]);
     f[1] = -(slope * q[1]);
   }
+  /// The force for FastKernel, of potentials that have a fast slope.
+  template <class S>
+  void fast_force(const Vector<S, 2>& q, Vector<S, 2>& f) const requires requires(const Potential<R>& v, const S& u) {
+    v.fast_slope(u);
+  }
+  {
+    const S slope = potential_.fast_slope(square(q));
+    f[0] = -(slope * q[0]);
+    f[1] = -(slope * q[1]);
+  }
   template <class S>
   void force_and_hessian(const Vector<S, 2>& q, Vector<S, 2>& f, Matrix<S, 2>& hessian) const {
     const CentralDerivatives<S> d = potential_.derivatives(square(q));
@@ -85,6 +104,14 @@ class CentralForce {
     return {q[0] * p[1] - q[1] * p[0]};
   }
 
+  /// What is wrong with the potential's parameters, as key and message.
+  static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
+    if constexpr (requires { Potential<R>::refused_parameters(given); }) {
+      return Potential<R>::refused_parameters(given);
+    } else {
+      return {};
+    }
+  }
   /// Sets the parameters that follow from a start, for potentials whose strength is derived from the orbit.
   static void derive(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
     if constexpr (requires { Potential<R>::derive(kind, orbit, given); }) Potential<R>::derive(kind, orbit, given);
@@ -92,15 +119,37 @@ class CentralForce {
   /// A geometric start. @param conditions receives every inequality that the geometry has to meet
   static Start<R, 2> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
                            Conditions& conditions) {
-    return Potential<R>::start(kind, given["mass"], given, orbit, conditions);
+    if (kind.empty()) {
+      const R l = orbit["angular_momentum"];
+      const auto at = turning_point(Potential<R>(given), given["mass"], orbit["energy"], l, conditions);
+      return at.circle ? circular_start(at.radius, l) : pericentre_start(at.radius, l);
+    }
+    if constexpr (requires { Potential<R>::start(kind, given["mass"], given, orbit, conditions); }) {
+      return Potential<R>::start(kind, given["mass"], given, orbit, conditions);
+    } else {
+      return {};
+    }
   }
   /// The exact orbit through (q, p) as r(phi), empty where it is not known in closed form.
   std::function<double(double)> exact_radius(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
     if constexpr (requires { potential_.exact_radius(1.0, q, p); }) {
-      return potential_.exact_radius(static_cast<double>(R(1) / inverse_mass_), q, p);
+      return potential_.exact_radius(static_cast<double>(mass_), q, p);
     } else {
       return {};
     }
+  }
+  /// The exact state after time t, where there is a way to compute it.
+  std::optional<Start<long double, 2>> exact(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
+                                             long double t) const {
+    if constexpr (requires { potential_.exact(t, q, p, t); }) {
+      return potential_.exact(static_cast<long double>(mass_), q, p, t);
+    } else {
+      return std::nullopt;
+    }
+  }
+  /// What the effective potential says of the orbit.   [Gross1999, (2.40)-(2.44)]
+  OrbitFacts describe_orbit(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
+    return facts_of(describe_central_orbit(potential_, static_cast<double>(mass_), q, p));
   }
 
  private:
@@ -109,6 +158,7 @@ class CentralForce {
     return q[0] * q[0] + q[1] * q[1];
   }
 
+  R mass_;
   R inverse_mass_;
   Potential<R> potential_;
 };

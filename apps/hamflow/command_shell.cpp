@@ -1,0 +1,411 @@
+// hamflow shell: a run steered line by line.   [Gross1999, appendix: step, dt, tol, quit]
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <limits>
+
+#include "commands.hpp"
+#include "csv_file.hpp"
+#include "progress.hpp"
+#include "run_file.hpp"
+#include "run_folder.hpp"
+#include "session.hpp"
+#include "summary.hpp"
+
+namespace hamflow::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* help_text =
+    "step [n]        takes n steps, 1 without n\n"
+    "dt x            another step length; state and time go on\n"
+    "tol x, tol off  the tolerance of an implicit method, or its rounding level\n"
+    "method m        another method, e.g. method cg(1,5); state and time go on\n"
+    "show [what]     nothing, or one of: step, t, q, p, energy, error (of the energy, since the start), invariants,\n"
+    "                solver, settings, changes, all\n"
+    "save FOLDER     what was sampled so far, as a run leaves it; save! replaces the run in an existing folder\n"
+    "reset           back to the start, with the present settings\n"
+    "reverse         negates the momenta\n"
+    "help            this list\n"
+    "quit            ends; so does the end of the input\n";
+const std::vector<std::string> words{"step",  "dt",      "tol",   "method", "show", "save",
+                                     "save!", "reverse", "reset", "help",   "quit"};
+const std::vector<std::string> topics{"step",       "t",      "q",        "p",       "energy", "error",
+                                      "invariants", "solver", "settings", "changes", "all"};
+
+/// Why the shell cannot go on with its input.
+enum class Trouble { none, wrong_command, failed_run, file, interrupted };
+
+class Shell {
+ public:
+  Shell(const Scenario& scenario, const ShellOptions& options)
+      : session_(scenario),
+        samples_(scenario.record_every, scenario.start_q.size()),
+        options_(options),
+        interactive_(isatty(STDIN_FILENO) == 1),
+        prompts_(interactive_ && isatty(STDOUT_FILENO) == 1) {}
+
+  int read_commands() {
+    if (prompts_ && !options_.quiet) std::cout << greeting();
+    catch_interrupts();
+    std::string line;
+    for (std::int64_t number = 1; next_line(line); ++number) {
+      const Trouble trouble = obey(line);
+      std::cout.flush();
+      if (quit_) return exit_done;
+      if (trouble == Trouble::none || interactive_) continue;
+      if (trouble == Trouble::interrupted) return exit_interrupted;
+      std::cerr << fmt::format("error: stopped at line {}: {}\n", number, line);
+      return trouble == Trouble::wrong_command ? exit_rejected : trouble == Trouble::file ? exit_file : exit_failed;
+    }
+    if (prompts_) std::cout << '\n';
+    return interrupted() && !interactive_ ? exit_interrupted : exit_done;
+  }
+
+ private:
+  std::string greeting() const {
+    return fmt::format("{}, {}, dt = {}; help lists the commands\n", session_.request().problem, session_.method().name,
+                       session_.request().dt);
+  }
+
+  /// False at the end of the input. Ctrl-C at the prompt drops the line.
+  bool next_line(std::string& line) {
+    for (;;) {
+      if (prompts_) {
+        std::cout << "hamflow> ";
+        std::cout.flush();
+      }
+      char* text = nullptr;
+      std::size_t room = 0;
+      errno = 0;
+      const ssize_t length = ::getline(&text, &room, stdin);
+      const bool was_interrupted = length < 0 && errno == EINTR;
+      line.assign(text == nullptr || length < 0 ? "" : text, length < 0 ? 0 : static_cast<std::size_t>(length));
+      std::free(text);
+      while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.pop_back();
+      if (length >= 0) return true;
+      if (!was_interrupted || !interactive_) return false;
+      std::clearerr(stdin);
+      catch_interrupts();
+      if (prompts_) std::cout << '\n';
+    }
+  }
+
+  Trouble obey(const std::string& line) {
+    // The commands of the thesis are written step,,10.
+    std::string text = line;
+    for (auto at = text.find(",,"); at != std::string::npos; at = text.find(",,")) text.replace(at, 2, " ");
+    const auto begin = text.find_first_not_of(" \t");
+    if (begin == std::string::npos || text[begin] == '#') return Trouble::none;
+    const auto end = std::min(text.find_first_of(" \t", begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const auto rest_begin = text.find_first_not_of(" \t", end);
+    std::string rest = rest_begin == std::string::npos ? "" : text.substr(rest_begin);
+    while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\t')) rest.pop_back();
+    try {
+      return carry_out(word, rest);
+    } catch (const FileError& error) {
+      std::cerr << "error: " << error.what() << '\n';
+      return Trouble::file;
+    } catch (const std::filesystem::filesystem_error& error) {
+      std::cerr << "error: " << error.what() << '\n';
+      return Trouble::file;
+    } catch (const Error& error) {
+      std::cerr << "error: " << error.what() << '\n';
+      return Trouble::wrong_command;
+    }
+  }
+
+  Trouble carry_out(const std::string& word, const std::string& rest) {
+    const auto alone = [&] {
+      if (!rest.empty()) throw Error(word + ": found '" + rest + "' behind it; allowed nothing");
+    };
+    const auto with = [&](const char* what) {
+      if (rest.empty()) throw Error(word + ": found nothing; allowed " + what);
+    };
+    if (word == "step") return step(rest);
+    if (word == "dt") {
+      with("a number other than 0");
+      session_.set_step_length(rest);
+      result_ = {};
+    } else if (word == "tol") {
+      with("a positive number, or off");
+      session_.set_tolerance(tolerance_of(rest));
+      result_ = {};
+    } else if (word == "method") {
+      with("a method, e.g. stv4, cg(1,5)");
+      session_.set_method(parse_method(rest));
+      result_ = {};
+    } else if (word == "show") {
+      show(rest);
+    } else if (word == "save" || word == "save!") {
+      with("a folder");
+      save(rest, word == "save!");
+    } else if (word == "reset") {
+      alone();
+      session_.restart();
+      samples_.clear();
+      result_ = {};
+      seconds_ = 0;
+    } else if (word == "reverse") {
+      alone();
+      session_.negate_momenta();
+      result_ = {};
+    } else if (word == "help") {
+      std::cout << help_text;
+    } else if (word == "quit") {
+      alone();
+      quit_ = true;
+    } else {
+      unknown("command", word, words);
+    }
+    return Trouble::none;
+  }
+
+  [[noreturn]] static void unknown(const std::string& what, const std::string& word,
+                                   const std::vector<std::string>& allowed) {
+    std::string all;
+    for (const std::string& each : allowed) all += (all.empty() ? "" : ", ") + each;
+    const std::string near = nearest(word, allowed);
+    throw Error("found " + what + " '" + word + "'; allowed " + all +
+                (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+
+  static std::optional<double> tolerance_of(const std::string& text) {
+    if (text == "off") return std::nullopt;
+    try {
+      return evaluate_number<double>(text);
+    } catch (const Error&) {
+      throw Error("tol: found '" + text + "'; allowed a positive number, or off");
+    }
+  }
+
+  Trouble step(const std::string& text) {
+    std::int64_t count = 1;
+    if (!text.empty()) {
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+      constexpr std::int64_t most = std::int64_t{1} << 53;
+      if (error != std::errc() || end != text.data() + text.size() || count < 0 || count > most - session_.step()) {
+        throw Error("step: found '" + text + "'; allowed a whole number from 0, to 2^53 steps in all");
+      }
+    }
+    catch_interrupts();
+    const std::int64_t first = session_.step();
+    const auto began = std::chrono::steady_clock::now();
+    Observer* const observers[] = {&samples_};
+    Outcome outcome = Outcome::done;
+    const std::int64_t spacing = samples_.every();
+    {
+      Progress progress(count, options_.quiet || !interactive_);
+      outcome = run(session_, first + count, observers, [&](std::int64_t now) {
+        progress.show(now - first);
+        return !interrupted();
+      });
+    }
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    if (samples_.every() != spacing && !options_.quiet) {
+      std::cerr << "note: so many samples do not fit; from now on every " << samples_.every() << "th step is kept\n";
+    }
+    result_ = {};
+    if (outcome == Outcome::done) return Trouble::none;
+    if (outcome == Outcome::stopped) {
+      std::cerr << fmt::format("stopped by Ctrl-C at step {}\n", session_.step());
+      catch_interrupts();
+      return Trouble::interrupted;
+    }
+    result_.outcome = outcome;
+    if (outcome == Outcome::not_converged) result_.failure = session_.failure();
+    const Json error = summary()["error"];
+    std::cerr << "error: " << error["message"].get<std::string>() << "\nhint: " << error["hint"].get<std::string>()
+              << '\n';
+    return Trouble::failed_run;
+  }
+
+  Json summary() const {
+    RunResult result = result_;
+    result.wall_seconds = seconds_;
+    result.steps_taken = session_.step();
+    const Scenario present = session_.present();
+    Json all = summary_of(present, session_, result);
+    if (session_.changes().empty()) return all;
+    all["changes"] = changes();
+    all.erase("diagnostics");  // they count steps of the last part
+    if (session_.reversed()) {
+      for (const char* of_the_start : {"exact", "bodies"}) all.erase(of_the_start);
+    }
+    return all;
+  }
+
+  Json changes() const {
+    Json all = Json::array();
+    for (const SessionChange& c : session_.changes())
+      all.push_back({{"step", c.step}, {"t", c.time}, {"what", c.what}});
+    return all;
+  }
+
+  Json shown(const std::string& topic) const {
+    Frame now;
+    session_.look(now);
+    const Excursion energy = session_.energy();
+    const double error = now.energy - energy.initial;
+    Json all = Json::object();
+    const auto wants = [&](const char* name) { return topic == name || topic == "all"; };
+    if (wants("step")) all["step"] = now.step;
+    if (wants("t") || topic.empty()) all["t"] = now.time;
+    if (wants("q") || topic.empty()) all["q"] = now.q;
+    if (wants("p") || topic.empty()) all["p"] = now.p;
+    if (wants("energy") || topic.empty()) all["energy"] = now.energy;
+    if (wants("error") || topic.empty()) all["energy_error"] = error;
+    if (wants("error")) {
+      all["max_energy_error"] = energy.max_error;
+      all["energy_scale"] = session_.energy_scale();
+    }
+    if (wants("invariants")) show_invariants(all);
+    if (wants("solver")) show_solver(now.effort, all);
+    if (wants("settings")) show_settings(all);
+    if (wants("changes")) all["changes"] = changes();
+    return all;
+  }
+
+  void show_invariants(Json& all) const {
+    const Json values = summary()["invariants"];
+    for (const auto& [name, value] : values.items()) {
+      all[name] = value["final"];
+      all["max_error_" + name] = value["max_error"];
+    }
+  }
+
+  void show_solver(const Effort& effort, Json& all) const {
+    all["force"] = effort.force;
+    all["gradient"] = effort.gradient;
+    all["hessian"] = effort.hessian;
+    all["linear_solves"] = effort.linear_solves;
+    if (session_.method().explicit_step) return;
+    all["solves_min"] = effort.solves_min;
+    all["solves_max"] = effort.solves_max;
+    all["stagnated"] = effort.stagnated;
+    all["halved"] = effort.halved;
+  }
+
+  void show_settings(Json& all) const {
+    const Request& request = session_.request();
+    all["problem"] = request.problem;
+    all["method"] = session_.method().name;
+    all["dt"] = evaluate_number<double>(request.dt);
+    if (!session_.method().explicit_step) {
+      all["tolerance"] = request.method.cg.tolerance ? Json(*request.method.cg.tolerance) : Json("off");
+    }
+    all["arithmetic"] = request.arithmetic;
+    all["kernel"] = request.kernel;
+    all["record_every"] = samples_.every();
+  }
+
+  static std::string text_of(const Json& value) {
+    if (value.is_null()) return "nan";
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
+    if (!value.is_array()) return value.dump();
+    std::string all;
+    for (const Json& each : value) all += (all.empty() ? "" : ", ") + text_of(each);
+    return "[" + all + "]";
+  }
+
+  void show(const std::string& topic) const {
+    if (!topic.empty() && std::find(topics.begin(), topics.end(), topic) == topics.end()) {
+      unknown("topic", topic, topics);
+    }
+    const Json all = shown(topic);
+    if (options_.json) {
+      std::cout << all.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+      return;
+    }
+    std::string line;
+    for (const auto& [key, value] : all.items()) line += (line.empty() ? "" : "  ") + key + " = " + text_of(value);
+    std::cout << (line.empty() ? "none" : line) << '\n';
+  }
+
+  void save(const std::string& name, bool replace) {
+    const std::filesystem::path folder = name;
+    if (std::filesystem::exists(folder) && !replace) {
+      throw FileError("the folder " + name + " exists; save! " + name + " replaces the run in it");
+    }
+    make_folder(folder, replace);
+    const Scenario present = session_.present();
+    const std::vector<Frame> samples = samples_.with_present(session_);
+    RunFile h5(folder / "run.h5", description(present, samples.size()));
+    for (const Frame& sample : samples) h5.append(sample);
+    h5.flush();
+    if (std::find(present.formats.begin(), present.formats.end(), "csv") != present.formats.end()) {
+      CsvFile csv(folder / "trajectory.csv", present.start_q.size(), invariants());
+      for (const Frame& sample : samples) csv.append(sample);
+      csv.flush();
+    }
+    write_text(folder / "summary.json", json_text(summary()));
+    if (prompts_ && !options_.quiet) std::cout << "written to " << name << '\n';
+  }
+
+  std::vector<std::pair<std::string, std::size_t>> invariants() const {
+    const Scenario present = session_.present();
+    const std::vector<InvariantInfo>& declared = present.problem->info.invariants;
+    const auto sizes = present.problem->invariant_sizes(present.request.parameters, present.start_q.size());
+    std::vector<std::pair<std::string, std::size_t>> all;
+    for (std::size_t i = 0; i < declared.size(); ++i) all.emplace_back(declared[i].name, sizes[i]);
+    return all;
+  }
+
+  RunDescription description(const Scenario& scenario, std::size_t count) const {
+    char host[256] = "";
+    (void)gethostname(host, sizeof host - 1);
+    return {.scenario = scenario.text,
+            .version = HAMFLOW_VERSION,
+            .host = host,
+            .problem = scenario.request.problem,
+            .method = describe(scenario.request.method).name,
+            .arithmetic = scenario.request.arithmetic,
+            .kernel = scenario.request.kernel,
+            .dimension = scenario.start_q.size(),
+            .invariants = invariants(),
+            .diagnostics = scenario.request.method.cg.diagnostics,
+            .samples = count};
+  }
+
+  Session session_;
+  SampleKeeper samples_;
+  const ShellOptions& options_;
+  bool interactive_;  // somebody can correct an error
+  bool prompts_;
+  bool quit_ = false;
+  RunResult result_;  // of the last step command
+  double seconds_ = 0;
+};
+
+}  // namespace
+
+int run_shell(const ShellOptions& options) {
+  try {
+    const Reading reading = read_scenario(options.scenario, options.sets);
+    for (const Complaint& complaint : reading.complaints) std::cerr << complaint.text() << '\n';
+    if (!reading.scenario) return exit_rejected;
+    if (!options.quiet) {
+      for (const std::string& note : reading.scenario->notes) std::cerr << "note: " << note << '\n';
+    }
+    return Shell(*reading.scenario, options).read_commands();
+  } catch (const FileError& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return exit_file;
+  } catch (const Error& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return exit_rejected;
+  }
+}
+
+}  // namespace hamflow::app

@@ -1,0 +1,86 @@
+// Memory for short-lived vectors: blocks that were given back are kept, by size, for the next of that size. One pool a
+// thread, so that nothing is locked.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <new>
+
+namespace hamflow {
+
+/// Blocks of 2^k bytes, k = 4 .. 47. A block may be given back on another thread than it was taken.
+class Pool {
+ public:
+  static void* take(std::size_t bytes) {
+    Pool* const pool = mine();
+    const std::size_t k = exponent(bytes);
+    if (pool != nullptr && pool->free_[k] != nullptr) {
+      Block* const block = pool->free_[k];
+      pool->free_[k] = block->next;
+      return block;
+    }
+    return ::operator new(std::size_t{1} << k);
+  }
+  static void give(void* memory, std::size_t bytes) {
+    Pool* const pool = mine();
+    if (pool == nullptr) {  // the thread is about to end, and so has its pool
+      ::operator delete(memory);
+      return;
+    }
+    const std::size_t k = exponent(bytes);
+    pool->free_[k] = new (memory) Block{pool->free_[k]};
+  }
+
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+ private:
+  struct Block {
+    Block* next;
+  };
+  static constexpr std::size_t sizes = 48;
+  enum class Phase : char { unborn, alive, gone };
+
+  Pool() { phase_ = Phase::alive; }
+  ~Pool() {
+    phase_ = Phase::gone;
+    for (Block* block : free_) {
+      while (block != nullptr) {
+        Block* const next = block->next;
+        ::operator delete(block);
+        block = next;
+      }
+    }
+  }
+  static Pool* mine() {
+    if (phase_ == Phase::gone) return nullptr;
+    static thread_local Pool pool;
+    return &pool;
+  }
+  static std::size_t exponent(std::size_t bytes) {
+    return static_cast<std::size_t>(std::bit_width((bytes < 16 ? 16 : bytes) - 1));
+  }
+
+  static inline thread_local Phase phase_ = Phase::unborn;
+  Block* free_[sizes]{};
+};
+
+/// The pool as an allocator of the standard library.
+template <class T>
+struct PoolAllocator {
+  static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  using value_type = T;
+
+  PoolAllocator() = default;
+  template <class U>
+  PoolAllocator(const PoolAllocator<U>&) {}  // NOLINT: an allocator converts to that of another type
+
+  T* allocate(std::size_t count) {
+    if (count > (std::size_t{1} << 47) / sizeof(T)) throw std::bad_array_new_length();
+    return static_cast<T*>(Pool::take(count * sizeof(T)));
+  }
+  void deallocate(T* memory, std::size_t count) { Pool::give(memory, count * sizeof(T)); }
+  friend bool operator==(const PoolAllocator&, const PoolAllocator&) { return true; }
+};
+
+}  // namespace hamflow

@@ -1,0 +1,11 @@
+// The linear double pendulum in absolute angles.   [Gross1999, ch. 3]
+#pragma once
+
+#include "hamflow/problems/support/double_pendulum.hpp"
+
+namespace hamflow {
+
+template <class R = double>
+using DoublePendulumLinearAbsolute = DoublePendulumLinear<R, Angles::absolute>;
+
+}  // namespace hamflow

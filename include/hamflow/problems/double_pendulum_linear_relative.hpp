@@ -1,0 +1,11 @@
+// The linear double pendulum in relative angles.   [Gross1999, ch. 3]
+#pragma once
+
+#include "hamflow/problems/support/double_pendulum.hpp"
+
+namespace hamflow {
+
+template <class R = double>
+using DoublePendulumLinearRelative = DoublePendulumLinear<R, Angles::relative>;
+
+}  // namespace hamflow

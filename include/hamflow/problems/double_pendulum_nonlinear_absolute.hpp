@@ -1,0 +1,11 @@
+// The nonlinear double pendulum in absolute angles.   [Gross1999, ch. 3]
+#pragma once
+
+#include "hamflow/problems/support/double_pendulum.hpp"
+
+namespace hamflow {
+
+template <class R = double>
+using DoublePendulumNonlinearAbsolute = DoublePendulumNonlinear<R, Angles::absolute>;
+
+}  // namespace hamflow

@@ -1,0 +1,166 @@
+// What the effective potential V_eff(r) = V(r) + l^2/(2 mu r^2) says of an orbit.   [Gross1999, (2.37)-(2.44)]
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hamflow/core/problem_info.hpp"
+#include "hamflow/problems/support/radial_motion.hpp"
+
+namespace hamflow {
+
+enum class OrbitType { circle, bounded_closed, bounded_open, unbounded };
+
+inline const char* name_of(OrbitType type) {
+  switch (type) {
+    case OrbitType::circle:
+      return "circle";
+    case OrbitType::bounded_closed:
+      return "bounded closed";
+    case OrbitType::bounded_open:
+      return "bounded open";
+    case OrbitType::unbounded:
+      return "unbounded";
+  }
+  return "";
+}
+
+struct CentralOrbit {
+  OrbitType type = OrbitType::unbounded;
+  std::string conic{};  // "circle", "ellipse", "parabola", "hyperbola", "line"; empty where it is none
+  long double energy = 0;
+  long double angular_momentum = 0;  // 0 where it is nothing but rounding
+  long double r_min = 0;             // turning points; 0 where the centre is reached
+  long double r_max = 0;             // infinity where the motion is unbounded
+  /// The circular orbit of this angular momentum, 0 if there is none: the deepest minimum of V_eff between the turning
+  /// points; without one there the extremum of V_eff that is nearest by the ratio of radii.
+  long double circular_radius = 0;
+  bool circular_stable = false;  // V_eff'' > 0
+  /// From pericentre to apocentre, half of (2.43), not negative; to infinity on unbounded orbits; of the small
+  /// oscillation on a stable circle (infinity on an unstable one, and where
+  /// it is approached for ever). On a line through the centre pi/2, the limit of
+  /// small l; 0 where the phase does not change, and where the motion ends in the centre.
+  long double apsidal_angle = 0;
+  /// From pericentre to pericentre; infinity on unbounded orbits, unstable circles and separatrices. Where the centre
+  /// is reached twice the time from apocentre to it.
+  long double radial_period = 0;
+  bool closed = false;  // (2.44): apsidal angle/pi = revolutions/radial_periods
+  int revolutions = 0;
+  int radial_periods = 0;
+  bool falls_into_centre = false;  // the motion ends there: V has no finite value at r = 0
+};
+
+/// The fraction numerator/denominator within `tolerance` of x >= 0 with the smallest denominator, if that is no larger
+/// than `largest`. A fraction nearer than 1/(2 denominator^2) is a convergent of the continued fraction of x.
+inline std::optional<std::pair<int, int>> commensurable(long double x, int largest, long double tolerance) {
+  long double p = 1;
+  long double q = 0;
+  long double previous_p = 0;
+  long double previous_q = 1;
+  long double rest = x;
+  while (rest < 1e7L) {
+    const long double whole = static_cast<long double>(static_cast<long long>(rest));
+    previous_p = std::exchange(p, whole * p + previous_p);
+    previous_q = std::exchange(q, whole * q + previous_q);
+    if (q > static_cast<long double>(largest)) break;
+    if (abs(x - p / q) <= tolerance) return std::pair{static_cast<int>(p), static_cast<int>(q)};
+    rest = 1 / (rest - whole);
+  }
+  return std::nullopt;
+}
+
+/// Radial periods after which an orbit may close to be called closed.
+inline constexpr int most_radial_periods = 32;
+
+namespace detail {
+template <class Potential>
+void add_circular_orbit(const RadialMotion<Potential>& motion, CentralOrbit& orbit) {
+  const CircularOrbit* best = nullptr;
+  for (const CircularOrbit& candidate : motion.extrema()) {
+    const auto inside = [&](const CircularOrbit& at) {
+      return at.stable && orbit.r_min <= at.radius && at.radius <= orbit.r_max;
+    };
+    const auto remoteness = [&](const CircularOrbit& at) { return abs(log(at.radius / motion.radius())); };
+    if (best == nullptr || (inside(candidate) && !inside(*best)) ||
+        (inside(candidate) == inside(*best) &&
+         (inside(candidate) ? motion.above(candidate.radius) > motion.above(best->radius)
+                            : remoteness(candidate) < remoteness(*best)))) {
+      best = &candidate;
+    }
+  }
+  if (best == nullptr) return;
+  orbit.circular_radius = best->radius;
+  orbit.circular_stable = best->stable;
+}
+}  // namespace detail
+
+/// The orbit through (q, p). Computed in long double; what is below the rounding of R, in which the state is given,
+/// counts as nothing: an angular momentum, the distance from a circle, the energy of a parabola.
+///
+/// The apsidal angle counts as commensurable within 1024 roundings of R. It must be more than one rounding, because the
+/// angle moves with the state's; and it must be small: a fraction with a denominator up to 32 is met by chance with the
+/// probability (3/pi^2) 32^2 * 2 * 1024 roundings, 1.4e-10 in double.
+template <class R, class Potential>
+CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Vector<R, 2>& q, const Vector<R, 2>& p) {
+  using L = long double;
+  constexpr L rounding = std::numeric_limits<R>::epsilon();
+  const L infinity = std::numeric_limits<L>::infinity();
+  const RadialMotion<Potential> motion(potential, static_cast<L>(mass), cast<L>(q), cast<L>(p), rounding);
+  CentralOrbit orbit;
+  const L l = orbit.angular_momentum = motion.angular_momentum();
+  orbit.energy = abs(motion.energy()) <= motion.energy_rounding() ? L(0) : motion.energy();
+  orbit.r_min = motion.r_min();
+  orbit.r_max = motion.r_max();
+  detail::add_circular_orbit(motion, orbit);
+  const bool finite_centre = isfinite(potential.value(L(0)));
+  orbit.falls_into_centre = !motion.circular() && orbit.r_min == 0 && !(l == 0 && finite_centre);
+
+  if (motion.circular()) {
+    const L r = motion.radius();
+    orbit.type = OrbitType::circle;
+    orbit.circular_radius = r;
+    const L curvature = r > 0 ? motion.effective_curvature(r) : L(1);
+    orbit.circular_stable = curvature > 0;
+    const L radial_rate = curvature > 0 ? sqrt(curvature / static_cast<L>(mass)) : L(0);
+    orbit.radial_period = 2 * pi_value<L>() / radial_rate;
+    orbit.apsidal_angle = l == 0 ? L(0) : pi_value<L>() * abs(l) / (static_cast<L>(mass) * r * r) / radial_rate;
+    orbit.closed = true;
+    orbit.revolutions = orbit.radial_periods = 1;
+  } else {
+    const RadialClock<Potential> clock(motion, static_cast<L>(mass));
+    if (!(orbit.r_max < infinity)) {
+      orbit.type = OrbitType::unbounded;
+      orbit.radial_period = infinity;
+      if (l != 0 && orbit.r_min > 0) {
+        orbit.apsidal_angle = motion.separatrix() ? infinity : abs(clock.phase_to_infinity());
+      }
+    } else if (motion.separatrix()) {
+      orbit.type = OrbitType::bounded_open;
+      orbit.radial_period = infinity;
+      orbit.apsidal_angle = l == 0 ? L(0) : infinity;
+    } else {
+      orbit.radial_period = 2 * clock.time(clock.end());
+      if (orbit.r_min > 0) {
+        orbit.apsidal_angle = l == 0 ? L(0) : abs(clock.phase(clock.end()));
+      } else if (!orbit.falls_into_centre) {
+        orbit.apsidal_angle = pi_value<L>() / 2;
+      }
+      if (!orbit.falls_into_centre) {
+        if (const auto ratio =
+                commensurable(orbit.apsidal_angle / pi_value<L>(), most_radial_periods, 1024 * rounding)) {
+          orbit.closed = true;
+          orbit.revolutions = ratio->first;
+          orbit.radial_periods = ratio->second;
+        }
+      }
+      orbit.type = orbit.closed ? OrbitType::bounded_closed : OrbitType::bounded_open;
+    }
+  }
+  if constexpr (requires { potential.conic(true, 0, true); }) {
+    orbit.conic = potential.conic(motion.circular(), orbit.energy == 0 ? 0 : orbit.energy > 0 ? 1 : -1, l == 0);
+  }
+  return orbit;
+}
+
+}  // namespace hamflow

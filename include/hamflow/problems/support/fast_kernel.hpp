@@ -1,0 +1,32 @@
+// A problem whose force is computed by its fast kernel. Everything else, the energy that is watched above all, stays.
+//     hamflow::FastKernel problem{hamflow::CentralForce<double, hamflow::Kepler>(1, hamflow::Kepler<double>(1))};
+// Results differ in the last bits from those of the problem itself, and between machines with and without the
+// instructions (numerics/inverse_cube.hpp); without them they are those of the problem itself, bit for bit.
+// Implicit methods, which ask for force and Hessian together, compute as before.
+#pragma once
+
+#include <utility>
+
+#include "hamflow/core/concepts.hpp"
+
+namespace hamflow {
+
+/// fast_force(q, f): f = -dV/dq by other operations than force.
+template <class P>
+concept HasFastForce = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f) {
+  problem.fast_force(q, f);
+};
+
+template <HasFastForce P>
+class FastKernel : public P {
+ public:
+  using P::P;
+  explicit FastKernel(P problem) : P(std::move(problem)) {}
+
+  template <class S>
+  void force(const Vector<S, P::dimension>& q, Vector<S, P::dimension>& f) const {
+    P::fast_force(q, f);
+  }
+};
+
+}  // namespace hamflow

@@ -1,0 +1,29 @@
+// Absolute angles (each from the vertical) and relative ones (the second from the first rod) of a double pendulum.
+// [Gross1999, Sect. 3]   Positions change by A = [[1, 0], [1, 1]], absolute = A relative, momenta by its inverse
+// transpose, so that p^T dq stays: the change is canonical.
+#pragma once
+
+#include "hamflow/core/vector.hpp"
+
+namespace hamflow {
+
+enum class Angles { absolute, relative };
+
+template <class S>
+constexpr Vector<S, 2> absolute_angles(const Vector<S, 2>& relative) {
+  return {relative[0], relative[0] + relative[1]};
+}
+template <class S>
+constexpr Vector<S, 2> relative_angles(const Vector<S, 2>& absolute) {
+  return {absolute[0], absolute[1] - absolute[0]};
+}
+template <class S>
+constexpr Vector<S, 2> absolute_momenta(const Vector<S, 2>& relative) {
+  return {relative[0] - relative[1], relative[1]};
+}
+template <class S>
+constexpr Vector<S, 2> relative_momenta(const Vector<S, 2>& absolute) {
+  return {absolute[0] + absolute[1], absolute[1]};
+}
+
+}  // namespace hamflow

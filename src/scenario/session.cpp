@@ -1,0 +1,274 @@
+#include "session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenario_edit.hpp"
+
+namespace hamflow {
+
+namespace {
+
+std::vector<std::string> texts_of(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double x : numbers) texts.push_back(shortest(x));
+  return texts;
+}
+
+Effort sum(const Effort& a, const Effort& b) {
+  Effort all = b;
+  all.force += a.force;
+  all.gradient += a.gradient;
+  all.hessian += a.hessian;
+  all.linear_solves += a.linear_solves;
+  all.steps += a.steps;
+  all.stagnated += a.stagnated;
+  all.halved += a.halved;
+  if (a.steps > 0) {
+    all.solves_min = b.steps > 0 ? std::min(a.solves_min, b.solves_min) : a.solves_min;
+    all.solves_max = std::max(a.solves_max, b.solves_max);
+  }
+  return all;
+}
+
+/// The method as a table for [method].
+std::string method_table(const MethodSpec& method) {
+  std::string text = "{ name = \"" + method.name + "\"";
+  if (method.name == "cg") {
+    const CgOptions& cg = method.cg;
+    text += ", degree = " + std::to_string(cg.degree) +
+            ", quadrature = " + (cg.quadrature == 0 ? "\"auto\"" : std::to_string(cg.quadrature)) +
+            ", max_iterations = " + std::to_string(cg.max_iterations);
+    if (cg.tolerance) text += ", tolerance = " + shortest(*cg.tolerance);
+    if (cg.seed_criterion) text += ", criterion = \"seed\"";
+    if (cg.halve) text += ", on_divergence = \"halve\"";
+    if (cg.diagnostics) text += ", diagnostics = true";
+  }
+  return text + " }";
+}
+
+}  // namespace
+
+Session::Session(const Scenario& scenario) : scenario_(scenario), request_(scenario.request) { restart(); }
+
+void Session::restart() {
+  Request request = request_;
+  request.start = scenario_.request.start;
+  simulation_ = make_simulation(request);
+  request_ = request;
+  changes_.clear();
+  reversed_ = false;
+  one_part_ = true;
+  step_before_ = 0;
+  time_before_ = 0;
+  effort_before_ = {};
+  initial_energy_ = simulation_->energy().initial;
+  scale_ = simulation_->energy_scale();
+  worst_energy_ = 0;
+  Frame start;
+  simulation_->look(start);
+  sizes_ = scenario_.problem->invariant_sizes(request_.parameters, start.q.size());
+  initial_invariants_ = start.invariants;
+  reference_ = start.invariants;
+  offset_.assign(start.invariants.size(), 0);
+  worst_invariants_.assign(sizes_.size(), 0);
+}
+
+void Session::set_step_length(const std::string& text) {
+  double value = 0;
+  try {
+    value = evaluate_number<double>(text);
+  } catch (const Error&) {
+    value = std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!std::isfinite(value) || value == 0) {
+    throw Error("dt: found '" + text + "'; allowed a number other than 0, such as 0.1, 1/3, -0.05");
+  }
+  Request next = request_;
+  next.dt = text;
+  change(next, "dt = " + text);
+}
+
+void Session::set_method(const MethodSpec& method) {
+  Request next = request_;
+  CgOptions cg = request_.method.cg;
+  cg.degree = method.cg.degree;
+  cg.quadrature = method.cg.quadrature;
+  if (method.cg.tolerance) cg.tolerance = method.cg.tolerance;
+  next.method = {method.name, cg};
+  change(next, "method = " + describe(next.method).name);
+}
+
+void Session::set_tolerance(std::optional<double> tolerance) {
+  const MethodInfo info = describe(request_.method);
+  if (info.explicit_step) throw Error("tol: found method " + info.name + ", which has no tolerance; allowed with cg");
+  if (tolerance && !(*tolerance > 0 && std::isfinite(*tolerance))) {
+    throw Error("tol: found " + shortest(*tolerance) + "; allowed a positive number, or off");
+  }
+  if (!tolerance && request_.method.cg.seed_criterion) {
+    throw Error("tol: found off; allowed a positive number, which criterion = \"seed\" needs");
+  }
+  Request next = request_;
+  next.method.cg.tolerance = tolerance;
+  change(next, "tolerance = " + (tolerance ? shortest(*tolerance) : std::string("off")));
+}
+
+void Session::change(const Request& next, const std::string& what) {
+  if (one_part_ && simulation_->step() == 0) {  // from the given start, in the given digits
+    const Request before = std::exchange(request_, next);
+    try {
+      restart();
+    } catch (...) {
+      request_ = before;
+      throw;
+    }
+    return;
+  }
+  Frame now;
+  simulation_->look(now);
+  Request from_here = next;
+  from_here.start = {};
+  from_here.start.q = texts_of(now.q);
+  from_here.start.p = texts_of(now.p);
+  auto other = make_simulation(from_here);
+  watch_from_here();
+  Frame fresh;
+  other->look(fresh);
+  for (std::size_t i = 0; i < offset_.size(); ++i) offset_[i] += now.invariants[i] - fresh.invariants[i];
+  effort_before_ = effort();
+  step_before_ += now.step;
+  time_before_ += now.time;
+  simulation_ = std::move(other);
+  request_ = from_here;
+  changes_.push_back({step_before_, time_before_, what});
+}
+
+Scenario Session::present() const {
+  Scenario now = scenario_;
+  now.request.method = request_.method;
+  now.request.dt = request_.dt;
+  now.dt = evaluate_number<double>(request_.dt);
+  now.steps = step();
+  const Request& first = scenario_.request;
+  const bool same_method = method_table(first.method) == method_table(request_.method);
+  if (same_method && first.dt == request_.dt && changes_.empty()) return now;
+  now.text = "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
+  for (const SessionChange& c : changes_) {
+    now.text += "# after step " + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
+  }
+  std::vector<ScenarioEdit> edits{
+      {"run.dt", "\"" + request_.dt + "\""}, {"run.t_end", {}}, {"run.steps", std::to_string(now.steps)}};
+  if (!same_method) edits.push_back({"method", method_table(request_.method)});
+  now.text += edited_scenario(scenario_.text, edits);
+  return now;
+}
+
+Outcome Session::advance(std::int64_t steps) {
+  if (one_part_) return simulation_->advance(steps);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    const Outcome outcome = simulation_->advance(1);
+    if (outcome != Outcome::done) return outcome;
+    look(scratch_);
+    watch(scratch_);
+  }
+  return Outcome::done;
+}
+
+std::int64_t Session::step() const { return step_before_ + simulation_->step(); }
+
+void Session::look(Frame& frame) const {
+  simulation_->look(frame);
+  frame.step += step_before_;
+  frame.time += time_before_;
+  for (std::size_t i = 0; i < offset_.size(); ++i) frame.invariants[i] += offset_[i];
+  frame.effort = sum(effort_before_, frame.effort);
+}
+
+void Session::reverse_time() {
+  watch_from_here();
+  simulation_->reverse_time();
+}
+
+void Session::negate_momenta() {
+  watch_from_here();
+  simulation_->negate_momenta();
+  look(scratch_);
+  reference_ = scratch_.invariants;
+  reversed_ = true;
+  changes_.push_back({scratch_.step, scratch_.time, "momenta negated"});
+}
+
+Excursion Session::energy() const {
+  const Excursion part = simulation_->energy();
+  return {initial_energy_, part.final, one_part_ ? part.max_error : worst_energy_};
+}
+
+std::vector<InvariantExcursion> Session::invariants() const {
+  if (one_part_) return simulation_->invariants();
+  Frame now;
+  look(now);
+  std::vector<InvariantExcursion> all;
+  auto at = std::ptrdiff_t{0};
+  for (std::size_t k = 0; k < sizes_.size(); ++k) {
+    const auto end = at + static_cast<std::ptrdiff_t>(sizes_[k]);
+    all.push_back({{initial_invariants_.begin() + at, initial_invariants_.begin() + end},
+                   {now.invariants.begin() + at, now.invariants.begin() + end},
+                   worst_invariants_[k]});
+    at = end;
+  }
+  return all;
+}
+
+Effort Session::effort() const { return sum(effort_before_, simulation_->effort()); }
+
+void Session::watch_from_here() {
+  if (!one_part_) return;
+  worst_energy_ = simulation_->energy().max_error;
+  const std::vector<InvariantExcursion> seen = simulation_->invariants();
+  for (std::size_t k = 0; k < seen.size(); ++k) worst_invariants_[k] = seen[k].max_error;
+  one_part_ = false;
+}
+
+void Session::watch(const Frame& frame) {
+  worst_energy_ = std::max(worst_energy_, std::abs(frame.energy - initial_energy_));
+  for (std::size_t k = 0; k < sizes_.size(); ++k) {
+    worst_invariants_[k] = std::max(worst_invariants_[k], deviation(frame.invariants, k));
+  }
+}
+
+/// The length of the k-th invariant's deviation from its reference.
+double Session::deviation(const std::vector<double>& values, std::size_t k) const {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < k; ++i) at += sizes_[i];
+  double square = 0;
+  for (std::size_t i = at; i < at + sizes_[k]; ++i) square += (values[i] - reference_[i]) * (values[i] - reference_[i]);
+  return std::sqrt(square);
+}
+
+SampleKeeper::SampleKeeper(std::int64_t every, std::size_t dimension, std::size_t most) : every_(every), most_(most) {
+  constexpr std::size_t most_numbers = std::size_t{1} << 23;
+  if (most_ == 0) most_ = std::max<std::size_t>(most_numbers / (2 * dimension + 30), 100);
+}
+
+std::int64_t SampleKeeper::next_due(std::int64_t step) const {
+  return step % every_ == 0 ? step : step + (every_ - step % every_);
+}
+
+Verdict SampleKeeper::observe(const Frame& frame) {
+  if (!samples_.empty() && samples_.back().step == frame.step) return Verdict::go_on;
+  samples_.push_back(frame);
+  if (samples_.size() > most_) {
+    every_ *= 2;
+    std::erase_if(samples_, [&](const Frame& sample) { return sample.step % every_ != 0; });
+  }
+  return Verdict::go_on;
+}
+
+std::vector<Frame> SampleKeeper::with_present(const Simulation& simulation) const {
+  std::vector<Frame> all = samples_;
+  if (all.empty() || all.back().step != simulation.step()) all.emplace_back();
+  simulation.look(all.back());  // also where momenta were negated since
+  return all;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,103 @@
+// A run that is steered on its way: step length, method and tolerance change, the state and the time go on. To
+// observers and summaries a session is one simulation, from its start to its present state.
+#pragma once
+
+#include <memory>
+
+#include "hamflow/run/observer.hpp"
+#include "scenario.hpp"
+
+namespace hamflow {
+
+/// One setting that changed.
+struct SessionChange {
+  std::int64_t step = 0;
+  double time = 0;
+  std::string what;  // e.g. "dt = 0.05"
+};
+
+class Session final : public Simulation {
+ public:
+  /// @throws Error
+  explicit Session(const Scenario& scenario);
+
+  /// With the present settings from the start again.
+  void restart();
+  /// Another step length, a number expression. @throws Error when it is 0 or no number; then nothing has changed
+  void set_step_length(const std::string& text);
+  /// Another method; what stays open of the options of cg is as it was. @throws Error when it cannot run here
+  void set_method(const MethodSpec& method);
+  /// The tolerance of an implicit method, or none. @throws Error when the method has none
+  void set_tolerance(std::optional<double> tolerance);
+
+  /// The scenario with the present settings, its text included.
+  Scenario present() const;
+  const Request& request() const { return request_; }
+  /// What was changed after the first step, in order.
+  const std::vector<SessionChange>& changes() const { return changes_; }
+  /// Whether momenta were negated: the state is then not on the orbit of the start at the session's time.
+  bool reversed() const { return reversed_; }
+
+  Outcome advance(std::int64_t steps) override;
+  std::int64_t step() const override;
+  void look(Frame& frame) const override;
+  void reverse_time() override;
+  /// Time goes on. Deviations of the invariants count from their values afterwards, those of the energy from the start.
+  void negate_momenta() override;
+  std::vector<std::byte> bits() const override { return simulation_->bits(); }
+  Excursion energy() const override;
+  double energy_scale() const override { return scale_; }
+  std::vector<InvariantExcursion> invariants() const override;
+  Effort effort() const override;
+  StepDiagnostics diagnostics() const override { return simulation_->diagnostics(); }
+  MethodInfo method() const override { return simulation_->method(); }
+  std::string failure() const override { return simulation_->failure(); }
+
+ private:
+  void change(const Request& next, const std::string& what);
+  void watch_from_here();
+  void watch(const Frame& frame);
+  double deviation(const std::vector<double>& values, std::size_t k) const;
+
+  Scenario scenario_;
+  Request request_;  // with the present settings; of a later part, with the state in which it began
+  std::unique_ptr<Simulation> simulation_;  // the present part; its steps and times count from where the part began
+  std::vector<SessionChange> changes_;
+  bool reversed_ = false;
+
+  // Until the first change the simulation's own probe watches; it knows only its own part. Then watch() does.
+  bool one_part_ = true;
+  std::int64_t step_before_ = 0;
+  double time_before_ = 0;
+  Effort effort_before_;
+  double initial_energy_ = 0;
+  double scale_ = 0;
+  double worst_energy_ = 0;
+  std::vector<std::size_t> sizes_;          // of the invariants
+  std::vector<double> initial_invariants_;  // at the start
+  std::vector<double> reference_;           // from which deviations count
+  std::vector<double> offset_;              // of invariants with time in them, whose parts begin at time 0
+  std::vector<double> worst_invariants_;    // one for each invariant
+  Frame scratch_;
+};
+
+/// Keeps the start, every n-th step and, after keep(), the present one. When they become too many every second one is
+/// dropped and n doubles.
+class SampleKeeper final : public Observer {
+ public:
+  /// @param most 0: as many as some 100 megabytes hold
+  SampleKeeper(std::int64_t every, std::size_t dimension, std::size_t most = 0);
+  std::int64_t next_due(std::int64_t step) const override;
+  Verdict observe(const Frame& frame) override;
+  /// The samples, the present state among them.
+  std::vector<Frame> with_present(const Simulation& simulation) const;
+  void clear() { samples_.clear(); }
+  std::int64_t every() const { return every_; }
+
+ private:
+  std::int64_t every_;
+  std::size_t most_;
+  std::vector<Frame> samples_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,181 @@
+"""Problems, starts and what a summary says of them, against closed forms and each other."""
+
+import math
+import unittest
+
+from command import EXAMPLES, CommandCase
+
+EPSILON = 2.0**-52
+
+HEAD = '[method]\nname="cg"\nquadrature={points}\n[run]\ndt={dt}\nsteps={steps}\n'
+
+
+class Problems(CommandCase):
+    def run_text(self, problem, points=5, dt=0.01, steps=100, *extra):
+        self.write("s.toml", "[problem]\n" + problem + "\n" + HEAD.format(points=points, dt=dt, steps=steps))
+        return self.summary("s.toml", *extra)
+
+    def rejected(self, problem, *extra, method='name="cg"'):
+        self.write("s.toml", f"[problem]\n{problem}\n[method]\n{method}\n[run]\ndt=0.01\nsteps=10\n")
+        return self.hamflow("run", "s.toml", "--out", "none", *extra, status=2).stderr
+
+    def test_energies_and_momenta_of_the_starts(self):
+        mu, k = 2.0, 1.5
+        table = [
+            ('potential="hooke"\norbit={kind="circle",r0=2,energy=3}', 3, 2 * math.sqrt(mu * 3)),
+            ('potential="hooke"\norbit={kind="line",r_per=2,energy=3}', 3, 2 * math.sqrt(2 * mu * 3)),
+            ('potential="hooke"\nk=1.5\norbit={kind="hyperbola",r_per=2,energy=3}', 3, 2 * math.sqrt(mu * (6 + k * 4))),
+            ('potential="linear"\nk=1.5\norbit={kind="circle",r0=2}', 4.5, math.sqrt(k * mu * 8)),
+            ('potential="linear"\nk=-1.5\norbit={kind="unbounded",r_per=2,energy=3}', 3, 2 * math.sqrt(2 * mu * 6)),
+            ('potential="kepler"\nk=1.5\norbit={kind="ellipse",r_per=1,r_aph=3}', -k / 4, math.sqrt(2 * k * mu * 3 / 4)),
+            ('potential="kepler"\nk=1.5\norbit={energy=-0.375,angular_momentum=1.5}', -0.375, 1.5),
+            ('potential="power"\na=1.5\nn=3\norbit={energy=4,angular_momentum=1.5}', 4, 1.5),
+        ]
+        for coordinates in ("cartesian", "polar"):
+            for problem, energy, momentum in table:
+                s = self.run_text(f'name="central-force"\ncoordinates="{coordinates}"\nmass=2\n{problem}', steps=0)
+                scale = s["energy"]["scale"]
+                self.assertLess(abs(s["energy"]["initial"] - energy), 32 * EPSILON * scale, problem)
+                l = s["invariants"]["angular_momentum"]["initial"]
+                self.assertLess(abs(l - momentum), 8 * EPSILON * abs(momentum), problem)
+
+    def test_orbit_facts(self):
+        s = self.run_text('name="central-force"\npotential="kepler"\norbit={kind="ellipse",r_per=1,r_aph=3}', steps=0)
+        orbit = s["orbit"]
+        self.assertEqual((orbit["type"], orbit["conic"], orbit["closed"]), ("bounded closed", "ellipse", True))
+        self.assertAlmostEqual(orbit["r_max"], 3, delta=8 * EPSILON)
+        self.assertAlmostEqual(orbit["apsidal_angle"], math.pi, delta=64 * EPSILON)
+        self.assertAlmostEqual(orbit["circular_radius"], 1.5, delta=64 * EPSILON)
+        self.assertAlmostEqual(orbit["radial_period"], 2 * math.pi * math.sqrt(8), delta=1e-13)
+
+    def test_exact_state(self):
+        for problem in (
+            'name="central-force"\npotential="kepler"\norbit={kind="hyperbola",r_per=1,angular_momentum=2}',
+            'name="central-force"\npotential="kepler"\ncoordinates="polar"\norbit={kind="ellipse",r_per=1,r_aph=3}',
+            'name="central-force"\npotential="linear"\norbit={kind="bounded",r_per=1,r_aph=3}',
+            'name="duffing"\nmass=2\ncase=1\nk=1\nr0=4\nspeed=4',
+            'name="pendulum"\ninitial={q=[2.5],p=[0]}',
+            'name="free-fall"\ninitial={q=[0],p=[3]}',
+            'name="harmonic"\ninitial={q=[1],p=[0.5]}',
+            'name="magnetic"\ninitial={q=[1,0,0],p=[0.2,0.5,0.1]}',
+            'name="double-pendulum"\nmodel="linear"\nangles="relative"\ninitial={q=[0.1,-0.11],p=[0,0]}',
+        ):
+            coarse = self.run_text(problem, dt=0.01, steps=200)["exact"]["max_difference"]
+            fine = self.run_text(problem, dt=0.005, steps=400)["exact"]["max_difference"]
+            self.assertLess(fine, 1e-2, problem)
+            if fine > 1e-12:  # an element of order 2; free fall is exact
+                self.assertAlmostEqual(coarse / fine, 4, delta=0.1, msg=problem)
+
+    def test_two_bodies(self):
+        bodies = 'bodies=[{mass=2,position=[0,0,1],velocity=[0,0.1,0]},{mass=0.5,position=[1,0,1],velocity=[0,1,0.5]}]'
+        s = self.run_text(f'name="central-force"\npotential="kepler"\nk=1\n{bodies}', dt=0.001, steps=1000)
+        mass = [b["mass"] for b in s["bodies"]]
+        self.assertEqual(mass, [2, 0.5])
+        self.assertAlmostEqual(s["parameters"]["mass"], 0.4, delta=EPSILON)
+        centre = [sum(m * b["position"][i] for m, b in zip(mass, s["bodies"])) / 2.5 for i in range(3)]
+        for i, expected in enumerate((0.2, (0.2 + 0.5) / 2.5, 1 + 0.25 / 2.5)):
+            self.assertAlmostEqual(centre[i], expected, delta=8 * EPSILON)
+        relative = [s["bodies"][1]["position"][i] - s["bodies"][0]["position"][i] for i in range(3)]
+        self.assertAlmostEqual(math.hypot(*relative), math.hypot(*s["final"]["q"]), delta=8 * EPSILON)
+
+    def test_invariants_with_components(self):
+        s = self.summary(str(EXAMPLES / "figure_eight.toml"), "--set", "run.t_end=6.32")
+        self.assertIsInstance(s["invariants"]["angular_momentum"]["initial"], float)
+        self.assertEqual(len(s["invariants"]["linear_momentum"]["final"]), 2)
+        self.assertLess(s["invariants"]["centre_of_mass"]["max_error"], 1e-13)
+        s = self.summary(str(EXAMPLES / "solar_system.toml"), "--set", "run.t_end=5000")
+        for name in ("angular_momentum", "linear_momentum", "centre_of_mass"):
+            self.assertEqual(len(s["invariants"][name]["initial"]), 3)
+        self.assertEqual(len(s["final"]["q"]), 18)
+
+    def test_diagnostics(self):
+        s = self.summary(str(EXAMPLES / "double_pendulum.toml"), "--set", "run.t_end=1")
+        self.assertGreaterEqual(s["diagnostics"]["condition_inverse_mass"]["min"], 1)
+        self.assertLess(s["energy"]["max_error"], 1e-12)
+        self.assertNotIn("diagnostics", self.run_text('name="pendulum"\ninitial={q=[1],p=[0]}'))
+
+    def test_fast_kernel(self):
+        kepler = 'name="central-force"\npotential="kepler"\norbit={kind="ellipse",r_per=1,r_aph=3}'
+        self.write("s.toml", f'[problem]\n{kepler}\n[method]\nname="stv4"\n[run]\ndt=0.01\nsteps=1000\n')
+        exact = self.summary("s.toml")
+        fast = self.summary("s.toml", "--set", "run.kernel=fast")
+        self.assertEqual((exact["kernel"], fast["kernel"]), ("exact", "fast"))
+        self.assertIn(fast["instruction_set"], ("avx512", "x86-64"))
+        for a, b in zip(exact["final"]["q"], fast["final"]["q"]):
+            self.assertAlmostEqual(a, b, delta=1e-10)
+
+    def test_errors_of_the_new_keys(self):
+        cf = 'name="central-force"\n'
+        for problem, words in (
+            (cf + 'potential="power"\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.a", "found nothing")),
+            (cf + 'potential="power"\na=1\nn=-1\norbit={energy=1,angular_momentum=1}', ("problem.n", "but -1")),
+            (cf + 'potential="power"\na=[1,2]\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.n", "as a has, 2")),
+            (cf + 'potential="kepler"\norbit={energy=-1,angular_momentum=1}', ("problem.orbit.energy", "fails by 0.5")),
+            (cf + 'potential="kepler"\norbit={energy=1}', ("kind", "angular_momentum")),
+            (cf + 'potential="kepler"\ncoordinates="plar"\norbit={kind="circle",r0=1}', ("did you mean polar",)),
+            (cf + 'potential="kepler"\nbodies=[{mass=1,position=[0,0,0],velocity=[0,0,0]}]', ("bodies", "2 tables")),
+            (
+                cf + 'potential="kepler"\nmass=1\nbodies=[{mass=1,position=[0,0,0],velocity=[0,0,0]},'
+                "{mass=0,position=[0,0,0],velocity=[0,0]}]",
+                ("problem.mass", "bodies[1].mass", "bodies[1].velocity"),
+            ),
+            (
+                cf + 'potential="kepler"\nbodies=[{mass=1,position=[0,0,0],velocity=[0,0,0]},'
+                "{mass=1,position=[0,0,0],velocity=[0,0,1]}]",
+                ("at one point",),
+            ),
+            ('name="duffing"\nalpha=1\nk=1\ninitial={q=[1],p=[0]}', ("exclude",)),
+            ('name="duffing"\ncase=4\nr0=1', ("case", "from 1 to 3")),
+            ('name="duffing"\ncase=3\nk=2\nr0=4\nspeed=40', ("problem.speed", "fails by")),
+            ('name="duffing"\ncase=1\nk=2\nlambda=3\nr0=4\nspeed=4', ("problem.lambda", "follows")),
+            ('name="duffing"\ncase=2\nk=2\nr0=4\nspeed=4', ("problem.speed",)),
+            ('name="double-pendulum"\nmasses=[1,0]\ninitial={q=[0,0],p=[0,0]}', ("problem.masses", "positive")),
+            ('name="double-pendulum"\nhalf_lengths=[0,1]\ninitial={q=[0,0],p=[0,0]}', ("problem.half_lengths",)),
+            ('name="double-pendulum"\nmasses=[1]\ninitial={q=[0,0],p=[0,0]}', ("problem.masses", "array of 2")),
+            ('name="double-pendulum"\nmodel="curved"\ninitial={q=[0,0],p=[0,0]}', ("linear, nonlinear",)),
+            ('name="double-pendulum"\nangles="absolut"\ninitial={q=[0,0],p=[0,0]}', ("did you mean absolute",)),
+            ('name="pendulum"\nlength=0\ninitial={q=[0],p=[0]}', ("problem.length", "positive")),
+            ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,0,0],p=[0,0,0,0]}', ("bodies 1 and 2 at one point",)),
+            ('name="n-body"\nmasses=[1,0]\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "positive")),
+            ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1],p=[0,0,0]}', ("4 numbers in the plane, 6 in space",)),
+            ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1,0],p=[0,0,0,0,0,0]}', ("as many as q has",)),
+            ('name="n-body"\nmasses=[]\ninitial={q=[],p=[]}', ("problem.masses",)),
+            ('name="n-body"\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "found nothing")),
+            ('name="fput"\nn=2.5\ninitial={q=[1,2],p=[0,0]}', ("problem.n", "whole")),
+            ('name="fput"\nn=3\ninitial={q=[1,2],p=[0,0]}', ("3 numbers",)),
+            ('name="magnetic"\nfield=[1,2]\ninitial={q=[0,0,0],p=[0,0,0]}', ("problem.field", "array of 3")),
+            ('name="sextic"\ninitial={q=[0.5],v=[0.1]}', ("give p",)),
+        ):
+            text = self.rejected(problem)
+            for word in words:
+                self.assertIn(word, text, problem)
+
+    def test_the_seeds_own_criterion_aborts_where_its_programs_do(self):
+        # Its residual is absolute, and rounds by (2 mu/h) |q| epsilon: too much on long ways and for stiff springs.
+        cf = 'name="central-force"\nmass=2\n'
+        for problem, dt, steps in (
+            ('potential="hooke"\norbit={kind="line",r_per=1,energy=1}', 0.01, 100000),
+            ('potential="hooke"\nk=1\norbit={kind="hyperbola",r_per=1,energy=1}', 0.1, 400),
+            ('potential="linear"\nk=-1\norbit={kind="unbounded",r_per=1,energy=3}', 0.1, 4000),
+            ('potential="binomial"\nk=1e6\nlambda=1\norbit={kind="bounded",r_per=0.9,r_aph=1.1}', 0.001, 400),
+        ):
+            text = f"[problem]\n{cf}{problem}\n" + HEAD.format(points=5, dt=dt, steps=steps)
+            self.write("s.toml", text)
+            aborted = self.summary("s.toml", "--set", "method.criterion=seed", status=1)
+            self.assertEqual(aborted["error"]["kind"], "not_converged", problem)
+            self.assertIn("residual", aborted["error"]["message"])
+            done = self.summary("s.toml")
+            self.assertLess(done["energy"]["max_relative_error"], 1e-10, problem)
+
+    def test_methods_that_a_problem_refuses(self):
+        pendulum = 'name="double-pendulum"\ninitial={q=[0,0],p=[0,0]}'
+        text = self.rejected(pendulum, method='name="stv4"')
+        self.assertIn("needs a separable H", text)
+        self.assertIn("cg", text)
+        self.assertIn("boris needs", self.rejected(pendulum, method='name="boris"'))
+        text = self.rejected('name="pendulum"\ninitial={q=[1],p=[0]}', "--set", "run.kernel=fast", method='name="stv4"')
+        self.assertIn("no fast kernel for pendulum", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
