@@ -39,11 +39,11 @@ set(generated "${PROJECT_BINARY_DIR}/generated")
 set(HAMFLOW_UNITS)
 set(declarations "")
 set(problem_calls "")
+set(also "")
 set(unit_text [[
 #include "problem_unit.hpp"
 #include "hamflow/problems/@header@.hpp"
-#include "hamflow/problems/support/polar.hpp"
-namespace hamflow {
+@also@namespace hamflow {
 // The alias has a name of its own: two units with one name for different problems would be merged by the linker.
 template <class R>
 using Family_@name@ = @family@;
@@ -60,6 +60,7 @@ foreach(name IN LISTS problem_names)
   hamflow_problem_unit(${header} ${name} "${unit_text}")
 endforeach()
 hamflow_names(potential_names problems/potentials)
+set(also "#include \"hamflow/problems/support/polar.hpp\"\n")
 foreach(potential IN LISTS potential_names)
   hamflow_pascal_case(type ${potential})
   set(name central_force_${potential})

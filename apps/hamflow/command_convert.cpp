@@ -80,7 +80,7 @@ int convert_given_state(const ConvertOptions& options) {
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
   const std::string key = coordinate_key(to);
   std::vector<ScenarioEdit> edits{{"problem." + key, "\"" + to + "\""}};
-  if (!scenario.request.start.geometric && !scenario.bodies) {
+  if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
   }
   return edited_scenario(scenario.text, edits);

@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <iostream>
-#include <limits>
 
 #include "commands.hpp"
 #include "csv_file.hpp"
@@ -313,6 +312,7 @@ class Shell {
     if (value.is_null()) return "nan";
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
+    if (value.is_object()) return "step " + text_of(value["step"]) + ": " + text_of(value["what"]);
     if (!value.is_array()) return value.dump();
     std::string all;
     for (const Json& each : value) all += (all.empty() ? "" : ", ") + text_of(each);

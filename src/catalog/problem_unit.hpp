@@ -149,7 +149,7 @@ class ProblemUnit {
   static Parameters<R> parameters_of(const Request& request) {
     Parameters<R> parameters(request.parameters);
     if constexpr (has_derived) {
-      if (!request.start.geometric) return parameters;
+      if (!request.start.geometric()) return parameters;
       Family<R>::derive(request.start.kind, Parameters<R>(request.start.orbit), parameters);
     }
     return parameters;
@@ -159,7 +159,7 @@ class ProblemUnit {
   static Start<R, n> start(const Request& request) {
     const StartSpec& spec = request.start;
     Start<R, n> s;
-    if (spec.geometric) {
+    if (spec.geometric()) {
       if constexpr (has_starts) {
         Conditions conditions;
         s = Family<R>::start(spec.kind, parameters_of<R>(request), Parameters<R>(spec.orbit), conditions);
@@ -254,8 +254,7 @@ class ProblemUnit {
     return visit_method(request.method, [&]<class Recipe>(const Recipe& recipe) -> std::unique_ptr<Simulation> {
       if constexpr (!Recipe::template accepts<P>) {
         return nullptr;  // make_simulation has said why
-      } else if constexpr (Recipe::implicit) {
-        // What an implicit element adds to the state is always compensated.
+      } else if constexpr (always_compensated<Recipe>()) {
         return build<Compensated<double>>(request, recipe);
       } else {
         if constexpr (has_fast_kernel) {

@@ -56,6 +56,16 @@ FigureData ellipse(int samples = 300) {
     data.energy.push_back(-0.25 + 1e-16 * (k % 5));
   }
   sample_polar_curve(r, data);
+  // Before the first step there is no tangent.
+  const auto from_first_step = [&](auto value) {
+    std::vector<double> all;
+    for (int k = 0; k < samples; ++k) all.push_back(k == 0 ? std::numeric_limits<double>::quiet_NaN() : value(k));
+    return all;
+  };
+  data.diagnostics = {{"condition_tangent", from_first_step([](int k) { return 3 + std::sin(0.1 * k); })},
+                      {"determinant_tangent", from_first_step([](int k) { return 1 + 1e-3 * std::cos(0.1 * k); })},
+                      {"condition_inverse_mass", std::vector<double>(static_cast<std::size_t>(samples), 5.0)},
+                      {"iterations", from_first_step([](int k) { return 2.0 + k % 2; })}};
   return data;
 }
 
@@ -115,7 +125,7 @@ std::string message_of(const std::function<void()>& action) {
 }
 
 TEST_F(Figures, EveryKindInEveryFormat) {
-  EXPECT_EQ(figure_kinds(), (std::vector<std::string>{"orbit", "energy", "energy-error", "phase"}));
+  EXPECT_EQ(figure_kinds(), (std::vector<std::string>{"orbit", "energy", "energy-error", "phase", "condition"}));
   for (const FigureData& data : {ellipse(), oscillator()}) {
     for (const std::string& kind : figure_kinds()) {
       if (!why_not(data, kind).empty()) continue;
@@ -236,13 +246,31 @@ TEST_F(Figures, StrangeNumbersAreDrawn) {
   }
 }
 
+TEST_F(Figures, ConditionsNeedARunThatRecordedThem) {
+  EXPECT_NE(why_not(oscillator(), "condition").find("method.diagnostics = true"), std::string::npos);
+  const std::string svg = drawn(ellipse(), "condition");
+  EXPECT_NE(svg.find("Newton"), std::string::npos);
+}
+
+TEST_F(Figures, BodiesAreDrawnInOnePlane) {
+  FigureData data = ellipse();
+  data.space = 2;
+  data.curve_x.clear();
+  data.curve_y.clear();
+  for (int k = 0; k < 2; ++k) data.q.push_back(data.q[static_cast<std::size_t>(k)]);
+  for (double& x : data.q[2]) x = -x;
+  data.p.resize(4, data.p[0]);
+  EXPECT_EQ(why_not(data, "orbit"), "");
+  EXPECT_GT(drawn(data, "orbit").size(), 4000U);
+}
+
 TEST_F(Figures, WrongRequestsNameWhatIsAllowed) {
   EXPECT_EQ(why_not(ellipse(), "orbit"), "");
   EXPECT_EQ(why_not(oscillator(), "orbit"),
             "orbit: an orbit needs 2 degrees of freedom, and these data have 1; what can be drawn: energy, "
             "energy-error, phase");
   EXPECT_EQ(why_not(oscillator(), "orbits"),
-            "there is no figure \"orbits\"; allowed: orbit, energy, energy-error, phase");
+            "there is no figure \"orbits\"; allowed: orbit, energy, energy-error, phase, condition");
   EXPECT_THROW(write_figure(ellipse(), "spiral", folder_ / "a.svg"), Error);
   EXPECT_THROW(write_figure(oscillator(), "orbit", folder_ / "a.svg"), Error);
   for (const char* name : {"a.gif", "a", ".svg", "a.svg.gz"}) {

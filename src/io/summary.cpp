@@ -199,6 +199,17 @@ Json rejection_of(const std::vector<Complaint>& complaints) {
 
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
+namespace {
+std::string orbit_text(const Json& orbit) {
+  std::string text = orbit["type"].get<std::string>();
+  if (orbit.contains("conic")) text += " (" + orbit["conic"].get<std::string>() + ")";
+  text += fmt::format(", r = {:.6g} .. {:.6g}, apsidal angle {:.6g}", orbit["r_min"].get<double>(),
+                      orbit["r_max"].get<double>(), orbit["apsidal_angle"].get<double>());
+  if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
+  return text;
+}
+}  // namespace
+
 std::string readable(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {
     return fmt::format("{:<20}{}\n", label, text);
@@ -211,8 +222,9 @@ std::string readable(const Json& s) {
     for (const Json& x : xs) all += (all.empty() ? "" : ", ") + number(x);
     return all;
   };
+  const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
   const auto watched = [&](const Json& x) {
-    return fmt::format("{} -> {}, at most {:.3g} off", number(x["initial"]), number(x["final"]),
+    return fmt::format("{} -> {}, at most {:.3g} off", shown(x["initial"]), shown(x["final"]),
                        x["max_error"].is_null() ? 0.0 : x["max_error"].get<double>());
   };
   std::string text = row("status", s["status"].get<std::string>());
@@ -226,7 +238,24 @@ std::string readable(const Json& s) {
                                                            s["energy"]["max_relative_error"].is_null()
                                                                ? 0.0
                                                                : s["energy"]["max_relative_error"].get<double>()));
-  for (const auto& [key, value] : s["invariants"].items()) text += row(key, watched(value));
+  for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
+  if (s.contains("exact")) {
+    text += row("exact", fmt::format("at most {:.3g} off the exact state", s["exact"]["max_difference"].get<double>()));
+  }
+  if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
+  if (s.contains("bodies")) {
+    for (const Json& body : s["bodies"]) {
+      text += row("body", fmt::format("mass {}, at [{}], velocity [{}]", number(body["mass"]), list(body["position"]),
+                                      list(body["velocity"])));
+    }
+  }
+  if (s.contains("diagnostics")) {
+    for (const auto& [key, x] : s["diagnostics"].items()) {
+      if (x.is_null()) continue;
+      text += row(key, fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(), x["t_min"].get<double>(),
+                                   x["max"].get<double>(), x["t_max"].get<double>()));
+    }
+  }
   text += row(
       "evaluations",
       fmt::format("force {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),

@@ -110,7 +110,7 @@ std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, cons
 void ScenarioReader::check_parameters(TomlTable& table) {
   const ProblemEntry& problem = *scenario_.problem;
   Texts parameters = scenario_.request.parameters;
-  if (scenario_.request.start.geometric) parameters = problem.derived(parameters, scenario_.request.start);
+  if (scenario_.request.start.geometric()) parameters = problem.derived(parameters, scenario_.request.start);
   const auto [key, message] = problem.refused_parameters(parameters);
   if (message.empty()) return;
   if (key.empty()) {
@@ -207,7 +207,6 @@ void ScenarioReader::read_numbered_start(TomlTable& table) {
                                                   " takes exactly " + joined(start.keys));
     }
     refuse_derived(table, start, info.start_key + " = " + std::to_string(*number));
-    scenario_.request.start.geometric = true;
     scenario_.request.start.kind = start.kind;
   }
   for (const StartInfo& start : info.starts) {
@@ -285,7 +284,6 @@ void ScenarioReader::read_orbit(TomlTable& table) {
   }
   orbit.finish();
   refuse_derived(table, *start, because);
-  spec.geometric = true;
   spec.kind = start->kind;
 }
 
@@ -342,7 +340,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
                                                        : std::to_string(problem.dimension) + " numbers each";
   if (!table.has("initial")) {
     table.know("initial");
-    if (spec.geometric || table.has("orbit") || table.has("bodies")) return;
+    if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
     if (!problem.info.start_key.empty() && table.has(problem.info.start_key)) return;
     if (!problem.info.default_q.empty()) {
       spec.q = problem.info.default_q;
@@ -371,8 +369,8 @@ void ScenarioReader::read_initial(TomlTable& table) {
     for (std::size_t i = 0; values && i < values->size(); ++i) all.push_back((*values)[i].text);
     return all;
   };
-  spec.geometric = false;  // a state overrides a geometric start
-  spec.kind.clear();
+  spec.kind.clear();  // a state overrides a geometric start
+  spec.orbit.clear();
   spec.q = texts("q");
   spec.p = texts("p");
   spec.v = texts("v");
@@ -382,7 +380,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
 /// Where the size of the problem follows from the start.
 bool ScenarioReader::check_size(TomlTable& table) {
   const StartSpec& spec = scenario_.request.start;
-  if (spec.geometric) return true;
+  if (spec.geometric()) return true;
   const std::size_t before = complaints_.size();
   TomlTable at = table.has("initial") ? table.table("initial") : table;
   const auto check = [&](const char* key, std::size_t size) {
@@ -403,7 +401,7 @@ bool ScenarioReader::check_size(TomlTable& table) {
 void ScenarioReader::check_start(TomlTable& table) {
   const ProblemEntry& problem = *scenario_.problem;
   const Request& request = scenario_.request;
-  const bool geometric = request.start.geometric;
+  const bool geometric = request.start.geometric();
   if (!check_size(table)) return;
   bool possible = true;
   if (geometric) {

@@ -52,18 +52,7 @@ class Page {
   /// Full lines of comment, broken between words.
   void prose(const std::string& text) {
     end_block();
-    std::string row = "#";
-    std::size_t at = 0;
-    while (at < text.size()) {
-      const std::size_t end = std::min(text.find(' ', at), text.size());
-      if (row.size() + 1 + end - at > widest && row != "#") {
-        text_ += row + "\n";
-        row = "#";
-      }
-      row += " " + text.substr(at, end - at);
-      at = end + 1;
-    }
-    text_ += row + "\n";
+    write_prose(text);
   }
   void section(const std::string& name) {
     end_block();
@@ -78,15 +67,33 @@ class Page {
   static constexpr std::size_t widest = 110;
   static constexpr std::size_t widest_code = 44;
 
+  void write_prose(const std::string& text) {
+    std::string row = "#";
+    std::size_t at = 0;
+    while (at < text.size()) {
+      const std::size_t end = std::min(text.find(' ', at), text.size());
+      if (row.size() + 1 + end - at > widest && row != "#") {
+        text_ += row + "\n";
+        row = "#";
+      }
+      row += " " + text.substr(at, end - at);
+      at = end + 1;
+    }
+    text_ += row + "\n";
+  }
   void end_block() {
     std::size_t width = 0;
     for (const auto& [code, comment] : block_) {
       if (!comment.empty() && code.size() <= widest_code) width = std::max(width, code.size());
     }
     for (const auto& [code, comment] : block_) {
-      text_ += code;
-      if (!comment.empty()) text_ += std::string(code.size() < width ? width - code.size() : 0, ' ') + "  # " + comment;
-      text_ += "\n";
+      std::string beside;
+      if (!comment.empty()) beside = std::string(code.size() < width ? width - code.size() : 0, ' ') + "  # " + comment;
+      if (code.size() + beside.size() > widest + 8) {
+        write_prose(comment + ":");
+        beside.clear();
+      }
+      text_ += code + beside + "\n";
     }
     block_.clear();
   }
@@ -136,7 +143,7 @@ std::optional<StartExample> example_with(const ProblemEntry& problem, const Text
   std::size_t combinations = 1;
   for (const std::string& key : info.keys) combinations *= candidates(key).size();
   for (std::size_t c = 0; c < combinations; ++c) {
-    StartSpec start{.geometric = true, .kind = info.kind};
+    StartSpec start{.kind = info.kind};
     std::size_t rest = c;
     for (const std::string& key : info.keys) {
       const std::vector<std::string>& values = candidates(key);
@@ -216,6 +223,7 @@ class TemplateWriter {
   }
 
   std::string write() {
+    page_.prose("A scenario for hamflow run. hamflow show " + info_.name + " says the same in other words.");
     page_.prose(info_.formula);
     page_.prose("Source: " + info_.reference);
     page_.prose("Numbers may also be texts such as \"1/3\" or \"2*pi/100\". What stands behind # is not set.");
@@ -327,9 +335,8 @@ class TemplateWriter {
     write_state();
     if (info_.name == "central-force") {
       page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
-      page_.prose(
-          "bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] }, "
-          "{ mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]");
+      page_.line("# bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },");
+      page_.line("#           { mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]");
     }
   }
 

@@ -64,7 +64,9 @@ const std::vector<Region>& known_regions() {
        .centre = {0, 0, 1, 0, 0, -1.5, 0, -0.1, 0, 0.3, 0.16, 0}},
       {.problem = "fput",
        .parameters = {{"n", "4"}, {"alpha", "0.25"}, {"beta", "0.5"}},
-       .centre = {0.5, 0.8, -0.3, 0.2, 0.1, -0.4, 0.3, 0.2}},
+       .centre = {0.3, 0.4, -0.2, 0.2, 0.1, -0.2, 0.2, 0.1},
+       .spread = 0.05,
+       .step = 0.05},
   };
   return all;
 }
@@ -94,6 +96,15 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
   // The start of the catalogue, or any state when there is none, moved a little: no coordinate at rest.
   const ProblemEntry& entry = find_problem(problem, variant);
   Region region{.problem = problem, .variant = variant};
+  if (problem == "solar-system") {  // days; momenta down to 1e-11: any move would throw the planets out
+    for (const auto* texts : {&entry.info.default_q, &entry.info.default_p}) {
+      for (const std::string& text : *texts) region.centre.push_back(evaluate_number<double>(text));
+    }
+    region.spread = 1e-13;
+    region.step = 50;
+    region.time = 1000;
+    return region;
+  }
   const std::size_t dimension = entry.dimension > 0 ? entry.dimension : entry.info.default_q.size();
   for (std::size_t i = 0; i < 2 * dimension; ++i) {
     const auto& texts = i < dimension ? entry.info.default_q : entry.info.default_p;

@@ -156,7 +156,7 @@ TEST(Catalog, RefusesWhatCannotBeRunAndSaysWhy) {
             std::string::npos);
   request = pendulum_request();
   request.start.q = {"1", "2"};
-  EXPECT_EQ(message(), "a state of this problem has 1 coordinates, not 2");
+  EXPECT_EQ(message(), "a state of this problem has 1 number for each of q and p, not 2");
 }
 
 TEST(Catalog, MomentaFromVelocitiesAreMassTimesVelocity) {

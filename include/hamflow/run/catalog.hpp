@@ -42,13 +42,13 @@ using Texts = std::map<std::string, std::string>;
 
 /// Where a run begins: a geometric start or a state; v, if not empty, stands for p = dL/dv.
 struct StartSpec {
-  bool geometric = false;
-  std::string kind;  // of a geometric start; empty: by energy and angular momentum
+  std::string kind;  // of a geometric start; empty, with an orbit: by energy and angular momentum
   Texts orbit;
   int direction = 1;
   std::vector<std::string> q;
   std::vector<std::string> p;
   std::vector<std::string> v;
+  bool geometric() const { return !kind.empty() || !orbit.empty(); }
 };
 
 struct Request {

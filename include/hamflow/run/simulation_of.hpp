@@ -202,9 +202,18 @@ class SimulationOf final : public Simulation {
   Real scale_{};
 };
 
-/// What implicit elements add to the state is compensated; explicit methods compute in the plain type of the problem.
+/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in the
+/// plain type of the problem unless asked.
+template <class Recipe>
+constexpr bool always_compensated() {
+  if constexpr (requires { Recipe::compensated; }) {
+    return Recipe::compensated;
+  } else {
+    return Recipe::implicit;
+  }
+}
 template <class P, class Recipe>
-using DefaultArithmetic = std::conditional_t<Recipe::implicit, Compensated<RealOf<P>>, Plain<RealOf<P>>>;
+using DefaultArithmetic = std::conditional_t<always_compensated<Recipe>(), Compensated<RealOf<P>>, Plain<RealOf<P>>>;
 
 /// A simulation whose method is a type: everything is inlined into one loop.
 ///     auto orbit = hamflow::simulate(problem, Composition<compositions::stv4>{}, {0.4, 0}, {0, 2}, 0.1);

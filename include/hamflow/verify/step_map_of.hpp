@@ -32,9 +32,8 @@ class StepMapOf final : public StepMap {
   using P = Family<double>;
   static constexpr std::size_t n = P::dimension;
   using V = Vector<double, n>;
-  /// Implicit elements add their increments with compensation.
   template <class R>
-  using Arithmetic = std::conditional_t<Recipe::implicit, Compensated<R>, Plain<R>>;
+  using Arithmetic = std::conditional_t<always_compensated<Recipe>(), Compensated<R>, Plain<R>>;
 
  public:
   /// @param make Family<R> for double and long double: called as make.template operator()<R>()

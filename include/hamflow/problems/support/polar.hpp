@@ -98,14 +98,15 @@ class PolarCentralForce {
   S energy(const Vector<S, 2>& q, const Vector<S, 2>& p) const {
     const S u = q[0] * q[0];
     S square = p[0] * p[0];
-    if (value_of(p[1]) != base_scalar<S>(0)) square += p[1] * p[1] / u;
+    if (value_of(p[1]) != base_scalar<S>(0)) square += p[1] * p[1] / u;  // else through the centre, without 0/0
     return square / (R(2) * mass_) + potential_.value(u);
   }
   template <class S>
   void gradient(const Vector<S, 2>& q, const Vector<S, 2>& p, Vector<S, 2>& dq, Vector<S, 2>& dp) const {
     const S u = q[0] * q[0];
-    const S turn = p[1] / u;  // mu phi'
-    dq[0] = potential_.slope(u) * q[0] - p[1] * turn / (mass_ * q[0]);
+    const S turn = turning(p[1], u);
+    dq[0] = potential_.slope(u) * q[0];
+    if (value_of(p[1]) != base_scalar<S>(0)) dq[0] -= p[1] * turn / (mass_ * q[0]);
     dq[1] = S(0);
     dp[0] = p[0] / mass_;
     dp[1] = turn / mass_;
@@ -115,12 +116,12 @@ class PolarCentralForce {
                Matrix<S, 2>& pp) const {
     const S u = q[0] * q[0];
     const CentralDerivatives<S> d = potential_.derivatives(u);
-    const S turn = p[1] / u;
+    const S turn = turning(p[1], u);
     qq = {};
     qp = {};
     pp = {};
     qq[0][0] = d.slope + d.curvature * u + R(3) * turn * turn / mass_;
-    qp[0][1] = R(-2) * turn / (mass_ * q[0]);
+    if (value_of(p[1]) != base_scalar<S>(0)) qp[0][1] = R(-2) * turn / (mass_ * q[0]);
     pp[0][0] = S(R(1) / mass_);
     pp[1][1] = R(1) / (mass_ * u);
   }
@@ -164,6 +165,12 @@ class PolarCentralForce {
   }
 
  private:
+  /// mu phi' = p_phi/r^2; at the centre, where only p_phi = 0 can be, 0.
+  template <class S>
+  static S turning(const S& angular_momentum, const S& u) {
+    return value_of(u) == base_scalar<S>(0) && value_of(angular_momentum) == base_scalar<S>(0) ? S(0)
+                                                                                              : angular_momentum / u;
+  }
   Cartesian cartesian() const { return Cartesian(mass_, potential_); }
 
   R mass_;

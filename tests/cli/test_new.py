@@ -1,0 +1,93 @@
+"""hamflow new: every problem and every variant gives a scenario that runs as it is, explains every key, and whose other
+starts can be chosen by uncommenting them."""
+
+import json
+import re
+import unittest
+
+from command import CommandCase
+
+
+class New(CommandCase):
+    def variants(self):
+        """Every line of the catalogue, as name and options."""
+        for entry in json.loads(self.hamflow("list", "problems", "--json").stdout):
+            # A list of pairs in the catalogue's own order, or a table.
+            variant = dict(entry["variant"])
+            yield entry["name"], variant, [word for key, value in variant.items() for word in (f"--{key}", value)]
+
+    def test_every_problem_and_variant_runs_as_printed(self):
+        count = 0
+        for name, variant, options in self.variants():
+            with self.subTest(problem=name, **variant):
+                text = self.hamflow("new", name, *options).stdout
+                self.write("new.toml", text)
+                s = self.summary("new.toml")
+                self.assertEqual((s["status"], s["problem"]), ("done", name))
+                self.assertGreaterEqual(s["steps"], 1000)
+                for key, value in variant.items():
+                    self.assertIn(f'{key} = "{value}"', text)
+                # Sensible: the orbit is bounded and resolved, so that the energy stays near its start.
+                self.assertLess(s["energy"]["max_relative_error"], 0.02)
+                self.assertEqual(s["method"], {"magnetic": "boris"}.get(name, s["method"]))
+                count += 1
+        self.assertGreaterEqual(count, 20)
+
+    def test_every_key_is_explained(self):
+        for name, variant, options in self.variants():
+            with self.subTest(problem=name, **variant):
+                text = self.hamflow("new", name, *options).stdout
+                shown = self.hamflow("show", name).stdout
+                # Of several variants the listing has one paragraph each, with the keys of all of them.
+                keys = set(re.findall(r"(?m)^    (\w+) +\[(?:required|not given|[^\]]*\]?)\]", shown))
+                for key in keys:
+                    if len(variant) == 0:
+                        self.assertRegex(text, rf"(?m)^(# )?{key} = .*(# |$)")
+                for key in ("dt", "steps", "t_end", "record_every", "arithmetic", "formats", "figures", "folder"):
+                    self.assertRegex(text, rf"(?m)^(# )?{key} = .*# ")
+
+    def test_commented_starts_are_valid(self):
+        tried = 0
+        for potential in ("kepler", "hooke", "linear", "binomial", "power"):
+            for coordinates in ("cartesian", "polar"):
+                text = self.hamflow("new", "central-force", "--potential", potential, "--coordinates", coordinates).stdout
+                lines = text.splitlines()
+                for i, line in enumerate(lines):
+                    if not re.match(r"# (orbit|initial) = ", line):
+                        continue
+                    chosen = [re.sub(r"^(orbit|initial) = ", "# ", other) for other in lines]
+                    chosen[i] = line[2:]
+                    with_k = re.search(r"with k = (-?[0-9.]+)", line)
+                    chosen = [re.sub(r"^(# )?k = \S+", f"k = {with_k[1]}", l) if with_k else l for l in chosen]
+                    if "without k" in line or (potential == "hooke" and re.search('"(circle|ellipse|line)"', line)):
+                        chosen = [re.sub(r"^k = ", "# k = ", l) for l in chosen]
+                    elif potential == "hooke":
+                        chosen = [re.sub(r"^# k = ", "k = ", l) for l in chosen]
+                    self.write("start.toml", "\n".join(chosen) + "\n")
+                    with self.subTest(potential=potential, coordinates=coordinates, start=line):
+                        self.summary("start.toml", "--set", "run.steps=1")
+                        tried += 1
+        self.assertGreater(tried, 30)
+
+    def test_a_changed_key_takes_effect(self):
+        self.write("new.toml", self.hamflow("new", "central-force").stdout)
+        s = self.summary("new.toml")
+        self.assertEqual((s["parameters"]["potential"], s["parameters"]["coordinates"]), ("kepler", "cartesian"))
+        self.assertNotEqual(self.summary("new.toml", "--set", "problem.mass=2")["final"], s["final"])
+
+    def test_wrong_requests(self):
+        for arguments, words in (
+            (["pendulun"], "did you mean pendulum?"),
+            (["central-force", "--potential", "keplr"], "did you mean kepler?"),
+            (["pendulum", "--potential", "kepler"], "no choice of potential"),
+            (["double-pendulum", "--coordinates", "polar"], "allowed --angles, --model"),
+            ([], "problem"),
+        ):
+            done = self.hamflow("new", *arguments, status=2)
+            self.assertEqual(done.stdout, "")
+            self.assertIn(words, done.stderr)
+        self.assertIn("Examples:", self.hamflow("new", "--help").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

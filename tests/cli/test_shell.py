@@ -1,0 +1,218 @@
+"""hamflow shell: the numbers of hamflow run, settings that change on the way, files, errors, Ctrl-C at a terminal."""
+
+import json
+import os
+import pty
+import select
+import signal
+import subprocess
+import time
+import unittest
+
+from command import HAMFLOW, CommandCase
+
+
+class Shell(CommandCase):
+    def shell(self, commands, *arguments, status=0, scenario="kepler.toml"):
+        """What the shell says on stdout to these lines from a pipe."""
+        done = subprocess.run([HAMFLOW, "shell", scenario, *arguments], cwd=self.folder, input=commands,
+                              capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, status, f"{commands}\n{done.stdout}\n{done.stderr}")
+        self.stderr = done.stderr
+        return done.stdout
+
+    def shown(self, commands, *arguments, **options):
+        """The last object that --json shows."""
+        return json.loads(self.shell(commands, "--json", *arguments, **options).splitlines()[-1])
+
+    def final(self, *sets):
+        s = self.summary("kepler.toml", *[word for text in sets for word in ("--set", text)])
+        return s["final"], s
+
+    def assert_same_as_run(self, commands, *sets):
+        final, s = self.final(*sets)
+        here = self.shown(commands + "show all\n")
+        self.assertEqual({key: here[key] for key in ("t", "q", "p")}, final)
+        self.assertEqual(here["energy"], s["energy"]["final"])
+        self.assertEqual(here["max_energy_error"], s["energy"]["max_error"])
+        self.assertEqual(here["angular_momentum"], s["invariants"]["angular_momentum"]["final"])
+        self.assertEqual(here["force"], s["evaluations"]["force"])
+        self.assertEqual(here["step"], s["steps"])
+
+    def test_the_numbers_of_run(self):
+        self.assert_same_as_run("step 400\n")
+        self.assert_same_as_run("step 100\n" * 4)
+        self.assert_same_as_run("step\n" * 20, "run.steps=20")
+        self.assert_same_as_run("method stv4\ndt 1/30\nstep 300\n", "method={name='stv4'}", "run.dt='1/30'", "run.steps=300")
+        self.assert_same_as_run("tol 1e-6\nstep 400\n", "method.tolerance=1e-6")
+        self.assert_same_as_run("method cg(1,2)\nstep,,400\n", "method={name='cg',quadrature=2}")
+        # A step, other settings, and back to the start: as if nothing had been.
+        self.assert_same_as_run("step 7\ndt 0.05\nstep 3\nreset\nstep 800\n", "run.dt=0.05", "run.steps=800")
+
+    def test_seventeen_digits(self):
+        final, s = self.final()
+        line = self.shell("step 400\nshow\n").strip()
+        digits = lambda xs: "[" + ", ".join(f"{x:.17g}" for x in xs) + "]"
+        self.assertTrue(line.startswith(f"t = 40  q = {digits(final['q'])}  p = {digits(final['p'])}  energy = "
+                                        f"{s['energy']['final']:.17g}  energy_error = "), line)
+        self.assertEqual(self.shell("step 400\nshow q\n").strip(), f"q = {digits(final['q'])}")
+
+    def test_blocks_of_steps_do_not_matter(self):
+        for prelude in ("", "step 5\ndt 0.07\n", "step 5\nmethod stv4\n", "step 5\nreverse\n"):
+            once = self.shown(prelude + "step 100\nshow all\n")
+            often = self.shown(prelude + "step 10\n" * 10 + "show all\n")
+            self.assertEqual(once, often)
+
+    def test_a_change_goes_on_from_the_state_and_time(self):
+        before = self.shown("step 100\nshow\n")
+        after = self.shown("step 100\ndt 0.05\nshow\n")
+        self.assertEqual(before, after)
+        # What follows is a run that begins in that state; the energy error still counts from the first start.
+        final = self.summary("kepler.toml", "--set", f"problem.initial={{q={before['q']},p={before['p']}}}", "--set",
+                             "run.dt=0.05", "--set", "method={name='stv4'}", "--set", "run.steps=50")["final"]
+        here = self.shown("step 100\ndt 0.05\nmethod stv4\nstep 50\nshow all\n")
+        self.assertEqual((here["q"], here["p"]), (final["q"], final["p"]))
+        self.assertEqual((here["step"], here["t"]), (150, 100 * 0.1 + 50 * 0.05))
+        start = self.shown("show\n")["energy"]
+        self.assertEqual(here["energy_error"], here["energy"] - start)
+        self.assertGreaterEqual(here["max_energy_error"], abs(here["energy_error"]))
+        self.assertEqual([c["what"] for c in here["changes"]], ["dt = 0.05", "method = stv4"])
+
+    def test_invariants_with_time_in_them(self):
+        self.write("bodies.toml", """[problem]
+name = "n-body"
+masses = [1, 2]
+initial = { q = [1, 0, -1, 0.5], p = [0.1, 0.6, 0.3, -0.2] }
+[method]
+name = "verlet"
+[run]
+dt = 0.01
+steps = 1000
+""")
+        s = self.shown("step 300\ndt 0.02\nstep 300\nshow invariants\n", scenario="bodies.toml")
+        moving = [key for key in s if key.startswith("max_error_")]
+        self.assertGreaterEqual(len(moving), 2)
+        for key in moving:
+            self.assertLess(s[key], 1e-12, key)
+
+    def test_reverse_comes_back(self):
+        start = self.shown("show\n")
+        back = self.shown("method stv4\nstep 200\nreverse\nstep 200\nreverse\nshow\n")
+        for a, b in zip(start["q"] + start["p"], back["q"] + back["p"]):
+            self.assertAlmostEqual(a, b, delta=1e-11)
+        self.assertEqual(back["t"], 40)
+
+    def test_save(self):
+        self.shell("step 400\nsave mine.run\n")
+        self.hamflow("run", "kepler.toml")
+        mine, theirs = (json.loads((self.folder / f / "summary.json").read_text()) for f in ("mine.run", "kepler.run"))
+        for s in (mine, theirs):
+            del s["wall_seconds"], s["steps_per_second"]
+        self.assertEqual(mine, theirs)
+        # Read the files back through another command.
+        csv = [self.hamflow("convert", f, "--to", "polar").stdout for f in ("mine.run", "kepler.run")]
+        self.assertEqual(csv[0], csv[1])
+
+    def test_save_after_changes(self):
+        self.write("time.toml", (self.folder / "kepler.toml").read_text().replace("steps = 400", "t_end = 40"))
+        self.shell("step 100\ndt 0.03\nstep 50\nmethod cg(1,3)\nstep 7\nreverse\nstep\nsave a.run\n", scenario="time.toml")
+        s = json.loads((self.folder / "a.run" / "summary.json").read_text())
+        self.assertEqual((s["steps"], s["dt"], s["method"]), (158, 0.03, "cg(1,3)"))
+        self.assertAlmostEqual(s["final"]["t"], 10 + 58 * 0.03, delta=1e-12)
+        self.assertEqual([c["step"] for c in s["changes"]], [100, 150, 157])
+        rows = self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()
+        self.assertEqual(len(rows), 1 + 159)
+        self.assertEqual(float(rows[-1].split(",")[0]), s["final"]["t"])
+
+    def test_save_refuses_an_existing_folder(self):
+        self.shell("step 3\nsave a.run\nsave a.run\n", status=3)
+        self.assertIn("save! a.run", self.stderr)
+        self.shell("step 5\nsave! a.run\n")
+        self.assertEqual(json.loads((self.folder / "a.run" / "summary.json").read_text())["steps"], 5)
+        self.shell("save /proc/nowhere/x\n", status=3)
+
+    def test_errors_stop_a_pipe_and_name_the_line(self):
+        for line, words in (
+            ("stepp 3", "did you mean step?"), ("step x", "a whole number"), ("step -1", "a whole number"),
+            ("dt 0", "other than 0"), ("dt", "found nothing"), ("dt nan", "other than 0"), ("tol -1", "positive"),
+            ("tol x", "positive"), ("method stv5", "did you mean stv4?"), ("method cg(1,0)", "Gauss points"),
+            ("show enrgy", "did you mean energy?"), ("save", "a folder"), ("quit now", "allowed nothing"),
+        ):
+            out = self.shell(f"# first\n\nstep 2\n{line}\nshow\n", status=2)
+            self.assertEqual(out, "")
+            self.assertIn(words, self.stderr)
+            self.assertIn(f"line 4: {line}", self.stderr)
+        self.shell("method stv4\ntol 1e-3\n", status=2)
+        self.assertIn("stv4, which has no tolerance", self.stderr)
+        self.shell("method rk4\n", "--set", "method={name='stv4'}", "--set", "run.arithmetic=lattice", status=2)
+        self.assertIn("bijection", self.stderr)
+        self.shell("step 2\ndt 30\nstep 5\nshow\n", status=1)
+        self.assertIn("line 3: step 5", self.stderr)
+        self.assertIn("hint:", self.stderr)
+        self.hamflow("shell", "nowhere.toml", status=3)
+        self.shell("", "--set", "run.dt=0", status=2)
+        self.assertIn("run.dt", self.stderr)
+
+    def test_the_end(self):
+        self.assertEqual(self.shell(""), "")
+        self.assertEqual(self.shell("step 3"), "")
+        self.assertEqual(self.shell("quit\nnonsense\n"), "")
+        self.assertIn("method m", self.shell("help\n"))
+        for option in ("--help",):
+            self.assertIn("Examples:", self.hamflow("shell", option).stdout)
+
+    def test_interrupt_from_a_pipe(self):
+        process = subprocess.Popen([HAMFLOW, "shell", "kepler.toml"], cwd=self.folder, stdin=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process.stdin.write("step 2000000000\nshow\n")
+        process.stdin.flush()
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+        self.assertEqual((process.returncode, out), (130, ""), err)
+        self.assertIn("stopped by Ctrl-C at step", err)
+
+    def test_at_a_terminal(self):
+        """A prompt; errors and Ctrl-C leave the shell where it is."""
+        master, slave = pty.openpty()
+        process = subprocess.Popen([HAMFLOW, "shell", "kepler.toml", "--set", "run.record_every=1000000"],
+                                   cwd=self.folder, stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
+        os.close(slave)
+        self.addCleanup(os.close, master)
+        self.addCleanup(process.kill)
+
+        def until(words):
+            text = ""
+            end = time.time() + 20
+            while words not in text and time.time() < end:
+                if select.select([master], [], [], 0.2)[0]:
+                    text += os.read(master, 65536).decode()
+            self.assertIn(words, text)
+            return text
+
+        def say(line):
+            os.write(master, (line + "\n").encode())
+
+        until("hamflow> ")
+        say("nonsense")
+        until("allowed step")
+        until("hamflow> ")
+        say("step 2000000000")
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        until("stopped by Ctrl-C at step")
+        until("hamflow> ")
+        process.send_signal(signal.SIGINT)  # at the prompt: another prompt
+        until("hamflow> ")
+        say("reset")
+        until("hamflow> ")
+        say("step 4")
+        until("hamflow> ")
+        say("show t")
+        until("t = 0.4")
+        say("quit")
+        self.assertEqual(process.wait(timeout=20), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
