@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iostream>
 
@@ -137,7 +138,7 @@ class ConvertedRun {
         throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
       }
     }
-    turn_ = convert.largest_turn();
+    turn_ = std::max(convert.largest_turn(), fastest_turn());
   }
 
   std::string csv() const {
@@ -162,18 +163,20 @@ class ConvertedRun {
     const CanonicalState start = StateConverter(from_, to_)({scenario().start_q, scenario().start_p});
     std::string text =
         "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
-    Scenario changed = scenario();
-    const std::string why_not = refused_method(scenario(), to_);
-    if (!why_not.empty()) {
+    const std::string same_settings = converted_text(scenario(), to_, start);
+    if (read_scenario_text(same_settings, "the converted scenario", {}).scenario) {
+      text += same_settings;
+    } else {
       const std::string method = samples_.description.method;
-      text += "# They were computed by " + method + ", which cannot run in these coordinates.\n";
-      std::cerr << "note: the samples were computed by " << method << ", which cannot run in " << to_
-                << " coordinates; the scenario in " << target.string() << " names cg instead\n";
+      text += "# They were computed by " + method + ", with settings that these coordinates do not allow.\n";
+      std::cerr << "note: the samples were computed by " << method << " with settings that " << to_
+                << " coordinates do not allow; the scenario in " << target.string() << " names cg in double instead\n";
+      Scenario changed = scenario();
       changed.text = edited_scenario(
           changed.text,
           {{"method", "{ name = \"cg\" }"}, {"run.arithmetic", {}}, {"run.lattice", {}}, {"run.kernel", {}}});
+      text += converted_text(changed, to_, start);
     }
-    text += converted_text(changed, to_, start);
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
     copy_run_file(file_, target, text, samples_.q, samples_.p);
   }
@@ -182,6 +185,17 @@ class ConvertedRun {
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
+  /// |phi'| times the time to the next sample, at most: it shows whole turns, which the states do not.
+  double fastest_turn() const {
+    if (to_ != "polar") return 0;
+    const double mass = Parameters<double>(scenario().request.parameters)["mass"];
+    double most = 0;
+    for (std::size_t k = 0; k + 1 < samples_.t.size(); ++k) {
+      const double r = samples_.q[0][k];
+      most = std::max(most, std::abs(samples_.p[1][k] / (mass * r * r) * (samples_.t[k + 1] - samples_.t[k])));
+    }
+    return most;
+  }
   CanonicalState state_at(std::size_t k) const {
     CanonicalState state;
     for (std::size_t i = 0; i < samples_.q.size(); ++i) {
@@ -210,8 +224,10 @@ int convert_run(const ConvertOptions& options) {
   const fs::path file = fs::is_directory(input) ? input / "run.h5" : input;
   const ConvertedRun run(file, options.to);
   if (run.turn() > 2) {
-    std::cerr << "note: phi changes by up to " << shortest(run.turn())
-              << " from one sample to the next; if samples are more than half a turn apart, turns are missing\n";
+    std::cerr << fmt::format(
+        "note: phi changes by up to {:.3g} from one sample to the next; where that is more than half a turn, "
+        "turns are missing\n",
+        run.turn());
   }
   if (extension == ".h5") {
     run.write_h5(options.output);

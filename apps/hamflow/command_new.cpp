@@ -1,4 +1,6 @@
 // hamflow new: a scenario to begin with, written from what the catalogue says of the problem.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 #include <set>
@@ -48,12 +50,12 @@ const ProblemEntry& chosen(const NewOptions& options) {
     if (!choices.contains(key)) {
       std::string allowed;
       for (const auto& choice : choices) allowed += (allowed.empty() ? "--" : ", --") + choice.first;
-      throw Error("--" + key + ": " + options.problem + " has no choice of " + key + "; allowed " +
-                  (allowed.empty() ? "no choice here" : allowed));
+      throw Error(fmt::format("--{}: {} has no choice of {}; allowed {}", key, options.problem, key,
+                              allowed.empty() ? "no choice here" : allowed));
     }
     const std::vector<std::string>& all = choices[key];
     if (std::find(all.begin(), all.end(), value) == all.end()) {
-      throw Error("--" + key + ": found " + value + "; allowed " + list_of(all) + meant(value, all));
+      throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, list_of(all), meant(value, all)));
     }
     variant[key] = value;
   }
@@ -86,6 +88,13 @@ ScenarioExample example_for(const ProblemEntry& problem) {
   // A start of the catalogue's own is better than a region about it.
   if (!problem.info.default_q.empty()) example.q.clear();
   if (problem.info.name == "double-pendulum") example.dt = 0.01;
+  if (problem.info.name == "n-body") {  // a sun with two planets: the region's bodies would meet after a while
+    example = {.parameters = {{"masses", "[1, 0.001, 0.0005]"}},
+               .q = {0, 0, 1, 0, 0, -1.7},
+               .p = {-0.00038, -0.001, 0, 0.001, 0.00038, 0},
+               .dt = 0.05,
+               .steps = 2000};
+  }
   if (problem.info.name == "solar-system") {  // days; Jupiter takes 4333 for one round
     example.dt = 20;
     example.steps = 10000;

@@ -394,7 +394,10 @@ int run_shell(const ShellOptions& options) {
   try {
     const Reading reading = read_scenario(options.scenario, options.sets);
     for (const Complaint& complaint : reading.complaints) std::cerr << complaint.text() << '\n';
-    if (!reading.scenario) return exit_rejected;
+    if (!reading.scenario) {
+      if (options.json) std::cout << json_text(rejection_of(reading.complaints));
+      return exit_rejected;
+    }
     if (!options.quiet) {
       for (const std::string& note : reading.scenario->notes) std::cerr << "note: " << note << '\n';
     }

@@ -105,19 +105,21 @@ int main(int argc, char** argv) {
   new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
   for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
     for (const auto& [key, value] : entry.info.variant) {
-      if (!fresh.variant.contains(key)) new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
+      if (!fresh.variant.contains(key))
+        new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
     }
   }
   new_command->callback([&] { status = new_scenario(fresh); });
 
   ConvertOptions convert;
-  CLI::App* convert_command =
-      add(app, "convert", "Convert a scenario, a run or a state to other coordinates of its problem",
-          "  hamflow convert kepler.toml --to polar -o polar.toml\n  hamflow convert kepler.run --to polar -o polar.csv\n"
-          "  hamflow convert --from cartesian --to polar --q 1,0 --p 0,1\n");
+  CLI::App* convert_command = add(
+      app, "convert", "Convert a scenario, a run or a state to other coordinates of its problem",
+      "  hamflow convert kepler.toml --to polar -o polar.toml\n  hamflow convert kepler.run --to polar -o polar.csv\n"
+      "  hamflow convert --from cartesian --to polar --q 1,0 --p 0,1\n");
   convert_command->add_option("input", convert.input, "a scenario, the folder of a run, or its run.h5")
       ->type_name("INPUT");
-  convert_command->add_option("--to", convert.to, "cartesian, polar (central-force); absolute, relative (double-pendulum)")
+  convert_command
+      ->add_option("--to", convert.to, "cartesian, polar (central-force); absolute, relative (double-pendulum)")
       ->required()
       ->type_name("COORDINATES");
   convert_command->add_option("--from", convert.from, "the coordinates of --q and --p")->type_name("COORDINATES");
@@ -126,7 +128,8 @@ int main(int argc, char** argv) {
   convert_command->add_option("--set", convert.sets, "override a key of the scenario first, e.g. method.name=cg")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  convert_command->add_option("-o,--output", convert.output, "write to a file; of a run .h5 or .csv")->type_name("FILE");
+  convert_command->add_option("-o,--output", convert.output, "write to a file; of a run .h5 or .csv")
+      ->type_name("FILE");
   convert_command->add_flag("--json", convert.json, "print the state, or those of a run, as JSON");
   convert_command->callback([&] { status = convert_coordinates(convert); });
 

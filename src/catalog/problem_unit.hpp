@@ -210,7 +210,7 @@ class ProblemUnit {
         defect += abs(check[i] - v[i]);
         size += abs(check[i]) + abs(v[i]) + abs(drift[i]);
       }
-      if (!(defect <= R(1e6) * std::numeric_limits<R>::epsilon() * size)) {
+      if (!(size <= std::numeric_limits<R>::max()) || !(defect <= R(1e6) * std::numeric_limits<R>::epsilon() * size)) {
         throw Error("velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
                     "is singular there; give p");
       }

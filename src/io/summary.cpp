@@ -252,7 +252,7 @@ std::string readable(const Json& s) {
   if (s.contains("diagnostics")) {
     for (const auto& [key, x] : s["diagnostics"].items()) {
       if (x.is_null()) continue;
-      text += row(key, fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(), x["t_min"].get<double>(),
+      text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key, fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(), x["t_min"].get<double>(),
                                    x["max"].get<double>(), x["t_max"].get<double>()));
     }
   }

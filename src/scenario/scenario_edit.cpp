@@ -55,6 +55,7 @@ std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::tabl
   }
   std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::pair<std::string, const toml::node*>> all;
+  all.reserve(placed.size());
   for (const auto& entry : placed) all.push_back(entry.second);
   return all;
 }

@@ -278,7 +278,9 @@ class TemplateWriter {
           if (entry.info.name == info_.name && other_key == key && is_new) all.push_back(other);
         }
       }
-      page_.line(key + " = \"" + value + "\"", joined(all));
+      std::string code = key;
+      code.append(" = \"").append(value).append("\"");
+      page_.line(code, joined(all));
     }
     for (const ParameterInfo& parameter : info_.parameters) write_parameter(parameter);
     write_starts();
@@ -329,7 +331,7 @@ class TemplateWriter {
           for (const std::string& name : active_->info->derives) given[name] = "";
         }
         const std::string changes = difference(start, given);
-        page_.off(code, start.info->meaning + (changes.empty() ? "" : " (" + changes + ")"));
+        page_.off(code, (changes.empty() ? "" : changes + "; ") + start.info->meaning);
       }
     }
     write_state();

@@ -11,6 +11,7 @@ namespace {
 
 std::vector<std::string> texts_of(const std::vector<double>& numbers) {
   std::vector<std::string> texts;
+  texts.reserve(numbers.size());
   for (const double x : numbers) texts.push_back(shortest(x));
   return texts;
 }

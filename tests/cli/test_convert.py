@@ -132,6 +132,12 @@ class Convert(CommandCase):
             self.hamflow("plot", "polar.h5", "--kind", "energy-error", "-o", "e.svg")
             self.hamflow("plot", "polar.h5", "--kind", "orbit", "-o", "orbit.svg")
 
+    def test_missing_turns_are_said(self):
+        # A circle of period 2 pi sqrt(2), seen about once a round: phi seems to stand.
+        self.hamflow("run", "kepler.toml", "--set", "problem.orbit={kind='circle',r0=1}", "--set", "run.record_every=89",
+                     "--set", "run.steps=890")
+        self.assertIn("turns are missing", self.hamflow("convert", "kepler.run", "--to", "polar").stderr)
+
     def test_a_run_of_an_explicit_method(self):
         self.hamflow("run", "kepler.toml", "--set", "method.name=stv4")
         done = self.hamflow("convert", "kepler.run", "--to", "polar", "-o", "polar.h5")

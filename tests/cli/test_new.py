@@ -34,17 +34,21 @@ class New(CommandCase):
         self.assertGreaterEqual(count, 20)
 
     def test_every_key_is_explained(self):
+        seen = set()
         for name, variant, options in self.variants():
             with self.subTest(problem=name, **variant):
                 text = self.hamflow("new", name, *options).stdout
-                shown = self.hamflow("show", name).stdout
-                # Of several variants the listing has one paragraph each, with the keys of all of them.
-                keys = set(re.findall(r"(?m)^    (\w+) +\[(?:required|not given|[^\]]*\]?)\]", shown))
-                for key in keys:
-                    if len(variant) == 0:
-                        self.assertRegex(text, rf"(?m)^(# )?{key} = .*(# |$)")
-                for key in ("dt", "steps", "t_end", "record_every", "arithmetic", "formats", "figures", "folder"):
-                    self.assertRegex(text, rf"(?m)^(# )?{key} = .*# ")
+                paragraphs = re.split(rf"(?m)^(?={name}(?: with |$))", self.hamflow("show", name).stdout)
+                head = ", ".join(f'{key} = "{value}"' for key, value in variant.items())
+                (shown,) = [p for p in paragraphs if p.startswith(f"{name} with {head}" if head else name + "\n")]
+                keys = re.findall(r"(?m)^    (\w+) +\[", shown)
+                seen.update(keys)
+                for key in keys + ["dt", "steps", "t_end", "record_every", "arithmetic", "formats", "figures", "folder"]:
+                    # Beside its key, or above it when it is long.
+                    self.assertRegex(text, rf"(?m)^(# )?{key} = .*# |# .*:\n(# )?{key} = ")
+                for line in text.splitlines():
+                    self.assertLessEqual(len(line), 120)
+        self.assertGreaterEqual(len(seen), 15)
 
     def test_commented_starts_are_valid(self):
         tried = 0
@@ -55,11 +59,13 @@ class New(CommandCase):
                 for i, line in enumerate(lines):
                     if not re.match(r"# (orbit|initial) = ", line):
                         continue
+                    # A long comment stands above its line.
+                    comment = line if "# " in line[2:] else lines[i - 1]
                     chosen = [re.sub(r"^(orbit|initial) = ", "# ", other) for other in lines]
                     chosen[i] = line[2:]
-                    with_k = re.search(r"with k = (-?[0-9.]+)", line)
+                    with_k = re.search(r"with k = (-?[0-9.]+)", comment)
                     chosen = [re.sub(r"^(# )?k = \S+", f"k = {with_k[1]}", l) if with_k else l for l in chosen]
-                    if "without k" in line or (potential == "hooke" and re.search('"(circle|ellipse|line)"', line)):
+                    if "without k" in comment or (potential == "hooke" and re.search('"(circle|ellipse|line)"', line)):
                         chosen = [re.sub(r"^k = ", "# k = ", l) for l in chosen]
                     elif potential == "hooke":
                         chosen = [re.sub(r"^# k = ", "k = ", l) for l in chosen]
@@ -67,7 +73,7 @@ class New(CommandCase):
                     with self.subTest(potential=potential, coordinates=coordinates, start=line):
                         self.summary("start.toml", "--set", "run.steps=1")
                         tried += 1
-        self.assertGreater(tried, 30)
+        self.assertGreaterEqual(tried, 28)
 
     def test_a_changed_key_takes_effect(self):
         self.write("new.toml", self.hamflow("new", "central-force").stdout)

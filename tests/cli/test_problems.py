@@ -43,7 +43,7 @@ class Problems(CommandCase):
         s = self.run_text('name="central-force"\npotential="kepler"\norbit={kind="ellipse",r_per=1,r_aph=3}', steps=0)
         orbit = s["orbit"]
         self.assertEqual((orbit["type"], orbit["conic"], orbit["closed"]), ("bounded closed", "ellipse", True))
-        self.assertAlmostEqual(orbit["r_max"], 3, delta=8 * EPSILON)
+        self.assertAlmostEqual(orbit["r_max"], 3, delta=32 * EPSILON)  # E and l are rounded
         self.assertAlmostEqual(orbit["apsidal_angle"], math.pi, delta=64 * EPSILON)
         self.assertAlmostEqual(orbit["circular_radius"], 1.5, delta=64 * EPSILON)
         self.assertAlmostEqual(orbit["radial_period"], 2 * math.pi * math.sqrt(8), delta=1e-13)
@@ -124,7 +124,7 @@ class Problems(CommandCase):
                 "{mass=1,position=[0,0,0],velocity=[0,0,1]}]",
                 ("at one point",),
             ),
-            ('name="duffing"\nalpha=1\nk=1\ninitial={q=[1],p=[0]}', ("exclude",)),
+            ('name="duffing"\nalpha=1\nk=1\ninitial={q=[1],p=[0]}', ("alpha with beta",)),
             ('name="duffing"\ncase=4\nr0=1', ("case", "from 1 to 3")),
             ('name="duffing"\ncase=3\nk=2\nr0=4\nspeed=40', ("problem.speed", "fails by")),
             ('name="duffing"\ncase=1\nk=2\nlambda=3\nr0=4\nspeed=4', ("problem.lambda", "follows")),
@@ -165,7 +165,9 @@ class Problems(CommandCase):
             self.assertEqual(aborted["error"]["kind"], "not_converged", problem)
             self.assertIn("residual", aborted["error"]["message"])
             done = self.summary("s.toml")
-            self.assertLess(done["energy"]["max_relative_error"], 1e-10, problem)
+            # On the hyperbola T and V grow without bound and H is their difference.
+            size = max(done["energy"]["scale"], *(x * x for x in done["final"]["q"] + done["final"]["p"]))
+            self.assertLess(done["energy"]["max_error"], 1e-11 * size, problem)
 
     def test_methods_that_a_problem_refuses(self):
         pendulum = 'name="double-pendulum"\ninitial={q=[0,0],p=[0,0]}'

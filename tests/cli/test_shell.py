@@ -158,8 +158,17 @@ steps = 1000
         self.assertEqual(self.shell("step 3"), "")
         self.assertEqual(self.shell("quit\nnonsense\n"), "")
         self.assertIn("method m", self.shell("help\n"))
-        for option in ("--help",):
-            self.assertIn("Examples:", self.hamflow("shell", option).stdout)
+        self.assertIn("Examples:", self.hamflow("shell", "--help").stdout)
+
+    def test_too_many_samples_are_thinned_out(self):
+        rows = 300000  # more than fit
+        self.shell(f"method verlet\nstep {rows}\nsave a.run\n")
+        self.assertIn("th step is kept", self.stderr)
+        times = [float(line.split(",")[0]) for line in
+                 self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()[1:]]
+        self.assertLess(len(times), rows)
+        self.assertGreater(len(times), 10000)
+        self.assertEqual((times[0], times[-1]), (0, rows * 0.1))
 
     def test_interrupt_from_a_pipe(self):
         process = subprocess.Popen([HAMFLOW, "shell", "kepler.toml"], cwd=self.folder, stdin=subprocess.PIPE,
@@ -179,20 +188,25 @@ steps = 1000
                                    cwd=self.folder, stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
         os.close(slave)
         self.addCleanup(os.close, master)
+        self.addCleanup(process.wait)
         self.addCleanup(process.kill)
 
+        heard = ""
+
         def until(words):
-            text = ""
+            """Waits for these words; what comes behind them is left for the next call."""
+            nonlocal heard
             end = time.time() + 20
-            while words not in text and time.time() < end:
+            while words not in heard and time.time() < end:
                 if select.select([master], [], [], 0.2)[0]:
-                    text += os.read(master, 65536).decode()
-            self.assertIn(words, text)
-            return text
+                    heard += os.read(master, 65536).decode()
+            self.assertIn(words, heard)
+            heard = heard.partition(words)[2]
 
         def say(line):
             os.write(master, (line + "\n").encode())
 
+        until("help lists the commands")
         until("hamflow> ")
         say("nonsense")
         until("allowed step")
