@@ -17,14 +17,14 @@ namespace {
 
 [[gnu::noinline]] void hand_verlet(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   Plane s = load(z);
-  const double inverse_mass = 1 / mass;
-  const double half = h * 0.5;
-  update_force(s, k);
+  const double d = h * (1 / mass);
+  const double c = (h * 0.5) * k;
+  find_kick(s, c);
   for (std::int64_t i = 0; i < steps; ++i) {
-    kick(s, half);
-    drift(s, h, inverse_mass);
-    update_force(s, k);
-    kick(s, half);
+    kick(s);
+    drift(s, d);
+    find_kick(s, c);
+    kick(s);
   }
   save(s, z);
 }
@@ -33,16 +33,16 @@ namespace {
   constexpr double g1 = stv4_weights[0], g2 = stv4_weights[1];
   Plane s = load(z);
   const double inverse_mass = 1 / mass;
-  const double d1 = h * g1, d2 = h * g2;
-  const double c1 = h * (g1 / 2), c2 = h * ((g1 + g2) / 2);
+  const double d1 = (h * g1) * inverse_mass, d2 = (h * g2) * inverse_mass;
+  const double c1 = (h * (g1 / 2)) * k, c2 = (h * ((g1 + g2) / 2)) * k;
   const auto stage = [&](double d, double c) {
-    drift(s, d, inverse_mass);
-    update_force(s, k);
-    kick(s, c);
+    drift(s, d);
+    find_kick(s, c);
+    kick(s);
   };
-  update_force(s, k);
+  find_kick(s, c1);
   for (std::int64_t i = 0; i < steps; ++i) {
-    kick(s, c1);
+    kick(s);
     stage(d1, c2);
     stage(d2, c2);
     stage(d1, c1);
@@ -55,16 +55,18 @@ namespace {
   constexpr double g3 = yoshida6_weights[2], g4 = yoshida6_weights[3];
   Plane s = load(z);
   const double inverse_mass = 1 / mass;
-  const double d1 = h * g1, d2 = h * g2, d3 = h * g3, d4 = h * g4;
-  const double c1 = h * (g1 / 2), c2 = h * ((g1 + g2) / 2), c3 = h * ((g2 + g3) / 2), c4 = h * ((g3 + g4) / 2);
+  const double d1 = (h * g1) * inverse_mass, d2 = (h * g2) * inverse_mass;
+  const double d3 = (h * g3) * inverse_mass, d4 = (h * g4) * inverse_mass;
+  const double c1 = (h * (g1 / 2)) * k, c2 = (h * ((g1 + g2) / 2)) * k;
+  const double c3 = (h * ((g2 + g3) / 2)) * k, c4 = (h * ((g3 + g4) / 2)) * k;
   const auto stage = [&](double d, double c) {
-    drift(s, d, inverse_mass);
-    update_force(s, k);
-    kick(s, c);
+    drift(s, d);
+    find_kick(s, c);
+    kick(s);
   };
-  update_force(s, k);
+  find_kick(s, c1);
   for (std::int64_t i = 0; i < steps; ++i) {
-    kick(s, c1);
+    kick(s);
     stage(d1, c2);
     stage(d2, c3);
     stage(d3, c4);
@@ -76,8 +78,8 @@ namespace {
   save(s, z);
 }
 
-/// A composition with mass, k and h in the coefficients and with the kicks at the end of one step and the beginning of
-/// the next joined.
+/// A composition with the kicks at the end of one step and the beginning of the next joined, and mass, k and h in the
+/// coefficients.
 template <const auto& weights>
 [[gnu::noinline]] void hand_folded(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   constexpr std::size_t stages = weights.size();
@@ -106,8 +108,8 @@ template <const auto& weights>
 }
 
 [[gnu::noinline]] void hand_rk4(Orbit& z, double mass, double k, double h, std::int64_t steps) {
-  constexpr double sixth = 1.0 / 6, third = 1.0 / 3;
   Plane s = load(z);
+  const double sixth = h * (1.0 / 6), third = h * (1.0 / 3);
   const double inverse_mass = 1 / mass;
   const double half = h * 0.5;
   struct Slope {
@@ -123,10 +125,10 @@ template <const auto& weights>
     const Slope b = slope_at(s.x + half * a.x, s.y + half * a.y, s.px + half * a.px, s.py + half * a.py);
     const Slope c = slope_at(s.x + half * b.x, s.y + half * b.y, s.px + half * b.px, s.py + half * b.py);
     const Slope d = slope_at(s.x + h * c.x, s.y + h * c.y, s.px + h * c.px, s.py + h * c.py);
-    s.x += h * (sixth * a.x + third * b.x + third * c.x + sixth * d.x);
-    s.y += h * (sixth * a.y + third * b.y + third * c.y + sixth * d.y);
-    s.px += h * (sixth * a.px + third * b.px + third * c.px + sixth * d.px);
-    s.py += h * (sixth * a.py + third * b.py + third * c.py + sixth * d.py);
+    s.x = s.x + (sixth * a.x + third * b.x + third * c.x) + sixth * d.x;
+    s.y = s.y + (sixth * a.y + third * b.y + third * c.y) + sixth * d.y;
+    s.px = s.px + (sixth * a.px + third * b.px + third * c.px) + sixth * d.px;
+    s.py = s.py + (sixth * a.py + third * b.py + third * c.py) + sixth * d.py;
   }
   save(s, z);
 }
@@ -140,25 +142,25 @@ template <const auto& table>
   for (std::int64_t i = 0; i < steps; ++i) {
 #pragma GCC unroll 16
     for (std::size_t j = 0; j + 1 < count; j += 2) {
-      drift(s, h * table[j], inverse_mass);
-      update_force(s, k);
-      kick(s, h * table[j + 1]);
+      drift(s, (h * table[j]) * inverse_mass);
+      find_kick(s, (h * table[j + 1]) * k);
+      kick(s);
     }
-    if constexpr (count % 2 == 1) drift(s, h * table[count - 1], inverse_mass);
+    if constexpr (count % 2 == 1) drift(s, (h * table[count - 1]) * inverse_mass);
   }
   save(s, z);
 }
 
 /// The chain of a kick-drift-kick step runs q -> F -> p -> q: |q|^2 (two operations), its root, u sqrt(u), the
-/// division, the force, the kick (two) and the drift (three); where two steps meet, two kicks follow each other.
-constexpr Chain splitting_chain(int forces) { return {3 * forces + 1, 6 * forces, forces, forces}; }
+/// division, the increment of p, the kick and the drift (two); where two steps meet, two kicks follow each other.
+constexpr Chain splitting_chain(int forces) { return {3 * forces + 1, 4 * forces, forces, forces}; }
 /// One that begins with a drift; two drifts follow each other where steps meet unless it ends with a kick.
 constexpr Chain drift_first_chain(std::size_t actions) {
   const int forces = static_cast<int>(actions / 2);
-  return {3 * forces + (actions % 2 == 1 ? 1 : 0), 6 * forces, forces, forces};
+  return {3 * forces + (actions % 2 == 1 ? 1 : 0), 4 * forces, forces, forces};
 }
 /// Two of the four forces follow one another: F(q2) -> p3 -> q4 -> F(q4), and F(q1) -> p2 -> q3 -> F(q3) beside it.
-constexpr Chain rk4_chain{7, 13, 2, 2};
+constexpr Chain rk4_chain{6, 12, 2, 2};
 
 Workload begin(const Task& task, const std::string& method, int forces, const Chain& chain, HandLoop loop) {
   Workload w{method, task.h_text, chain, {}, {}};

@@ -31,23 +31,23 @@ struct Series {
   return {k * (yy * y), e, sum};
 }
 
-[[BENCH_AVX512, gnu::always_inline]] inline void update_force_by_series(Plane& s, double k) {
-  const Series r = series(s.x * s.x + s.y * s.y, k);
+[[BENCH_AVX512, gnu::always_inline]] inline void find_kick_by_series(Plane& s, double strength) {
+  const Series r = series(s.x * s.x + s.y * s.y, strength);
   const double slope = __builtin_fma(r.leading * r.e, r.sum, r.leading);
-  s.fx = slope * s.x;
-  s.fy = slope * s.y;
+  s.kick_x = slope * s.x;
+  s.kick_y = slope * s.y;
 }
 
 [[BENCH_AVX512, gnu::noinline]] void hand_verlet(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   Plane s = load(z);
-  const double inverse_mass = 1 / mass;
-  const double half = h * 0.5;
-  update_force_by_series(s, k);
+  const double d = h * (1 / mass);
+  const double c = (h * 0.5) * k;
+  find_kick_by_series(s, c);
   for (std::int64_t i = 0; i < steps; ++i) {
-    kick(s, half);
-    drift(s, h, inverse_mass);
-    update_force_by_series(s, k);
-    kick(s, half);
+    kick(s);
+    drift(s, d);
+    find_kick_by_series(s, c);
+    kick(s);
   }
   save(s, z);
 }
@@ -56,20 +56,20 @@ struct Series {
   constexpr double g1 = stv4_weights[0], g2 = stv4_weights[1];
   Plane s = load(z);
   const double inverse_mass = 1 / mass;
-  const double d1 = h * g1, d2 = h * g2;
-  const double c1 = h * (g1 / 2), c2 = h * ((g1 + g2) / 2);
-  update_force_by_series(s, k);
+  const double d1 = (h * g1) * inverse_mass, d2 = (h * g2) * inverse_mass;
+  const double c1 = (h * (g1 / 2)) * k, c2 = (h * ((g1 + g2) / 2)) * k;
+  find_kick_by_series(s, c1);
   for (std::int64_t i = 0; i < steps; ++i) {
-    kick(s, c1);
-    drift(s, d1, inverse_mass);
-    update_force_by_series(s, k);
-    kick(s, c2);
-    drift(s, d2, inverse_mass);
-    update_force_by_series(s, k);
-    kick(s, c2);
-    drift(s, d1, inverse_mass);
-    update_force_by_series(s, k);
-    kick(s, c1);
+    kick(s);
+    drift(s, d1);
+    find_kick_by_series(s, c2);
+    kick(s);
+    drift(s, d2);
+    find_kick_by_series(s, c2);
+    kick(s);
+    drift(s, d1);
+    find_kick_by_series(s, c1);
+    kick(s);
   }
   save(s, z);
 }

@@ -20,25 +20,27 @@ inline constexpr std::array<double, 7> yoshida6_weights = [] {
   return std::array{g1, g2, g3, 1 - 2 * (g1 + g2 + g3), g3, g2, g1};
 }();
 
-/// The state and force of a hand-written loop, in locals of the loop's function.
+/// The state and the last kick of a hand-written loop, in locals of the loop's function.
 struct Plane {
   double x, y, px, py;
-  double fx = 0, fy = 0;  // V'(q)
+  double kick_x = 0, kick_y = 0;  // V'(q) times the factor of the kick
 };
 
-inline void update_force(Plane& s, double k) {
+/// @param strength factor of the kick times k
+inline void find_kick(Plane& s, double strength) {
   const double u = s.x * s.x + s.y * s.y;
-  const double slope = k / (u * std::sqrt(u));
-  s.fx = slope * s.x;
-  s.fy = slope * s.y;
+  const double slope = strength / (u * std::sqrt(u));
+  s.kick_x = slope * s.x;
+  s.kick_y = slope * s.y;
 }
-inline void kick(Plane& s, double c) {
-  s.px -= c * s.fx;
-  s.py -= c * s.fy;
+inline void kick(Plane& s) {
+  s.px -= s.kick_x;
+  s.py -= s.kick_y;
 }
-inline void drift(Plane& s, double d, double inverse_mass) {
-  s.x += d * (s.px * inverse_mass);
-  s.y += d * (s.py * inverse_mass);
+/// @param d factor of the drift times 1/mass
+inline void drift(Plane& s, double d) {
+  s.x += d * s.px;
+  s.y += d * s.py;
 }
 inline Plane load(const Orbit& z) { return {z.q[0], z.q[1], z.p[0], z.p[1]}; }
 inline void save(const Plane& s, Orbit& z) { z = {{s.x, s.y}, {s.px, s.py}}; }

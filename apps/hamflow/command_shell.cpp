@@ -58,6 +58,7 @@ class Shell {
     catch_interrupts();
     std::string line;
     for (std::int64_t number = 1; next_line(line); ++number) {
+      if (interrupted() && !interactive_) return exit_interrupted;
       const Trouble trouble = obey(line);
       std::cout.flush();
       if (quit_) return exit_done;

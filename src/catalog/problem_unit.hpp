@@ -49,6 +49,7 @@ class ProblemUnit {
         P::derive(spec.kind, Parameters<double>(spec.orbit), given);
         for (auto& [name, text] : all) {
           if (!given.has(name) || given.list(name).size() != 1) continue;
+          if (!(abs(given[name]) <= std::numeric_limits<double>::max())) continue;  // the start cannot be: it is told
           if (text.empty() || given[name] != evaluate_number<double>(list_parts(text)[0])) text = shortest(given[name]);
         }
       }
@@ -211,8 +212,9 @@ class ProblemUnit {
         size += abs(check[i]) + abs(v[i]) + abs(drift[i]);
       }
       if (!(size <= std::numeric_limits<R>::max()) || !(defect <= R(1e6) * std::numeric_limits<R>::epsilon() * size)) {
-        throw Error("velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
-                    "is singular there; give p");
+        throw Error(
+            "velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
+            "is singular there; give p");
       }
       return p;
     }

@@ -144,7 +144,7 @@ TEST_F(Figures, EveryKindInEveryFormat) {
       EXPECT_EQ(byte(18) * 256 + byte(19), 643U) << "85 mm, twice the resolution of a screen";
     }
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 12) << "no scratch files stay";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 15) << "no scratch files stay";
 }
 
 TEST_F(Figures, SameDataSameBytes) {

@@ -25,7 +25,9 @@ Json parameters_of(const Scenario& scenario) {
     const std::vector<double>& list = values.list(parameter.name);
     const bool single = parameter.kind == ParameterKind::number ||
                         (parameter.kind == ParameterKind::number_or_list && list.size() == 1);
-    parameters[parameter.name] = single ? Json(list[0]) : Json(list);
+    parameters[parameter.name] = parameter.range == Range::count ? Json(static_cast<std::int64_t>(list[0]))
+                                 : single                        ? Json(list[0])
+                                                                 : Json(list);
   }
   return parameters;
 }
@@ -144,6 +146,9 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["arithmetic"] = scenario.request.arithmetic;
   s["kernel"] = scenario.request.kernel;
   if (scenario.request.kernel == "fast") s["instruction_set"] = std::string(name(fast_kernel_instruction_set()));
+  if (scenario.request.arithmetic == "lattice") {
+    s["lattice"] = {{"position", scenario.request.position_unit}, {"momentum", scenario.request.momentum_unit}};
+  }
   s["parameters"] = parameters_of(scenario);
   s["dt"] = scenario.dt;
   s["steps"] = simulation.step();
@@ -252,14 +257,16 @@ std::string readable(const Json& s) {
   if (s.contains("diagnostics")) {
     for (const auto& [key, x] : s["diagnostics"].items()) {
       if (x.is_null()) continue;
-      text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key, fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(), x["t_min"].get<double>(),
-                                   x["max"].get<double>(), x["t_max"].get<double>()));
+      text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key,
+                  fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(),
+                              x["t_min"].get<double>(), x["max"].get<double>(), x["t_max"].get<double>()));
     }
   }
-  text += row(
-      "evaluations",
-      fmt::format("force {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),
-                  s["evaluations"]["hessian"].get<long long>(), s["evaluations"]["linear_solves"].get<long long>()));
+  text +=
+      row("evaluations",
+          fmt::format("force {}, gradient {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),
+                      s["evaluations"]["gradient"].get<long long>(), s["evaluations"]["hessian"].get<long long>(),
+                      s["evaluations"]["linear_solves"].get<long long>()));
   if (!s["newton"].is_null()) {
     text += row("Newton per step",
                 fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", s["newton"]["min"].get<long long>(),

@@ -55,18 +55,19 @@ void ScenarioReader::read_problem(TomlTable& table) {
   if (*name == "central-force") read_bodies(table);
   read_initial(table);
   table.finish();
-  if (complaints_.size() == before) check_parameters(table);
+  if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);
 }
 
 std::string ScenarioReader::allowed_form(const ParameterInfo& parameter) {
   const std::string of_each = parameter.range == Range::positive       ? "positive "
                               : parameter.range == Range::not_negative ? "not negative "
-                              : parameter.range == Range::count        ? "whole, positive "
+                              : parameter.range == Range::count        ? "whole "
                                                                        : "";
-  const std::string list = "an array of " + (parameter.length > 0 ? std::to_string(parameter.length) + " " : "") +
-                           of_each + "numbers";
-  const std::string meaning = " (" + parameter.meaning + ")";
+  const std::string list =
+      "an array of " + (parameter.length > 0 ? std::to_string(parameter.length) + " " : "") + of_each + "numbers";
+  const std::string meaning =
+      " (" + parameter.meaning + (parameter.range == Range::count ? ", from 1 to 1000000)" : ")");
   switch (parameter.kind) {
     case ParameterKind::number:
       return "a " + of_each + "number" + meaning;
@@ -97,8 +98,8 @@ std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, cons
                       : parameter.range == Range::count        ? x >= 1 && x <= 1e6 && x == std::floor(x)
                                                                : true;
     if (!fits) {
-      const std::string found = parameter.kind == ParameterKind::number ? table.found(parameter.name)
-                                                                        : "found an array with " + shortest(x);
+      const std::string found =
+          parameter.kind == ParameterKind::number ? table.found(parameter.name) : "found an array with " + shortest(x);
       table.complain(parameter.name, found + "; allowed " + allowed_form(parameter));
       return std::nullopt;
     }
@@ -107,10 +108,14 @@ std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, cons
   return parameter.kind == ParameterKind::number ? text : "[" + text + "]";
 }
 
-void ScenarioReader::check_parameters(TomlTable& table) {
+void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
   const ProblemEntry& problem = *scenario_.problem;
-  Texts parameters = scenario_.request.parameters;
-  if (scenario_.request.start.geometric()) parameters = problem.derived(parameters, scenario_.request.start);
+  const Texts& parameters = scenario_.request.parameters;
+  // What follows from the start is not there yet.
+  for (const StartInfo& start : problem.info.starts) {
+    const bool this_one = scenario_.request.start.geometric() && start.kind == scenario_.request.start.kind;
+    if (this_one && !start.derives.empty() && !start_is_known) return;
+  }
   const auto [key, message] = problem.refused_parameters(parameters);
   if (message.empty()) return;
   if (key.empty()) {
@@ -203,8 +208,9 @@ void ScenarioReader::read_numbered_start(TomlTable& table) {
     for (const std::string& key : start.keys) {
       const auto value = table.number(key);
       if (value) scenario_.request.start.orbit[key] = value->text;
-      if (!table.has(key)) table.missing(key, "a number: " + info.start_key + " = " + std::to_string(*number) +
-                                                  " takes exactly " + joined(start.keys));
+      if (!table.has(key))
+        table.missing(key, "a number: " + info.start_key + " = " + std::to_string(*number) + " takes exactly " +
+                               joined(start.keys));
     }
     refuse_derived(table, start, info.start_key + " = " + std::to_string(*number));
     scenario_.request.start.kind = start.kind;
@@ -225,7 +231,8 @@ void ScenarioReader::read_numbered_start(TomlTable& table) {
 void ScenarioReader::refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because) {
   for (const std::string& parameter : start.derives) {
     if (!table.has(parameter)) continue;
-    table.complain(parameter, table.found(parameter) + ", but it follows from the orbit; allowed nothing with " + because);
+    table.complain(parameter,
+                   table.found(parameter) + ", but it follows from the orbit; allowed nothing with " + because);
   }
 }
 
@@ -251,8 +258,9 @@ void ScenarioReader::read_orbit(TomlTable& table) {
                                                            [&](const std::string& key) { return orbit.has(key); });
   if (!orbit.has("kind")) {
     if (!has_these) {
-      orbit.missing("kind", joined(kinds) + (by_keys == nullptr ? "" : (kinds.empty() ? "" : "; or, without kind, ") +
-                                                                          joined(by_keys->keys)));
+      orbit.missing("kind", joined(kinds) + (by_keys == nullptr ? ""
+                                                                : (kinds.empty() ? "" : "; or, without kind, ") +
+                                                                      joined(by_keys->keys)));
       for (const StartInfo& any : info.starts) orbit.know_all(any.keys);
       orbit.know("direction");
       orbit.finish();
@@ -263,8 +271,8 @@ void ScenarioReader::read_orbit(TomlTable& table) {
   } else {
     const auto kind = orbit.choice("kind", kinds);
     if (!kind) return;
-    start = &*std::find_if(info.starts.begin(), info.starts.end(),
-                           [&](const StartInfo& one) { return one.kind == *kind; });
+    start =
+        &*std::find_if(info.starts.begin(), info.starts.end(), [&](const StartInfo& one) { return one.kind == *kind; });
   }
   StartSpec& spec = scenario_.request.start;
   const std::string because = start->kind.empty() ? "energy and angular_momentum" : "kind = \"" + start->kind + "\"";
@@ -327,6 +335,15 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   Request& request = scenario_.request;
   request.parameters["mass"] = "(" + masses[0] + ")*(" + masses[1] + ")/((" + masses[0] + ")+(" + masses[1] + "))";
   Start<double, 2> start = scenario_.bodies->start();
+  const double mu = scenario_.bodies->reduced_mass();
+  const double sum = mu + start.q[0] + start.p[0] + start.p[1];
+  if (!std::isfinite(sum) || !(mu > 0) || !(start.q[0] > 0)) {
+    table.complain("bodies",
+                   "found masses, positions or velocities whose products overflow; allowed numbers between "
+                   "about 1e-100 and 1e100");
+    scenario_.bodies.reset();
+    return;
+  }
   if (scenario_.request.variant["coordinates"] == "polar") start = to_polar(start);
   request.start.q = {shortest(start.q[0]), shortest(start.q[1])};
   request.start.p = {shortest(start.p[0]), shortest(start.p[1])};
@@ -335,7 +352,7 @@ void ScenarioReader::read_bodies(TomlTable& table) {
 void ScenarioReader::read_initial(TomlTable& table) {
   const ProblemEntry& problem = *scenario_.problem;
   StartSpec& spec = scenario_.request.start;
-  const std::string numbers = problem.dimension == 0 ? "as many numbers as there are coordinates"
+  const std::string numbers = problem.dimension == 0   ? "as many numbers as there are coordinates"
                               : problem.dimension == 1 ? "1 number each"
                                                        : std::to_string(problem.dimension) + " numbers each";
   if (!table.has("initial")) {
@@ -347,10 +364,11 @@ void ScenarioReader::read_initial(TomlTable& table) {
       spec.p = problem.info.default_p;
       return;
     }
-    table.missing("initial", std::string(problem.info.starts.empty()       ? ""
+    table.missing("initial", std::string(problem.info.starts.empty()      ? ""
                                          : problem.info.start_key.empty() ? "orbit = { kind, ... } or "
                                                                           : problem.info.start_key + " = 1, ... or ") +
-                                 "initial = { q = [...], p = [...] } with " + numbers + ", or { q, v } with velocities");
+                                 "initial = { q = [...], p = [...] } with " + numbers +
+                                 ", or { q, v } with velocities");
     return;
   }
   TomlTable initial = table.table("initial");
@@ -427,6 +445,18 @@ void ScenarioReader::check_start(TomlTable& table) {
     }
   }
   if (!possible) return;
+  if (geometric) {
+    const std::size_t before = complaints_.size();
+    for (const StartInfo& start : problem.info.starts) {
+      if (start.kind != request.start.kind) continue;
+      for (const std::string& name : start.derives) {
+        if (!request.parameters.at(name).empty()) continue;
+        table.complain("name", "found a start from which " + name + " follows to be infinite; allowed smaller numbers");
+      }
+    }
+    check_parameters(table, true);
+    if (complaints_.size() != before) return;
+  }
   Frame start;
   try {
     start = problem.start(request);
@@ -436,6 +466,16 @@ void ScenarioReader::check_start(TomlTable& table) {
   }
   scenario_.start_q = start.q;
   scenario_.start_p = start.p;
+  if (geometric && request.start.kind.empty() && request.start.orbit.contains("energy")) {
+    const double wanted = evaluate_number<double>(request.start.orbit.at("energy"));
+    const double found = problem.energy(request.parameters, start.q, start.p);
+    double size = std::abs(wanted) + std::abs(found);
+    for (const double p : start.p) size += p * p;
+    if (!(std::abs(found - wanted) <= 1e-8 * size)) {
+      table.complain("orbit", "found no start of that energy that double can hold; allowed initial = { q, p }");
+      return;
+    }
+  }
   const std::string why_not = problem.refused_start(request.parameters, start.q);
   if (!why_not.empty()) {
     table.complain("initial", "found " + why_not);

@@ -34,7 +34,7 @@ class ScenarioReader {
   void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
   static std::string allowed_form(const ParameterInfo& parameter);
-  void check_parameters(TomlTable& table);
+  void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
   void refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because);
@@ -46,6 +46,7 @@ class ScenarioReader {
   void read_cg(TomlTable& table);
   void read_run(TomlTable& table);
   void read_length(TomlTable& table);
+  void usual_units();
   void read_lattice(TomlTable& table);
   void read_output(TomlTable& table);
 

@@ -13,7 +13,7 @@ std::vector<std::string> method_names() {
   return names;
 }
 const std::vector<std::string> figure_names{"orbit", "energy", "energy-error", "phase", "condition"};
-const std::vector<std::string> cg_keys{"degree",         "quadrature", "tolerance",    "criterion",
+const std::vector<std::string> cg_keys{"degree",         "quadrature", "tolerance",     "criterion",
                                        "max_iterations", "iteration",  "on_divergence", "diagnostics"};
 }  // namespace
 
@@ -105,6 +105,7 @@ void ScenarioReader::read_run(TomlTable& table) {
       if (!why_not.empty()) table.complain("kernel", table.found("kernel") + "; " + why_not);
     }
   }
+  (void)table.whole("threads", 1, 1);  // one trajectory is one chain of steps
   read_lattice(table);
   table.finish();
 }
@@ -140,6 +141,18 @@ void ScenarioReader::read_length(TomlTable& table) {
   }
 }
 
+/// 2^-52 for numbers about 1; finer for a start that is much smaller.
+void ScenarioReader::usual_units() {
+  const auto unit_for = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    const int exponent = most > 0 ? std::clamp(std::ilogb(most), -900, 0) : 0;
+    return std::ldexp(1.0, -52 + (exponent < -9 ? exponent : 0));
+  };
+  scenario_.request.position_unit = unit_for(scenario_.start_q);
+  scenario_.request.momentum_unit = unit_for(scenario_.start_p);
+}
+
 void ScenarioReader::read_lattice(TomlTable& table) {
   const bool on_lattice = scenario_.request.arithmetic == "lattice";
   if (table.has("lattice")) {
@@ -163,6 +176,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     }
   } else {
     table.know("lattice");
+    if (on_lattice) usual_units();
   }
   if (!on_lattice) return;
   const auto rounding = [](const std::vector<double>& values, double unit) {
@@ -194,8 +208,7 @@ void ScenarioReader::read_output(TomlTable& table) {
     scenario_.folder = *folder;
   }
   if (const auto formats = table.choices("formats", {"h5", "csv"})) scenario_.formats = *formats;
-  if (const auto figures = table.choices("figures", figure_names))
-    scenario_.figures = *figures;
+  if (const auto figures = table.choices("figures", figure_names)) scenario_.figures = *figures;
   const auto wants = [&](const std::vector<std::string>& list, const char* word) {
     return std::find(list.begin(), list.end(), word) != list.end();
   };
@@ -204,9 +217,21 @@ void ScenarioReader::read_output(TomlTable& table) {
                    "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
   }
   const std::size_t dimension = scenario_.start_q.size();
-  if (wants(scenario_.figures, "orbit") && dimension == 1) {
-    table.complain("figures", "found \"orbit\" for a problem with 1 degree of freedom; allowed phase, energy, "
-                              "energy-error");
+  if (scenario_.problem != nullptr && dimension > 0) {
+    const auto& invariants = scenario_.problem->info.invariants;
+    const bool in_space = scenario_.problem->dimension == 0 &&
+                          std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
+                            return invariant.components == Components::space;
+                          });
+    const std::string degrees = std::to_string(dimension) + (dimension == 1 ? " degree" : " degrees") + " of freedom";
+    if (wants(scenario_.figures, "orbit") && dimension != 2 && !in_space) {
+      table.complain("figures", "found \"orbit\" for a problem with " + degrees + "; allowed energy, energy-error" +
+                                    (dimension <= 12 ? ", phase" : ""));
+    }
+    if (wants(scenario_.figures, "phase") && dimension > 12) {
+      table.complain("figures", "found \"phase\" for a problem with " + degrees + "; allowed at most 12, or energy, " +
+                                    "energy-error" + (in_space ? ", orbit" : ""));
+    }
   }
   if (wants(scenario_.figures, "condition") && !scenario_.request.method.cg.diagnostics) {
     table.complain("figures", "found \"condition\", which needs method.diagnostics = true of an implicit method");

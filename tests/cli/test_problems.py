@@ -104,6 +104,61 @@ class Problems(CommandCase):
         for a, b in zip(exact["final"]["q"], fast["final"]["q"]):
             self.assertAlmostEqual(a, b, delta=1e-10)
 
+    def test_starts_by_energy_where_v_eff_is_no_single_well(self):
+        cf = 'name="central-force"\n'
+        for problem, energy, radius in (
+            # Kepler with a relativistic term: an inner region falls into the centre, the outer one is an orbit.
+            ('potential="power"\na=[-1,-0.3]\nn=[-2,-4]\norbit={energy=-0.15,angular_momentum=1.5}', -0.15, None),
+            ('potential="hooke"\nk=1\norbit={energy=-1,angular_momentum=0}', -1, math.sqrt(2)),
+            ('potential="hooke"\nk=1\norbit={energy=-5,angular_momentum=1}', -5, None),
+            ('potential="kepler"\norbit={energy=-0.25,angular_momentum=0}', -0.25, 4),
+            ('potential="binomial"\nk=-1\norbit={energy=-1,angular_momentum=1}', -1, None),
+            ('potential="power"\na=-1\nn=-3\norbit={energy=-1,angular_momentum=1}', -1, math.sqrt(0.5)),
+        ):
+            s = self.run_text(cf + problem, steps=0)
+            self.assertLess(abs(s["energy"]["initial"] - energy), 64 * EPSILON * s["energy"]["scale"], problem)
+            if radius is not None:
+                self.assertAlmostEqual(s["final"]["q"][0], radius, delta=16 * EPSILON)
+        # Above the maximum of V_eff the motion has no turning point.
+        self.assertIn(
+            "without a turning point",
+            self.rejected(cf + 'potential="power"\na=-1\nn=-4\norbit={energy=1,angular_momentum=1}'),
+        )
+
+    def test_exact_is_right_or_absent_near_a_maximum_of_v_eff(self):
+        for kick in (1e-3, 1e-5, 1e-8, 0):
+            problem = f'name="central-force"\npotential="power"\na="-1/3"\nn=-4\ninitial={{q=[1,0],p=[{kick},1]}}'
+            s = self.run_text(problem, points=12, dt=0.001, steps=4000)
+            if "exact" in s:
+                self.assertLess(s["exact"]["max_difference"], 1e-2, kick)
+
+    def test_exact_on_a_line_in_polar_coordinates(self):
+        problem = 'name="central-force"\npotential="hooke"\nk=-1\ncoordinates="polar"\ninitial={q=[1,0.3],p=[0,0]}'
+        s = self.run_text(problem, dt=0.01, steps=200)
+        self.assertLess(s["final"]["q"][0], 0)  # through the centre
+        self.assertLess(s["exact"]["max_difference"], 1e-4)
+
+    def test_newton_stops_where_rounding_is_all_that_is_left(self):
+        linear = 'name="double-pendulum"\nmodel="linear"\nangles="{}"\nmasses={}\nhalf_lengths={}\ninitial={{q=[0.1,0.1],p=[0,0]}}'
+        for angles, masses, lengths in (
+            ("absolute", "[1,10]", "[1,0.1]"),
+            ("relative", "[0.01,1]", "[1,0.2]"),
+            ("relative", "[0.01,1]", "[1,1]"),
+        ):
+            s = self.run_text(linear.format(angles, masses, lengths), points='"auto"', dt=0.01, steps=20000)
+            self.assertEqual(s["status"], "done")
+        self.assertEqual(
+            self.run_text('name="magnetic"\nfield=[0,0,1e5]\ninitial={q=[1,0,0],v=[0,1,0]}', dt=0.1)["status"], "done"
+        )
+
+    def test_the_lattice_of_a_small_start_is_fine(self):
+        arguments = (str(EXAMPLES / "solar_system.toml"), "--set", "run.t_end=50000", "--set", "output.figures=[]")
+        plain = self.summary(*arguments)
+        lattice = self.summary(*arguments, "--set", "run.arithmetic=lattice")
+        self.assertLess(lattice["lattice"]["momentum"], 2.0**-60)
+        for a, b in zip(plain["final"]["q"], lattice["final"]["q"]):
+            self.assertAlmostEqual(a, b, delta=1e-5)
+
     def test_errors_of_the_new_keys(self):
         cf = 'name="central-force"\n'
         for problem, words in (
@@ -129,6 +184,14 @@ class Problems(CommandCase):
             ('name="duffing"\ncase=3\nk=2\nr0=4\nspeed=40', ("problem.speed", "fails by")),
             ('name="duffing"\ncase=1\nk=2\nlambda=3\nr0=4\nspeed=4', ("problem.lambda", "follows")),
             ('name="duffing"\ncase=2\nk=2\nr0=4\nspeed=4', ("problem.speed",)),
+            ('name="duffing"\ncase=1\nk=1\nr0=0\nspeed=1', ("problem.r0", "0 < r0")),
+            ('name="duffing"\ncase=1\nk=0\nr0=1\nspeed=1', ("problem.k", "0 < k")),
+            ('name="duffing"\ncase=2\nk=1\nr0=1e200', ("infinite",)),
+            (
+                cf + 'potential="kepler"\nbodies=[{mass=1e200,position=[0,0,0],velocity=[0,0,0]},'
+                "{mass=1e200,position=[1,0,0],velocity=[0,0,1]}]",
+                ("problem.bodies", "overflow"),
+            ),
             ('name="double-pendulum"\nmasses=[1,0]\ninitial={q=[0,0],p=[0,0]}', ("problem.masses", "positive")),
             ('name="double-pendulum"\nhalf_lengths=[0,1]\ninitial={q=[0,0],p=[0,0]}', ("problem.half_lengths",)),
             ('name="double-pendulum"\nmasses=[1]\ninitial={q=[0,0],p=[0,0]}', ("problem.masses", "array of 2")),
@@ -177,6 +240,9 @@ class Problems(CommandCase):
         self.assertIn("boris needs", self.rejected(pendulum, method='name="boris"'))
         text = self.rejected('name="pendulum"\ninitial={q=[1],p=[0]}', "--set", "run.kernel=fast", method='name="stv4"')
         self.assertIn("no fast kernel for pendulum", text)
+        chain = 'name="fput"\nn=3\ninitial={q=[1,0,0],p=[0,0,0]}'
+        text = self.rejected(chain, "--set", 'output.figures=["orbit"]')
+        self.assertIn("3 degrees of freedom", text)
 
 
 if __name__ == "__main__":

@@ -78,6 +78,17 @@ class Shell(CommandCase):
         self.assertGreaterEqual(here["max_energy_error"], abs(here["energy_error"]))
         self.assertEqual([c["what"] for c in here["changes"]], ["dt = 0.05", "method = stv4"])
 
+    def test_totals_go_on(self):
+        first = self.summary("kepler.toml", "--set", "method={name='verlet'}", "--set", "run.steps=251")
+        here = self.shown("method verlet\nstep 251\nmethod cg(1,5)\nstep 10\nshow all\n")
+        # One round: verlet's energy is back near the start's, and there the element keeps it.
+        self.assertEqual(here["max_energy_error"], first["energy"]["max_error"])
+        self.assertGreater(here["max_energy_error"], 2 * abs(here["energy_error"]))
+        second = self.summary("kepler.toml", "--set", "run.steps=10", "--set",
+                              f"problem.initial={{q={first['final']['q']},p={first['final']['p']}}}")
+        for key in ("force", "hessian", "linear_solves"):
+            self.assertEqual(here[key], first["evaluations"][key] + second["evaluations"][key])
+
     def test_invariants_with_time_in_them(self):
         self.write("bodies.toml", """[problem]
 name = "n-body"
@@ -216,6 +227,7 @@ steps = 1000
         process.send_signal(signal.SIGINT)
         until("stopped by Ctrl-C at step")
         until("hamflow> ")
+        time.sleep(0.5)  # it has to wait for input by then
         process.send_signal(signal.SIGINT)  # at the prompt: another prompt
         until("hamflow> ")
         say("reset")

@@ -46,6 +46,13 @@ struct Counting {
   }
 };
 
+/// First order: what matters is that the two kicks between two drifts differ in strength.
+constexpr SplittingTable unlike_ends{.name = "unlike-ends",
+                                     .order = 1,
+                                     .reference = "",
+                                     .starts_with = StartsWith::kick,
+                                     .coefficients = {"1/4", "1", "3/4"}};
+
 template <class Recipe>
 void expect_counts(const Recipe& recipe, long long forces_per_step, long long at_first) {
   long long forces = 0;
@@ -71,9 +78,26 @@ TEST(Cost, ReportedEvaluationsAreThoseTheProblemSees) {
   expect_counts(Composition<compositions::stv4>{}, 3, 1);  // kick first: the last force serves the next step
   expect_counts(Composition<compositions::stv4, StartsWith::drift>{}, 3, 0);
   expect_counts(SplittingBy<splittings::euler_a>{}, 1, 0);
+  expect_counts(SplittingBy<unlike_ends>{}, 1, 1);  // one force for two kicks also here
   expect_counts(RungeKuttaBy<tableaus::rk4>{}, 4, 0);
   expect_counts(Cg{CgOptions{.quadrature = 5}}, 0, 0);
   expect_counts(Cg{}, 0, 0);
+}
+
+TEST(Cost, ATableWithUnlikeEndsKicksWithTheForceOfWhereItIs) {
+  const HenonHeiles<double> problem{};
+  auto simulation = simulate<false>(problem, SplittingBy<unlike_ends>{}, {0.3, -0.15}, {0.2, 0.25}, 0.1);
+  Vector<double, 2> q{0.3, -0.15}, p{0.2, 0.25}, f{};
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(simulation.advance(1), Outcome::done);
+    force(problem, q, f);
+    for (std::size_t k = 0; k < 2; ++k) p[k] += 0.1 * 0.25 * f[k];
+    for (std::size_t k = 0; k < 2; ++k) q[k] += 0.1 * p[k];
+    force(problem, q, f);
+    for (std::size_t k = 0; k < 2; ++k) p[k] += 0.1 * 0.75 * f[k];
+    EXPECT_EQ(simulation.state().q, q);
+    EXPECT_EQ(simulation.state().p, p);
+  }
 }
 
 }  // namespace

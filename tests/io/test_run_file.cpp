@@ -34,7 +34,7 @@ const RunDescription description{.scenario = "text",
                                  .arithmetic = "double",
                                  .kernel = "exact",
                                  .dimension = 2,
-                                 .invariants = {"angular_momentum"}};
+                                 .invariants = {{"angular_momentum", 1}}};
 
 class RunFileTest : public ::testing::Test {
  protected:

@@ -147,6 +147,10 @@ TEST(FastKernel, ChangesTheForceAndNothingElse) {
       const double bound = fast_kernel_available() ? 5 * test::epsilon * std::fabs(a[i]) : 0;
       EXPECT_LE(std::fabs(b[i] - a[i]), bound);
     }
+    // With a factor the same kernel, and neither the exact force of the base class nor one multiplication more.
+    const double slope = inverse_cube(q[0] * q[0] + q[1] * q[1], -0.3 * 0.7);
+    scaled_force(fast, -0.3, q, b);
+    EXPECT_EQ(b, (Vector<double, 2>{-(slope * q[0]), -(slope * q[1])}));
     EXPECT_EQ(potential_energy(fast, q), potential_energy(exact, q));
   }
   // In other arithmetic there is no fast form: the same bits.

@@ -1,4 +1,6 @@
 // Gradients and Hessians written by hand against dual numbers; problems given as lambdas.
+#include <array>
+
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/core/derivatives.hpp"
@@ -130,7 +132,8 @@ void derivatives_are_those_of_the_energy() {
         for (std::size_t j = 0; j < 2 * size; ++j) units += std::fabs(second(k, j)) * 4;
         const long double slope =
             along(k, q, p, [&](const auto& x, const auto& y) { return energy(exact, x, y).slope[0]; });
-        EXPECT_TRUE(test::within(k < size ? dq[k] : dp[k - size], slope, 64 * test::epsilon * (std::fabs(slope) + units)))
+        EXPECT_TRUE(
+            test::within(k < size ? dq[k] : dp[k - size], slope, 64 * test::epsilon * (std::fabs(slope) + units)))
             << "dH/dz_" << k;
         const auto column = along(k, q, p, [&](const auto& x, const auto& y) {
           auto by_q = zeros_like(x);
@@ -168,6 +171,11 @@ void parts_agree() {
       auto dp = q;
       auto second = zero_matrix(q);
       auto both_second = second;
+      std::array<decltype(q), 4> scaled{q, q, q, q};
+      scaled_force(problem, 0.3, q, scaled[0]);
+      scaled_force(problem, -0.3, q, scaled[1]);
+      scaled_velocity(problem, 0.3, p, scaled[2]);
+      scaled_velocity(problem, -0.3, p, scaled[3]);
       force(problem, q, f);
       velocity(problem, p, v);
       potential_hessian(problem, q, second);
@@ -178,6 +186,10 @@ void parts_agree() {
         EXPECT_EQ(dq[i], -f[i]);
         EXPECT_EQ(dp[i], v[i]);
         EXPECT_TRUE(test::within(both_f[i], f[i], bound));
+        EXPECT_TRUE(test::within(scaled[0][i], 0.3 * f[i], 0.3 * bound));
+        EXPECT_TRUE(test::same_to_rounding(scaled[2][i], 0.3 * v[i], 4.0));
+        EXPECT_EQ(scaled[1][i], -scaled[0][i]);  // or the lattice would not return
+        EXPECT_EQ(scaled[3][i], -scaled[2][i]);
         for (std::size_t j = 0; j < size; ++j) {
           EXPECT_TRUE(test::within(both_second[i][j], second[i][j], 16 * bound));
         }

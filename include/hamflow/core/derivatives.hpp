@@ -69,6 +69,41 @@ void force(const P& problem, const Vector<S, N>& q, Vector<S, N>& f) {
   }
 }
 
+namespace detail {
+template <class P, class F, class V>
+concept HasScaledVelocity = requires(const P& problem, const F& factor, const V& p, V& v) {
+  problem.scaled_velocity(factor, p, v);
+};
+template <class P, class F, class V>
+concept HasScaledForce = requires(const P& problem, const F& factor, const V& q, V& f) {
+  problem.scaled_force(factor, q, f);
+};
+}  // namespace detail
+
+/// v = factor dT/dp, the increment of a drift. A problem that gives it multiplies its constants by the factor instead
+/// of the result: one dependent operation less from one force to the next. Odd in the factor, like the product, bit for
+/// bit.
+template <class P, class F, class S, std::size_t N>
+void scaled_velocity(const P& problem, const F& factor, const Vector<S, N>& p, Vector<S, N>& v) {
+  if constexpr (detail::HasScaledVelocity<P, F, Vector<S, N>>) {
+    problem.scaled_velocity(factor, p, v);
+  } else {
+    velocity(problem, p, v);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = factor * v[i];
+  }
+}
+
+/// f = -factor dV/dq, the increment of a kick, likewise.
+template <class P, class F, class S, std::size_t N>
+void scaled_force(const P& problem, const F& factor, const Vector<S, N>& q, Vector<S, N>& f) {
+  if constexpr (detail::HasScaledForce<P, F, Vector<S, N>>) {
+    problem.scaled_force(factor, q, f);
+  } else {
+    force(problem, q, f);
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] = factor * f[i];
+  }
+}
+
 /// out[i][j] = d^2 V / dq_i dq_j.
 template <class P, class S, std::size_t N>
 void potential_hessian(const P& problem, const Vector<S, N>& q, Matrix<S, N>& out) {

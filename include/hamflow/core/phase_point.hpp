@@ -42,6 +42,14 @@ struct PhasePoint {
       return x;
     }
   }
+  /// q <- q + increment.
+  void move(const Vector<Real, N>& increment) {
+    for (std::size_t i = 0; i < q.size(); ++i) arithmetic.position.add(q[i], increment[i]);
+  }
+  /// p <- p + increment.
+  void push(const Vector<Real, N>& increment) {
+    for (std::size_t i = 0; i < p.size(); ++i) arithmetic.momentum.add(p[i], increment[i]);
+  }
   /// q <- q + factor * direction (a drift, for direction = dT/dp).
   template <class F>
   void move(const F& factor, const Vector<Real, N>& direction) {

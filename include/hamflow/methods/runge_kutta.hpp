@@ -83,16 +83,22 @@ class RungeKutta {
     Vector<Real, n> sum_q = zeros_like(q0);
     Vector<Real, n> sum_p = zeros_like(q0);
     for_each_stage([&]<std::size_t i>() __attribute__((always_inline)) {
-      if constexpr (!Tableau.b[i].is_zero()) {
-        const Base weight = Tableau.b[i].template as<Base>();
+      if constexpr (i + 1 < stages && !Tableau.b[i].is_zero()) {
+        const Base weight = h * Tableau.b[i].template as<Base>();
         for (std::size_t k = 0; k < sum_q.size(); ++k) {
           sum_q[k] += weight * dq[i][k];
           sum_p[k] += weight * dp[i][k];
         }
       }
     });
-    z.move(h, sum_q);
-    z.push(h, sum_p);
+    if constexpr (stages > 1) {
+      z.move(sum_q);
+      z.push(sum_p);
+    }
+    // The last stage by itself: the next step waits for it, and for nothing else.
+    const Base weight = h * Tableau.b[stages - 1].template as<Base>();
+    z.move(weight, dq[stages - 1]);
+    z.push(weight, dp[stages - 1]);
     return Outcome::done;
   }
 

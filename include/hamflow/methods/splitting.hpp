@@ -1,9 +1,11 @@
 // The kernel of every explicit splitting method for H = T(p) + V(q): alternating kicks and drifts from a table.
 //     kick c:  p <- p - c h V'(q)          drift d:  q <- q + d h T'(p)
 // One kernel serves all tables, both orders (kick first, drift first) and every arithmetic. Neighbouring kicks of a
-// composition are one kick, and a step that begins and ends with a kick keeps the last force for the next step: no
-// force is computed twice. Kicks of two *steps* are not merged: advance(1000) has to give the bits of 1000 times
-// advance(1).
+// composition are one kick, and a step that begins and ends with a kick keeps the last one for the next step: no force
+// is computed twice. Kicks of two *steps* are not merged: advance(1000) has to give the bits of 1000 times advance(1).
+// The factors c h and d h go into the force and the velocity of a problem that takes them (scaled_force,
+// scaled_velocity): multiplied by them afterwards, every force would end one operation later, and the next one waits
+// for it.
 #pragma once
 
 #include <array>
@@ -20,12 +22,19 @@ namespace hamflow {
 
 /// The order of actions in one step.
 enum class Shape {
-  kick_drift_kick,   // K D ... D K: the last force serves the next step
+  kick_drift_kick,   // K D ... D K, both alike: the last kick serves the next step
   drift_kick_drift,  // D K ... K D
   kick_drift,        // K D ... K D
   drift_kick,        // D K ... D K
   any                // one of these, known at run time
 };
+
+/// @param ends_alike the first and the last action are equally strong
+constexpr Shape shape_of(bool kick_first, bool kick_last, bool ends_alike) {
+  if (!kick_first) return kick_last ? Shape::drift_kick : Shape::drift_kick_drift;
+  if (!kick_last) return Shape::kick_drift;
+  return ends_alike ? Shape::kick_drift_kick : Shape::any;
+}
 
 /// The coefficients of one step in the order in which they act, in the working arithmetic.
 template <class R>
@@ -33,11 +42,10 @@ struct SplittingSequence {
   StartsWith starts_with;
   std::vector<R> coefficients;
 
-  Shape shape() const {
-    const bool odd = coefficients.size() % 2 == 1;
-    if (starts_with == StartsWith::kick) return odd ? Shape::kick_drift_kick : Shape::kick_drift;
-    return odd ? Shape::drift_kick_drift : Shape::drift_kick;
-  }
+  bool kick_first() const { return starts_with == StartsWith::kick; }
+  bool kick_last() const { return kick_first() == (coefficients.size() % 2 == 1); }
+  bool ends_alike() const { return coefficients.front() == coefficients.back(); }
+  Shape shape() const { return shape_of(kick_first(), kick_last(), ends_alike()); }
 };
 
 /// gamma_1 .. gamma_s of a symmetric composition.
@@ -100,7 +108,7 @@ inline MethodInfo describe(const SplittingTable& table) {
       .weakly_reversible = true,
       .symmetric = table.symmetric,
       .reversible = table.symmetric,
-      .forces_per_step = sequence.shape() == Shape::kick_drift_kick ? kicks - 1 : kicks};
+      .forces_per_step = sequence.kick_first() && sequence.kick_last() ? kicks - 1 : kicks};
 }
 
 inline constexpr int any_length = 0;
@@ -121,11 +129,9 @@ class Splitting {
   Splitting(const SplittingSequence<Base>& sequence, MethodInfo (*describe_table)(const void*), const void* table)
       : info_(describe_table), table_(table) {
     const std::vector<Base>& c = sequence.coefficients;
-    if (shape == Shape::any) {
-      const Shape actual = sequence.shape();
-      leading_ = actual == Shape::kick_drift_kick || actual == Shape::kick_drift;
-      trailing_ = actual == Shape::kick_drift_kick || actual == Shape::drift_kick;
-    }
+    leading_ = sequence.kick_first();
+    trailing_ = sequence.kick_last();
+    ends_alike_ = !(leading_ && trailing_) || sequence.ends_alike();
     std::size_t i = 0;
     if (leading()) leading_kick_ = c[i++];
     for (; i < c.size(); i += 2) {
@@ -137,35 +143,39 @@ class Splitting {
   MethodInfo info() const { return info_(table_); }
 
   /// z <- Psi_h(z). Always done: trouble shows in the state. Inlined by force into the loop over steps, so that state
-  /// and force stay in registers from step to step.
+  /// and kick stay in registers from step to step.
   [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
-    auto&& f = working_copy(force_);
+    auto&& f = working_copy(kick_);
     if constexpr (n == dynamic) {
       if (f.size() == 0) f = zeros<Real, n>(z.p.size());
     }
     if (leading()) {
-      if (!(trailing() && force_is_current_)) evaluate_force(problem, z, f);
-      z.push(h * leading_kick_, f);
+      const Base factor = h * leading_kick_;
+      if (!(trailing() && kick_is_current_ && kept_factor_ == within(factor))) evaluate(problem, factor, z, f);
+      kick(factor, f, z);
     }
     const std::size_t count = Links == any_length ? count_ : static_cast<std::size_t>(Links);
 #pragma GCC unroll 4
     for (std::size_t i = 0; i + 1 < count; ++i) {
       drift(problem, h * links_[i].drift, z);
-      evaluate_force(problem, z, f);
-      z.push(h * links_[i].kick, f);
+      const Base factor = h * links_[i].kick;
+      evaluate(problem, factor, z, f);
+      kick(factor, f, z);
     }
     drift(problem, h * links_[count - 1].drift, z);
     if (trailing()) {
-      evaluate_force(problem, z, f);
-      z.push(h * links_[count - 1].kick, f);
-      if constexpr (n != dynamic) force_ = f;
-      force_is_current_ = true;
+      const Base factor = h * links_[count - 1].kick;
+      evaluate(problem, factor, z, f);
+      kick(factor, f, z);
+      if constexpr (n != dynamic) kick_ = f;
+      kept_factor_ = within(factor);
+      kick_is_current_ = true;
     }
     return Outcome::done;
   }
 
   /// To be called when the state was changed from outside.
-  void invalidate() { force_is_current_ = false; }
+  void invalidate() { kick_is_current_ = false; }
   Effort effort() const { return {.force = forces_}; }
 
  private:
@@ -183,20 +193,49 @@ class Splitting {
       return shape == Shape::kick_drift_kick || shape == Shape::drift_kick;
     }
   }
+  /// Whether the factor of a kick goes into f: not where f serves two kicks of different strength.
+  constexpr bool factor_within() const {
+    if constexpr (!detail::HasScaledForce<P, Base, Vector<Real, n>>) {
+      return false;
+    } else if constexpr (shape == Shape::any) {
+      return ends_alike_;
+    } else {
+      return true;
+    }
+  }
+  constexpr Base within(const Base& factor) const { return factor_within() ? factor : Base(1); }
   static constexpr std::size_t capacity = Links == any_length ? SplittingTable::most : static_cast<std::size_t>(Links);
   struct Link {
     Base drift;
     Base kick;
   };
 
-  [[gnu::always_inline]] void evaluate_force(const P& problem, const PhasePoint<A, n>& z, Vector<Real, n>& f) {
-    force(problem, z.positions(), f);
+  /// f <- F(q), or factor F(q).
+  [[gnu::always_inline]] void evaluate(const P& problem, const Base& factor, const PhasePoint<A, n>& z,
+                                       Vector<Real, n>& f) {
+    if (factor_within()) {
+      scaled_force(problem, factor, z.positions(), f);
+    } else {
+      force(problem, z.positions(), f);
+    }
     ++forces_;
+  }
+  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Real, n>& f, PhasePoint<A, n>& z) const {
+    if (factor_within()) [[likely]] {  // else one multiplication, by factor or 1, is made of it
+      z.push(f);
+    } else {
+      z.push(factor, f);
+    }
   }
   [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z) {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
-    velocity(problem, z.momenta(), v);
-    z.move(factor, v);
+    if constexpr (detail::HasScaledVelocity<P, Base, Vector<Real, n>>) {
+      scaled_velocity(problem, factor, z.momenta(), v);
+      z.move(v);
+    } else {
+      velocity(problem, z.momenta(), v);
+      z.move(factor, v);
+    }
   }
   /// In place vectors are copied, to live in registers; others are used where they are.
   [[gnu::always_inline]] static decltype(auto) working_copy(Vector<Real, n>& kept) {
@@ -207,12 +246,14 @@ class Splitting {
     }
   }
 
-  Vector<Real, n> force_{};
-  bool force_is_current_ = false;
+  Vector<Real, n> kick_{};  // of the last kick: kept_factor_ F(q)
+  Base kept_factor_{};
+  bool kick_is_current_ = false;
   long long forces_ = 0;
   Base leading_kick_{};
-  bool leading_ = false;  // of Shape::any
+  bool leading_ = false;  // of Shape::any: a kick comes first, last, and in both places is equally strong
   bool trailing_ = false;
+  bool ends_alike_ = true;
   std::size_t count_ = 0;
   std::array<Link, capacity> links_{};
   MethodInfo (*info_)(const void*);
@@ -260,9 +301,9 @@ struct SplittingBy {
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
   static constexpr Shape shape() {
-    const bool odd = Table.count() % 2 == 1;
-    if (Table.starts_with == StartsWith::kick) return odd ? Shape::kick_drift_kick : Shape::kick_drift;
-    return odd ? Shape::drift_kick_drift : Shape::drift_kick;
+    constexpr bool kick_first = Table.starts_with == StartsWith::kick;
+    constexpr auto last = static_cast<std::size_t>(Table.count() - 1);
+    return shape_of(kick_first, kick_first == (last % 2 == 0), Table.coefficients[0] == Table.coefficients[last]);
   }
   static constexpr int links = (Table.count() + (Table.starts_with == StartsWith::kick ? 0 : 1)) / 2;
   template <class P, class A>

@@ -10,14 +10,14 @@
 
 namespace hamflow::mutants {
 
-/// Any kick-drift-...-kick sequence of texts with any claims.
+/// Any kick-drift-...-kick sequence of texts with any claims. Shape::any, because the ends may differ.
 struct Sequence {
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
   std::vector<std::string> coefficients;
   MethodInfo claims;
   template <class P, class A>
-  using Stepper = Splitting<P, A, Shape::kick_drift_kick>;
+  using Stepper = Splitting<P, A, Shape::any>;
   template <class P, class A>
   Stepper<P, A> bind(const P&) const {
     using Base = typename Stepper<P, A>::Base;

@@ -98,11 +98,16 @@ double inverse_mass_condition(const P& problem, const Vector<Real, N>& q, const 
 /// noise itself. With a rate theta of decrease, quadratic convergence predicts theta^2 |correction| for the next one.
 /// What is left undone has the same sign at the same phase of every orbit and adds up linearly, rounding only as a
 /// square root: it has to lie so far below the noise that 10^6 steps (a walk of 10^3 noises) do not show it, hence
-/// 1/1024. @param size, before |correction| of this iteration and the one before, in the units of noise
+/// 1/1024. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, at a
+/// hundred-millionth of the unknowns, are noise too.
+/// @param size, before |correction| of this iteration and the one before, in the units of noise
+/// @param stalls corrections in a row that did not shrink; counted here
 template <class Real>
-constexpr bool newton_at_rounding(const Real& size, const Real& before, bool first, const Real& noise) {
+constexpr bool newton_at_rounding(const Real& size, const Real& before, bool first, const Real& noise, int& stalls) {
   const Real rate = !first && before > Real(0) ? size / before : Real(1);
-  return size <= noise || (!first && rate * rate * size <= noise / 1024) || (rate > Real(0.5) && size <= 64 * noise);
+  stalls = !first && rate > Real(0.9) ? stalls + 1 : 0;
+  return size <= noise || (!first && rate * rate * size <= noise / 1024) || (rate > Real(0.5) && size <= 64 * noise) ||
+         (stalls >= 2 && size <= Real(1 << 26) * noise);
 }
 
 }  // namespace hamflow

@@ -44,6 +44,7 @@ class GeneralElement {
     const std::size_t size = 2 * q0.size();
     Real previous(0);
     bool at_rounding = false;
+    int stalls = 0;
     for (int k = 0;; ++k) {
       Z target = zeros<Real, m>(size);
       Z noise = target;  // what the target rounds by, coordinate by coordinate
@@ -78,7 +79,7 @@ class GeneralElement {
         distance = here <= distance ? distance : here;  // NaN is kept
       }
       if (!(distance <= std::numeric_limits<Real>::max())) return Outcome::not_converged;
-      at_rounding = newton_at_rounding(distance, previous, k == 0, Real(1));
+      at_rounding = newton_at_rounding(distance, previous, k == 0, Real(1), stalls);
       if (at_rounding && !options.tolerance) {
         // The target at u + correction to second order: correction - K correction is what it changes by. u + correction
         // itself would be rounded with the sign of the correction.

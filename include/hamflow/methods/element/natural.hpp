@@ -19,7 +19,12 @@ class NaturalElement {
   using V = Vector<Real, n>;
   using Context = ElementContext<Real>;
 
-  explicit NaturalElement(const P& problem) : mass_(inverse(inverse_mass_matrix(problem))) {}
+  explicit NaturalElement(const P& problem)
+      : inverse_mass_sizes_(inverse_mass_matrix(problem)), mass_(inverse(inverse_mass_sizes_)) {
+    for (std::size_t i = 0; i < mass_.size(); ++i) {
+      for (std::size_t j = 0; j < mass_.size(); ++j) inverse_mass_sizes_[i][j] = abs(inverse_mass_sizes_[i][j]);
+    }
+  }
 
   void guess(Context& context, const P& problem, const Real& h, const V& q0, const V& p0, Increment<Real, n>& u) {
     u.p = zeros_like(q0);
@@ -43,8 +48,10 @@ class NaturalElement {
     V& impulse = u.p;
     Real previous(0);          // |correction| of the iteration before
     bool at_rounding = false;  // no further correction can be told from rounding
-    // |h M^-1 p0|: what the target rounds by, however far p0 and the impulse cancel at a turning point.
-    const Real flight = max_norm(displacement(problem, h, p0, zeros_like(p0)));
+    int stalls = 0;
+    // |h| |M^-1| |p0|: what the target rounds by, however far p0 and the impulse cancel at a turning point, and the
+    // terms of M^-1 p with each other.
+    const Real flight = max_norm(terms_of_flight(h, p0));
     for (int k = 0;; ++k) {
       Matrix<Real, n> stiffness = zero_matrix(q0);
       integrate(context, problem, h, q0, d, impulse, stiffness);
@@ -79,7 +86,7 @@ class NaturalElement {
       const Real size = max_norm(correction);
       const Real noise = epsilon * (larger(flight, max_norm(target)) + max_norm(d));
       if (!(size <= std::numeric_limits<Real>::max())) return Outcome::not_converged;  // not finite
-      at_rounding = newton_at_rounding(size, previous, k == 0, noise);
+      at_rounding = newton_at_rounding(size, previous, k == 0, noise, stalls);
       if (at_rounding && !options.tolerance) {
         // d + correction has just been rounded, mostly to the target of the *old* impulse: an error with the sign of
         // the correction, hence a drift (4e-20 a step at H = -0.25, measured). The new impulse gives d afresh.
@@ -95,7 +102,7 @@ class NaturalElement {
   /// |d|, the forces by what rounded coordinates make of them, |V''| |q| epsilon, three times that where terms cancel
   /// as in a Lennard-Jones well. A bias of that size adds up to some tens of roundings of H over a part of an orbit,
   /// however small h is; one in units of H would add up to 1/h of them.
-  bool too_coarse(Context& context, const P& problem, const Real& h, const V& q0, const V&,
+  bool too_coarse(Context& context, const P& problem, const Real& h, const V& q0, const V& p0,
                   const Increment<Real, n>& u) {
     const GaussRule<Real>& finer = gauss_rule<Real>(context.rule->points + 1);
     const V& d = u.q;
@@ -103,11 +110,12 @@ class NaturalElement {
     V f = zeros_like(d);
     Matrix<Real, n> second = zero_matrix(d);
     force_and_hessian(problem, middle, f, second);
+    const V flight = terms_of_flight(h, p0);  // d itself rounds by these
     Real rounding(0);
     for (std::size_t i = 0; i < d.size(); ++i) {
       Real units = Real(finer.points + 4) * abs(f[i]);
       for (std::size_t j = 0; j < d.size(); ++j) {
-        units += abs(second[i][j]) * (3 * abs(middle[j]) + Real(finer.points + 4) * abs(d[j]));
+        units += abs(second[i][j]) * (3 * abs(middle[j]) + Real(finer.points + 4) * abs(d[j]) + 4 * flight[j]);
       }
       rounding += epsilon * abs(d[i]) * units;
     }
@@ -122,6 +130,16 @@ class NaturalElement {
   }
 
  private:
+  /// |h| |M^-1| |p|, coordinate by coordinate.
+  V terms_of_flight(const Real& h, const V& p) const {
+    V sizes = zeros_like(p);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      for (std::size_t j = 0; j < p.size(); ++j) sizes[i] += inverse_mass_sizes_[i][j] * abs(p[j]);
+      sizes[i] = abs(h) * sizes[i];
+    }
+    return sizes;
+  }
+
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
   /// impulse = -h int V'(q0 + alpha d), stiffness = int alpha V''(q0 + alpha d).
@@ -231,6 +249,7 @@ class NaturalElement {
     return abs(Real(2) / h) * sqrt(sum);
   }
 
+  Matrix<Real, n> inverse_mass_sizes_;  // |M^-1| entry by entry
   Matrix<Real, n> mass_;
   Extrapolation<V> memory_;
 };

@@ -28,9 +28,9 @@ class Binomial {
   S value(const S& u) const {
     return (u - lambda_) * (u - lambda_) * (k_ / R(2));
   }
-  template <class S>
-  S slope(const S& u) const {
-    return (u - lambda_) * (R(2) * k_);
+  template <class S, class F = R>
+  S slope(const S& u, const F& factor = F(1)) const {
+    return (u - lambda_) * (factor * (R(2) * k_));
   }
   template <class S>
   CentralDerivatives<S> derivatives(const S& u) const {

@@ -33,9 +33,9 @@ class Hooke {
   S value(const S& u) const {
     return u * (k_ / R(-2));
   }
-  template <class S>
-  S slope(const S&) const {
-    return S(-k_);
+  template <class S, class F = R>
+  S slope(const S&, const F& factor = F(1)) const {
+    return S(-(factor * k_));
   }
   template <class S>
   CentralDerivatives<S> derivatives(const S&) const {

@@ -29,17 +29,17 @@ class Kepler {
   S value(const S& u) const {
     return -k_ / sqrt(u);
   }
-  template <class S>
-  S slope(const S& u) const {
-    return k_ / (u * sqrt(u));
+  template <class S, class F = R>
+  S slope(const S& u, const F& factor = F(1)) const {
+    return (factor * k_) / (u * sqrt(u));
   }
   /// The slope for FastKernel: other last bits where the machine has the instructions, and only in double.
-  template <class S>
-  S fast_slope(const S& u) const {
-    if constexpr (std::is_same_v<S, double> && std::is_same_v<R, double>) {
-      return inverse_cube(u, k_);
+  template <class S, class F = R>
+  S fast_slope(const S& u, const F& factor = F(1)) const {
+    if constexpr (std::is_same_v<S, double> && std::is_same_v<R, double> && std::is_same_v<F, double>) {
+      return inverse_cube(u, factor * k_);
     } else {
-      return slope(u);
+      return slope(u, factor);
     }
   }
   template <class S>

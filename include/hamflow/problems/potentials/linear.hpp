@@ -27,9 +27,9 @@ class Linear {
   S value(const S& u) const {
     return k_ * sqrt(u);
   }
-  template <class S>
-  S slope(const S& u) const {
-    return k_ / sqrt(u);
+  template <class S, class F = R>
+  S slope(const S& u, const F& factor = F(1)) const {
+    return (factor * k_) / sqrt(u);
   }
   template <class S>
   CentralDerivatives<S> derivatives(const S& u) const {

@@ -25,7 +25,8 @@ Start<R, 2> pericentre_start(const R& r_per, const R& l) {
   return {{r_per, R(0)}, {R(0), l / r_per}};
 }
 
-/// What a potential says of its two derivatives at u = r^2.
+/// What a potential says of its two derivatives at u = r^2. Its slope(u, factor) is factor times the first: there the
+/// factor meets the constants of the potential, not what has just been computed from u.
 template <class S>
 struct CentralDerivatives {
   S slope;      // 2 W'(u) = V'(r)/r
@@ -55,7 +56,8 @@ class CentralForce {
                     .parameters = {{"mass", "1", "reduced mass mu", Range::positive}},
                     .invariants = {{"angular_momentum", "q1 p2 - q2 p1"}},
                     .starts = of_potential.starts};
-    all.starts.push_back({"", {"energy", "angular_momentum"}, "any orbit, at pericentre on the x-axis (circles on the y-axis)"});
+    all.starts.push_back(
+        {"", {"energy", "angular_momentum"}, "any orbit, at pericentre on the x-axis (circles on the y-axis)"});
     all.parameters.insert(all.parameters.end(), of_potential.parameters.begin(), of_potential.parameters.end());
     return all;
   }
@@ -73,27 +75,34 @@ class CentralForce {
     v[0] = p[0] * inverse_mass_;
     v[1] = p[1] * inverse_mass_;
   }
+  template <class F, class S>
+  void scaled_velocity(const F& factor, const Vector<S, 2>& p, Vector<S, 2>& v) const {
+    const auto scaled = factor * inverse_mass_;
+    v[0] = scaled * p[0];
+    v[1] = scaled * p[1];
+  }
   template <class S>
   void force(const Vector<S, 2>& q, Vector<S, 2>& f) const {
-    const S slope = potential_.slope(square(q));
-    f[0] = -(slope * q[0]);
-    f[1] = -(slope * q[1]);
+    attract(potential_.slope(square(q)), q, f);
   }
+  /// Of potentials whose slope takes a factor.
+  template <class F, class S>
+  void scaled_force(const F& factor, const Vector<S, 2>& q, Vector<S, 2>& f) const requires
+      requires(const Potential<R>& v, const S& u) {
+    v.slope(u, factor);
+  }
+  { attract(potential_.slope(square(q), factor), q, f); }
   /// The force for FastKernel, of potentials that have a fast slope.
-  template <class S>
-  void fast_force(const Vector<S, 2>& q, Vector<S, 2>& f) const requires requires(const Potential<R>& v, const S& u) {
-    v.fast_slope(u);
+  template <class S, class F = R>
+  void fast_force(const Vector<S, 2>& q, Vector<S, 2>& f, const F& factor = F(1)) const requires
+      requires(const Potential<R>& v, const S& u) {
+    v.fast_slope(u, factor);
   }
-  {
-    const S slope = potential_.fast_slope(square(q));
-    f[0] = -(slope * q[0]);
-    f[1] = -(slope * q[1]);
-  }
+  { attract(potential_.fast_slope(square(q), factor), q, f); }
   template <class S>
   void force_and_hessian(const Vector<S, 2>& q, Vector<S, 2>& f, Matrix<S, 2>& hessian) const {
     const CentralDerivatives<S> d = potential_.derivatives(square(q));
-    f[0] = -(d.slope * q[0]);
-    f[1] = -(d.slope * q[1]);
+    attract(d.slope, q, f);
     const S cx = d.curvature * q[0];
     hessian[0][0] = d.slope + cx * q[0];
     hessian[0][1] = hessian[1][0] = cx * q[1];
@@ -153,6 +162,11 @@ class CentralForce {
   }
 
  private:
+  template <class S>
+  static void attract(const std::type_identity_t<S>& slope, const Vector<S, 2>& q, Vector<S, 2>& f) {
+    f[0] = -(slope * q[0]);
+    f[1] = -(slope * q[1]);
+  }
   template <class S>
   static S square(const Vector<S, 2>& q) {
     return q[0] * q[0] + q[1] * q[1];

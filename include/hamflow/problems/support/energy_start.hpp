@@ -1,15 +1,19 @@
 // A start by energy and angular momentum: the turning points are the roots of V_eff(r) = E.   [Gross1999, (2.40)]
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/problem_info.hpp"
+#include "hamflow/numerics/root.hpp"
 #include "hamflow/problems/support/radial_motion.hpp"
 
 namespace hamflow {
 
-/// Where an orbit with energy E and angular momentum l begins: at pericentre; where it has none, at apocentre; on a
-/// circle anywhere. Of several allowed intervals of r the innermost counts.
+/// Where an orbit with energy E and angular momentum l begins: at the innermost pericentre; where there is none,
+/// because the motion reaches the centre, at apocentre; on a circle anywhere.
 template <class R>
 struct TurningPoint {
   R radius{};
@@ -26,37 +30,49 @@ TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R
   const L mu = static_cast<L>(mass);
   const L e = static_cast<L>(energy);
   constexpr L rounding = std::numeric_limits<R>::epsilon();
-  const auto centrifugal = [&](L r) { return l * l / (2 * mu * r * r); };
-  const auto effective = [&](L r) { return static_cast<L>(potential.value(r * r)) + centrifugal(r); };
-  const auto size = [&](L r) { return abs(static_cast<L>(potential.value(r * r))) + centrifugal(r); };
-  // The shape of V_eff is the same for every energy: any state of this angular momentum shows its extrema.
+  const auto effective = [&](L r) { return static_cast<L>(potential.value(r * r)) + l * l / (2 * mu * r * r); };
+  const auto size = [&](L r) {
+    return abs(static_cast<L>(potential.value(r * r))) + l * l / (2 * mu * r * r) + abs(e);
+  };
+  // The shape of V_eff is the same for every energy: any state of this angular momentum shows its extrema, between
+  // which V_eff is monotone.
   const RadialMotion<Potential> shape(potential, mu, Vector<L, 2>{1, 0}, Vector<L, 2>{0, l}, rounding);
-  std::vector<L> candidates{0x1p-60L};
-  for (const CircularOrbit& at : shape.extrema()) candidates.push_back(at.radius);
-  for (const L r : {0x1p-20L, 1.0L, 0x1p20L, 0x1p60L}) candidates.push_back(r);
-  std::stable_sort(candidates.begin(), candidates.end());
-  std::optional<L> inside;
-  L deepest = candidates.front();
-  for (const L r : candidates) {
-    if (!isfinite(effective(r))) continue;
-    if (!isfinite(effective(deepest)) || effective(r) < effective(deepest)) deepest = r;
-    if (!inside && effective(r) <= e + 8 * rounding * (size(r) + abs(e))) inside = r;
-  }
-  if (!inside) {
-    conditions.require("problem.orbit.energy", "V_eff <= energy at the minimum of V_eff", effective(deepest), e, false);
-    return {static_cast<R>(deepest), true};
-  }
-  if (abs(effective(*inside) - e) <= 8 * rounding * (size(*inside) + abs(e))) {
-    for (const CircularOrbit& at : shape.extrema()) {
-      if (at.radius == *inside) return {static_cast<R>(*inside), true};
+  std::vector<L> radii{0x1p-60L, 0x1p60L};
+  for (const CircularOrbit& at : shape.extrema()) radii.push_back(at.radius);
+  std::sort(radii.begin(), radii.end());
+  std::erase_if(radii, [&](L r) { return !isfinite(effective(r)); });
+  if (radii.empty()) throw Error("found no radius at which V_eff is finite; allowed initial = { q, p }");
+
+  for (const CircularOrbit& at : shape.extrema()) {
+    if (at.stable && abs(effective(at.radius) - e) <= 8 * rounding * size(at.radius)) {
+      return {static_cast<R>(at.radius), true};
     }
   }
-  const L radial = sqrt(larger(L(0), 2 * mu * (e - effective(*inside))));
-  const RadialMotion<Potential> motion(potential, mu, Vector<L, 2>{*inside, 0}, Vector<L, 2>{radial, l / *inside},
-                                       rounding);
-  if (motion.r_min() > 0) return {static_cast<R>(motion.r_min()), false};
-  if (motion.r_max() < std::numeric_limits<L>::infinity()) return {static_cast<R>(motion.r_max()), false};
-  throw Error("found an orbit without a turning point, from the centre to infinity; allowed initial = { q, p }");
+  const auto root_between = [&](L a, L b) {
+    return bracketed_root(
+        [&](L r) {
+          return ValueAndSlope<L>{e - effective(r),
+                                  l * l / (mu * r * r * r) - r * static_cast<L>(potential.slope(r * r))};
+        },
+        a, b, effective(a) < e);
+  };
+  std::optional<L> apocentre;
+  for (std::size_t i = 0; i + 1 < radii.size(); ++i) {
+    const bool inside = effective(radii[i]) < e;
+    if (inside == (effective(radii[i + 1]) < e)) continue;
+    const L root = root_between(radii[i], radii[i + 1]);
+    if (!inside) return {static_cast<R>(root), false};
+    if (!apocentre) apocentre = root;
+  }
+  if (apocentre) return {static_cast<R>(*apocentre), false};
+  if (effective(radii.front()) < e) {
+    throw Error("found an orbit without a turning point, from the centre to infinity; allowed initial = { q, p }");
+  }
+  const L deepest =
+      *std::min_element(radii.begin(), radii.end(), [&](L a, L b) { return effective(a) < effective(b); });
+  conditions.require("problem.orbit.energy", "V_eff <= energy at the lowest point of V_eff", effective(deepest), e,
+                     false);
+  return {static_cast<R>(deepest), true};
 }
 
 }  // namespace hamflow

@@ -11,10 +11,10 @@
 
 namespace hamflow {
 
-/// fast_force(q, f): f = -dV/dq by other operations than force.
+/// fast_force(q, f, factor): f = -factor dV/dq by other operations than force.
 template <class P>
 concept HasFastForce = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f) {
-  problem.fast_force(q, f);
+  problem.fast_force(q, f, RealOf<P>(1));
 };
 
 template <HasFastForce P>
@@ -25,7 +25,11 @@ class FastKernel : public P {
 
   template <class S>
   void force(const Vector<S, P::dimension>& q, Vector<S, P::dimension>& f) const {
-    P::fast_force(q, f);
+    P::fast_force(q, f, RealOf<P>(1));
+  }
+  template <class F, class S>
+  void scaled_force(const F& factor, const Vector<S, P::dimension>& q, Vector<S, P::dimension>& f) const {
+    P::fast_force(q, f, factor);
   }
 };
 

@@ -157,6 +157,7 @@ class PolarCentralForce {
   /// phi in (-pi, pi].
   std::optional<Start<long double, 2>> exact(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                              long double t) const {
+    if (p[1] == 0) return exact_on_line(q, p, t);
     if (!(q[0] > 0)) return std::nullopt;
     const Start<long double, 2> s = to_cartesian(Start<long double, 2>{q, p});
     const auto end = cartesian().exact(s.q, s.p, t);
@@ -165,11 +166,18 @@ class PolarCentralForce {
   }
 
  private:
+  /// l = 0: phi stays, and r goes through zero where the potential lets it.
+  std::optional<Start<long double, 2>> exact_on_line(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
+                                                     long double t) const {
+    const auto end = cartesian().exact({q[0], 0}, {p[0], 0}, t);
+    if (!end) return std::nullopt;
+    return Start<long double, 2>{{end->q[0], q[1]}, {end->p[0], 0}};
+  }
   /// mu phi' = p_phi/r^2; at the centre, where only p_phi = 0 can be, 0.
   template <class S>
   static S turning(const S& angular_momentum, const S& u) {
     return value_of(u) == base_scalar<S>(0) && value_of(angular_momentum) == base_scalar<S>(0) ? S(0)
-                                                                                              : angular_momentum / u;
+                                                                                               : angular_momentum / u;
   }
   Cartesian cartesian() const { return Cartesian(mass_, potential_); }
 
