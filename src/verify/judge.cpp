@@ -35,8 +35,8 @@ PropertyCell reversal_cell(std::string property, bool claimed, std::span<const M
   std::vector<Measurement> even;
   std::copy_if(on.begin(), on.end(), std::back_inserter(even), [](const Measurement& m) { return m.even_in_momenta; });
   if (even.empty()) return {std::move(property), text(claimed), "-", Finding::yes};
-  return cell(std::move(property), claimed,
-              everywhere(even, [&](const Measurement& m) { return (m.*which).holds; }), even.size());
+  return cell(std::move(property), claimed, everywhere(even, [&](const Measurement& m) { return (m.*which).holds; }),
+              even.size());
 }
 
 PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> on) {
@@ -59,7 +59,7 @@ PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> o
 
 PropertyCell energy_cell(const MethodInfo& claims, std::span<const Measurement> on) {
   Conservation least = Conservation::yes;
-  for (const Measurement& m : on) least = std::min(least, m.energy.conserving(claims.order));
+  for (const Measurement& m : on) least = std::min(least, m.energy.conserving(claims.order, m.even_in_momenta));
   const Conservation claimed = claims.energy_conserving;
   // Quadrature may be exact to rounding on these problems with this step.
   const bool enough = claimed == Conservation::up_to_quadrature ? least >= claimed : least == claimed;

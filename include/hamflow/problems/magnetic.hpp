@@ -13,6 +13,13 @@ namespace hamflow {
 
 template <class R = double>
 class Magnetic {
+  // First, because its return type is deduced.
+  template <class S, class T>
+  static auto cross(const Vector<S, 3>& a, const Vector<T, 3>& b) {
+    using U = decltype(a[0] * b[0]);
+    return Vector<U, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
  public:
   using Real = R;
   static constexpr std::size_t dimension = 3;
@@ -21,7 +28,7 @@ class Magnetic {
   Magnetic(R mass, Vector<R, 3> strength) : mass_(mass), strength_(strength) {}
   explicit Magnetic(const Parameters<R>& given)
       : Magnetic(given["mass"], {given["charge"] * given.list("field")[0], given["charge"] * given.list("field")[1],
-                                   given["charge"] * given.list("field")[2]}) {}
+                                 given["charge"] * given.list("field")[2]}) {}
 
   static ProblemInfo info() {
     return {.name = "magnetic",
@@ -125,12 +132,6 @@ class Magnetic {
  private:
   template <class>
   friend class Magnetic;
-  template <class S, class T>
-  static auto cross(const Vector<S, 3>& a, const Vector<T, 3>& b) {
-    using U = decltype(a[0] * b[0]);
-    return Vector<U, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-
   R mass_;
   Vector<R, 3> strength_;
 };

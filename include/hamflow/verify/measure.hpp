@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "hamflow/run/catalog.hpp"
-#include "hamflow/verify/drift.hpp"
 #include "hamflow/run/step_map.hpp"
+#include "hamflow/verify/drift.hpp"
 
 namespace hamflow {
 
@@ -67,7 +67,7 @@ struct EnergyMeasurement {
   DriftStatistics drift;
   /// yes: at rounding and not drifting. up_to_quadrature: not at rounding, but falling faster than the method
   /// converges. @param order of the method
-  Conservation conserving(int order) const;
+  Conservation conserving(int order, bool even_in_momenta = true) const;
 };
 
 struct CostMeasurement {

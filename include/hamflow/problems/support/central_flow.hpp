@@ -74,11 +74,26 @@ bool meets_centre(const RadialMotion<Potential>& motion, const RadialClock<Poten
   return abs(t - outward * from_apsis) >= clock.time(clock.end());
 }
 
-/// central_flow without its check.
+/// The motion passes a maximum of V_eff so slowly that the quadrature over time does not resolve it: at the top the
+/// radial energy is less than V_eff falls by within a twentieth of the radius.
 template <class Potential>
-std::optional<Start<long double, 2>> central_flow_unchecked(const Potential& potential, long double mass,
-                                                            const Vector<long double, 2>& q,
-                                                            const Vector<long double, 2>& p, long double t) {
+bool near_separatrix(const RadialMotion<Potential>& motion) {
+  for (const CircularOrbit& at : motion.extrema()) {
+    if (at.stable || at.radius < motion.r_min() || at.radius > motion.r_max()) continue;
+    const long double width = at.radius / 20;
+    if (motion.above(at.radius) < -motion.effective_curvature(at.radius) / 2 * width * width) return true;
+  }
+  return false;
+}
+
+}  // namespace detail
+
+/// The state after time t; empty where there is none (the motion ends in a singular centre, or at infinity), on a
+/// separatrix or an unstable circle, where rounding decides, and close to one.
+template <class Potential>
+std::optional<Start<long double, 2>> central_flow(const Potential& potential, long double mass,
+                                                  const Vector<long double, 2>& q, const Vector<long double, 2>& p,
+                                                  long double t) {
   using L = long double;
   const RadialMotion<Potential> motion(potential, mass, q, p, std::numeric_limits<L>::epsilon());
   const L l = motion.angular_momentum();
@@ -89,7 +104,7 @@ std::optional<Start<long double, 2>> central_flow_unchecked(const Potential& pot
     now.r = r0;
     now.phase = r0 > 0 ? l / (mass * r0 * r0) * t : L(0);
   } else {
-    if (motion.separatrix()) return std::nullopt;
+    if (motion.separatrix() || detail::near_separatrix(motion)) return std::nullopt;
     const RadialClock<Potential> clock(motion, mass);
     const bool centre_is_regular = l == 0 && isfinite(potential.value(L(0)));
     if (!centre_is_regular && detail::meets_centre(motion, clock, t)) return std::nullopt;
@@ -108,26 +123,6 @@ std::optional<Start<long double, 2>> central_flow_unchecked(const Potential& pot
   const L around = l == 0 ? L(0) : l / now.r;
   return Start<L, 2>{{now.r * outward[0], now.r * outward[1]},
                      {radial * outward[0] - around * outward[1], radial * outward[1] + around * outward[0]}};
-}
-
-}  // namespace detail
-
-/// The state after time t; empty where there is none (the motion ends in a singular centre, or at infinity) and near
-/// separatrices, where rounding decides: where the way back from the end does not lead to the start.
-template <class Potential>
-std::optional<Start<long double, 2>> central_flow(const Potential& potential, long double mass,
-                                                  const Vector<long double, 2>& q, const Vector<long double, 2>& p,
-                                                  long double t) {
-  const auto end = detail::central_flow_unchecked(potential, mass, q, p, t);
-  if (!end) return end;
-  const auto back = detail::central_flow_unchecked(potential, mass, end->q, end->p, -t);
-  if (!back) return std::nullopt;
-  const long double apart_q = hypot(back->q[0] - q[0], back->q[1] - q[1]);
-  const long double apart_p = hypot(back->p[0] - p[0], back->p[1] - p[1]);
-  constexpr long double enough = 1e-10L;  // far above rounding, far below what a lost branch does
-  const bool returned = apart_q <= enough * (hypot(q[0], q[1]) + hypot(end->q[0], end->q[1])) &&
-                        apart_p <= enough * (hypot(p[0], p[1]) + hypot(end->p[0], end->p[1]));
-  return returned ? end : std::nullopt;
 }
 
 }  // namespace hamflow
