@@ -194,7 +194,10 @@ steps = 1000
 
     def test_at_a_terminal(self):
         """A prompt; errors and Ctrl-C leave the shell where it is."""
-        master, slave = pty.openpty()
+        try:
+            master, slave = pty.openpty()
+        except OSError:  # a chroot without /dev/pts
+            self.skipTest("there are no pseudo-terminals here")
         process = subprocess.Popen([HAMFLOW, "shell", "kepler.toml", "--set", "run.record_every=1000000"],
                                    cwd=self.folder, stdin=slave, stdout=slave, stderr=slave, start_new_session=True)
         os.close(slave)
