@@ -47,7 +47,8 @@ class Recorder final : public Observer {
                          .diagnostics = scenario.request.method.cg.diagnostics,
                          .samples = static_cast<std::size_t>(sample_count(scenario.steps, scenario.record_every))});
     }
-    if (wants("csv")) csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.start_q.size(), invariants);
+    if (wants("csv"))
+      csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.start_q.size(), invariants);
   }
 
   std::int64_t next_due(std::int64_t step) const override {

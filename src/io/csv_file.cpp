@@ -6,8 +6,7 @@
 
 namespace hamflow {
 
-CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
-                 const std::vector<std::pair<std::string, std::size_t>>& invariants)
+CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<std::pair<std::string, std::size_t>>& invariants)
     : path_(file), out_(file) {
   if (!out_) throw FileError("cannot write " + file.string());
   out_ << "step,t";

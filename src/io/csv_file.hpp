@@ -14,8 +14,7 @@ namespace hamflow {
 class CsvFile {
  public:
   /// Columns step, t, q1.., p1.., energy and the invariants, each with its number of components. @throws FileError
-  CsvFile(const std::filesystem::path& file, std::size_t dimension,
-          const std::vector<std::pair<std::string, std::size_t>>& invariants);
+  CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<std::pair<std::string, std::size_t>>& invariants);
   void append(const Frame& frame);
   /// @throws FileError when the disk is full
   void flush();

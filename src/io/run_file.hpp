@@ -1,11 +1,11 @@
 // run.h5: the samples of a run. Written in single-writer-multiple-readers mode and flushed several times a second, so
 // that it can be read while it grows, and after a crash at any moment, up to the last flush. Datasets, one row a
-// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n, or n x components), where asked
-// for /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last
-// step, NaN at the start where there is none), and the totals since the start /solver/force, /solver/hessian,
-// /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps); beside them /scenario, the
-// scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic, kernel, created. Open a file
-// that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
+// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n, or n x components), where asked for
+// /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last step, NaN
+// at the start where there is none), and the totals since the start
+// /solver/force, /solver/hessian, /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps);
+// beside them /scenario, the scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic,
+// kernel, created. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
 #pragma once
 
 #include <chrono>

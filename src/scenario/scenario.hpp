@@ -35,7 +35,7 @@ struct Scenario {
   std::string folder;  // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
-  std::vector<std::string> notes;   // worth saying, but no errors
+  std::vector<std::string> notes;  // worth saying, but no errors
   std::optional<TwoBodies> bodies;  // of a start by two bodies in space
   std::vector<double> start_q;      // in double, canonical
   std::vector<double> start_p;

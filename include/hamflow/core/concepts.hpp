@@ -125,8 +125,8 @@ concept Cyclic = Smooth<P> && requires(const P& problem, const VectorOf<P>& q, c
 /// **ChargeInField**: a charged particle in a uniform field; canonical momenta are not those of the motion.
 template <class P>
 concept ChargeInField = Smooth<P> && requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
-  problem.velocity_of(x, x, out);                              // v from (q, p)
-  problem.momentum_of(x, x, out);                              // p from (q, v)
+  problem.velocity_of(x, x, out);  // v from (q, p)
+  problem.momentum_of(x, x, out);  // p from (q, v)
   { problem.rotation() } -> std::convertible_to<VectorOf<P>>;  // charge * field / mass: v' = v x rotation
 };
 

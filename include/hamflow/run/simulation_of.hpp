@@ -202,8 +202,8 @@ class SimulationOf final : public Simulation {
   Real scale_{};
 };
 
-/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
-/// the plain type of the problem unless asked.
+/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in the
+/// plain type of the problem unless asked.
 template <class Recipe>
 constexpr bool always_compensated() {
   if constexpr (requires { Recipe::compensated; }) {

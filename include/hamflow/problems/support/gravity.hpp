@@ -78,8 +78,8 @@ class Gravity {
       pair_forces<3>(q, f);
     }
   }
-  /// The pair i, j adds c (I - 3 d d^T/u) with d = x_i - x_j, u = d^2 + softening^2, c = G m_i m_j u^(-3/2) to the
-  /// blocks ii and jj and subtracts it from ij and ji.
+  /// The pair i, j adds c (I - 3 d d^T/u) with d = x_i - x_j, u = d^2 + softening^2, c = G m_i m_j u^(-3/2) to the blocks
+  /// ii and jj and subtracts it from ij and ji.
   template <class S>
   void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f, Matrix<S, dynamic>& hessian) const {
     force(q, f);
