@@ -4,15 +4,21 @@
 
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/problems/support/fast_kernel.hpp"
-#include "hamflow/verify/step_map_of.hpp"
+#include "hamflow/run/simulation_of.hpp"
+#include "problem_start.hpp"
 #include "recipes.hpp"
 
 namespace hamflow {
 
 template <template <class> class Family>
-class ProblemUnit {
-  using P = Family<double>;
+class ProblemUnit : ProblemStart<Family> {
+  using In = ProblemStart<Family>;
+  using typename In::P;
   static constexpr std::size_t n = P::dimension;
+  using In::has_derived;
+  using In::has_starts;
+  using In::refused_size;
+  using In::vector_of;
 
  public:
   static ProblemEntry entry() {
@@ -41,7 +47,6 @@ class ProblemUnit {
     };
     e.has_fast_kernel = has_fast_kernel;
     e.simulate = simulate;
-    e.step_map = step_map;
     e.derived = [](const Texts& parameters, const StartSpec& spec) {
       Texts all = parameters;
       if constexpr (has_derived) {
@@ -62,15 +67,15 @@ class ProblemUnit {
       return conditions.all();
     };
     e.energy = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-      return hamflow::energy(make<double>(Parameters<double>(parameters), q.size()), vector_of(q), vector_of(p));
+      return hamflow::energy(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q), vector_of(p));
     };
     e.regular = regular;
     e.invariant_sizes = [](const Texts& parameters, std::size_t size) {
-      const P problem = make<double>(Parameters<double>(parameters), size);
+      const P problem = In::template make<double>(Parameters<double>(parameters), size);
       return detail::invariant_sizes(problem, P::info().invariants.size());
     };
     e.start = [](const Request& request) {
-      const auto s = start<double>(request);
+      const auto s = In::template start<double>(request);
       Frame frame;
       frame.q.assign(s.q.begin(), s.q.end());
       frame.p.assign(s.p.begin(), s.p.end());
@@ -93,38 +98,10 @@ class ProblemUnit {
   }
 
  private:
-  static constexpr bool has_derived = requires(Parameters<double> & p) { P::derive(std::string(), p, p); };
-  static constexpr bool has_starts = requires(Conditions & c) {
-    P::start(std::string(), Parameters<double>(), Parameters<double>(), c);
-  };
   static constexpr bool has_fast_kernel = requires(const P& problem, VectorOf<P>& x) { problem.fast_force(x, x); };
 
-  /// The problem; one of any size is told its number of coordinates.
-  template <class R>
-  static Family<R> make(const Parameters<R>& parameters, [[maybe_unused]] std::size_t size) {
-    if constexpr (n == dynamic) {
-      return Family<R>(parameters, size);
-    } else {
-      return Family<R>(parameters);
-    }
-  }
-
-  static VectorOf<P> vector_of(const std::vector<double>& x) {
-    VectorOf<P> v = zeros<double, n>(x.size());
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = x[i];
-    return v;
-  }
-
-  static std::string refused_size(const Texts& parameters, std::size_t size) {
-    if constexpr (n == dynamic) {
-      return P::refused_size(Parameters<double>(parameters), size);
-    } else {
-      return size == n ? std::string() : std::to_string(n) + (n == 1 ? " number" : " numbers");
-    }
-  }
-
   static bool regular(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-    const P problem = make<double>(Parameters<double>(parameters), q.size());
+    const P problem = In::template make<double>(Parameters<double>(parameters), q.size());
     VectorOf<P> dq = vector_of(q);
     VectorOf<P> dp = vector_of(p);
     gradient(problem, vector_of(q), vector_of(p), dq, dp);
@@ -135,7 +112,7 @@ class ProblemUnit {
 
   static std::optional<Frame> exact(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p,
                                     double t) {
-    const auto end = make<double>(Parameters<double>(parameters), q.size())
+    const auto end = In::template make<double>(Parameters<double>(parameters), q.size())
                          .exact(cast<long double>(vector_of(q)), cast<long double>(vector_of(p)), t);
     if (!end) return std::nullopt;
     Frame frame;
@@ -143,81 +120,6 @@ class ProblemUnit {
     for (const long double x : end->q) frame.q.push_back(static_cast<double>(x));
     for (const long double x : end->p) frame.p.push_back(static_cast<double>(x));
     return frame;
-  }
-
-  /// In the arithmetic of the run, with what follows from the start.
-  template <class R>
-  static Parameters<R> parameters_of(const Request& request) {
-    Parameters<R> parameters(request.parameters);
-    if constexpr (has_derived) {
-      if (!request.start.geometric()) return parameters;
-      Family<R>::derive(request.start.kind, Parameters<R>(request.start.orbit), parameters);
-    }
-    return parameters;
-  }
-
-  template <class R>
-  static Start<R, n> start(const Request& request) {
-    const StartSpec& spec = request.start;
-    Start<R, n> s;
-    if (spec.geometric()) {
-      if constexpr (has_starts) {
-        Conditions conditions;
-        s = Family<R>::start(spec.kind, parameters_of<R>(request), Parameters<R>(spec.orbit), conditions);
-        for (const Condition& c : conditions.all()) {
-          if (!c.holds()) throw Error(c.key + ": the start needs " + c.statement);
-        }
-        for (R& x : s.p) x = R(spec.direction) * x;
-      }
-      return s;
-    }
-    const auto fill = [&](const std::vector<std::string>& texts, Vector<R, n>& out) {
-      const std::string why_not = refused_size(request.parameters, texts.size());
-      if (!why_not.empty()) {
-        throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
-                    std::to_string(texts.size()));
-      }
-      out = zeros<R, n>(texts.size());
-      for (std::size_t i = 0; i < texts.size(); ++i) out[i] = evaluate_number<R>(texts[i]);
-    };
-    fill(spec.q, s.q);
-    fill(spec.v.empty() ? spec.p : spec.v, s.p);
-    if (!spec.v.empty()) s.p = momenta_of(make<R>(parameters_of<R>(request), s.q.size()), s.q, s.p);
-    return s;
-  }
-
-  /// p = dL/dv for H at most quadratic in p: v = dH/dp(q, p) solved for p.
-  template <class R>
-  static Vector<R, n> momenta_of(const Family<R>& problem, const Vector<R, n>& q, const Vector<R, n>& v) {
-    if constexpr (QuadraticKinetic<P>) {
-      return apply(inverse(inverse_mass_matrix(problem)), v);
-    } else {
-      const Vector<R, n> zero = zeros_like(q);
-      Vector<R, n> force_at_rest = zero;
-      Vector<R, n> drift = zero;  // dH/dp at p = 0
-      Matrix<R, n> qq = zero_matrix(q);
-      Matrix<R, n> qp = qq;
-      Matrix<R, n> pp = qq;
-      gradient(problem, q, zero, force_at_rest, drift);
-      hessian(problem, q, zero, qq, qp, pp);
-      Vector<R, n> rest = v;
-      for (std::size_t i = 0; i < v.size(); ++i) rest[i] -= drift[i];
-      const Vector<R, n> p = solve(pp, rest);
-      Vector<R, n> check = zero;
-      gradient(problem, q, p, force_at_rest, check);
-      R defect(0);
-      R size(0);
-      for (std::size_t i = 0; i < v.size(); ++i) {
-        defect += abs(check[i] - v[i]);
-        size += abs(check[i]) + abs(v[i]) + abs(drift[i]);
-      }
-      if (!(size <= std::numeric_limits<R>::max()) || !(defect <= R(1e6) * std::numeric_limits<R>::epsilon() * size)) {
-        throw Error(
-            "velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
-            "is singular there; give p");
-      }
-      return p;
-    }
   }
 
   template <class A>
@@ -233,8 +135,8 @@ class ProblemUnit {
   template <class A, template <class> class Problems = Family, class Recipe>
   static std::unique_ptr<Simulation> build(const Request& request, const Recipe& recipe) {
     using R = typename A::Real;
-    const auto s = start<R>(request);
-    const Problems<R> problem{make<R>(parameters_of<R>(request), s.q.size())};
+    const auto s = In::template start<R>(request);
+    const Problems<R> problem{In::template make<R>(In::template parameters_of<R>(request), s.q.size())};
     const R h = evaluate_number<R>(request.dt);
     auto method = recipe.template bind<Problems<R>, A>(problem);
     using M = decltype(method);
@@ -274,18 +176,6 @@ class ProblemUnit {
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }
         return build<Plain<double>>(request, recipe);
-      }
-    });
-  }
-
-  static std::unique_ptr<StepMap> step_map(const Texts& parameters, const MethodSpec& method, std::size_t size) {
-    const auto make_it = [&]<class R>() { return make<R>(Parameters<R>(parameters), size); };
-    return visit_method(method, [&]<class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
-      if constexpr (Recipe::template accepts<P>) {
-        auto shared = with_shape_at_run_time(recipe);
-        return std::make_unique<StepMapOf<Family, decltype(shared)>>(make_it, shared);
-      } else {
-        return nullptr;
       }
     });
   }

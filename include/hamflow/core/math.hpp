@@ -27,6 +27,12 @@ using std::sqrt;
 using std::tan;
 using std::tanh;
 
+/// Binary digits of a number type whose digits are chosen at run time; 0 of the others.
+template <class R>
+long precision_in_use() {
+  return 0;
+}
+
 /// The larger of two numbers of any ordered scalar type (std::max takes references, and needs equal types).
 template <class R>
 constexpr R larger(R a, R b) {

@@ -23,7 +23,7 @@ inline long double parse_decimal<long double>(std::string_view text) {
   return std::strtold(std::string(text).c_str(), nullptr);
 }
 
-/// pi in R.
+/// pi in R; types with more digits bring their own.
 template <class R>
 R pi_value() {
   return parse_decimal<R>("3.14159265358979323846264338327950288419716939937510582097494459");

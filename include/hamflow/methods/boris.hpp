@@ -38,15 +38,15 @@ class BorisStep {
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
     const Vector<Real, n> x0 = z.positions();
     const Vector<Real, n> p0 = z.momenta();
-    Vector<Real, n> v{};
+    Vector<Real, n> v = zeros_like(x0);
     problem.velocity_of(x0, p0, v);
     const Vector<Real, n> change = rotated_by(problem, h, v);
-    Vector<Real, n> move{};
-    for (std::size_t i = 0; i < n; ++i) move[i] = v[i] + Real(0.5) * change[i];
+    Vector<Real, n> move = zeros_like(x0);
+    for (std::size_t i = 0; i < v.size(); ++i) move[i] = v[i] + Real(0.5) * change[i];
     z.move(h, move);
     // p = m v + A(x), A linear: both increments are formed before they are added.
-    for (std::size_t i = 0; i < n; ++i) move[i] = h * move[i];
-    Vector<Real, n> push{};
+    for (std::size_t i = 0; i < v.size(); ++i) move[i] = h * move[i];
+    Vector<Real, n> push = zeros_like(x0);
     problem.momentum_of(move, change, push);
     z.push(Base(1), push);
     ++steps_;
@@ -64,19 +64,19 @@ class BorisStep {
   /// What the rotation adds to v.
   static Vector<Real, n> rotated_by(const P& problem, const Base& h, const Vector<Real, n>& v) {
     const auto omega = problem.rotation();
-    Vector<Wide, n> t{};
+    Vector<Wide, n> t = zeros<Wide, n>(v.size());
     Wide square(0);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < v.size(); ++i) {
       t[i] = (h / Base(2)) * omega[i];
       square += t[i] * t[i];
     }
-    Vector<Wide, n> half{};
-    for (std::size_t i = 0; i < n; ++i) half[i] = v[i];
+    Vector<Wide, n> half = t;
+    for (std::size_t i = 0; i < v.size(); ++i) half[i] = v[i];
     const Vector<Wide, n> turn = cross(half, t);
-    for (std::size_t i = 0; i < n; ++i) half[i] += turn[i];
+    for (std::size_t i = 0; i < v.size(); ++i) half[i] += turn[i];
     const Vector<Wide, n> change = cross(half, t);
-    Vector<Real, n> out{};
-    for (std::size_t i = 0; i < n; ++i) out[i] = static_cast<Real>(change[i] * (Wide(2) / (Wide(1) + square)));
+    Vector<Real, n> out = zeros_like(v);
+    for (std::size_t i = 0; i < v.size(); ++i) out[i] = static_cast<Real>(change[i] * (Wide(2) / (Wide(1) + square)));
     return out;
   }
   static Vector<Wide, n> cross(const Vector<Wide, n>& a, const Vector<Wide, n>& b) {

@@ -5,17 +5,29 @@
 #include <Eigen/LU>
 
 #include "hamflow/core/math.hpp"
+#include "hamflow/numerics/elimination.hpp"
 #include "hamflow/core/vector.hpp"
 
 namespace hamflow {
 
 namespace detail {
+template <class R>
+inline constexpr bool is_hardware = std::is_floating_point_v<R>;
+
 /// b <- m^-1 b for a matrix of `size` rows and a right side of so many columns, both row after row. LU with partial
 /// pivoting, compiled once (src/numerics/dense.cpp). A singular m shows as entries that are not finite.
 void solve_large(const double* m, double* b, std::size_t size, std::size_t columns);
 void solve_large(const long double* m, long double* b, std::size_t size, std::size_t columns);
+template <class R>
+requires(!is_hardware<R>) void solve_large(const R* m, R* b, std::size_t size, std::size_t columns) {
+  (void)eliminate(m, b, size, columns);
+}
 double determinant_large(const double* m, std::size_t size);
 long double determinant_large(const long double* m, std::size_t size);
+template <class R>
+requires(!is_hardware<R>) R determinant_large(const R* m, std::size_t size) {
+  return eliminate(m, static_cast<R*>(nullptr), size, 0);
+}
 
 /// Up to 4 x 4.
 template <class R, std::size_t N>
@@ -46,7 +58,7 @@ Vector<R, N> solve(const Matrix<R, N>& m, const Vector<R, N>& b) {
     const R inverse_determinant = R(1) / (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
     return {(b[0] * m[1][1] - b[1] * m[0][1]) * inverse_determinant,
             (b[1] * m[0][0] - b[0] * m[1][0]) * inverse_determinant};
-  } else if constexpr (N <= 4) {
+  } else if constexpr (N <= 4 && detail::is_hardware<R>) {
     Eigen::Matrix<R, static_cast<int>(N), 1> x;
     for (std::size_t i = 0; i < N; ++i) x(static_cast<int>(i)) = b[i];
     x = (detail::to_eigen(m).inverse() * x).eval();
@@ -64,7 +76,7 @@ Vector<R, N> solve(const Matrix<R, N>& m, const Vector<R, N>& b) {
 template <class R, std::size_t N>
 Matrix<R, N> inverse(const Matrix<R, N>& m) {
   Matrix<R, N> out = m;
-  if constexpr (N <= 4) {
+  if constexpr (N <= 4 && detail::is_hardware<R>) {
     const auto e = detail::to_eigen(m).inverse().eval();
     for (std::size_t i = 0; i < N; ++i) {
       for (std::size_t j = 0; j < N; ++j) out[i][j] = e(static_cast<int>(i), static_cast<int>(j));
@@ -83,7 +95,7 @@ Matrix<R, N> inverse(const Matrix<R, N>& m) {
 
 template <class R, std::size_t N>
 R determinant(const Matrix<R, N>& m) {
-  if constexpr (N <= 4) {
+  if constexpr (N <= 4 && detail::is_hardware<R>) {
     return detail::to_eigen(m).determinant();
   } else {
     return detail::determinant_large(detail::flat(m).data(), m.size());

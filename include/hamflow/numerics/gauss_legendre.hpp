@@ -1,8 +1,7 @@
 // Gauss-Legendre quadrature on [0, 1], computed in the working arithmetic.   [HLW2006, Sect. II.1.3]
 #pragma once
 
-#include <array>
-#include <memory>
+#include <map>
 #include <type_traits>
 #include <vector>
 
@@ -71,22 +70,30 @@ GaussRule<To> rounded(const GaussRule<From>& rule) {
 /// The rule with s points, made once per number type. @param s 1 .. most_gauss_points
 template <class R>
 const GaussRule<R>& gauss_rule(int s) {
-  static const std::vector<GaussRule<R>> rules = [] {
-    std::vector<GaussRule<R>> all(1);
-    for (int k = 1; k <= most_gauss_points; ++k) {
-      if constexpr (std::is_same_v<R, double>) {
-        // The recurrence loses 10 roundings at 8 points and 400 at 64: those of long double, not of double.
-        all.push_back(detail::rounded<double>(detail::make_gauss_rule<long double>(k)));
-      } else {
-        all.push_back(detail::make_gauss_rule<R>(k));
-      }
-    }
-    return all;
-  }();
   if (s < 1 || s > most_gauss_points) {
     throw Error("a Gauss rule has 1 to " + std::to_string(most_gauss_points) + " points, not " + std::to_string(s));
   }
-  return rules[static_cast<std::size_t>(s)];
+  if constexpr (std::is_floating_point_v<R>) {
+    static const std::vector<GaussRule<R>> rules = [] {
+      std::vector<GaussRule<R>> all(1);
+      for (int k = 1; k <= most_gauss_points; ++k) {
+        if constexpr (std::is_same_v<R, double>) {
+          // The recurrence loses 10 roundings at 8 points and 400 at 64: those of long double, not of double.
+          all.push_back(detail::rounded<double>(detail::make_gauss_rule<long double>(k)));
+        } else {
+          all.push_back(detail::make_gauss_rule<R>(k));
+        }
+      }
+      return all;
+    }();
+    return rules[static_cast<std::size_t>(s)];
+  } else {  // in slow arithmetic each when it is asked for; a run holds on to its address
+    static thread_local std::map<std::pair<long, int>, GaussRule<R>> rules;
+    const std::pair<long, int> key{precision_in_use<R>(), s};
+    const auto found = rules.find(key);
+    if (found != rules.end()) return found->second;
+    return rules.emplace(key, detail::make_gauss_rule<R>(s)).first->second;
+  }
 }
 
 }  // namespace hamflow

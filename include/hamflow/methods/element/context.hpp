@@ -27,6 +27,12 @@ struct ElementContext {
   StepDiagnostics diagnostics{};
 };
 
+/// The unit of rounding: a constant of the hardware's types, for others asked for where it stands.
+template <class Real>
+struct Epsilon {
+  friend constexpr Real operator*(Epsilon, const Real& x) { return std::numeric_limits<Real>::epsilon() * x; }
+};
+
 /// Extrapolates a smooth sequence from its last three members: the first guess of a step. Part of a run's state.
 template <class V>
 class Extrapolation {

@@ -21,7 +21,9 @@ class CyclicElement {
 
   void guess(Context& context, const P& problem, const Real& h, const V& q0, const V& p0, Increment<Real, n>& u) {
     Increment<Real, Reduced::dimension> of_rest;
-    rest_.guess(context, problem.reduced(p0[n - 1]), h, head(q0), head(p0), of_rest);
+    rest_.guess(context, problem.reduced(momentum_of(p0)), h, head(q0), head(p0), of_rest);
+    u.q = zeros_like(q0);
+    u.p = zeros_like(q0);
     put(of_rest, u);
   }
   void remember(const Increment<Real, n>& u) { rest_.remember({head(u.q), head(u.p)}); }
@@ -29,7 +31,7 @@ class CyclicElement {
 
   Outcome converge(Context& context, const P& problem, const Real& h, const V& q0, const V& p0, Increment<Real, n>& u,
                    std::string* history) {
-    const Real momentum = p0[n - 1];
+    const Real momentum = momentum_of(p0);
     const W start = head(q0);
     Increment<Real, Reduced::dimension> of_rest{head(u.q), head(u.p)};
     const Outcome outcome =
@@ -41,24 +43,25 @@ class CyclicElement {
       const W q = detail::on_segment(middle, context.rule->offset[l], of_rest.q);
       change += h * context.rule->b[l] * problem.cyclic_rate(q, momentum);
     }
-    u.q[n - 1] = change;
-    u.p[n - 1] = Real(0);
+    u.q[q0.size() - 1] = change;
+    u.p[q0.size() - 1] = Real(0);
     return outcome;
   }
 
   bool too_coarse(Context& context, const P& problem, const Real& h, const V& q0, const V& p0,
                   const Increment<Real, n>& u) {
-    return rest_.too_coarse(context, problem.reduced(p0[n - 1]), h, head(q0), head(p0), {head(u.q), head(u.p)});
+    return rest_.too_coarse(context, problem.reduced(momentum_of(p0)), h, head(q0), head(p0), {head(u.q), head(u.p)});
   }
 
  private:
+  static const Real& momentum_of(const V& p) { return p[p.size() - 1]; }
   static W head(const V& x) {
-    W y{};
-    for (std::size_t i = 0; i + 1 < n; ++i) y[i] = x[i];
+    W y = zeros<Real, Reduced::dimension>(x.size() - 1);
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) y[i] = x[i];
     return y;
   }
   static void put(const Increment<Real, Reduced::dimension>& part, Increment<Real, n>& u) {
-    for (std::size_t i = 0; i + 1 < n; ++i) {
+    for (std::size_t i = 0; i + 1 < u.q.size(); ++i) {
       u.q[i] = part.q[i];
       u.p[i] = part.p[i];
     }

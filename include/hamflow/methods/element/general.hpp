@@ -137,7 +137,7 @@ class GeneralElement {
   }
 
  private:
-  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+  static constexpr auto epsilon = Epsilon<Real>{};
 
   static Z joined(const Increment<Real, n>& u) {
     Z z = zeros<Real, m>(2 * u.q.size());

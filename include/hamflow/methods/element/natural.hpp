@@ -140,7 +140,7 @@ class NaturalElement {
     return sizes;
   }
 
-  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+  static constexpr auto epsilon = Epsilon<Real>{};
 
   /// impulse = -h int V'(q0 + alpha d), stiffness = int alpha V''(q0 + alpha d).
   [[gnu::always_inline]] static void integrate(Context& context, const P& problem, const Real& h, const V& q0,

@@ -1,0 +1,71 @@
+// Double-double: the unevaluated sum of two doubles, about 32 digits, by the QD library.   [Hida, Li, Bailey 2001]
+// Sums and quotients are QD's accurate ones: its defaults lose digits where terms cancel, and cancelling is what energies
+// and invariants do when they are compared.
+#pragma once
+
+#include <qd/dd_real.h>
+
+#include "hamflow/arithmetic/extended.hpp"
+#include "hamflow/arithmetic/quad.hpp"
+
+namespace hamflow {
+
+template <>
+struct ExtendedTraits<dd_real> {
+  using T = dd_real;
+  template <class U>
+  static T made(U x) {
+    const double high = static_cast<double>(x);
+    if constexpr (std::is_same_v<U, double> || std::is_same_v<U, float> || sizeof(U) < sizeof(double)) {
+      return T(high);
+    } else {  // long double and 64-bit integers have more digits than one double
+      return T(high, static_cast<double>(static_cast<long double>(x) - static_cast<long double>(high)));
+    }
+  }
+  template <class U>
+  static U as(const T& x) {
+    return static_cast<U>(static_cast<long double>(x.x[0]) + static_cast<long double>(x.x[1]));
+  }
+  static T add(const T& a, const T& b) { return T::ieee_add(a, b); }
+  static T subtract(const T& a, const T& b) { return T::ieee_add(a, -b); }
+  static T multiply(const T& a, const T& b) { return a * b; }
+  static T divide(const T& a, const T& b) { return T::accurate_div(a, b); }
+  static T abs(const T& x) { return ::abs(x); }
+  static T sqrt(const T& x) { return ::sqrt(x); }
+  static T exp(const T& x) { return ::exp(x); }
+  static T log(const T& x) { return ::log(x); }
+  static T sin(const T& x) { return ::sin(x); }
+  static T cos(const T& x) { return ::cos(x); }
+  static T tan(const T& x) { return ::tan(x); }
+  static T asin(const T& x) { return ::asin(x); }
+  static T acos(const T& x) { return ::acos(x); }
+  static T atan(const T& x) { return ::atan(x); }
+  static T sinh(const T& x) { return ::sinh(x); }
+  static T cosh(const T& x) { return ::cosh(x); }
+  static T tanh(const T& x) { return ::tanh(x); }
+  static T atan2(const T& y, const T& x) { return ::atan2(y, x); }
+  static T pow(const T& x, const T& y) { return ::pow(x, y); }
+  /// By way of quad, whose reader rounds correctly: QD's own loses some digits.
+  static T read(std::string_view text) {
+    const __float128 x = ExtendedTraits<__float128>::read(text);
+    const double high = static_cast<double>(x);
+    return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<__float128>(high))) : T(high);
+  }
+  static std::string written(const T& x) {
+    return ExtendedTraits<__float128>::written(static_cast<__float128>(x.x[0]) + static_cast<__float128>(x.x[1]), 34);
+  }
+  static T epsilon() { return T(0x1p-104); }
+  static T max() { return T(std::numeric_limits<double>::max(), std::numeric_limits<double>::max() * 0x1p-54); }
+  static T min() { return T(0x1p-969); }  // 2^-1022 2^53: below it the low part is subnormal
+  static T infinity() { return T(std::numeric_limits<double>::infinity()); }
+  static T nan() { return T(std::numeric_limits<double>::quiet_NaN()); }
+};
+
+using DoubleDouble = Extended<dd_real>;
+
+template <>
+inline DoubleDouble parse_decimal<DoubleDouble>(std::string_view text) {
+  return DoubleDouble(ExtendedTraits<dd_real>::read(text));
+}
+
+}  // namespace hamflow

@@ -1,0 +1,128 @@
+// Multiple precision with a number of digits chosen at run time, by MPFR.
+// The digits are a property of the thread: what computes in Mp stands inside an MpDigits scope, and every number made
+// there, results included, has those digits. Operations are compiled once (src/arithmetic/mp.cpp): a call is nothing
+// beside them, and problems compile faster for it.
+#pragma once
+
+#include <mpfr.h>
+
+#include <utility>
+
+#include "hamflow/arithmetic/extended.hpp"
+
+namespace hamflow {
+
+/// An MPFR number as a value.
+class MpNumber {
+ public:
+  MpNumber();  // 0
+  MpNumber(const MpNumber& other);
+  MpNumber(MpNumber&& other) noexcept;
+  MpNumber& operator=(const MpNumber& other);
+  MpNumber& operator=(MpNumber&& other) noexcept {
+    std::swap(*number_, *other.number_);
+    return *this;
+  }
+  ~MpNumber();
+  mpfr_ptr raw() { return number_; }
+  mpfr_srcptr raw() const { return number_; }
+
+  friend MpNumber operator-(const MpNumber& a);
+  friend bool operator==(const MpNumber& a, const MpNumber& b) { return mpfr_equal_p(a.raw(), b.raw()) != 0; }
+  friend bool operator<(const MpNumber& a, const MpNumber& b) { return mpfr_less_p(a.raw(), b.raw()) != 0; }
+  friend bool operator>(const MpNumber& a, const MpNumber& b) { return mpfr_greater_p(a.raw(), b.raw()) != 0; }
+  friend bool operator<=(const MpNumber& a, const MpNumber& b) { return mpfr_lessequal_p(a.raw(), b.raw()) != 0; }
+  friend bool operator>=(const MpNumber& a, const MpNumber& b) { return mpfr_greaterequal_p(a.raw(), b.raw()) != 0; }
+
+ private:
+  mpfr_t number_;
+};
+
+/// The decimal digits of numbers made in this thread, until the scope ends.
+class MpDigits {
+ public:
+  static constexpr int fewest = 2;
+  static constexpr int most = 100000;
+  explicit MpDigits(int digits);
+  ~MpDigits();
+  MpDigits(const MpDigits&) = delete;
+  MpDigits& operator=(const MpDigits&) = delete;
+  /// The binary digits in use in this thread.
+  static mpfr_prec_t bits();
+
+ private:
+  mpfr_prec_t before_;
+};
+
+template <>
+struct ExtendedTraits<MpNumber> {
+  using T = MpNumber;
+  template <class U>
+  static T made(U x) {
+    if constexpr (std::is_same_v<U, long double>) {
+      return from(x);
+    } else if constexpr (std::is_integral_v<U>) {
+      return from(static_cast<long>(x));
+    } else {
+      return from(static_cast<double>(x));
+    }
+  }
+  template <class U>
+  static U as(const T& x) {
+    return static_cast<U>(mpfr_get_ld(x.raw(), MPFR_RNDN));
+  }
+  static T from(long x);
+  static T from(double x);
+  static T from(long double x);
+  static T add(const T& a, const T& b);
+  static T subtract(const T& a, const T& b);
+  static T multiply(const T& a, const T& b);
+  static T divide(const T& a, const T& b);
+  static T abs(const T& x);
+  static T sqrt(const T& x);
+  static T exp(const T& x);
+  static T log(const T& x);
+  static T sin(const T& x);
+  static T cos(const T& x);
+  static T tan(const T& x);
+  static T asin(const T& x);
+  static T acos(const T& x);
+  static T atan(const T& x);
+  static T sinh(const T& x);
+  static T cosh(const T& x);
+  static T tanh(const T& x);
+  static T atan2(const T& y, const T& x);
+  static T pow(const T& x, const T& y);
+  static T pi();
+  static T read(std::string_view text);
+  /// As many decimal digits as read back as the same number.
+  static std::string written(const T& x);
+  /// 1 and the next larger number differ by this.
+  static T epsilon();
+  static T max();
+  static T min();
+  static T infinity();
+  static T nan();
+};
+
+template <>
+inline double ExtendedTraits<MpNumber>::as<double>(const MpNumber& x) {
+  return mpfr_get_d(x.raw(), MPFR_RNDN);  // one rounding, not two
+}
+
+using Mp = Extended<MpNumber>;
+
+template <>
+inline long precision_in_use<Mp>() {
+  return static_cast<long>(MpDigits::bits());
+}
+template <>
+inline Mp pi_value<Mp>() {
+  return Mp(ExtendedTraits<MpNumber>::pi());
+}
+template <>
+inline Mp parse_decimal<Mp>(std::string_view text) {
+  return Mp(ExtendedTraits<MpNumber>::read(text));
+}
+
+}  // namespace hamflow

@@ -1,0 +1,45 @@
+// Gaussian elimination with partial pivoting for number types that Eigen does not know: those with more digits than the
+// hardware has.   [Golub and Van Loan, Sect. 3.4]
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hamflow/core/math.hpp"
+
+namespace hamflow::detail {
+
+/// b <- m^-1 b, both row after row, b with so many columns. Returns det m. A singular m shows as entries that are not
+/// finite.
+template <class R>
+R eliminate(const R* m, R* b, std::size_t size, std::size_t columns) {
+  std::vector<R> a(m, m + size * size);
+  R determinant(1);
+  for (std::size_t k = 0; k < size; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < size; ++i) {
+      if (abs(a[pivot * size + k]) < abs(a[i * size + k])) pivot = i;
+    }
+    if (pivot != k) {
+      for (std::size_t j = k; j < size; ++j) std::swap(a[k * size + j], a[pivot * size + j]);
+      for (std::size_t j = 0; j < columns; ++j) std::swap(b[k * columns + j], b[pivot * columns + j]);
+      determinant = -determinant;
+    }
+    determinant *= a[k * size + k];
+    for (std::size_t i = k + 1; i < size; ++i) {
+      const R factor = a[i * size + k] / a[k * size + k];
+      for (std::size_t j = k + 1; j < size; ++j) a[i * size + j] -= factor * a[k * size + j];
+      for (std::size_t j = 0; j < columns; ++j) b[i * columns + j] -= factor * b[k * columns + j];
+    }
+  }
+  for (std::size_t k = size; k-- > 0;) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      R x = b[k * columns + c];
+      for (std::size_t j = k + 1; j < size; ++j) x -= a[k * size + j] * b[j * columns + c];
+      b[k * columns + c] = x / a[k * size + k];
+    }
+  }
+  return determinant;
+}
+
+}  // namespace hamflow::detail

@@ -1,0 +1,328 @@
+// A problem behind virtual calls: what runs in more digits than double, and what the verification looks at, is compiled
+// once for each method and number type, not once for each problem too. One indirect call per force is lost beside the
+// cost of such arithmetic. The typed kernels in double never come here.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/run/probe.hpp"
+
+namespace hamflow {
+
+/// What a problem offers to methods; the concepts of core/concepts.hpp as a value.
+enum class Capability {
+  smooth,     // Smooth and no more: gradient and Hessian of H
+  separable,  // H = T(p) + V(q)
+  natural,    // T quadratic with constant mass matrix
+  cyclic,     // the last coordinate is cyclic
+  charge      // a charge in a uniform magnetic field
+};
+
+template <class P>
+constexpr Capability capability_of() {
+  if constexpr (QuadraticKinetic<P>) {
+    return Capability::natural;
+  } else if constexpr (Separable<P>) {
+    return Capability::separable;
+  } else if constexpr (Cyclic<P>) {
+    return Capability::cyclic;
+  } else if constexpr (ChargeInField<P>) {
+    return Capability::charge;
+  } else {
+    return Capability::smooth;
+  }
+}
+
+/// Number types that only record or carry first derivatives: no Hessian is compiled for them.
+template <class S>
+inline constexpr bool first_derivatives_only = false;
+
+/// The functions of one Hamiltonian for states of type S. What its Capability does not promise is never called.
+template <class S>
+class Functions {
+ public:
+  using V = Vector<S, dynamic>;
+  using M = Matrix<S, dynamic>;
+  virtual ~Functions() = default;
+  virtual S energy(const V& q, const V& p) const = 0;
+  virtual S kinetic(const V& p) const = 0;
+  virtual S potential(const V& q) const = 0;
+  virtual void velocity(const V& p, V& v) const = 0;
+  virtual void force(const V& q, V& f) const = 0;
+  virtual void gradient(const V& q, const V& p, V& dq, V& dp) const = 0;
+  virtual void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const = 0;
+  virtual void force_and_hessian(const V& q, V& f, M& h) const = 0;
+  virtual V invariants(const V& q, const V& p, const S& t) const = 0;
+  virtual std::vector<std::size_t> invariant_sizes() const = 0;
+  // Of a cyclic problem.
+  virtual std::shared_ptr<const Functions> reduced(const S& momentum) const = 0;
+  virtual S cyclic_rate(const V& q, const S& momentum) const = 0;
+  // Of a charge in a field.
+  virtual void velocity_of(const V& q, const V& p, V& v) const = 0;
+  virtual void momentum_of(const V& q, const V& v, V& p) const = 0;
+  virtual V rotation() const = 0;
+};
+
+/// The functions of a problem of some type.
+template <class P, class S>
+class FunctionsOf final : public Functions<S> {
+  static constexpr std::size_t n = P::dimension;
+  using X = Vector<S, n>;  // as the problem has it
+  static constexpr Capability capability = capability_of<P>();
+  static constexpr bool has_hessian = !first_derivatives_only<S>;
+
+ public:
+  using typename Functions<S>::V;
+  using typename Functions<S>::M;
+  explicit FunctionsOf(P problem) : problem_(std::move(problem)) {}
+
+  S energy(const V& q, const V& p) const override { return hamflow::energy(problem_, in(q), in(p)); }
+  S kinetic(const V& p) const override {
+    if constexpr (Separable<P>) {
+      return problem_.kinetic(in(p));
+    } else {
+      absent();
+    }
+  }
+  S potential(const V& q) const override {
+    if constexpr (Separable<P>) {
+      return problem_.potential(in(q));
+    } else {
+      absent();
+    }
+  }
+  void velocity(const V& p, V& v) const override {
+    if constexpr (Separable<P>) {
+      X out = zeros<S, n>(p.size());
+      hamflow::velocity(problem_, in(p), out);
+      put(out, v);
+    } else {
+      absent();
+    }
+  }
+  void force(const V& q, V& f) const override {
+    if constexpr (Separable<P>) {
+      X out = zeros<S, n>(q.size());
+      hamflow::force(problem_, in(q), out);
+      put(out, f);
+    } else {
+      absent();
+    }
+  }
+  void gradient(const V& q, const V& p, V& dq, V& dp) const override {
+    X by_q = zeros<S, n>(q.size());
+    X by_p = zeros<S, n>(q.size());
+    hamflow::gradient(problem_, in(q), in(p), by_q, by_p);
+    put(by_q, dq);
+    put(by_p, dp);
+  }
+  void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
+    if constexpr (Smooth<P> && has_hessian && std::is_same_v<S, RealOf<P>>) {
+      const X x = in(q);
+      Matrix<S, n> by_qq = zero_matrix(x);
+      Matrix<S, n> by_qp = by_qq;
+      Matrix<S, n> by_pp = by_qq;
+      hamflow::hessian(problem_, x, in(p), by_qq, by_qp, by_pp);
+      put(by_qq, qq);
+      put(by_qp, qp);
+      put(by_pp, pp);
+    } else {
+      absent();
+    }
+  }
+  void force_and_hessian(const V& q, V& f, M& h) const override {
+    if constexpr (TwiceDifferentiable<P> && has_hessian) {
+      const X x = in(q);
+      X out = zeros<S, n>(q.size());
+      Matrix<S, n> second = zero_matrix(x);
+      hamflow::force_and_hessian(problem_, x, out, second);
+      put(out, f);
+      put(second, h);
+    } else {
+      absent();
+    }
+  }
+  V invariants(const V& q, const V& p, const S& t) const override {
+    if constexpr (detail::HasInvariants<P, S>) {
+      const auto values = detail::invariants_of(problem_, in(q), in(p), t);
+      V all = zeros<S, dynamic>(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) all[i] = values[i];
+      return all;
+    } else {
+      return {};
+    }
+  }
+  std::vector<std::size_t> invariant_sizes() const override {
+    if constexpr (requires { P::info(); }) {
+      return detail::invariant_sizes(problem_, P::info().invariants.size());
+    } else {
+      return {};
+    }
+  }
+  std::shared_ptr<const Functions<S>> reduced(const S& momentum) const override {
+    if constexpr (capability == Capability::cyclic && std::is_same_v<S, RealOf<P>>) {
+      return std::make_shared<FunctionsOf<typename P::Reduced, S>>(problem_.reduced(momentum));
+    } else {
+      absent();
+    }
+  }
+  S cyclic_rate(const V& q, const S& momentum) const override {
+    if constexpr (capability == Capability::cyclic && std::is_same_v<S, RealOf<P>>) {
+      Vector<S, P::Reduced::dimension> rest{};
+      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = q[i];
+      return problem_.cyclic_rate(rest, momentum);
+    } else {
+      absent();
+    }
+  }
+  void velocity_of(const V& q, const V& p, V& v) const override {
+    if constexpr (capability == Capability::charge) {
+      X out = zeros<S, n>(q.size());
+      problem_.velocity_of(in(q), in(p), out);
+      put(out, v);
+    } else {
+      absent();
+    }
+  }
+  void momentum_of(const V& q, const V& v, V& p) const override {
+    if constexpr (capability == Capability::charge) {
+      X out = zeros<S, n>(q.size());
+      problem_.momentum_of(in(q), in(v), out);
+      put(out, p);
+    } else {
+      absent();
+    }
+  }
+  V rotation() const override {
+    if constexpr (capability == Capability::charge) {
+      const auto omega = problem_.rotation();
+      V out = zeros<S, dynamic>(omega.size());
+      for (std::size_t i = 0; i < omega.size(); ++i) out[i] = omega[i];
+      return out;
+    } else {
+      absent();
+    }
+  }
+
+ private:
+  [[noreturn]] static void absent() { throw std::logic_error("hamflow: the problem does not have this function"); }
+
+  static decltype(auto) in(const V& x) {
+    if constexpr (n == dynamic) {
+      return (x);
+    } else {
+      X y{};
+      for (std::size_t i = 0; i < n; ++i) y[i] = x[i];
+      return y;
+    }
+  }
+  static void put(const X& from, V& to) {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i];
+  }
+  static void put(const Matrix<S, n>& from, M& to) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      for (std::size_t j = 0; j < from.size(); ++j) to[i][j] = from[i][j];
+    }
+  }
+
+  P problem_;
+};
+
+/// A problem of dynamic size made of functions; a value like any problem, whose copies share them.
+/// @tparam States the number types of states, R the first   @tparam capability what the problem behind it offers
+template <class R, Capability capability, class... Others>
+class AnyProblem {
+ public:
+  using Real = R;
+  static constexpr std::size_t dimension = dynamic;
+  static constexpr bool quadratic_kinetic = capability == Capability::natural;
+  static constexpr bool separable = capability == Capability::natural || capability == Capability::separable;
+
+  AnyProblem(std::size_t size, std::shared_ptr<const Functions<R>> own,
+             std::shared_ptr<const Functions<Others>>... others)
+      : size_(size), functions_(std::move(own), std::move(others)...) {}
+  template <class P>
+  static AnyProblem of(const P& problem) {
+    return {degrees_of_freedom(problem), std::make_shared<FunctionsOf<P, R>>(problem),
+            std::make_shared<FunctionsOf<P, Others>>(problem)...};
+  }
+
+  std::size_t size() const { return size_; }
+  template <class S>
+  S energy(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p) const {
+    return on<S>().energy(q, p);
+  }
+  template <class S>
+  S kinetic(const Vector<S, dynamic>& p) const requires separable {
+    return on<S>().kinetic(p);
+  }
+  template <class S>
+  S potential(const Vector<S, dynamic>& q) const requires separable {
+    return on<S>().potential(q);
+  }
+  template <class S>
+  void velocity(const Vector<S, dynamic>& p, Vector<S, dynamic>& v) const requires separable {
+    on<S>().velocity(p, v);
+  }
+  template <class S>
+  void force(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const requires separable {
+    on<S>().force(q, f);
+  }
+  template <class S>
+  void gradient(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, Vector<S, dynamic>& dq,
+                Vector<S, dynamic>& dp) const {
+    on<S>().gradient(q, p, dq, dp);
+  }
+  template <class S>
+  void hessian(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, Matrix<S, dynamic>& qq, Matrix<S, dynamic>& qp,
+               Matrix<S, dynamic>& pp) const {
+    on<S>().hessian(q, p, qq, qp, pp);
+  }
+  template <class S>
+  void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f, Matrix<S, dynamic>& h) const
+      requires separable {
+    on<S>().force_and_hessian(q, f, h);
+  }
+  template <class S>
+  void potential_hessian(const Vector<S, dynamic>& q, Matrix<S, dynamic>& h) const requires separable {
+    Vector<S, dynamic> f = zeros_like(q);
+    on<S>().force_and_hessian(q, f, h);
+  }
+  template <class S>
+  Vector<S, dynamic> invariants(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, const S& t) const {
+    return on<S>().invariants(q, p, t);
+  }
+  std::vector<std::size_t> invariant_sizes() const { return on<R>().invariant_sizes(); }
+
+  using Reduced = AnyProblem<R, Capability::natural>;
+  Reduced reduced(const R& momentum) const requires(capability == Capability::cyclic) {
+    return {size_ - 1, on<R>().reduced(momentum)};
+  }
+  R cyclic_rate(const Vector<R, dynamic>& q, const R& momentum) const requires(capability == Capability::cyclic) {
+    return on<R>().cyclic_rate(q, momentum);
+  }
+  template <class S>
+  void velocity_of(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, Vector<S, dynamic>& v) const
+      requires(capability == Capability::charge) {
+    on<S>().velocity_of(q, p, v);
+  }
+  template <class S>
+  void momentum_of(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v, Vector<S, dynamic>& p) const
+      requires(capability == Capability::charge) {
+    on<S>().momentum_of(q, v, p);
+  }
+  Vector<R, dynamic> rotation() const requires(capability == Capability::charge) { return on<R>().rotation(); }
+
+ private:
+  template <class S>
+  const Functions<S>& on() const {
+    return *std::get<std::shared_ptr<const Functions<S>>>(functions_);
+  }
+  std::size_t size_;
+  std::tuple<std::shared_ptr<const Functions<R>>, std::shared_ptr<const Functions<Others>>...> functions_;
+};
+
+}  // namespace hamflow

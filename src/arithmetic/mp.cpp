@@ -1,0 +1,149 @@
+#include "hamflow/arithmetic/mp.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace hamflow {
+
+namespace {
+/// 0: not set yet.
+thread_local mpfr_prec_t bits_in_use = 0;
+
+mpfr_prec_t bits_for(int digits) { return static_cast<mpfr_prec_t>(std::ceil(digits * std::log2(10.0))) + 1; }
+
+template <class Operation>
+MpNumber made_by(Operation operation) {
+  MpNumber x;
+  operation(x.raw());
+  return x;
+}
+}  // namespace
+
+MpDigits::MpDigits(int digits) : before_(bits_in_use) { bits_in_use = bits_for(digits); }
+MpDigits::~MpDigits() { bits_in_use = before_; }
+mpfr_prec_t MpDigits::bits() { return bits_in_use == 0 ? bits_for(50) : bits_in_use; }
+
+MpNumber::MpNumber() {
+  mpfr_init2(number_, MpDigits::bits());
+  mpfr_set_zero(number_, 1);
+}
+MpNumber::MpNumber(const MpNumber& other) {
+  mpfr_init2(number_, mpfr_get_prec(other.number_));
+  mpfr_set(number_, other.number_, MPFR_RNDN);
+}
+MpNumber::MpNumber(MpNumber&& other) noexcept {
+  mpfr_init2(number_, MPFR_PREC_MIN);
+  mpfr_swap(number_, other.number_);
+}
+MpNumber& MpNumber::operator=(const MpNumber& other) {
+  if (this != &other) {
+    mpfr_set_prec(number_, mpfr_get_prec(other.number_));
+    mpfr_set(number_, other.number_, MPFR_RNDN);
+  }
+  return *this;
+}
+MpNumber::~MpNumber() { mpfr_clear(number_); }
+
+MpNumber operator-(const MpNumber& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_neg(x, a.raw(), MPFR_RNDN); });
+}
+
+using Traits = ExtendedTraits<MpNumber>;
+MpNumber Traits::from(long x) {
+  return made_by([&](mpfr_ptr y) { mpfr_set_si(y, x, MPFR_RNDN); });
+}
+MpNumber Traits::from(double x) {
+  return made_by([&](mpfr_ptr y) { mpfr_set_d(y, x, MPFR_RNDN); });
+}
+MpNumber Traits::from(long double x) {
+  return made_by([&](mpfr_ptr y) { mpfr_set_ld(y, x, MPFR_RNDN); });
+}
+MpNumber Traits::add(const T& a, const T& b) {
+  return made_by([&](mpfr_ptr x) { mpfr_add(x, a.raw(), b.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::subtract(const T& a, const T& b) {
+  return made_by([&](mpfr_ptr x) { mpfr_sub(x, a.raw(), b.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::multiply(const T& a, const T& b) {
+  return made_by([&](mpfr_ptr x) { mpfr_mul(x, a.raw(), b.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::divide(const T& a, const T& b) {
+  return made_by([&](mpfr_ptr x) { mpfr_div(x, a.raw(), b.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::abs(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_abs(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::sqrt(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_sqrt(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::exp(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_exp(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::log(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_log(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::sin(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_sin(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::cos(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_cos(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::tan(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_tan(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::asin(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_asin(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::acos(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_acos(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::atan(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_atan(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::sinh(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_sinh(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::cosh(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_cosh(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::tanh(const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_tanh(x, a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::atan2(const T& y, const T& a) {
+  return made_by([&](mpfr_ptr x) { mpfr_atan2(x, y.raw(), a.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::pow(const T& a, const T& b) {
+  return made_by([&](mpfr_ptr x) { mpfr_pow(x, a.raw(), b.raw(), MPFR_RNDN); });
+}
+MpNumber Traits::pi() {
+  return made_by([](mpfr_ptr x) { mpfr_const_pi(x, MPFR_RNDN); });
+}
+MpNumber Traits::read(std::string_view text) {
+  return made_by([&](mpfr_ptr x) { mpfr_set_str(x, std::string(text).c_str(), 10, MPFR_RNDN); });
+}
+std::string Traits::written(const T& x) {
+  const int digits = static_cast<int>(std::ceil(1 + static_cast<double>(mpfr_get_prec(x.raw())) * std::log10(2.0)));
+  char* text = nullptr;
+  const int length = mpfr_asprintf(&text, "%.*Rg", digits, x.raw());
+  if (length < 0) return "nan";
+  std::string out(text, static_cast<std::size_t>(length));
+  mpfr_free_str(text);
+  return out;
+}
+namespace {
+MpNumber power_of_two(mpfr_exp_t exponent) {
+  return made_by([&](mpfr_ptr x) { mpfr_set_ui_2exp(x, 1, exponent, MPFR_RNDN); });
+}
+}  // namespace
+MpNumber Traits::epsilon() { return power_of_two(1 - static_cast<mpfr_exp_t>(MpDigits::bits())); }
+// Far inside MPFR's own range, which is 2^(2^30) at least: nothing physical is larger.
+MpNumber Traits::max() { return power_of_two(mpfr_exp_t{1} << 28); }
+MpNumber Traits::min() { return power_of_two(-(mpfr_exp_t{1} << 28)); }
+MpNumber Traits::infinity() {
+  return made_by([](mpfr_ptr x) { mpfr_set_inf(x, 1); });
+}
+MpNumber Traits::nan() {
+  return made_by([](mpfr_ptr x) { mpfr_set_nan(x); });
+}
+
+}  // namespace hamflow

@@ -1,0 +1,77 @@
+// Between the typed problems and the methods that are compiled once for each number type (run/any_problem.hpp).
+#pragma once
+
+#include <memory>
+
+#include "hamflow/arithmetic/double_double.hpp"
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/core/tape.hpp"
+#include "hamflow/run/any_problem.hpp"
+#include "hamflow/run/catalog.hpp"
+
+namespace hamflow {
+
+template <class R>
+inline constexpr bool first_derivatives_only<Trace<R>> = true;
+
+/// The problem in R. It can be recorded on a tape, for taylor; in double it can also be differentiated, for the
+/// Jacobian of a step.
+template <class R>
+struct ErasedFunctions {
+  Capability capability{};
+  std::size_t size = 0;
+  std::shared_ptr<const Functions<R>> plain;
+  std::shared_ptr<const Functions<Trace<R>>> trace;
+  std::shared_ptr<const Functions<Dual<double, 1>>> dual;
+
+  template <Capability c>
+  auto as() const {
+    if constexpr (std::is_same_v<R, double>) {
+      return AnyProblem<double, c, Trace<double>, Dual<double, 1>>(size, plain, trace, dual);
+    } else {
+      return AnyProblem<R, c, Trace<R>>(size, plain, trace);
+    }
+  }
+};
+template <class R, Capability c>
+using Erased = decltype(std::declval<ErasedFunctions<R>>().template as<c>());
+
+/// A problem in R with its start.
+template <class R>
+struct ErasedRun {
+  ErasedFunctions<R> functions;
+  Vector<R, dynamic> q;
+  Vector<R, dynamic> p;
+  R h;
+};
+/// Of the request only the method is asked for. Defined for each number type in a file of its own.
+template <class R>
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const MethodSpec& method, bool compensated);
+
+/// What a StepMap computes in: double for structure, more digits for orders.
+struct ErasedProblem {
+  ErasedFunctions<double> in_double;
+  ErasedFunctions<long double> in_long;
+  ErasedFunctions<Quad> in_quad;
+  template <class R>
+  const ErasedFunctions<R>& in() const {
+    if constexpr (std::is_same_v<R, double>) {
+      return in_double;
+    } else if constexpr (std::is_same_v<R, long double>) {
+      return in_long;
+    } else {
+      return in_quad;
+    }
+  }
+};
+std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const MethodSpec& method);
+
+/// What the catalogue has of one problem behind virtual calls.
+struct ErasedEntry {
+  /// In any arithmetic of `extended`, and in double for methods that have no typed kernel.
+  std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
+  std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
+};
+
+}  // namespace hamflow

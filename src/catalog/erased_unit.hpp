@@ -1,0 +1,63 @@
+// One problem behind virtual calls, in every number type. The build makes one translation unit of it per problem.
+#pragma once
+
+#include "erased.hpp"
+#include "mp_simulation.hpp"
+#include "problem_start.hpp"
+
+namespace hamflow {
+
+template <template <class> class Family>
+class ErasedUnit : ProblemStart<Family> {
+  using In = ProblemStart<Family>;
+  static constexpr std::size_t n = In::n;
+
+ public:
+  static ErasedEntry entry() { return {simulate, step_map}; }
+
+ private:
+  static std::unique_ptr<Simulation> simulate(const Request& request) {
+    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(request);
+    if (request.arithmetic == "quad") return simulate_in<Quad>(request);
+    if (const int digits = mp_digits(request.arithmetic); digits > 0) {
+      const MpDigits scope(digits);
+      return with_digits(digits, simulate_in<Mp>(request));
+    }
+    return simulate_in<double>(request);
+  }
+
+  template <class R>
+  static std::unique_ptr<Simulation> simulate_in(const Request& request) {
+    const auto s = In::template start<R>(request);
+    const Family<R> problem = In::template make<R>(In::template parameters_of<R>(request), s.q.size());
+    const auto moved = [](const auto& x) {
+      auto y = zeros<R, dynamic>(x.size());
+      for (std::size_t i = 0; i < y.size(); ++i) y[i] = x[i];
+      return y;
+    };
+    return simulate_erased<R>({functions_of<R>(problem), moved(s.q), moved(s.p), evaluate_number<R>(request.dt)},
+                              request.method, request.arithmetic == "compensated");
+  }
+
+  template <class R>
+  static ErasedFunctions<R> functions_of(const Family<R>& problem) {
+    ErasedFunctions<R> all{capability_of<Family<R>>(), degrees_of_freedom(problem),
+                           std::make_shared<FunctionsOf<Family<R>, R>>(problem),
+                           std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr};
+    if constexpr (std::is_same_v<R, double>) {
+      all.dual = std::make_shared<FunctionsOf<Family<double>, Dual<double, 1>>>(problem);
+    }
+    return all;
+  }
+
+  static std::unique_ptr<StepMap> step_map(const Texts& parameters, const MethodSpec& method, std::size_t size) {
+    const auto in = [&]<class R>() {
+      return functions_of<R>(In::template make<R>(Parameters<R>(parameters), size));
+    };
+    return erased_step_map({in.template operator()<double>(), in.template operator()<long double>(),
+                            in.template operator()<Quad>()},
+                           method);
+  }
+};
+
+}  // namespace hamflow

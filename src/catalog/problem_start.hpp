@@ -1,0 +1,119 @@
+// How a problem and its start are made from the texts of a request, in any number type.
+#pragma once
+
+#include "hamflow/numerics/dense.hpp"
+#include "hamflow/run/catalog.hpp"
+
+namespace hamflow {
+
+template <template <class> class Family>
+struct ProblemStart {
+  using P = Family<double>;
+  static constexpr std::size_t n = P::dimension;
+
+  static constexpr bool has_derived = requires(Parameters<double> & p) { P::derive(std::string(), p, p); };
+  static constexpr bool has_starts = requires(Conditions & c) {
+    P::start(std::string(), Parameters<double>(), Parameters<double>(), c);
+  };
+
+  /// The problem; one of any size is told its number of coordinates.
+  template <class R>
+  static Family<R> make(const Parameters<R>& parameters, [[maybe_unused]] std::size_t size) {
+    if constexpr (n == dynamic) {
+      return Family<R>(parameters, size);
+    } else {
+      return Family<R>(parameters);
+    }
+  }
+
+  static VectorOf<P> vector_of(const std::vector<double>& x) {
+    VectorOf<P> v = zeros<double, n>(x.size());
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = x[i];
+    return v;
+  }
+
+  static std::string refused_size(const Texts& parameters, std::size_t size) {
+    if constexpr (n == dynamic) {
+      return P::refused_size(Parameters<double>(parameters), size);
+    } else {
+      return size == n ? std::string() : std::to_string(n) + (n == 1 ? " number" : " numbers");
+    }
+  }
+
+  /// In the arithmetic of the run, with what follows from the start.
+  template <class R>
+  static Parameters<R> parameters_of(const Request& request) {
+    Parameters<R> parameters(request.parameters);
+    if constexpr (has_derived) {
+      if (!request.start.geometric()) return parameters;
+      Family<R>::derive(request.start.kind, Parameters<R>(request.start.orbit), parameters);
+    }
+    return parameters;
+  }
+
+  template <class R>
+  static Start<R, n> start(const Request& request) {
+    const StartSpec& spec = request.start;
+    Start<R, n> s;
+    if (spec.geometric()) {
+      if constexpr (has_starts) {
+        Conditions conditions;
+        s = Family<R>::start(spec.kind, parameters_of<R>(request), Parameters<R>(spec.orbit), conditions);
+        for (const Condition& c : conditions.all()) {
+          if (!c.holds()) throw Error(c.key + ": the start needs " + c.statement);
+        }
+        for (R& x : s.p) x = R(spec.direction) * x;
+      }
+      return s;
+    }
+    const auto fill = [&](const std::vector<std::string>& texts, Vector<R, n>& out) {
+      const std::string why_not = refused_size(request.parameters, texts.size());
+      if (!why_not.empty()) {
+        throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
+                    std::to_string(texts.size()));
+      }
+      out = zeros<R, n>(texts.size());
+      for (std::size_t i = 0; i < texts.size(); ++i) out[i] = evaluate_number<R>(texts[i]);
+    };
+    fill(spec.q, s.q);
+    fill(spec.v.empty() ? spec.p : spec.v, s.p);
+    if (!spec.v.empty()) s.p = momenta_of(make<R>(parameters_of<R>(request), s.q.size()), s.q, s.p);
+    return s;
+  }
+
+  /// p = dL/dv for H at most quadratic in p: v = dH/dp(q, p) solved for p.
+  template <class R>
+  static Vector<R, n> momenta_of(const Family<R>& problem, const Vector<R, n>& q, const Vector<R, n>& v) {
+    if constexpr (QuadraticKinetic<P>) {
+      return apply(inverse(inverse_mass_matrix(problem)), v);
+    } else {
+      const Vector<R, n> zero = zeros_like(q);
+      Vector<R, n> force_at_rest = zero;
+      Vector<R, n> drift = zero;  // dH/dp at p = 0
+      Matrix<R, n> qq = zero_matrix(q);
+      Matrix<R, n> qp = qq;
+      Matrix<R, n> pp = qq;
+      gradient(problem, q, zero, force_at_rest, drift);
+      hessian(problem, q, zero, qq, qp, pp);
+      Vector<R, n> rest = v;
+      for (std::size_t i = 0; i < v.size(); ++i) rest[i] -= drift[i];
+      const Vector<R, n> p = solve(pp, rest);
+      Vector<R, n> check = zero;
+      gradient(problem, q, p, force_at_rest, check);
+      R defect(0);
+      R size(0);
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        defect += abs(check[i] - v[i]);
+        size += abs(check[i]) + abs(v[i]) + abs(drift[i]);
+      }
+      if (!(size <= std::numeric_limits<R>::max()) || !(defect <= R(1e6) * std::numeric_limits<R>::epsilon() * size)) {
+        throw Error(
+            "velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
+            "is singular there; give p");
+      }
+      return p;
+    }
+  }
+};
+
+}  // namespace hamflow
