@@ -179,10 +179,27 @@ std::int64_t Session::step() const { return step_before_ + simulation_->step(); 
 
 void Session::look(Frame& frame) const {
   simulation_->look(frame);
+  in_session(frame);
+}
+
+/// From the numbers of the present part to those of the session.
+void Session::in_session(Frame& frame) const {
   frame.step += step_before_;
   frame.time += time_before_;
   for (std::size_t i = 0; i < offset_.size(); ++i) frame.invariants[i] += offset_[i];
   frame.effort = sum(effort_before_, frame.effort);
+}
+
+std::vector<std::byte> Session::save() const { throw Error("a steered session has no checkpoint"); }
+void Session::restore(std::span<const std::byte>) { throw Error("a steered session has no checkpoint"); }
+std::unique_ptr<Simulation> Session::clone() const { throw Error("a steered session has no copy"); }
+
+Outcome Session::look_ahead(const std::string& time, Frame& frame) const {
+  if (one_part_) return simulation_->look_ahead(time, frame);
+  const double t = evaluate_number<double>(time);
+  const Outcome outcome = simulation_->look_ahead(shortest(t - time_before_), frame);
+  if (outcome == Outcome::done) in_session(frame);
+  return outcome;
 }
 
 void Session::reverse_time() {

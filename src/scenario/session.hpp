@@ -52,11 +52,17 @@ class Session final : public Simulation {
   StepDiagnostics diagnostics() const override { return simulation_->diagnostics(); }
   MethodInfo method() const override { return simulation_->method(); }
   std::string failure() const override { return simulation_->failure(); }
+  /// A session has no checkpoint and no copy: these three throw Error.
+  std::vector<std::byte> save() const override;
+  void restore(std::span<const std::byte> saved) override;
+  std::unique_ptr<Simulation> clone() const override;
+  Outcome look_ahead(const std::string& time, Frame& frame) const override;
 
  private:
   void change(const Request& next, const std::string& what);
   void watch_from_here();
   void watch(const Frame& frame);
+  void in_session(Frame& frame) const;
   double deviation(const std::vector<double>& values, std::size_t k) const;
 
   Scenario scenario_;

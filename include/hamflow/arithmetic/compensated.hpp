@@ -13,6 +13,10 @@ struct Compensated {
     R high{};
     R low{};
     friend constexpr bool operator==(const Stored&, const Stored&) = default;
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(high, low);
+    }
   };
   static constexpr std::string_view name = "compensated";
   static constexpr bool exact_undo = false;  // low is itself rounded

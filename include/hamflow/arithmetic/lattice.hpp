@@ -51,6 +51,10 @@ struct Lattice {
       s = sum;
     }
     static Stored negated(Stored s) { return -s; }
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(unit, per_unit, lost);
+    }
   };
   Axis position;
   Axis momentum;

@@ -54,6 +54,10 @@ struct StepDiagnostics {
         step_of_most = step;
       }
     }
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(least, most, step_of_least, step_of_most);
+    }
   };
   static constexpr double unset = std::numeric_limits<double>::quiet_NaN();  // before the first step
   double iterations = unset;              // linear solves
@@ -68,6 +72,11 @@ struct StepDiagnostics {
     of_determinant_tangent.extend(determinant_tangent, step);
     of_condition_inverse_mass.extend(condition_inverse_mass, step);
   }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass, of_condition_tangent,
+       of_determinant_tangent, of_condition_inverse_mass);
+  }
 };
 
 /// What a method has done since it was made.
@@ -81,6 +90,11 @@ struct Effort {
   long long solves_max = 0;
   long long stagnated = 0;  // steps accepted at the rounding level above the tolerance asked for
   long long halved = 0;     // steps replaced by two half steps (on_divergence = "halve")
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(force, gradient, hessian, linear_solves, steps, solves_min, solves_max, stagnated, halved);
+  }
 };
 
 }  // namespace hamflow

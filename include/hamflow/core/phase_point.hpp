@@ -64,6 +64,10 @@ struct PhasePoint {
   void negate_momenta() {
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = A::Axis::negated(p[i]);
   }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(q, p, arithmetic.position, arithmetic.momentum);
+  }
 };
 
 }  // namespace hamflow

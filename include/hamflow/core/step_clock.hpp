@@ -13,6 +13,7 @@ class StepClock {
   /// @param start time of step 0   @param step length h of a step, may be negative
   StepClock(R start, R step) : start_(start), step_(step) {}
 
+  R step() const { return step_; }  // forwards
   R step_length() const { return direction_ < 0 ? -step_ : step_; }
   /// t0 + n h, with one rounding in the product and one in the sum, whatever the number of steps taken.
   R time() const { return time_after(0); }
@@ -26,6 +27,10 @@ class StepClock {
     taken_ += steps;
   }
   void reverse() { direction_ = -direction_; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(start_, step_, position_, taken_, direction_);
+  }
 
  private:
   R start_{};

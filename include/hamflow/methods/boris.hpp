@@ -55,6 +55,10 @@ class BorisStep {
 
   void invalidate() {}
   Effort effort() const { return {.gradient = steps_}; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(steps_);
+  }
 
  private:
   /// double is rotated in long double and rounded once: roundings inside the rotation are partly the same in every step

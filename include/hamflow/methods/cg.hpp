@@ -66,6 +66,12 @@ class ContinuousGalerkin {
 
   void invalidate() { element_.forget(); }
   Effort effort() const { return context_.effort; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    int points = quadrature();
+    ar(context_.effort, context_.diagnostics, points, element_);
+    if constexpr (Archive::reading) context_.rule = &gauss_rule<Real>(points);
+  }
   int quadrature() const { return context_.rule->points; }
   /// Of the last step and over all of them; unset unless asked for.
   StepDiagnostics diagnostics(const P& problem, const PhasePoint<A, n>& z) const {

@@ -104,6 +104,10 @@ class RungeKutta {
 
   void invalidate() {}
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(evaluations_);
+  }
 
  private:
   template <class F>

@@ -177,6 +177,10 @@ class Splitting {
   /// To be called when the state was changed from outside.
   void invalidate() { kick_is_current_ = false; }
   Effort effort() const { return {.force = forces_}; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(kick_, kept_factor_, kick_is_current_, forces_);
+  }
 
  private:
   constexpr bool leading() const {

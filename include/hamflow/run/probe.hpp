@@ -104,6 +104,11 @@ class ConservationProbe {
   const Invariants& initial() const { return initial_; }
   /// Of the k-th invariant.
   R worst(std::size_t k) const { return worst_[k]; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(initial_energy_, worst_energy_);
+    if constexpr (watches_invariants) ar(initial_, worst_);
+  }
 
  private:
   template <class Sizes>

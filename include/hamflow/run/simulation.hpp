@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,19 @@ class Simulation {
   virtual MethodInfo method() const = 0;
   /// After a failure: what went wrong in the step after the present one, in a sentence.
   virtual std::string failure() const = 0;
+
+  /// Everything that decides the bits of the steps to come and of the summary: state, clock, what the method and the
+  /// probe remember. Equal simulations give equal bytes.
+  virtual std::vector<std::byte> save() const = 0;
+  /// Goes on where save() was called, bit for bit.
+  /// @throws Error when the bytes belong to another kind of simulation, or are damaged; then nothing has changed
+  virtual void restore(std::span<const std::byte> saved) = 0;
+  virtual std::unique_ptr<Simulation> clone() const = 0;
+  /// Fills `frame` with the state at another time: that after one partial step Psi_(theta h), theta h = time - t_n, of
+  /// the same method from the present state. The simulation does not change; counters stay those of its own steps.
+  /// A time that differs from t_n by rounding alone is t_n.   [spec: methods, section 3b]
+  /// @param time a number expression, read in the arithmetic of the simulation
+  virtual Outcome look_ahead(const std::string& time, Frame& frame) const = 0;
 };
 
 }  // namespace hamflow

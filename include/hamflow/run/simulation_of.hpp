@@ -3,15 +3,42 @@
 
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/archive.hpp"
+#include "hamflow/core/number.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/step_clock.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/simulation.hpp"
 
 namespace hamflow {
+
+namespace detail {
+// What saving and restoring say, compiled once and not in every simulation.
+inline std::string arithmetic_kind(std::string_view name, int digits) {
+  return std::string(name) + " in " + std::to_string(digits) + " bits";
+}
+inline std::string kind_of(const std::string& problem, const std::vector<std::pair<std::string, std::string>>& variant,
+                           const std::string& method, const std::string& arithmetic) {
+  std::string text = problem;
+  for (const auto& [key, value] : variant) text += " " + key + " = " + value;
+  return text + ", " + method + ", " + arithmetic;
+}
+[[gnu::noinline]] inline void expect_same_kind(const std::string& found, const std::string& wanted) {
+  if (found != wanted) throw Error("the saved state is that of " + found + ", not of " + wanted);
+}
+[[gnu::noinline]] inline void expect_same_size(std::size_t found, std::size_t wanted) {
+  if (found != wanted) {
+    throw Error("the saved state has " + std::to_string(found) + " degrees of freedom, not " + std::to_string(wanted));
+  }
+}
+[[gnu::noinline]] inline void expect_same_step(bool same) {
+  if (!same) throw Error("the saved state was reached with another step length");
+}
+}  // namespace detail
 
 /// **Method**: one step of a map, and claims about it.
 template <class M, class P, class A>
@@ -49,7 +76,7 @@ class SimulationOf final : public Simulation {
   Outcome advance(std::int64_t steps) override {
     if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
     std::int64_t taken = 0;
-    const Outcome outcome = march(steps, taken, method_, z_, probe_);
+    const Outcome outcome = march(steps, clock_.step_length(), taken, method_, z_, probe_);
     clock_.advance(taken);
     return outcome;
   }
@@ -58,25 +85,23 @@ class SimulationOf final : public Simulation {
   const PhasePoint<A, n>& state() const { return z_; }
   const P& problem() const { return problem_; }
 
-  void look(Frame& frame) const override {
-    const auto q = z_.positions();
-    const auto p = z_.momenta();
-    frame.step = clock_.steps_taken();
-    frame.time = static_cast<double>(clock_.time());
-    frame.q.assign(q.size(), 0);
-    frame.p.assign(p.size(), 0);
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      frame.q[i] = static_cast<double>(q[i]);
-      frame.p[i] = static_cast<double>(p[i]);
+  void look(Frame& frame) const override { show(z_, clock_.time(), frame); }
+  [[gnu::cold]] Outcome look_ahead(const std::string& time, Frame& frame) const override {
+    const Real t = evaluate_number<Real>(time);
+    const Real part = t - clock_.time();
+    if (abs(part) <= 4 * std::numeric_limits<Real>::epsilon() * abs(t)) {  // t_n itself is a rounded product
+      look(frame);
+      return Outcome::done;
     }
-    frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
-    frame.invariants.clear();
-    if constexpr (detail::HasInvariants<P, Real>) {
-      for (const Real& value : detail::invariants_of(problem_, q, p, clock_.time()))
-        frame.invariants.push_back(static_cast<double>(value));
-    }
-    frame.effort = method_.effort();
-    frame.diagnostics = diagnostics();
+    if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
+    M method = method_;
+    method.invalidate();  // what it remembers belongs to steps of length h
+    PhasePoint<A, n> z = z_;
+    Probe probe = probe_;
+    std::int64_t taken = 0;
+    const Outcome outcome = march(1, part, taken, method, z, probe);
+    if (outcome == Outcome::done) show(z, t, frame);
+    return outcome;
   }
 
   void reverse_time() override {
@@ -139,30 +164,95 @@ class SimulationOf final : public Simulation {
     }
   }
 
+  [[gnu::cold]] std::vector<std::byte> save() const override {
+    Writer ar;
+    ar(kind());
+    archive(ar, *this);
+    return ar.take();
+  }
+  [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
+    Reader ar(saved);
+    std::string of;
+    ar(of);
+    detail::expect_same_kind(of, kind());
+    SimulationOf other = *this;
+    archive(ar, other);
+    ar.finish();
+    detail::expect_same_size(other.z_.q.size(), z_.q.size());
+    detail::expect_same_size(other.z_.p.size(), z_.p.size());
+    detail::expect_same_step(other.clock_.step() == clock_.step());
+    z_ = std::move(other.z_);
+    method_ = std::move(other.method_);
+    probe_ = std::move(other.probe_);
+    clock_ = other.clock_;
+    initial_energy_ = other.initial_energy_;
+    scale_ = other.scale_;
+  }
+  [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<SimulationOf>(*this); }
+
  private:
+  /// What may be restored here: the format's version, problem, method and arithmetic.
+  [[gnu::cold]] std::string kind() const {
+    const std::string arithmetic = detail::arithmetic_kind(A::name, std::numeric_limits<Real>::digits);
+    if constexpr (requires { P::info().variant; }) {
+      const auto info = P::info();
+      return detail::kind_of(info.name, info.variant, method_.info().name, arithmetic);
+    } else {
+      return detail::kind_of("a problem", {}, method_.info().name, arithmetic);
+    }
+  }
+  /// A method without archive() remembers nothing.
+  template <class Archive, class Self>
+  [[gnu::cold]] static void archive(Archive& ar, Self& self) {
+    ar(self.z_, self.clock_, self.probe_, self.initial_energy_, self.scale_);
+    if constexpr (detail::HasArchive<M, Archive>) ar(self.method_);
+  }
+
+  [[gnu::noinline]] void show(const PhasePoint<A, n>& z, const Real& time, Frame& frame) const {
+    const auto q = z.positions();
+    const auto p = z.momenta();
+    frame.step = clock_.steps_taken();
+    frame.time = static_cast<double>(time);
+    frame.q.assign(q.size(), 0);
+    frame.p.assign(p.size(), 0);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      frame.q[i] = static_cast<double>(q[i]);
+      frame.p[i] = static_cast<double>(p[i]);
+    }
+    frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
+    frame.invariants.clear();
+    if constexpr (detail::HasInvariants<P, Real>) {
+      for (const Real& value : detail::invariants_of(problem_, q, p, time))
+        frame.invariants.push_back(static_cast<double>(value));
+    }
+    frame.effort = method_.effort();
+    frame.diagnostics = diagnostics();
+  }
+
   /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. Trouble is found
   /// cheaply, after the fact; the way to the last good step is then walked again from the unchanged originals.
-  Outcome march(std::int64_t steps, std::int64_t& taken, M& method_out, PhasePoint<A, n>& z_out,
-                Probe& probe_out) const {
+  /// @param h that of the clock, or of a partial step
+  [[gnu::noinline]] Outcome march(std::int64_t steps, const Real& h, std::int64_t& taken, M& method_out,
+                                  PhasePoint<A, n>& z_out, Probe& probe_out) const {
     M method = method_out;
     PhasePoint<A, n> z = z_out;
     Probe probe = probe_out;
     const P problem = problem_;
-    const Real h = clock_.step_length();
+    const Real step_length = h;
     for (std::int64_t i = 0; i < steps; ++i) {
-      const Outcome outcome = method.step(problem, h, z);
+      const Outcome outcome = method.step(problem, step_length, z);
       if (outcome != Outcome::done) [[unlikely]]
-        return retrace(i, outcome, taken, method_out, z_out, probe_out);
+        return retrace(i, outcome, h, taken, method_out, z_out, probe_out);
       if (z.arithmetic.lost()) [[unlikely]]
-        return retrace(i, Outcome::lattice_overflow, taken, method_out, z_out, probe_out);
+        return retrace(i, Outcome::lattice_overflow, h, taken, method_out, z_out, probe_out);
       if (!probe.look(problem, z.positions(), z.momenta(), clock_.time_after(i + 1))) [[unlikely]] {
-        return retrace(i, Outcome::non_finite, taken, method_out, z_out, probe_out);
+        return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
       }
     }
     if (!is_finite(problem, z)) {  // without a probe nobody has looked yet
       if (steps == 1) return Outcome::non_finite;
       for (std::int64_t i = 0; i < steps; ++i) {
-        const Outcome outcome = march(1, taken, method_out, z_out, probe_out);
+        const Outcome outcome = march(1, h, taken, method_out, z_out, probe_out);
         if (outcome != Outcome::done) return outcome;
       }
     }
@@ -174,10 +264,10 @@ class SimulationOf final : public Simulation {
   }
 
   /// Takes `good` steps from the originals, which are known to succeed, and reports why the next one did not.
-  Outcome retrace(std::int64_t good, Outcome why, std::int64_t& taken, M& method, PhasePoint<A, n>& z,
+  Outcome retrace(std::int64_t good, Outcome why, const Real& h, std::int64_t& taken, M& method, PhasePoint<A, n>& z,
                   Probe& probe) const {
     if (good > 0) {
-      const Outcome again = march(good, taken, method, z, probe);
+      const Outcome again = march(good, h, taken, method, z, probe);
       if (again != Outcome::done) return again;
     }
     return why;
@@ -202,8 +292,8 @@ class SimulationOf final : public Simulation {
   Real scale_{};
 };
 
-/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in the
-/// plain type of the problem unless asked.
+/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
+/// the plain type of the problem unless asked.
 template <class Recipe>
 constexpr bool always_compensated() {
   if constexpr (requires { Recipe::compensated; }) {

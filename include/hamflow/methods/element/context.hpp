@@ -52,6 +52,10 @@ class Extrapolation {
                                 : 3 * (last_[0][i] - last_[1][i]) + last_[2][i];
     }
   }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(last_, remembered_);
+  }
 
  private:
   V last_[3]{};

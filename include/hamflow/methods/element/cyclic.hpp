@@ -28,6 +28,10 @@ class CyclicElement {
   }
   void remember(const Increment<Real, n>& u) { rest_.remember({head(u.q), head(u.p)}); }
   void forget() { rest_.forget(); }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(rest_);
+  }
 
   Outcome converge(Context& context, const P& problem, const Real& h, const V& q0, const V& p0, Increment<Real, n>& u,
                    std::string* history) {

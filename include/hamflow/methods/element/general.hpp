@@ -37,6 +37,10 @@ class GeneralElement {
   }
   void remember(const Increment<Real, n>& u) { memory_.remember(joined(u)); }
   void forget() { memory_.forget(); }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(memory_);
+  }
 
   Outcome converge(Context& context, const P& problem, const Real& h, const V& q0, const V& p0, Increment<Real, n>& u,
                    std::string* history) {

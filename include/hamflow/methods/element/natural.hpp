@@ -39,6 +39,10 @@ class NaturalElement {
   }
   void remember(const Increment<Real, n>& u) { memory_.remember(u.p); }
   void forget() { memory_.forget(); }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(memory_);
+  }
 
   /// Newton from u.q. On success u.p is h F at the solution.
   Outcome converge(Context& context, const P& problem, const Real& h, const V& q0, const V& p0, Increment<Real, n>& u,
