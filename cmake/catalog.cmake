@@ -26,29 +26,41 @@ function(hamflow_pascal_case out snake)
   set(${out} "${result}" PARENT_SCOPE)
 endfunction()
 
-# Writes the unit of one problem and appends it to HAMFLOW_UNITS, its declaration and call to the lists.
+# Writes the two units of one problem, typed and behind virtual calls, and their declarations and calls to the lists.
 macro(hamflow_problem_unit header name body)
   set(unit "${generated}/problem_${name}.cpp")
+  set(unit_header problem_unit)
+  set(unit_class ProblemUnit)
+  set(unit_entry ProblemEntry)
+  set(entry entry)
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
   list(APPEND HAMFLOW_UNITS "${unit}")
-  string(APPEND declarations "ProblemEntry entry_${name}();\n")
-  string(APPEND problem_calls "entry_${name}(), ")
+  set(unit "${generated}/erased_${name}.cpp")
+  set(unit_header erased_unit)
+  set(unit_class ErasedUnit)
+  set(unit_entry ErasedEntry)
+  set(entry erased)
+  file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
+  list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
+  string(APPEND declarations "ProblemEntry entry_${name}();\nErasedEntry erased_${name}();\n")
+  string(APPEND problem_calls "joined(entry_${name}(), erased_${name}()), ")
 endmacro()
 
 set(generated "${PROJECT_BINARY_DIR}/generated")
 set(HAMFLOW_UNITS)
+set(HAMFLOW_ERASED_UNITS)
 set(declarations "")
 set(problem_calls "")
 set(also "")
 set(unit_text [[
-#include "problem_unit.hpp"
+#include "@unit_header@.hpp"
 #include "hamflow/problems/@header@.hpp"
 @also@namespace hamflow {
 // The alias has a name of its own: two units with one name for different problems would be merged by the linker.
 template <class R>
-using Family_@name@ = @family@;
-ProblemEntry entry_@name@();
-ProblemEntry entry_@name@() { return ProblemUnit<Family_@name@>::entry(); }
+using @entry@Family_@name@ = @family@;
+@unit_entry@ @entry@_@name@();
+@unit_entry@ @entry@_@name@() { return @unit_class@<@entry@Family_@name@>::entry(); }
 }  // namespace hamflow
 ]])
 
@@ -104,10 +116,16 @@ file(CONFIGURE OUTPUT "${generated}/tableau_list.hpp" CONTENT [[
 file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
 #pragma once
 #include <optional>
+#include "erased.hpp"
 #include "hamflow/methods/splitting.hpp"
 @includes@
 namespace hamflow {
 @declarations@
+inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
+  entry.simulate_erased = erased.simulate;
+  entry.step_map = erased.step_map;
+  return entry;
+}
 inline std::vector<ProblemEntry> generated_problems() { return {@problem_calls@}; }
 inline std::vector<const CompositionTable*> generated_compositions() { return {@composition_list@}; }
 inline std::vector<const SplittingTable*> generated_splittings() { return {@splitting_list@}; }

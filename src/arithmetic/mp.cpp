@@ -146,4 +146,26 @@ MpNumber Traits::nan() {
   return made_by([](mpfr_ptr x) { mpfr_set_nan(x); });
 }
 
+std::string exact_text(const Mp& x) {
+  char* text = nullptr;
+  const int length = mpfr_asprintf(&text, "%Ra", x.value.raw());
+  if (length < 0) throw Error("a number cannot be written");
+  std::string out = std::to_string(mpfr_get_prec(x.value.raw())) + " " + text;
+  mpfr_free_str(text);
+  return out;
+}
+void from_exact_text(const std::string& text, Mp& x) {
+  const std::size_t space = text.find(' ');
+  long bits = 0;
+  try {
+    bits = std::stol(text.substr(0, space));
+  } catch (const std::exception&) {
+  }
+  if (space == std::string::npos || bits < MPFR_PREC_MIN || bits > 1000000) throw Error("saved bytes hold no number");
+  mpfr_set_prec(x.value.raw(), bits);
+  if (mpfr_set_str(x.value.raw(), text.c_str() + space + 1, 0, MPFR_RNDN) != 0) {
+    throw Error("saved bytes hold no number");
+  }
+}
+
 }  // namespace hamflow

@@ -1,8 +1,10 @@
 #include "hamflow/run/catalog.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
+#include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/problems/magnetic.hpp"
@@ -191,6 +193,41 @@ MethodInfo describe(const MethodSpec& spec) {
   throw Error("method '" + spec.name + "' has no description");
 }
 
+int mp_digits(const std::string& arithmetic) {
+  if (!arithmetic.starts_with("mp(") || !arithmetic.ends_with(")")) return 0;
+  const std::string inside = arithmetic.substr(3, arithmetic.size() - 4);
+  int digits = 0;
+  const auto [end, error] = std::from_chars(inside.data(), inside.data() + inside.size(), digits);
+  if (error != std::errc() || end != inside.data() + inside.size() || digits < MpDigits::fewest ||
+      digits > MpDigits::most) {
+    throw Error("mp(d) takes a number of decimal digits from " + std::to_string(MpDigits::fewest) + " to " +
+                std::to_string(MpDigits::most) + ", not '" + inside + "'");
+  }
+  return digits;
+}
+
+int digits_beyond_double(const std::string& arithmetic) {
+  if (arithmetic == "double-double") return 31;
+  if (arithmetic == "quad") return 33;
+  return mp_digits(arithmetic);
+}
+
+void check_arithmetic(const std::string& arithmetic) {
+  if (mp_digits(arithmetic) > 0) return;
+  const std::vector<std::string>& names = arithmetics();
+  if (arithmetic != "mp(d)" && std::find(names.begin(), names.end(), arithmetic) != names.end()) return;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  const std::string near = nearest(arithmetic, names);
+  throw Error("arithmetic '" + arithmetic + "' is unknown; allowed: " + all + ", e.g. mp(50)" +
+              (near.empty() ? "" : "; did you mean " + near + "?"));
+}
+
+namespace {
+/// Whether problems are compiled with the method in double.
+bool has_typed_kernel(const MethodSpec&) { return true; }
+}  // namespace
+
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {
   if (arithmetic != "lattice") return {};
   const MethodEntry& entry = find_method(spec.name);
@@ -249,9 +286,7 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
 
 std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
-  if (std::find(arithmetics().begin(), arithmetics().end(), request.arithmetic) == arithmetics().end()) {
-    throw Error("arithmetic '" + request.arithmetic + "' is unknown; allowed: double, compensated, lattice");
-  }
+  check_arithmetic(request.arithmetic);
   const std::string why_not = refusal(request.method, request.arithmetic);
   if (!why_not.empty())
     throw Error("method " + request.method.name + " cannot run in " + request.arithmetic + ": " + why_not);
@@ -263,7 +298,8 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   }
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
-  return problem.simulate(full);
+  const bool typed = digits_beyond_double(request.arithmetic) == 0 && has_typed_kernel(request.method);
+  return typed ? problem.simulate(full) : problem.simulate_erased(full);
 }
 
 }  // namespace hamflow

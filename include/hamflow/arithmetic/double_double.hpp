@@ -13,6 +13,7 @@ namespace hamflow {
 template <>
 struct ExtendedTraits<dd_real> {
   using T = dd_real;
+  static constexpr int digits = 106;
   template <class U>
   static T made(U x) {
     const double high = static_cast<double>(x);

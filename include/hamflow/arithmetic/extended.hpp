@@ -74,10 +74,9 @@ struct IsExtended : std::false_type {};
 template <class T>
 struct IsExtended<Extended<T>> : std::true_type {};
 
-/// The digits of a number, all that it has: shortest() for double.
-inline std::string written(double x) { return shortest(x); }
+/// All the digits of a number: they read back as the same one.
 template <class T>
-std::string written(const Extended<T>& x) {
+std::string written_digits(const Extended<T>& x) {
   return ExtendedTraits<T>::written(x.value);
 }
 
@@ -93,6 +92,7 @@ struct std::numeric_limits<hamflow::Extended<T>> {
   static constexpr bool is_exact = false;
   static constexpr bool has_infinity = true;
   static constexpr bool has_quiet_NaN = true;
+  static constexpr int digits = Traits::digits;  // binary; 0: chosen at run time
   static R epsilon() { return R(Traits::epsilon()); }
   static R max() { return R(Traits::max()); }
   static R lowest() { return R(-Traits::max()); }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hamflow/arithmetic/extended.hpp"
+#include "hamflow/core/archive.hpp"
 
 namespace hamflow {
 
@@ -57,6 +58,7 @@ class MpDigits {
 template <>
 struct ExtendedTraits<MpNumber> {
   using T = MpNumber;
+  static constexpr int digits = 0;
   template <class U>
   static T made(U x) {
     if constexpr (std::is_same_v<U, long double>) {
@@ -111,6 +113,12 @@ inline double ExtendedTraits<MpNumber>::as<double>(const MpNumber& x) {
 }
 
 using Mp = Extended<MpNumber>;
+
+/// In a checkpoint: hexadecimal, with its precision.
+std::string exact_text(const Mp& x);
+void from_exact_text(const std::string& text, Mp& x);
+template <>
+struct ArchivedNumber<Mp> : ArchivedText<Mp> {};
 
 template <>
 inline long precision_in_use<Mp>() {

@@ -30,6 +30,7 @@ namespace hamflow {
 template <>
 struct ExtendedTraits<__float128> {
   using T = __float128;
+  static constexpr int digits = 113;
   template <class U>
   static T made(U x) {
     return static_cast<T>(x);

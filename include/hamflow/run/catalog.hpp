@@ -79,6 +79,8 @@ struct ProblemEntry {
   std::function<bool(const MethodSpec&)> accepts;
   bool has_fast_kernel = false;
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
+  /// The same behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
+  std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
   /// Null where the method is not accepted.
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
   /// The parameters with those that follow from a geometric start set.
@@ -106,10 +108,17 @@ struct ProblemEntry {
 
 std::span<const ProblemEntry> problems();
 std::span<const MethodEntry> methods();
+/// "mp(d)" stands for any number of digits, e.g. mp(50).
 inline const std::vector<std::string>& arithmetics() {
-  static const std::vector<std::string> names{"double", "compensated", "lattice"};
+  static const std::vector<std::string> names{"double", "compensated", "double-double", "quad", "mp(d)", "lattice"};
   return names;
 }
+/// d of "mp(d)"; 0 where the name is another. @throws Error when d is no number of digits
+int mp_digits(const std::string& arithmetic);
+/// Decimal digits of an arithmetic beyond double: 31, 33, d; else 0.
+int digits_beyond_double(const std::string& arithmetic);
+/// @throws Error naming what is allowed when there is no such arithmetic
+void check_arithmetic(const std::string& arithmetic);
 
 /// @throws Error naming the nearest name when there is none such
 const MethodEntry& find_method(const std::string& name);

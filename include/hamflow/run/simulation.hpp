@@ -13,6 +13,15 @@
 
 namespace hamflow {
 
+/// The numbers of a frame with all their digits, of arithmetic beyond double; else empty.
+struct FrameDigits {
+  std::string time;
+  std::vector<std::string> q;
+  std::vector<std::string> p;
+  std::string energy;
+  std::string initial_energy;
+};
+
 /// A look at the state, in double. Buffers are reused from call to call.
 struct Frame {
   std::int64_t step = 0;
@@ -23,6 +32,7 @@ struct Frame {
   std::vector<double> invariants;
   Effort effort;                // totals since the start
   StepDiagnostics diagnostics;  // of the last step, where asked for
+  FrameDigits digits;
 };
 
 /// How far a conserved quantity was seen to go, over every step.

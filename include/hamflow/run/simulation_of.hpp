@@ -113,14 +113,10 @@ class SimulationOf final : public Simulation {
     method_.invalidate();
   }
   std::vector<std::byte> bits() const override {
-    using Stored = typename A::Stored;
-    const std::size_t size = z_.q.size();
-    std::vector<std::byte> all(2 * size * sizeof(Stored));
-    for (std::size_t i = 0; i < size; ++i) {
-      std::memcpy(all.data() + i * sizeof(Stored), &z_.q[i], sizeof(Stored));
-      std::memcpy(all.data() + (size + i) * sizeof(Stored), &z_.p[i], sizeof(Stored));
-    }
-    return all;
+    Writer ar;
+    for (std::size_t i = 0; i < z_.q.size(); ++i) ar(z_.q[i]);
+    for (std::size_t i = 0; i < z_.p.size(); ++i) ar(z_.p[i]);
+    return ar.take();
   }
 
   Excursion energy() const override {
@@ -227,6 +223,17 @@ class SimulationOf final : public Simulation {
     }
     frame.effort = method_.effort();
     frame.diagnostics = diagnostics();
+    if constexpr (requires(const Real& x) { written_digits(x); }) {
+      frame.digits.time = written_digits(time);
+      frame.digits.energy = written_digits(hamflow::energy(problem_, q, p));
+      frame.digits.initial_energy = written_digits(initial_energy_);
+      frame.digits.q.clear();
+      frame.digits.p.clear();
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        frame.digits.q.push_back(written_digits(q[i]));
+        frame.digits.p.push_back(written_digits(p[i]));
+      }
+    }
   }
 
   /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. Trouble is found

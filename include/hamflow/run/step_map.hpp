@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/method_info.hpp"
 
 namespace hamflow {
@@ -35,6 +36,11 @@ class StepMap {
   virtual Effort cost(const State<double>& z, double h, std::int64_t steps) const = 0;
   /// The exact flow over time t by a method of another family (extrapolation) in long double.
   virtual State<long double> flow(const State<long double>& z, long double t) const = 0;
+  /// Steps and flow in quad, where there are: the error of a method of order 8 reaches the rounding of long double
+  /// within a few halvings.
+  virtual bool has_quad() const { return false; }
+  virtual bool advance(State<Quad>&, const Quad&, std::int64_t) const { return false; }
+  virtual State<Quad> flow(const State<Quad>& z, const Quad&) const { return z; }
 };
 
 }  // namespace hamflow

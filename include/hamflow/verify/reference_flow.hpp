@@ -31,12 +31,12 @@ class ExtrapolatedFlow {
     R done(0);
     R step = t;
     while (abs(done) < abs(t)) {
-      if (abs(step) > longest_step) step = t < R(0) ? -longest_step : longest_step;
+      if (abs(step) > longest_step()) step = t < R(0) ? -longest_step() : longest_step();
       if (abs(done + step) > abs(t)) step = t - done;
       Z increment = zeros_like(z);
       while (!try_step(z, step, increment)) {
         step = step / R(2);
-        if (abs(step) < shortest_step) {
+        if (abs(step) < shortest_step()) {
           for (R& x : z) x = std::numeric_limits<R>::quiet_NaN();
           return z;
         }
@@ -53,8 +53,8 @@ class ExtrapolatedFlow {
 
  private:
   static constexpr int columns = 10;
-  static constexpr R longest_step = R(1) / R(8);
-  static constexpr R shortest_step = longest_step / R(1 << 24);
+  static R longest_step() { return R(1) / R(8); }
+  static R shortest_step() { return longest_step() / R(1 << 24); }
 
   Z derivative(const Z& z, const Z& increment) const {
     Vector<R, N> q = zeros<R, N>(size_);

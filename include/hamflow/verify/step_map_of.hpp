@@ -1,6 +1,9 @@
 // A StepMap for a problem template and a method recipe. A recipe has Stepper<P, A> and bind<P, A>(problem).
 #pragma once
 
+#include <optional>
+#include <variant>
+
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/methods/element/context.hpp"
@@ -24,10 +27,19 @@ State<R> joined(const Vector<R, N>& q, const Vector<R, N>& p) {
   z.insert(z.end(), p.begin(), p.end());
   return z;
 }
+template <template <class> class Family, bool quad>
+struct QuadProblem {
+  using type = std::optional<Family<Quad>>;
+};
+template <template <class> class Family>
+struct QuadProblem<Family, false> {
+  using type = std::optional<std::monostate>;
+};
 }  // namespace detail
 
 /// @tparam Family a class template over the number type of its parameters   @tparam Recipe see above
-template <template <class> class Family, class Recipe>
+/// @tparam quad also in quad
+template <template <class> class Family, class Recipe, bool quad = false>
 class StepMapOf final : public StepMap {
   using P = Family<double>;
   static constexpr std::size_t n = P::dimension;
@@ -41,6 +53,7 @@ class StepMapOf final : public StepMap {
   StepMapOf(Make&& make, Recipe recipe)
       : problem_(make.template operator()<double>()),
         long_problem_(make.template operator()<long double>()),
+        quad_problem_(in_quad(make)),
         recipe_(std::move(recipe)),
         size_(degrees_of_freedom(problem_)) {}
 
@@ -49,6 +62,15 @@ class StepMapOf final : public StepMap {
   bool advance(State<double>& z, double h, std::int64_t steps) const override { return go(problem_, z, h, steps); }
   bool advance(State<long double>& z, long double h, std::int64_t steps) const override {
     return go(long_problem_, z, h, steps);
+  }
+
+  bool has_quad() const override { return quad; }
+  bool advance(State<Quad>& z, const Quad& h, std::int64_t steps) const override {
+    if constexpr (quad) {
+      return go(*quad_problem_, z, h, steps);
+    } else {
+      return false;
+    }
   }
 
   /// One direction at a time: column k is the derivative along coordinate k of z.
@@ -89,13 +111,33 @@ class StepMapOf final : public StepMap {
     return simulation.effort();
   }
   State<long double> flow(const State<long double>& z, long double t) const override {
-    auto point = zeros<long double, n == dynamic ? dynamic : 2 * n>(z.size());
-    for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
-    const auto end = reference_flow(long_problem_, point, t);
-    return {end.begin(), end.end()};
+    return follow(long_problem_, z, t);
+  }
+  State<Quad> flow(const State<Quad>& z, const Quad& t) const override {
+    if constexpr (quad) {
+      return follow(*quad_problem_, z, t);
+    } else {
+      return z;
+    }
   }
 
  private:
+  template <class Make>
+  static auto in_quad(Make& make) {
+    if constexpr (quad) {
+      return std::optional(make.template operator()<Quad>());
+    } else {
+      return std::optional<std::monostate>();
+    }
+  }
+  template <class Q, class R>
+  static State<R> follow(const Q& problem, const State<R>& z, const R& t) {
+    auto point = zeros<R, n == dynamic ? dynamic : 2 * n>(z.size());
+    for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
+    const auto end = reference_flow(problem, point, t);
+    return {end.begin(), end.end()};
+  }
+
   auto simulation_from(const State<double>& z, double h) const {
     using A = Arithmetic<double>;
     auto method = recipe_.template bind<P, A>(problem_);
@@ -104,7 +146,7 @@ class StepMapOf final : public StepMap {
   }
 
   template <class Q, class R>
-  bool go(const Q& problem, State<R>& z, R h, std::int64_t steps) const {
+  bool go(const Q& problem, State<R>& z, const R& h, std::int64_t steps) const {
     using A = Arithmetic<R>;
     auto method = recipe_.template bind<Q, A>(problem);
     PhasePoint<A, n> point;
@@ -166,6 +208,7 @@ class StepMapOf final : public StepMap {
 
   P problem_;
   Family<long double> long_problem_;
+  typename detail::QuadProblem<Family, quad>::type quad_problem_;
   Recipe recipe_;
   std::size_t size_;
 };

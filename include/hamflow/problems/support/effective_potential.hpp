@@ -104,7 +104,7 @@ void add_circular_orbit(const RadialMotion<Potential>& motion, CentralOrbit& orb
 template <class R, class Potential>
 CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Vector<R, 2>& q, const Vector<R, 2>& p) {
   using L = long double;
-  constexpr L rounding = std::numeric_limits<R>::epsilon();
+  const L rounding = static_cast<L>(std::numeric_limits<R>::epsilon());
   const L infinity = std::numeric_limits<L>::infinity();
   const RadialMotion<Potential> motion(potential, static_cast<L>(mass), cast<L>(q), cast<L>(p), rounding);
   CentralOrbit orbit;

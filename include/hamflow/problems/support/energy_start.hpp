@@ -20,6 +20,31 @@ struct TurningPoint {
   bool circle = false;
 };
 
+namespace detail {
+/// A root of f near x in all the digits of R: the search is done in long double, and a secant does the rest.
+template <class R, class F>
+R polished(const F& f, long double x) {
+  if constexpr (std::is_floating_point_v<R>) {
+    return static_cast<R>(x);
+  } else {
+    R before = R(x);
+    R here = before * (R(1) + R(0x1p-50));
+    R value_before = f(before);
+    for (int pass = 0; pass < 64; ++pass) {  // 15 passes reach 10^4 digits
+      const R value = f(here);
+      const R slope = (value - value_before) / (here - before);
+      const R change = value / slope;
+      if (!(abs(change) <= std::numeric_limits<R>::max())) break;  // twice the same value: as near as it gets
+      before = here;
+      value_before = value;
+      here = here - change;
+      if (abs(change) <= std::numeric_limits<R>::epsilon() * abs(here)) break;
+    }
+    return here;
+  }
+}
+}  // namespace detail
+
 /// @param conditions receives "V_eff <= energy" at the deepest point of V_eff, which fails where there is no orbit
 /// @throws Error when the motion has no turning point
 template <class Potential, class R>
@@ -29,7 +54,21 @@ TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R
   const L l = static_cast<L>(angular_momentum);
   const L mu = static_cast<L>(mass);
   const L e = static_cast<L>(energy);
-  constexpr L rounding = std::numeric_limits<R>::epsilon();
+  const L rounding = larger(static_cast<L>(std::numeric_limits<R>::epsilon()), std::numeric_limits<L>::epsilon());
+  const auto turning = [&](L r) {
+    return detail::polished<R>(
+        [&](const R& x) {
+          return energy - potential.value(R(x * x)) - angular_momentum * angular_momentum / (R(2) * mass * x * x);
+        },
+        r);
+  };
+  const auto circular = [&](L r) {
+    return detail::polished<R>(
+        [&](const R& x) {
+          return angular_momentum * angular_momentum - mass * x * x * x * x * potential.slope(R(x * x));
+        },
+        r);
+  };
   const auto effective = [&](L r) { return static_cast<L>(potential.value(r * r)) + l * l / (2 * mu * r * r); };
   const auto size = [&](L r) {
     return abs(static_cast<L>(potential.value(r * r))) + l * l / (2 * mu * r * r) + abs(e);
@@ -45,7 +84,7 @@ TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R
 
   for (const CircularOrbit& at : shape.extrema()) {
     if (at.stable && abs(effective(at.radius) - e) <= 8 * rounding * size(at.radius)) {
-      return {static_cast<R>(at.radius), true};
+      return {circular(at.radius), true};
     }
   }
   const auto root_between = [&](L a, L b) {
@@ -61,10 +100,10 @@ TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R
     const bool inside = effective(radii[i]) < e;
     if (inside == (effective(radii[i + 1]) < e)) continue;
     const L root = root_between(radii[i], radii[i + 1]);
-    if (!inside) return {static_cast<R>(root), false};
+    if (!inside) return {turning(root), false};
     if (!apocentre) apocentre = root;
   }
-  if (apocentre) return {static_cast<R>(*apocentre), false};
+  if (apocentre) return {turning(*apocentre), false};
   if (effective(radii.front()) < e) {
     throw Error("found an orbit without a turning point, from the centre to infinity; allowed initial = { q, p }");
   }

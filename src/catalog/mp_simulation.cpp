@@ -1,0 +1,76 @@
+#include "mp_simulation.hpp"
+
+#include "hamflow/arithmetic/mp.hpp"
+
+namespace hamflow {
+
+namespace {
+class MpSimulation final : public Simulation {
+ public:
+  MpSimulation(int digits, std::unique_ptr<Simulation> inner) : digits_(digits), inner_(std::move(inner)) {}
+  ~MpSimulation() override {
+    const MpDigits scope(digits_);
+    inner_.reset();
+  }
+  Outcome advance(std::int64_t steps) override {
+    return in_scope([&] { return inner_->advance(steps); });
+  }
+  std::int64_t step() const override { return inner_->step(); }
+  void look(Frame& frame) const override {
+    in_scope([&] { inner_->look(frame); });
+  }
+  void reverse_time() override {
+    in_scope([&] { inner_->reverse_time(); });
+  }
+  void negate_momenta() override {
+    in_scope([&] { inner_->negate_momenta(); });
+  }
+  std::vector<std::byte> bits() const override {
+    return in_scope([&] { return inner_->bits(); });
+  }
+  Excursion energy() const override {
+    return in_scope([&] { return inner_->energy(); });
+  }
+  double energy_scale() const override {
+    return in_scope([&] { return inner_->energy_scale(); });
+  }
+  std::vector<InvariantExcursion> invariants() const override {
+    return in_scope([&] { return inner_->invariants(); });
+  }
+  Effort effort() const override { return inner_->effort(); }
+  StepDiagnostics diagnostics() const override {
+    return in_scope([&] { return inner_->diagnostics(); });
+  }
+  MethodInfo method() const override { return inner_->method(); }
+  std::string failure() const override {
+    return in_scope([&] { return inner_->failure(); });
+  }
+  std::vector<std::byte> save() const override {
+    return in_scope([&] { return inner_->save(); });
+  }
+  void restore(std::span<const std::byte> saved) override {
+    in_scope([&] { inner_->restore(saved); });
+  }
+  std::unique_ptr<Simulation> clone() const override {
+    return in_scope([&] { return with_digits(digits_, inner_->clone()); });
+  }
+  Outcome look_ahead(const std::string& time, Frame& frame) const override {
+    return in_scope([&] { return inner_->look_ahead(time, frame); });
+  }
+
+ private:
+  template <class F>
+  std::invoke_result_t<F> in_scope(F&& f) const {
+    const MpDigits scope(digits_);
+    return f();
+  }
+  int digits_;
+  std::unique_ptr<Simulation> inner_;
+};
+}  // namespace
+
+std::unique_ptr<Simulation> with_digits(int digits, std::unique_ptr<Simulation> simulation) {
+  return std::make_unique<MpSimulation>(digits, std::move(simulation));
+}
+
+}  // namespace hamflow
