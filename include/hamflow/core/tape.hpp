@@ -96,7 +96,8 @@ struct Trace {
 
   Trace() = default;
   template <class U>
-  requires std::is_convertible_v<U, R> Trace(const U& constant) : value(static_cast<R>(constant)) {}  // NOLINT
+  requires(std::is_convertible_v<U, R> || (std::is_arithmetic_v<U> && std::is_constructible_v<R, U>))
+      Trace(const U& constant) : value(static_cast<R>(constant)) {}  // NOLINT: a constant is a trace
   Trace(const R& v, Recorder<R>* r, int at) : value(v), recorder(r), node(at) {}
 
   bool is_constant() const { return recorder == nullptr; }
