@@ -97,8 +97,8 @@ double defect(const Tableau& t, const Row& weights, int nodes) {
   return static_cast<double>(most);
 }
 
-// The terms of a condition reach 30 (b_i up to 6, weights of stages up to 5 on the way), a few dozen of them, in a number
-// of 113 bits: 2^-112 * 30 * 30 = 2e-31. The published 30 digits leave 6e-29.
+// The terms of a condition reach 30 (b_i up to 6, weights of stages up to 5 on the way), a few dozen of them, in a
+// number of 113 bits: 2^-112 * 30 * 30 = 2e-31. The published 30 digits leave 6e-29.
 constexpr double quad_rounding = 1e-30;
 
 TEST(Dop853Tableau, meets_all_200_order_conditions_of_order_8) {
@@ -148,8 +148,8 @@ long double slope(const P& problem, const Vector<long double, 2>& q, const Vecto
     z.store(q, p);
     for (int i = 0; i < steps; ++i) EXPECT_EQ(method.step(problem, time / steps, z), Outcome::done);
     EXPECT_EQ(Separable<P> ? method.effort().force : method.effort().gradient, 12 * steps);
-    errors.push_back(std::hypot(std::hypot(z.q[0] - exact[0], z.q[1] - exact[1]),
-                                std::hypot(z.p[0] - exact[2], z.p[1] - exact[3])));
+    errors.push_back(
+        std::hypot(std::hypot(z.q[0] - exact[0], z.q[1] - exact[1]), std::hypot(z.p[0] - exact[2], z.p[1] - exact[3])));
   }
   long double sum = 0;
   for (std::size_t i = 0; i + 1 < errors.size(); ++i) sum += std::log2(errors[i] / errors[i + 1]);
@@ -161,9 +161,9 @@ TEST(Dop853, has_order_8_on_henon_heiles) {
   EXPECT_NEAR(static_cast<double>(slope(HenonHeiles<long double>(), {0.1L, 0.2L}, {0.4L, 0.15L}, 3.7L, 5)), 8, 0.5);
 }
 TEST(Dop853, has_order_8_on_the_double_pendulum) {
-  EXPECT_NEAR(static_cast<double>(slope(DoublePendulumNonlinearAbsolute<long double>(), {0.5L, -0.3L}, {1.0L, 0.4L},
-                                        1.3L, 12)),
-              8, 0.5);
+  EXPECT_NEAR(
+      static_cast<double>(slope(DoublePendulumNonlinearAbsolute<long double>(), {0.5L, -0.3L}, {1.0L, 0.4L}, 1.3L, 12)),
+      8, 0.5);
 }
 
 }  // namespace

@@ -109,14 +109,21 @@ TEST(TaylorSeries, broken_recurrences_are_caught) {
   struct Mutant {
     Operation broken, as;
   };
-  const Mutant mutants[] = {{Operation::sine, Operation::sinh},        {Operation::cosine, Operation::cosh},
-                            {Operation::sinh, Operation::sine},        {Operation::cosh, Operation::cosine},
-                            {Operation::tangent, Operation::tanh},     {Operation::tanh, Operation::tangent},
-                            {Operation::arctangent, Operation::tanh},  {Operation::power, Operation::scale},
-                            {Operation::multiply, Operation::add},     {Operation::divide, Operation::multiply},
-                            {Operation::square, Operation::negate},    {Operation::exponential, Operation::logarithm},
+  const Mutant mutants[] = {{Operation::sine, Operation::sinh},
+                            {Operation::cosine, Operation::cosh},
+                            {Operation::sinh, Operation::sine},
+                            {Operation::cosh, Operation::cosine},
+                            {Operation::tangent, Operation::tanh},
+                            {Operation::tanh, Operation::tangent},
+                            {Operation::arctangent, Operation::tanh},
+                            {Operation::power, Operation::scale},
+                            {Operation::multiply, Operation::add},
+                            {Operation::divide, Operation::multiply},
+                            {Operation::square, Operation::negate},
+                            {Operation::exponential, Operation::logarithm},
                             {Operation::logarithm, Operation::exponential},
-                            {Operation::square_root, Operation::square}, {Operation::invert, Operation::scale},
+                            {Operation::square_root, Operation::square},
+                            {Operation::invert, Operation::scale},
                             {Operation::scale, Operation::divide_constant},
                             {Operation::divide_constant, Operation::scale}};
   for (const Mutant& mutant : mutants) {

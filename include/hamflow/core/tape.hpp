@@ -36,14 +36,14 @@ enum class Operation {
   square_root,
   exponential,
   logarithm,
-  sine,         // of a; b is the node of the cosine
-  cosine,       // of a; b is the node of the sine
-  sinh,         // of a; b is the node of cosh
-  cosh,         // of a; b is the node of sinh
-  tangent,      // of a; b is the node of its square
-  tanh,         // likewise
-  arctangent,   // of a; b is the node of a^2
-  power         // a^c
+  sine,        // of a; b is the node of the cosine
+  cosine,      // of a; b is the node of the sine
+  sinh,        // of a; b is the node of cosh
+  cosh,        // of a; b is the node of sinh
+  tangent,     // of a; b is the node of its square
+  tanh,        // likewise
+  arctangent,  // of a; b is the node of a^2
+  power        // a^c
 };
 
 struct TapeNode {
@@ -97,7 +97,8 @@ struct Trace {
   Trace() = default;
   template <class U>
   requires(std::is_convertible_v<U, R> || (std::is_arithmetic_v<U> && std::is_constructible_v<R, U>))
-      Trace(const U& constant) : value(static_cast<R>(constant)) {}  // NOLINT: a constant is a trace
+      Trace(const U& constant)
+      : value(static_cast<R>(constant)) {}  // NOLINT: a constant is a trace
   Trace(const R& v, Recorder<R>* r, int at) : value(v), recorder(r), node(at) {}
 
   bool is_constant() const { return recorder == nullptr; }
@@ -164,7 +165,8 @@ struct Trace {
 
   [[noreturn]] static void refuse() {
     throw Error(
-        "H has branches that depend on the state (a comparison or abs): taylor cannot differentiate across them; dop853 "
+        "H has branches that depend on the state (a comparison or abs): taylor cannot differentiate across them; "
+        "dop853 "
         "can step over them");
   }
 

@@ -5,7 +5,8 @@
 // One step advances by h in sub-steps tau. With the max-norms of the q- and of the p-block, each by itself,
 //     scale = max(|x0|, |x1|, |tau x0'|),   e_m = max over both blocks of |tau sum_i e^(m)_i k_i|/(tolerance scale),
 //     error = e_5^2/sqrt(e_5^2 + 0.01 e_3^2) <= 1,   next tau = tau clamp(0.9 error^(-1/8), 1/3, 6).
-// The term |tau x0'| keeps the scale off 0 where a block passes through it. The last proposal is kept for the next step.
+// The term |tau x0'| keeps the scale off 0 where a block passes through it. The last proposal is kept for the next
+// step.
 #pragma once
 
 #include <array>
@@ -97,7 +98,7 @@ class DormandPrince853 {
   struct Stages {
     std::array<V, DormandPrince853::stages> dq{};  // q' and p' of the stages
     std::array<V, DormandPrince853::stages> dp{};
-    V q0, p0, q1, p1;              // before and after the sub-step
+    V q0, p0, q1, p1;  // before and after the sub-step
     V increment_q, increment_p;
   };
 
@@ -239,7 +240,8 @@ class DormandPrince853 {
   std::string reason(double part, double proposal, const Substeps& substeps) const {
     if (part == 0) {
       return "dop853 would need a sub-step of " + shortest(proposal) + " after " + shortest(substeps.done()) +
-             " of the step, too short to add up: is the motion near a collision or another singularity, or tolerance = " +
+             " of the step, too short to add up: is the motion near a collision or another singularity, or tolerance "
+             "= " +
              shortest(options_.tolerance) + " below the rounding of the arithmetic?";
     }
     return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, all that it may, for " +

@@ -1,5 +1,5 @@
-// The sub-steps of one step of an adaptive method. Lengths are fractions of the step, in double whatever the arithmetic,
-// and whole multiples of 2^-50: their sums are exact, and the last one ends where the step ends.
+// The sub-steps of one step of an adaptive method. Lengths are fractions of the step, in double whatever the
+// arithmetic, and whole multiples of 2^-50: their sums are exact, and the last one ends where the step ends.
 #pragma once
 
 #include <cmath>

@@ -1,10 +1,10 @@
-// The Taylor series method: z(t0 + tau) = sum_k z_k tau^k up to any order, the coefficients by automatic differentiation
-// of the problem's own formulas.   [Jorba and Zou, Experimental Mathematics 14 (2005) 99-117]
+// The Taylor series method: z(t0 + tau) = sum_k z_k tau^k up to any order, the coefficients by automatic
+// differentiation of the problem's own formulas.   [Jorba and Zou, Experimental Mathematics 14 (2005) 99-117]
 // Non-geometric: it drifts. Here as a reference to compare against.
 //
-// One step advances by h in sub-steps. Each asks the last two coefficients of the q- and of the p-block, in the max-norm,
-// how far the series reaches (Jorba and Zou (3-8) with the size of a block taken within that reach, so that a block that
-// passes through 0 does not stop the motion):
+// One step advances by h in sub-steps. Each asks the last two coefficients of the q- and of the p-block, in the
+// max-norm, how far the series reaches (Jorba and Zou (3-8) with the size of a block taken within that reach, so that a
+// block that passes through 0 does not stop the motion):
 //     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the least rho_j, j = p - 1, p, of both blocks,
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
 // For the cheapest order, p = ceil(1 - ln(tolerance)/2), that is rho/e^2 and their safety factor. What is left of h is
@@ -31,16 +31,16 @@ namespace hamflow {
 
 /// **Traceable**: the derivatives of H as templates that a recording can be passed through.
 template <class P, class R>
-concept Traceable = Differentiable<P> &&
-    (requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
+concept Traceable = Differentiable<P> &&(
+    requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
       problem.velocity(x, out);
       problem.force(x, out);
     } ||
-     requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
-       problem.gradient(x, x, out, out);
-     } ||
-     (P::dimension != dynamic && (detail::HasParts<P, Dual<Trace<R>, P::dimension>> ||
-                                  detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
+    requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
+      problem.gradient(x, x, out, out);
+    } ||
+    (P::dimension != dynamic &&
+     (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
 
 /// q' = dH/dp, p' = -dH/dq on a tape, recorded at (q, p).
 template <class R, class P, std::size_t N>

@@ -1,6 +1,6 @@
-// Taylor coefficients of the solution of z' = f(z), f recorded on a tape, coefficient by coefficient: with those of z up
-// to k all nodes follow up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k).
-// [Jorba and Zou 2005, Prop. 2.1; Griewank and Walther 2008, tables 13.1, 13.2; HLW2006 has none of this]
+// Taylor coefficients of the solution of z' = f(z), f recorded on a tape, coefficient by coefficient: with those of z
+// up to k all nodes follow up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k). [Jorba and Zou 2005, Prop. 2.1;
+// Griewank and Walther 2008, tables 13.1, 13.2; HLW2006 has none of this]
 //
 // Time is counted in units of the caller: z(t0 + s unit) = sum_k z_k s^k.
 #pragma once
@@ -61,7 +61,8 @@ class TaylorSeries {
   /// Room for coefficients 0..order of every node.
   void resize(const Tape<R>& tape, std::size_t order) {
     width_ = order + 1;
-    if (coefficients_.size() != tape.nodes.size() * width_) coefficients_ = Vector<R, dynamic>(tape.nodes.size() * width_);
+    if (coefficients_.size() != tape.nodes.size() * width_)
+      coefficients_ = Vector<R, dynamic>(tape.nodes.size() * width_);
   }
   /// The coefficients of a node.
   R* of(int node) { return coefficients_.begin() + static_cast<std::size_t>(node) * width_; }
