@@ -69,8 +69,8 @@ void expect_kepler_meets(double tolerance, double factor) {
   const double time = 3 * 2 * pi_value<double>();
   const auto z = after<KeplerProblem, Recipe, Compensated<double>>(problem, Recipe{{.tolerance = tolerance}}, {0.4, 0},
                                                                    {0, 2}, time);
-  const auto exact = kepler_flow<L>(1, 1, {0.4L, 0}, {0, 2}, time);
-  const L error = std::hypot(z.q[0].high - exact.q[0], z.q[1].high - exact.q[1]);
+  const auto exact = kepler_flow<L>(1, 1, {0.4L, 0}, {0, 2}, L(time));
+  const L error = std::hypot(L(z.q[0].high) - exact.q[0], L(z.q[1].high) - exact.q[1]);
   EXPECT_LE(error, factor * tolerance) << "tolerance " << tolerance;
   EXPECT_GE(error, tolerance / 1000) << "far more work than was asked for, tolerance " << tolerance;
 }

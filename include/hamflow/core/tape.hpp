@@ -149,7 +149,7 @@ struct Trace {
     return a.recorder->of_two(Operation::divide, a.node, b.node, quotient);
   }
 
-  friend bool operator==(const Trace& a, const Trace& b) {
+  friend constexpr bool operator==(const Trace& a, const Trace& b) {
     const bool equal = a.value <= b.value && b.value <= a.value;
     if (a.is_constant() && b.is_constant()) return equal;
     if (!a.is_constant() && !b.is_constant()) return (a - b) == Trace(R(0));
