@@ -4,6 +4,9 @@
 
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/compensated.hpp"
+#include "hamflow/arithmetic/double_double.hpp"
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/methods/dop853.hpp"
 #include "hamflow/methods/taylor.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
@@ -225,23 +228,12 @@ void expect_same_bits_however_advanced() {
   EXPECT_EQ(at_once.advance(40), Outcome::done);
   for (int i = 0; i < 40; ++i) EXPECT_EQ(one_by_one.advance(1), Outcome::done);
   EXPECT_EQ(at_once.bits(), one_by_one.bits());
-  // A method that is restored goes on as the one that was saved.
-  using M = typename Recipe::template Stepper<KeplerProblem, Plain<double>>;
-  M saved = Recipe{}.template bind<KeplerProblem, Plain<double>>(problem);
-  PhasePoint<Plain<double>, 2> z;
-  z.store({0.4, 0}, {0, 2});
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(saved.step(problem, 0.7, z), Outcome::done);
-  std::vector<double> memory;
-  saved.save(memory);
-  M restored = Recipe{}.template bind<KeplerProblem, Plain<double>>(problem);
-  restored.restore(memory);
-  auto copy = z;
-  for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(saved.step(problem, 0.7, z), Outcome::done);
-    EXPECT_EQ(restored.step(problem, 0.7, copy), Outcome::done);
-  }
-  EXPECT_EQ(z.q, copy.q);
-  EXPECT_EQ(z.p, copy.p);
+  // What is restored goes on as what was saved.
+  auto restored = simulate(problem, Recipe{}, {0.4, 0}, {0, 2}, 0.7);
+  restored.restore(at_once.save());
+  EXPECT_EQ(at_once.advance(10), Outcome::done);
+  EXPECT_EQ(restored.advance(10), Outcome::done);
+  EXPECT_EQ(at_once.save(), restored.save());
 }
 TEST(Adaptive, memory_belongs_to_the_run) {
   expect_same_bits_however_advanced<Dop853>();
@@ -310,10 +302,33 @@ TEST(Adaptive, dual_numbers_pass_through_a_step) {
   }
 }
 
+/// Kepler, e = 0.6, to the eccentric anomaly E = 5, three quarters of a period: t = E - e sin E,
+/// q = (cos E - e, sqrt(1 - e^2) sin E), in any arithmetic.
+template <class R, class Recipe>
+void expect_digits_on_kepler(const Recipe& recipe, double factor) {
+  using P = CentralForce<R, Kepler>;
+  const P problem(R(1), Kepler<R>(R(1)));
+  const R e = R(3) / R(5);
+  const R sine = sin(R(5));
+  const auto z = after(problem, recipe, {R(1) - e, R(0)}, {R(0), R(2)}, R(5) - e * sine);
+  const R error = larger(R(abs(z.q[0] - (cos(R(5)) - e))), R(abs(z.q[1] - R(4) / R(5) * sine)));
+  EXPECT_LE(static_cast<double>(error), factor * recipe.options.tolerance);
+  EXPECT_GE(static_cast<double>(error), recipe.options.tolerance / 1000);
+}
+// A tenth of the phase error of three periods, see above.
+TEST(Adaptive, more_digits_are_used) {
+  expect_digits_on_kepler<Quad>(Dop853{{.tolerance = 1e-26}}, 50);
+  expect_digits_on_kepler<Quad>(Taylor{{.tolerance = 1e-30}}, 50);
+  expect_digits_on_kepler<DoubleDouble>(Taylor{{.tolerance = 1e-28}}, 50);
+  const MpDigits scope(60);
+  expect_digits_on_kepler<Mp>(Taylor{{.tolerance = 1e-55}}, 50);
+}
+
 TEST(Adaptive, doubles_are_read_exactly_in_other_numbers) {
   using D = Dual<double, 1>;
   for (const double x : {0.0, 1.0, 0.1, 0x1.fffffffffffffp-3, 0x1p-50, 3e17, 1.0 / 3}) {
     EXPECT_EQ(exact_number<D>(x).value, x) << x;
+    EXPECT_EQ(static_cast<double>(exact_number<Quad>(x)), x) << x;
   }
 }
 

@@ -10,10 +10,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/number.hpp"
@@ -90,8 +90,10 @@ class DormandPrince853 {
 
   /// The memory is the length that the last sub-step proposed for the next one; 0: none.
   void invalidate() { proposed_ = 0; }
-  void save(std::vector<Base>& memory) const { memory.push_back(exact_number<Base>(proposed_)); }
-  void restore(std::span<const Base> memory) { proposed_ = static_cast<double>(memory[0]); }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(proposed_, evaluations_, substeps_, rejected_);
+  }
 
  private:
   using V = Vector<Real, n>;

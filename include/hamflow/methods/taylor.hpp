@@ -14,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -107,8 +106,10 @@ class TaylorMethod {
   }
 
   void invalidate() {}
-  void save(std::vector<Base>&) const {}
-  void restore(std::span<const Base>) {}
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(sweeps_, substeps_);
+  }
 
  private:
   /// The coefficients need not be copied with the method: every expansion writes them anew.
