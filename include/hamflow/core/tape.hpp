@@ -1,0 +1,387 @@
+// A recording of the arithmetic in a problem's member templates. Called once with S = Trace<R>, they leave a straight
+// line of operations, from which the Taylor coefficients of a motion are propagated (numerics/taylor_series.hpp).
+// [Griewank and Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 2, 13]
+//
+// What is constant is computed at once, what occurs twice is recorded once, and what no output needs is dropped: dual
+// numbers over Trace, which differentiate a Hamiltonian that comes without a gradient, produce many zeros and ones.
+// A branch on the state has no place in a straight line: < and abs throw. A test for equality (a case of measure zero,
+// such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, by which a later state can tell
+// that it would branch otherwise.
+#pragma once
+
+#include <cstddef>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "hamflow/core/dual.hpp"
+#include "hamflow/core/error.hpp"
+#include "hamflow/core/math.hpp"
+
+namespace hamflow {
+
+enum class Operation {
+  input,            // a coordinate of the state
+  constant,         // c
+  add,              // a + b
+  subtract,         // a - b
+  negate,           // -a
+  add_constant,     // a + c
+  scale,            // a c
+  divide_constant,  // a/c
+  multiply,         // a b
+  square,           // a^2
+  divide,           // a/b
+  invert,           // c/a
+  square_root,
+  exponential,
+  logarithm,
+  sine,        // of a; b is the node of the cosine
+  cosine,      // of a; b is the node of the sine
+  sinh,        // of a; b is the node of cosh
+  cosh,        // of a; b is the node of sinh
+  tangent,     // of a; b is the node of its square
+  tanh,        // likewise
+  arctangent,  // of a; b is the node of a^2
+  power        // a^c
+};
+
+struct TapeNode {
+  Operation operation;
+  int a = -1;         // nodes
+  int b = -1;         // may stand later on the tape where only lower coefficients of it are used
+  int constant = -1;  // its place among the constants
+};
+
+/// The operations that lead from the inputs, which are the first nodes, to the outputs.
+template <class R>
+struct Tape {
+  struct Guard {
+    int node;
+    R value;
+    bool equal;  // node == value at the recording
+  };
+  std::size_t inputs = 0;
+  std::vector<TapeNode> nodes;
+  std::vector<R> constants;
+  std::vector<int> outputs;
+  std::vector<Guard> guards;
+};
+
+namespace detail {
+/// Equal in value and in every derivative. A NaN equals nothing.
+template <class T>
+bool identical(const T& a, const T& b) {
+  if constexpr (IsDual<T>::value) {
+    if (!identical(a.value, b.value)) return false;
+    for (std::size_t k = 0; k < a.slope.size(); ++k) {
+      if (!identical(a.slope[k], b.slope[k])) return false;
+    }
+    return true;
+  } else {
+    return a <= b && b <= a;
+  }
+}
+}  // namespace detail
+
+template <class R>
+class Recorder;
+
+/// A number that remembers how it was computed: a constant, or a node of the recording.
+template <class R>
+struct Trace {
+  R value{};
+  Recorder<R>* recorder = nullptr;
+  int node = -1;
+
+  Trace() = default;
+  template <class U>
+  requires(std::is_convertible_v<U, R> || (std::is_arithmetic_v<U> && std::is_constructible_v<R, U>))
+      Trace(const U& constant)
+      : value(static_cast<R>(constant)) {}  // NOLINT: a constant is a trace
+  Trace(const R& v, Recorder<R>* r, int at) : value(v), recorder(r), node(at) {}
+
+  bool is_constant() const { return recorder == nullptr; }
+  bool is_exactly(int c) const { return is_constant() && detail::identical(value, R(c)); }
+
+  Trace& operator+=(const Trace& b) { return *this = *this + b; }
+  Trace& operator-=(const Trace& b) { return *this = *this - b; }
+  Trace& operator*=(const Trace& b) { return *this = *this * b; }
+  Trace& operator/=(const Trace& b) { return *this = *this / b; }
+
+  // Friends, so that constants of any type convert.
+  friend Trace operator+(const Trace& a, const Trace& b) {
+    if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
+    if (a.is_exactly(0)) return b;
+    if (b.is_exactly(0)) return a;
+    const R sum = a.value + b.value;
+    if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, sum);
+    if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, sum);
+    return a.recorder->of_two(Operation::add, a.node, b.node, sum);
+  }
+  friend Trace operator-(const Trace& a, const Trace& b) {
+    if (b.is_constant()) return a + Trace(R(-b.value));
+    if (a.is_constant()) return a + -b;
+    return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
+  }
+  friend Trace operator-(const Trace& a) {
+    if (a.is_constant()) return Trace(R(-a.value));
+    return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
+  }
+  friend Trace operator*(const Trace& a, const Trace& b) {
+    if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
+    if (a.is_constant()) return b * a;
+    if (b.is_exactly(0)) return Trace(R(0));
+    if (b.is_exactly(1)) return a;
+    if (b.is_exactly(-1)) return -a;
+    const R product = a.value * b.value;
+    if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, product);
+    if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, product);
+    return a.recorder->of_two(Operation::multiply, a.node, b.node, product);
+  }
+  friend Trace operator/(const Trace& a, const Trace& b) {
+    if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
+    if (a.is_exactly(0)) return Trace(R(0));
+    if (b.is_exactly(1)) return a;
+    const R quotient = a.value / b.value;
+    if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
+    if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, quotient);
+    return a.recorder->of_two(Operation::divide, a.node, b.node, quotient);
+  }
+
+  friend constexpr bool operator==(const Trace& a, const Trace& b) {
+    const bool equal = a.value <= b.value && b.value <= a.value;
+    if (a.is_constant() && b.is_constant()) return equal;
+    if (!a.is_constant() && !b.is_constant()) return (a - b) == Trace(R(0));
+    const Trace& variable = a.is_constant() ? b : a;
+    const Trace& constant = a.is_constant() ? a : b;
+    variable.recorder->guard(variable.node, constant.value, equal);
+    return equal;
+  }
+  friend bool operator<(const Trace& a, const Trace& b) { return ordered(a, b), a.value < b.value; }
+  friend bool operator>(const Trace& a, const Trace& b) { return ordered(a, b), b.value < a.value; }
+  friend bool operator<=(const Trace& a, const Trace& b) { return ordered(a, b), a.value <= b.value; }
+  friend bool operator>=(const Trace& a, const Trace& b) { return ordered(a, b), b.value <= a.value; }
+
+  [[noreturn]] static void refuse() {
+    throw Error(
+        "H has branches that depend on the state (a comparison or abs): taylor cannot differentiate across them; "
+        "dop853 "
+        "can step over them");
+  }
+
+ private:
+  static void ordered(const Trace& a, const Trace& b) {
+    if (!a.is_constant() || !b.is_constant()) refuse();
+  }
+};
+
+template <class R>
+struct BaseScalar<Trace<R>> {
+  using type = typename BaseScalar<R>::type;
+};
+/// Stays a trace: what is compared has to be known to the recording.
+template <class R>
+Trace<R> value_of(const Trace<R>& x) {
+  return x;
+}
+
+/// Takes the operations down, with the values at one state.
+template <class R>
+class Recorder {
+ public:
+  Trace<R> input(const R& value) {
+    ++tape_.inputs;
+    return push({.operation = Operation::input}, value);
+  }
+  Trace<R> of_two(Operation operation, int a, int b, const R& value) {
+    if ((operation == Operation::add || operation == Operation::multiply) && b < a) std::swap(a, b);
+    return once({.operation = operation, .a = a, .b = b}, value);
+  }
+  Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
+    return once({.operation = operation, .a = a, .b = -1, .constant = constant(c)}, value);
+  }
+  /// Two functions that differentiate into each other. @return the first
+  Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
+    const int at = size();
+    const Trace<R> found = once({.operation = first, .a = a, .b = at + 1}, value1);
+    if (found.node == at) push({.operation = second, .a = a, .b = at}, value2);
+    return found;
+  }
+  Trace<R> second_of_pair(const Trace<R>& first) {
+    return {values_[static_cast<std::size_t>(first.node) + 1], this, first.node + 1};
+  }
+  /// y(a) whose derivative is made of y^2.
+  Trace<R> with_square(Operation operation, int a, const R& value) {
+    const int at = size();
+    const Trace<R> y = once({.operation = operation, .a = a, .b = at + 1}, value);
+    if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
+    return y;
+  }
+  void guard(int node, const R& value, bool equal) { tape_.guards.push_back({node, value, equal}); }
+
+  /// The tape that computes the outputs and nothing else.
+  Tape<R> finish(const std::vector<Trace<R>>& outputs) {
+    for (const Trace<R>& output : outputs) {
+      tape_.outputs.push_back(
+          output.is_constant()
+              ? push({.operation = Operation::constant, .constant = constant(output.value)}, output.value).node
+              : output.node);
+    }
+    drop_unused();
+    return std::move(tape_);
+  }
+
+ private:
+  int size() const { return static_cast<int>(tape_.nodes.size()); }
+  TapeNode& node(int i) { return tape_.nodes[static_cast<std::size_t>(i)]; }
+
+  Trace<R> push(const TapeNode& n, const R& value) {
+    tape_.nodes.push_back(n);
+    values_.push_back(value);
+    return {value, this, size() - 1};
+  }
+  /// The same operation on the same operands is one node. Companions (b after the node itself) follow from a.
+  Trace<R> once(const TapeNode& n, const R& value) {
+    const bool companion = n.b >= size();
+    const auto key = (static_cast<std::size_t>(n.a) * 1000003U + static_cast<std::size_t>(companion ? -1 : n.b)) * 64U +
+                     static_cast<std::size_t>(n.operation);
+    const auto [first, last] = known_.equal_range(key);
+    for (auto it = first; it != last; ++it) {
+      const TapeNode& old = node(it->second);
+      if (old.operation == n.operation && old.a == n.a && (companion || old.b == n.b) && old.constant == n.constant) {
+        return {values_[static_cast<std::size_t>(it->second)], this, it->second};
+      }
+    }
+    known_.emplace(key, size());
+    return push(n, value);
+  }
+  int constant(const R& value) {
+    const std::size_t count = tape_.constants.size();
+    // Few constants are many times the same; of a long list (n masses) only the last ones are looked at.
+    for (std::size_t i = count; i > 0 && i + 64 > count; --i) {
+      if (detail::identical(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
+    }
+    tape_.constants.push_back(value);
+    return static_cast<int>(count);
+  }
+
+  void drop_unused() {
+    std::vector<int> place(tape_.nodes.size(), -1);
+    std::vector<int> open = tape_.outputs;
+    for (const auto& guard : tape_.guards) open.push_back(guard.node);
+    for (std::size_t i = 0; i < tape_.inputs; ++i) open.push_back(static_cast<int>(i));
+    while (!open.empty()) {
+      const int i = open.back();
+      open.pop_back();
+      if (i < 0 || place[static_cast<std::size_t>(i)] == 0) continue;
+      place[static_cast<std::size_t>(i)] = 0;
+      open.push_back(node(i).a);
+      open.push_back(node(i).b);
+    }
+    int kept = 0;
+    for (int& at : place) {
+      if (at == 0) at = kept++;
+    }
+    const auto moved = [&](int i) { return i < 0 ? i : place[static_cast<std::size_t>(i)]; };
+    for (std::size_t i = 0; i < tape_.nodes.size(); ++i) {
+      if (place[i] < 0) continue;
+      TapeNode n = tape_.nodes[i];
+      n.a = moved(n.a);
+      n.b = moved(n.b);
+      node(place[i]) = n;
+    }
+    tape_.nodes.resize(static_cast<std::size_t>(kept));
+    for (int& output : tape_.outputs) output = moved(output);
+    for (auto& guard : tape_.guards) guard.node = moved(guard.node);
+  }
+
+  Tape<R> tape_;
+  std::vector<R> values_;
+  std::unordered_multimap<std::size_t, int> known_;
+};
+
+namespace detail {
+/// f of a constant at once, else a node of its own.
+template <class R, class F>
+Trace<R> recorded(Operation operation, const Trace<R>& x, F&& f) {
+  const R value = f(x.value);
+  if (x.is_constant()) return Trace<R>(value);
+  return x.recorder->of_two(operation, x.node, -1, value);
+}
+/// x^n for n > 0.
+template <class R>
+Trace<R> whole_power(const Trace<R>& x, int n) {
+  if (n == 1) return x;
+  const Trace<R> half = whole_power(x, n / 2);
+  const Trace<R> even = half * half;
+  return n % 2 == 1 ? even * x : even;
+}
+}  // namespace detail
+
+template <class R>
+Trace<R> sqrt(const Trace<R>& x) {
+  return detail::recorded(Operation::square_root, x, [](const R& v) { return R(sqrt(v)); });
+}
+template <class R>
+Trace<R> exp(const Trace<R>& x) {
+  return detail::recorded(Operation::exponential, x, [](const R& v) { return R(exp(v)); });
+}
+template <class R>
+Trace<R> log(const Trace<R>& x) {
+  return detail::recorded(Operation::logarithm, x, [](const R& v) { return R(log(v)); });
+}
+template <class R>
+Trace<R> sin(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(sin(x.value)));
+  return x.recorder->pair(Operation::sine, Operation::cosine, x.node, R(sin(x.value)), R(cos(x.value)));
+}
+template <class R>
+Trace<R> cos(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(cos(x.value)));
+  return x.recorder->second_of_pair(sin(x));
+}
+template <class R>
+Trace<R> sinh(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(sinh(x.value)));
+  return x.recorder->pair(Operation::sinh, Operation::cosh, x.node, R(sinh(x.value)), R(cosh(x.value)));
+}
+template <class R>
+Trace<R> cosh(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(cosh(x.value)));
+  return x.recorder->second_of_pair(sinh(x));
+}
+template <class R>
+Trace<R> tan(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(tan(x.value)));
+  return x.recorder->with_square(Operation::tangent, x.node, R(tan(x.value)));
+}
+template <class R>
+Trace<R> tanh(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(tanh(x.value)));
+  return x.recorder->with_square(Operation::tanh, x.node, R(tanh(x.value)));
+}
+template <class R>
+Trace<R> atan(const Trace<R>& x) {
+  if (x.is_constant()) return Trace<R>(R(atan(x.value)));
+  return x.recorder->of_two(Operation::arctangent, x.node, (x * x).node, R(atan(x.value)));
+}
+/// x^y for a constant exponent; whole exponents are products, so that x may be 0.
+template <class R>
+Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
+  if (x.is_constant()) return Trace<R>(R(pow(x.value, y)));
+  const double exponent = static_cast<double>(y);
+  const int whole = exponent >= -64 && exponent <= 64 ? static_cast<int>(exponent) : 0;
+  if (detail::identical(y, base_scalar<R>(whole))) {
+    if (whole == 0) return Trace<R>(R(1));
+    return whole > 0 ? detail::whole_power(x, whole) : Trace<R>(R(1)) / detail::whole_power(x, -whole);
+  }
+  return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
+}
+template <class R>
+Trace<R> abs(const Trace<R>& x) {
+  if (!x.is_constant()) Trace<R>::refuse();
+  return Trace<R>(R(abs(x.value)));
+}
+
+}  // namespace hamflow

@@ -1,0 +1,40 @@
+// What a user can choose about the methods that control their own sub-steps, and what they then claim.
+// [spec: methods, section 8]
+#pragma once
+
+#include <string>
+
+#include "hamflow/core/method_info.hpp"
+
+namespace hamflow {
+
+struct AdaptiveOptions {
+  double tolerance = 1e-12;  // on the error of a sub-step, relative to the size of q and of p, each by itself
+  int order = 0;             // of taylor; 0: the cheapest for the tolerance
+  bool fixed = false;        // one sub-step a step, whatever its error: what orders are measured on
+  int max_substeps = 100000;
+};
+
+/// What dop853 claims. The step control is even in h and does not see the sign of p, so that the first step is weakly
+/// reversible; later ones remember where they came from.
+inline MethodInfo describe_dop853(const AdaptiveOptions& options) {
+  return {.name = "dop853",
+          .summary = options.fixed ? "explicit Runge-Kutta, 12 stages, order 8"
+                                   : "explicit Runge-Kutta, 12 stages, order 8, with sub-steps of its own",
+          .reference = "Hairer, Norsett, Wanner 1993, II.5, II.10",
+          .order = 8,
+          .weakly_reversible = true,
+          .forces_per_step = options.fixed ? 12 : 0};
+}
+
+/// What taylor of a given order claims.
+inline MethodInfo describe_taylor(const AdaptiveOptions& options, int order) {
+  return {.name = "taylor",
+          .summary = "Taylor series of order " + std::to_string(order) + " by automatic differentiation" +
+                     (options.fixed ? "" : ", with sub-steps of its own"),
+          .reference = "Jorba and Zou 2005; Griewank and Walther 2008, ch. 13",
+          .order = order,
+          .weakly_reversible = true};
+}
+
+}  // namespace hamflow
