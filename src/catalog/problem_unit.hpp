@@ -37,7 +37,7 @@ class ProblemUnit {
       }
     };
     e.accepts = [](const MethodSpec& method) {
-      return visit_method(method, []<class Recipe>(const Recipe&) { return Recipe::template accepts<P>; });
+      return visit_method(method, [](const auto& recipe) { return is_accepted<P>(recipe); });
     };
     e.has_fast_kernel = has_fast_kernel;
     e.simulate = simulate;
@@ -282,6 +282,7 @@ class ProblemUnit {
     const auto make_it = [&]<class R>() { return make<R>(Parameters<R>(parameters), size); };
     return visit_method(method, [&]<class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
       if constexpr (Recipe::template accepts<P>) {
+        if (!is_accepted<P>(recipe)) return nullptr;
         auto shared = with_shape_at_run_time(recipe);
         return std::make_unique<StepMapOf<Family, decltype(shared)>>(make_it, shared);
       } else {
