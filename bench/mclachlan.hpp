@@ -16,9 +16,9 @@ inline constexpr hamflow::SplittingTable sb3a_m4{
     .reference = "McLachlan1995",
     .starts_with = hamflow::StartsWith::drift,
     .symmetric = true,
+    .nystroem = true,
     .coefficients = {"0.18819521776883821786802093897362089152", "1", "-0.02152855110217155120135427230695422485",
-                     "-1/2", "2/3", "-1/2", "-0.02152855110217155120135427230695422485", "1",
-                     "0.18819521776883821786802093897362089152"}};
+                     "-1/2", "2/3"}};
 inline constexpr std::array<double, 9> sb3a_m4_numbers = [] {
   constexpr double a1 = 0.18819521776883821786802093897362089152, a2 = -0.02152855110217155120135427230695422485;
   return std::array{a1, 1.0, a2, -0.5, 2.0 / 3, -0.5, a2, 1.0, a1};
@@ -30,9 +30,9 @@ inline constexpr hamflow::SplittingTable sb3a{
     .reference = "McLachlan1995",
     .starts_with = hamflow::StartsWith::drift,
     .symmetric = true,
+    .nystroem = true,
     .coefficients = {"0.40518861839525227722", "-3/73", "-0.28714404081652408900", "17/59", "0.38195542242127181178",
-                     "0.50592059438123984211748316693754353378", "0.38195542242127181178", "17/59",
-                     "-0.28714404081652408900", "-3/73", "0.40518861839525227722"}};
+                     "0.50592059438123984211748316693754353378"}};
 inline constexpr std::array<double, 11> sb3a_numbers = [] {
   constexpr double a1 = 0.40518861839525227722, a2 = -0.28714404081652408900, a3 = 0.38195542242127181178;
   constexpr double b1 = -3.0 / 73, b2 = 17.0 / 59, b3 = 0.50592059438123984211748316693754353378;

@@ -1,5 +1,5 @@
-# The catalogue is the folders: every file of problems/, problems/potentials/, methods/compositions/, methods/splittings/
-# and methods/tableaus/ is found here, and gets its line in the generated lists (problems: a translation unit each).
+# The catalogue is the folders: every file of problems/, problems/potentials/, methods/compositions/, methods/splittings/,
+# methods/force_gradient/ and methods/tableaus/ is found here, and gets its line in the generated lists (problems: a translation unit each).
 # Adding one is adding a file. By convention problems/henon_heiles.hpp defines the class template HenonHeiles, and
 # compositions/stv4.hpp the table compositions::stv4.
 
@@ -95,6 +95,7 @@ macro(hamflow_table_list kind out)
 endmacro()
 hamflow_table_list(compositions composition_list)
 hamflow_table_list(splittings splitting_list)
+hamflow_table_list(force_gradient force_gradient_list)
 hamflow_table_list(tableaus tableau_addresses)
 hamflow_names(tableau_names methods/tableaus)
 set(tableau_macro "")
@@ -117,6 +118,7 @@ file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
 #pragma once
 #include <optional>
 #include "erased.hpp"
+#include "hamflow/methods/force_gradient.hpp"
 #include "hamflow/methods/splitting.hpp"
 @includes@
 namespace hamflow {
@@ -129,6 +131,7 @@ inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
 inline std::vector<ProblemEntry> generated_problems() { return {@problem_calls@}; }
 inline std::vector<const CompositionTable*> generated_compositions() { return {@composition_list@}; }
 inline std::vector<const SplittingTable*> generated_splittings() { return {@splitting_list@}; }
+inline std::vector<const ForceGradientTable*> generated_force_gradients() { return {@force_gradient_list@}; }
 inline std::vector<std::string> generated_tableaus() { return {@tableau_strings@}; }
 inline std::optional<MethodInfo> generated_tableau_info(const std::string& name) {
 @tableau_infos@  return std::nullopt;

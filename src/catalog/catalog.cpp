@@ -27,6 +27,9 @@ std::span<const MethodEntry> methods() {
     for (const SplittingTable* table : generated_splittings()) {
       list.push_back({std::string(table->name), MethodKind::splitting, table->starts_with, nullptr, table});
     }
+    for (const ForceGradientTable* table : generated_force_gradients()) {
+      list.push_back({.name = std::string(table->name), .kind = MethodKind::force_gradient, .force_gradient = table});
+    }
     for (const std::string& name : generated_tableaus()) list.push_back({name, MethodKind::runge_kutta});
     list.push_back({"cg", MethodKind::cg});
     list.push_back({"boris", MethodKind::boris});
@@ -186,6 +189,9 @@ MethodInfo describe(const MethodSpec& spec) {
   for (const SplittingTable* table : generated_splittings()) {
     if (spec.name == table->name) return describe(*table);
   }
+  for (const ForceGradientTable* table : generated_force_gradients()) {
+    if (spec.name == table->name) return describe(*table);
+  }
   if (spec.name == "cg") return describe(spec.cg);
   if (spec.name == "boris") return BorisStep<Magnetic<double>, Plain<double>>::describe();
   if (const auto info = generated_tableau_info(spec.name)) return *info;
@@ -249,10 +255,17 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     if (problem.accepts(MethodSpec{entry.name, {}})) all += (all.empty() ? "" : ", ") + entry.name;
   }
   std::string needs;
-  switch (find_method(spec.name).kind) {
+  const MethodEntry& method = find_method(spec.name);
+  switch (method.kind) {
     case MethodKind::composition:
     case MethodKind::splitting:
       needs = "a separable H = T(p) + V(q)";
+      if (method.splitting != nullptr && method.splitting->nystroem) {
+        needs += ", T quadratic in p with constant mass matrix";
+      }
+      break;
+    case MethodKind::force_gradient:
+      needs = "a separable H = T(p) + V(q), T quadratic in p with constant mass matrix, V twice differentiable";
       break;
     case MethodKind::runge_kutta:
       needs = "a differentiable H";
@@ -278,9 +291,9 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
     return "there is no fast kernel for " + problem.info.name + "; there is for: " + all;
   }
   if (request.arithmetic == "lattice") return "on the lattice forces are exact; allowed exact";
-  if (find_method(request.method.name).kind == MethodKind::cg) {
-    return "an energy-conserving element needs the exact force; allowed exact";
-  }
+  const MethodKind kind = find_method(request.method.name).kind;
+  if (kind == MethodKind::cg) return "an energy-conserving element needs the exact force; allowed exact";
+  if (kind == MethodKind::force_gradient) return "a force gradient needs the exact force; allowed exact";
   return {};
 }
 

@@ -43,7 +43,7 @@ class ProblemUnit : ProblemStart<Family> {
       }
     };
     e.accepts = [](const MethodSpec& method) {
-      return visit_method(method, []<class Recipe>(const Recipe&) { return Recipe::template accepts<P>; });
+      return visit_method(method, [](const auto& recipe) { return is_accepted<P>(recipe); });
     };
     e.has_fast_kernel = has_fast_kernel;
     e.simulate = simulate;

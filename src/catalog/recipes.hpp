@@ -3,6 +3,7 @@
 
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/force_gradient.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "tableau_list.hpp"  // generated: includes every tableau, defines HAMFLOW_FOR_EACH_TABLEAU
@@ -17,6 +18,7 @@ struct TableRecipe {
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;  // every kick and drift is one-to-one on the lattice
   const MethodEntry* entry;
+  bool needs_quadratic_kinetic() const { return entry->splitting != nullptr && entry->splitting->nystroem; }
   template <class P, class A>
   using Stepper = Splitting<P, A, shape>;
   template <class P, class A>
@@ -30,6 +32,16 @@ struct TableRecipe {
             entry->composition};
   }
 };
+
+/// Whether a problem has what the method needs. Some tables, which are known at run time, need more than others.
+template <class P, class Recipe>
+bool is_accepted(const Recipe& recipe) {
+  if constexpr (Recipe::template accepts<P> && !QuadraticKinetic<P> && requires { recipe.needs_quadratic_kinetic(); }) {
+    return !recipe.needs_quadratic_kinetic();
+  } else {
+    return Recipe::template accepts<P>;
+  }
+}
 
 /// Runs at full speed: the common shapes in plain double have kernels of their own. What is rare, or bound by its
 /// arithmetic, shares one whose shape is known at run time, which costs a branch a step and takes a quarter of the time
@@ -54,6 +66,7 @@ auto visit_method(const MethodSpec& spec, F&& f) {
   const MethodEntry& entry = find_method(spec.name);
   if (entry.kind == MethodKind::cg) return f(Cg{spec.cg});
   if (entry.kind == MethodKind::boris) return f(Boris{});
+  if (entry.kind == MethodKind::force_gradient) return f(ForceGradient{entry.force_gradient});
 #define HAMFLOW_TRY_TABLEAU(table) \
   if (entry.name == tableaus::table.name) return f(RungeKuttaBy<tableaus::table>{});
   HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_TRY_TABLEAU)

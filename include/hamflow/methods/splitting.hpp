@@ -77,8 +77,7 @@ SplittingSequence<R> sequence_of(const CompositionTable& table, StartsWith start
 template <class R>
 SplittingSequence<R> sequence_of(const SplittingTable& table) {
   std::vector<R> c;
-  for (int i = 0; i < table.count(); ++i)
-    c.push_back(evaluate_number<R>(table.coefficients[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < table.count(); ++i) c.push_back(evaluate_number<R>(table.coefficient(i)));
   return {table.starts_with, c};
 }
 
@@ -99,16 +98,17 @@ inline MethodInfo describe(const CompositionTable& table, StartsWith starts_with
 inline MethodInfo describe(const SplittingTable& table) {
   const auto sequence = sequence_of<double>(table);
   const int kicks = (table.count() + (table.starts_with == StartsWith::kick ? 1 : 0)) / 2;
-  return {
-      .name = std::string(table.name),
-      .summary = std::string("splitting, ") + (table.starts_with == StartsWith::kick ? "kick first" : "drift first"),
-      .reference = std::string(table.reference),
-      .order = table.order,
-      .symplectic = true,
-      .weakly_reversible = true,
-      .symmetric = table.symmetric,
-      .reversible = table.symmetric,
-      .forces_per_step = sequence.kick_first() && sequence.kick_last() ? kicks - 1 : kicks};
+  return {.name = std::string(table.name),
+          .summary = std::string("splitting, ") +
+                     (table.starts_with == StartsWith::kick ? "kick first" : "drift first") +
+                     (table.nystroem ? ", for T quadratic in p with constant mass matrix" : ""),
+          .reference = std::string(table.reference),
+          .order = table.order,
+          .symplectic = true,
+          .weakly_reversible = true,
+          .symmetric = table.symmetric,
+          .reversible = table.symmetric,
+          .forces_per_step = sequence.kick_first() && sequence.kick_last() ? kicks - 1 : kicks};
 }
 
 inline constexpr int any_length = 0;
@@ -301,19 +301,21 @@ struct Composition {
 template <const SplittingTable& Table>
 struct SplittingBy {
   template <class P>
-  static constexpr bool accepts = Separable<P>;
+  static constexpr bool accepts = Table.nystroem ? QuadraticKinetic<P> : Separable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
   static constexpr Shape shape() {
     constexpr bool kick_first = Table.starts_with == StartsWith::kick;
-    constexpr auto last = static_cast<std::size_t>(Table.count() - 1);
-    return shape_of(kick_first, kick_first == (last % 2 == 0), Table.coefficients[0] == Table.coefficients[last]);
+    constexpr int last = Table.count() - 1;
+    return shape_of(kick_first, kick_first == (last % 2 == 0), Table.coefficient(0) == Table.coefficient(last));
   }
   static constexpr int links = (Table.count() + (Table.starts_with == StartsWith::kick ? 0 : 1)) / 2;
   template <class P, class A>
   using Stepper = Splitting<P, A, shape(), links>;
   template <class P, class A>
   Stepper<P, A> bind(const P&) const {
+    static_assert(accepts<P>,
+                  "hamflow: this table has its order for a QuadraticKinetic problem only, T = p^T M^-1 p/2");
     return {sequence_of<typename Stepper<P, A>::Base>(Table), detail::describe_splitting, &Table};
   }
 };

@@ -1,6 +1,6 @@
-// The two kinds of coefficient table for explicit splitting methods. A table is data with its source; the one kernel in
-// splitting.hpp runs all of them. Coefficients are decimal strings (or fractions), read in the working arithmetic,
-// because a double literal would silently cap an extended one.
+// The kinds of coefficient table for explicit splitting methods. A table is data with its source; the one kernel in
+// splitting.hpp runs them all, those with force gradients that in force_gradient.hpp. Coefficients are decimal strings
+// (or fractions), read in the working arithmetic, because a double literal would silently cap an extended one.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct CompositionTable {
 
   constexpr int half_count() const {
     int count = 0;
-    while (!half[static_cast<std::size_t>(count)].empty()) ++count;
+    while (count < static_cast<int>(most) && !half[static_cast<std::size_t>(count)].empty()) ++count;
     return count;
   }
   constexpr int stages() const { return 2 * half_count() + 1; }
@@ -29,6 +29,7 @@ struct CompositionTable {
 enum class StartsWith { kick, drift };
 
 /// Alternating kicks (p <- p - c h V'(q)) and drifts (q <- q + d h T'(p)), in the order in which they act.
+/// Of a symmetric one `coefficients` lists the first half with the middle one; the rest is its mirror image.
 struct SplittingTable {
   static constexpr std::size_t most = 40;
   std::string_view name;
@@ -36,12 +37,49 @@ struct SplittingTable {
   std::string_view reference;
   StartsWith starts_with;
   bool symmetric = false;
+  bool nystroem = false;  // has its order for T = p^T M^-1 p/2 with constant M only
   std::array<std::string_view, most> coefficients{};
 
-  constexpr int count() const {
+  /// How many coefficients are listed.
+  constexpr int listed() const {
     int n = 0;
-    while (!coefficients[static_cast<std::size_t>(n)].empty()) ++n;
+    while (n < static_cast<int>(most) && !coefficients[static_cast<std::size_t>(n)].empty()) ++n;
     return n;
+  }
+  /// How many actions a step has.
+  constexpr int count() const { return symmetric ? 2 * listed() - 1 : listed(); }
+  /// Of action i = 0 .. count() - 1.
+  constexpr std::string_view coefficient(int i) const {
+    return coefficients[static_cast<std::size_t>(i < listed() ? i : count() - 1 - i)];
+  }
+};
+
+/// One action of a step with force gradient. A kick is p <- p - h b V'(q) + h^3 g (|V'|^2)'(q), |V'|^2 = V'^T M^-1 V'.
+struct ForceGradientAction {
+  std::string_view drift{};
+  std::string_view kick{};      // b
+  std::string_view gradient{};  // g; empty: 0
+};
+
+/// A symmetric splitting whose kicks may carry the gradient of |V'|^2. `half` lists its actions with the middle one.
+struct ForceGradientTable {
+  static constexpr std::size_t most = 8;
+  std::string_view name;
+  int order;
+  std::string_view reference;
+  std::array<ForceGradientAction, most> half{};
+
+  constexpr int listed() const {
+    int n = 0;
+    while (n < static_cast<int>(most) &&
+           !(half[static_cast<std::size_t>(n)].drift.empty() && half[static_cast<std::size_t>(n)].kick.empty())) {
+      ++n;
+    }
+    return n;
+  }
+  constexpr int count() const { return 2 * listed() - 1; }
+  constexpr const ForceGradientAction& action(int i) const {
+    return half[static_cast<std::size_t>(i < listed() ? i : count() - 1 - i)];
   }
 };
 

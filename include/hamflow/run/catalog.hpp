@@ -26,7 +26,7 @@ struct MethodSpec {
   CgOptions cg{};
 };
 
-enum class MethodKind { composition, splitting, runge_kutta, cg, boris };
+enum class MethodKind { composition, splitting, force_gradient, runge_kutta, cg, boris };
 
 /// One name of the closed list of methods.
 struct MethodEntry {
@@ -35,6 +35,7 @@ struct MethodEntry {
   StartsWith starts_with = StartsWith::kick;  // of a composition
   const CompositionTable* composition = nullptr;
   const SplittingTable* splitting = nullptr;
+  const ForceGradientTable* force_gradient = nullptr;
 };
 
 /// Numbers are texts, read in the arithmetic of the run.
