@@ -1,6 +1,6 @@
-// Threads that wait for work that comes in pieces of some microseconds: the forces of one step. They look for it a while
-// before they sleep, and no piece of work allocates. A piece goes to whichever thread is free: what is computed must not
-// depend on who computes it, as sums of integers do not.
+// Threads that wait for work that comes in pieces of some microseconds: the forces of one step. They look for it a
+// while before they sleep, and no piece of work allocates. A piece goes to whichever thread is free: what is computed
+// must not depend on who computes it, as sums of integers do not.
 #pragma once
 
 #include <atomic>
@@ -80,8 +80,8 @@ class ThreadTeam {
     }
   }
   /// Takes blocks while there are any. The number of the call stands in the ticket: one that was looked at before the
-  /// call ended cannot be taken afterwards, and what belongs to a call is read only with a block of it in hand, for which
-  /// the caller waits.
+  /// call ended cannot be taken afterwards, and what belongs to a call is read only with a block of it in hand, for
+  /// which the caller waits.
   void help(std::size_t worker) {
     std::uint64_t ticket = tickets_.load(std::memory_order_acquire);
     while ((ticket & most_blocks) != 0) {
