@@ -261,7 +261,8 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
            " with arithmetic = \"lattice\")";
   }
   if (request.arithmetic != "lattice") {
-    return "in " + request.arithmetic + " threads would change the order of floating-point sums, and with it the bits; " +
+    return "in " + request.arithmetic +
+           " threads would change the order of floating-point sums, and with it the bits; " +
            "allowed 1, or arithmetic = \"lattice\", whose integer sums have no order";
   }
   return {};

@@ -147,9 +147,9 @@ void ScenarioReader::read_length(TomlTable& table) {
   }
 }
 
-/// 2^-52 of the largest number of the start, hence a range of 1024 times it. For most problems 2^-52 for numbers from 1/512
-/// to 2 too, because a start near rest says little about what follows. Of bodies that attract each other the momenta to
-/// come are known: those with which the kinetic energy would be as large as the potential energy is now.
+/// 2^-52 of the largest number of the start, hence a range of 1024 times it. For most problems 2^-52 for numbers from
+/// 1/512 to 2 too, because a start near rest says little about what follows. Of bodies that attract each other the
+/// momenta to come are known: those with which the kinetic energy would be as large as the potential energy is now.
 void ScenarioReader::usual_units() {
   const auto largest = [](const std::vector<double>& values) {
     double most = 0;

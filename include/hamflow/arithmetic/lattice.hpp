@@ -37,8 +37,8 @@ struct Lattice {
       return s;
     }
     Real read(Stored s) const { return static_cast<Real>(s) * unit; }
-    /// (a - b) unit. The integers are subtracted, which is exact, and then rounded: moving all by one vector of the lattice
-    /// changes no bit, and close neighbours far from the origin lose no digits.
+    /// (a - b) unit. The integers are subtracted, which is exact, and then rounded: moving all by one vector of the
+    /// lattice changes no bit, and close neighbours far from the origin lose no digits.
     Real difference(Stored a, Stored b) const { return static_cast<Real>(a - b) * unit; }
     /// k = round(r / unit), to nearest, ties to even, which is odd: round(-x) = -round(x).
     /// @return false, with k left as it was, unless r / unit is below `limit` <= 2^62 in size; false for NaN too

@@ -22,8 +22,8 @@ concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real 
   { A::exact_undo } -> std::convertible_to<bool>;  // add(s, r); add(s, -r); restores every bit of s
 };
 
-/// **IntegerSums**: stored are integers, so that contributions, each rounded, can be summed without rounding: the sum does
-/// not depend on their order.
+/// **IntegerSums**: stored are integers, so that contributions, each rounded, can be summed without rounding: the sum
+/// does not depend on their order.
 template <class A>
 concept IntegerSums = Arithmetic<A> && std::integral<typename A::Stored> &&
     requires(A a, typename A::Stored s, typename A::Real r) {
@@ -135,9 +135,9 @@ concept Smooth = Differentiable<P> &&
 /// coordinates. pair_kicks(factor, difference, first, last, sink) visits the pairs of the rows first .. last - 1 and
 /// calls sink(a, b, r) where factor times the pair's force adds r to p_a and subtracts it from p_b.
 template <class P>
-concept PairwiseForces = Separable<P> &&
-    requires(const P& problem, const typename P::Real& factor, const detail::AnyDifference<typename P::Real>& difference,
-             std::size_t row, detail::AnyPairSink<typename P::Real>& sink) {
+concept PairwiseForces = Separable<P> && requires(const P& problem, const typename P::Real& factor,
+                                                  const detail::AnyDifference<typename P::Real>& difference,
+                                                  std::size_t row, detail::AnyPairSink<typename P::Real>& sink) {
   { problem.pair_rows() } -> std::convertible_to<std::size_t>;        // no coordinate is in more pairs than this
   { problem.pairs_in_row(row) } -> std::convertible_to<std::size_t>;  // for sharing the work
   problem.pair_kicks(factor, difference, row, row, sink);

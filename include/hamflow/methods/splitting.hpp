@@ -6,8 +6,8 @@
 // The factors c h and d h go into the force and the velocity of a problem that takes them (scaled_force,
 // scaled_velocity): multiplied by them afterwards, every force would end one operation later, and the next one waits
 // for it.
-// On an integer lattice, forces between pairs are rounded and summed pair by pair (pair_sums.hpp); the kick is then kept as
-// integers, and where the last kick of a table is not as strong as the first it is computed anew.
+// On an integer lattice, forces between pairs are rounded and summed pair by pair (pair_sums.hpp); the kick is then
+// kept as integers, and where the last kick of a table is not as strong as the first it is computed anew.
 #pragma once
 
 #include <array>
@@ -252,8 +252,7 @@ class Splitting {
     }
     ++forces_;
   }
-  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Increment, n>& f,
-                                   PhasePoint<A, n>& z) const {
+  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z) const {
     if constexpr (sums_integers) {
       z.push(f);
     } else if (factor_within()) [[likely]] {  // else one multiplication, by factor or 1, is made of it

@@ -78,8 +78,8 @@ class Gravity {
       pair_forces<3>(q, f);
     }
   }
-  /// The kick, pair by pair: row i holds the pairs i, j > i. Every operation is symmetric in i and j or changes its sign, so
-  /// that numbering the bodies otherwise changes no bit of a contribution.
+  /// The kick, pair by pair: row i holds the pairs i, j > i. Every operation is symmetric in i and j or changes its
+  /// sign, so that numbering the bodies otherwise changes no bit of a contribution.
   template <class F, class Difference, class Sink>
   void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
                   Sink& sink) const {
