@@ -354,6 +354,29 @@ TEST(LatticeBodies, AKeptKickIsTheOneThatWouldBeComputed) {
   }
 }
 
+TEST(LatticeBodies, SavedClonedAndContinuedByAnotherNumberOfThreadsTheBitsAreTheSame) {
+  using P = Gravity<double>;
+  using M = Stv4::Stepper<P, Lattice>;
+  const Cluster c = cluster(10);
+  const auto with_threads = [&](std::size_t threads) {
+    M method = Stv4{}.bind<P, Lattice>(c.problem());
+    method.use_threads(threads);
+    return SimulationOf<P, M, Lattice>(c.problem(), method, c.q, c.p, 1.0 / 128, lattice(-52, -60));
+  };
+  auto simulation = with_threads(2);
+  ASSERT_EQ(simulation.advance(50), Outcome::done);
+  const auto saved = simulation.save();
+  const auto clone = simulation.clone();
+  auto restored = with_threads(1);
+  restored.restore(saved);
+  ASSERT_EQ(simulation.advance(50), Outcome::done);
+  ASSERT_EQ(clone->advance(50), Outcome::done);
+  ASSERT_EQ(restored.advance(50), Outcome::done);
+  EXPECT_EQ(clone->bits(), simulation.bits());
+  EXPECT_EQ(restored.bits(), simulation.bits());
+  EXPECT_EQ(restored.effort().force, 3 * 100 + 1) << "the kept kick was saved too";
+}
+
 TEST(LatticeBodies, ErrorsAreThoseOfRounding) {
   // Each kick adds an error of (N - 1)/12 units^2 to a momentum, each drift 1/12 to a coordinate, all independent; the
   // motion amplifies them like a random displacement of the start, which is measured in compensated double. (q, v) in
