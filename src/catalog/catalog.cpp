@@ -297,6 +297,27 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
   return {};
 }
 
+std::string refused_threads(const Request& request, const ProblemEntry& problem) {
+  if (request.threads == 1) return {};
+  if (request.threads < 1 || request.threads > most_threads) {
+    return "allowed a whole number from 1 to " + std::to_string(most_threads);
+  }
+  if (!problem.has_pairwise_forces) {
+    std::string all;
+    for (const ProblemEntry& entry : problems()) {
+      if (entry.has_pairwise_forces) all += (all.empty() ? "" : ", ") + entry.info.name;
+    }
+    return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + all +
+           " with arithmetic = \"lattice\")";
+  }
+  if (request.arithmetic != "lattice") {
+    return "in " + request.arithmetic +
+           " threads would change the order of floating-point sums, and with it the bits; " +
+           "allowed 1, or arithmetic = \"lattice\", whose integer sums have no order";
+  }
+  return {};
+}
+
 std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
   check_arithmetic(request.arithmetic);
@@ -309,6 +330,8 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
     const std::string no_kernel = request.kernel == "fast" ? refused_fast_kernel(request, problem) : "allowed exact, fast";
     if (!no_kernel.empty()) throw Error("kernel '" + request.kernel + "': " + no_kernel);
   }
+  const std::string one_thread = refused_threads(request, problem);
+  if (!one_thread.empty()) throw Error("threads = " + std::to_string(request.threads) + ": " + one_thread);
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
   const bool typed = digits_beyond_double(request.arithmetic) == 0 && has_typed_kernel(request.method);

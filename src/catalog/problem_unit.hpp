@@ -46,6 +46,7 @@ class ProblemUnit : ProblemStart<Family> {
       return visit_method(method, [](const auto& recipe) { return is_accepted<P>(recipe); });
     };
     e.has_fast_kernel = has_fast_kernel;
+    e.has_pairwise_forces = PairwiseForces<P>;
     e.simulate = simulate;
     e.derived = [](const Texts& parameters, const StartSpec& spec) {
       Texts all = parameters;
@@ -140,6 +141,7 @@ class ProblemUnit : ProblemStart<Family> {
     const R h = evaluate_number<R>(request.dt);
     auto method = recipe.template bind<Problems<R>, A>(problem);
     using M = decltype(method);
+    if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
     // Without a probe: what is worth it, being bound by the step alone.
     if constexpr (std::is_same_v<A, Plain<double>> && !std::is_same_v<Recipe, TableRecipe<Shape::any>> &&
                   n != dynamic) {

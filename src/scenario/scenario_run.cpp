@@ -105,7 +105,13 @@ void ScenarioReader::read_run(TomlTable& table) {
       if (!why_not.empty()) table.complain("kernel", table.found("kernel") + "; " + why_not);
     }
   }
-  (void)table.whole("threads", 1, 1);  // one trajectory is one chain of steps
+  if (const auto threads = table.whole("threads", 1, most_threads)) {
+    scenario_.request.threads = static_cast<int>(*threads);
+    if (scenario_.problem != nullptr) {
+      const std::string why_not = refused_threads(scenario_.request, *scenario_.problem);
+      if (!why_not.empty()) table.complain("threads", table.found("threads") + "; " + why_not);
+    }
+  }
   read_lattice(table);
   table.finish();
 }
@@ -141,16 +147,38 @@ void ScenarioReader::read_length(TomlTable& table) {
   }
 }
 
-/// 2^-52 for numbers about 1; finer for a start that is much smaller.
+/// 2^-52 of the largest number of the start, hence a range of 1024 times it. For most problems 2^-52 for numbers from
+/// 1/512 to 2 too, because a start near rest says little about what follows. Of bodies that attract each other the
+/// momenta to come are known: those with which the kinetic energy would be as large as the potential energy is now.
 void ScenarioReader::usual_units() {
-  const auto unit_for = [](const std::vector<double>& values) {
+  const auto largest = [](const std::vector<double>& values) {
     double most = 0;
     for (const double x : values) most = std::max(most, std::abs(x));
-    const int exponent = most > 0 ? std::clamp(std::ilogb(most), -900, 0) : 0;
-    return std::ldexp(1.0, -52 + (exponent < -9 ? exponent : 0));
+    return most;
   };
-  scenario_.request.position_unit = unit_for(scenario_.start_q);
-  scenario_.request.momentum_unit = unit_for(scenario_.start_p);
+  const auto unit_for = [](double most, int coarsest) {
+    const int exponent = most > 0 && std::isfinite(most) ? std::clamp(std::ilogb(most), -900, 900) : 0;
+    return std::ldexp(1.0, -52 + (exponent < coarsest || exponent > 0 ? exponent : 0));
+  };
+  Request& request = scenario_.request;
+  if (scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
+    request.position_unit = unit_for(largest(scenario_.start_q), -9);
+    request.momentum_unit = unit_for(largest(scenario_.start_p), -9);
+    return;
+  }
+  // The start's momenta, or equal ones, times as much as makes T = |V|.
+  const double most = largest(scenario_.start_p);
+  const auto energy_with = [&](double factor) {
+    std::vector<double> p = scenario_.start_p;
+    for (double& x : p) x = factor * (most > 0 ? x / most : 1.0);
+    return scenario_.problem->energy(request.parameters, scenario_.start_q, p);
+  };
+  const double potential = energy_with(0);
+  double factor = 1;
+  while (energy_with(factor) - potential < 0x1p-20 * std::abs(potential) && factor < 0x1p400) factor *= 0x1p30;
+  const double to_come = factor * std::sqrt(std::abs(potential) / (energy_with(factor) - potential));
+  request.position_unit = unit_for(largest(scenario_.start_q), 0);
+  request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
 }
 
 void ScenarioReader::read_lattice(TomlTable& table) {

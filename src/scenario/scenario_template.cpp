@@ -404,6 +404,7 @@ class TemplateWriter {
     page_.line("arithmetic = \"double\"", joined(allowed) + " with this method; default double");
     if (std::find(allowed.begin(), allowed.end(), "lattice") != allowed.end()) {
       page_.off("lattice = { position = \"2^-52\", momentum = \"2^-52\" }", "units with arithmetic = \"lattice\"");
+      if (problem_.has_pairwise_forces) page_.off("threads = 2", "with arithmetic = \"lattice\"; default 1");
     }
     if (problem_.has_fast_kernel && method_.name != "cg")
       page_.line("kernel = \"exact\"", "exact, fast; default exact");

@@ -96,8 +96,8 @@ class Run(CommandCase):
                          "problem.orbit={kind='hyperbola',r_per=1,angular_momentum=1e3}", "--set", "run.steps=100000",
                          "--set", "run.lattice={position='2^-52', momentum='2^-40'}", status=1)
         self.assertEqual(s["error"]["kind"], "lattice_overflow")
-        self.assertLess(max(abs(x) for x in s["final"]["q"]), 2048)
-        self.assertGreater(max(abs(x) for x in s["final"]["q"]), 1000)
+        self.assertLess(max(abs(x) for x in s["final"]["q"]), 1024)  # 2^62 units
+        self.assertGreater(max(abs(x) for x in s["final"]["q"]), 950)  # 50 a step
         s = self.summary("kepler.toml", "--set", "problem={name='henon-heiles',initial={q=[3,3],p=[0,0]}}", "--set",
                          "method={name='verlet'}", status=1)
         self.assertEqual(s["error"]["kind"], "non_finite")

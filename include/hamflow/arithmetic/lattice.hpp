@@ -9,13 +9,16 @@
 
 namespace hamflow {
 
-/// s -> s * unit, s a 64-bit integer. Forces are computed in double from the rounded reading of s.
+/// s -> s * unit, s a 64-bit integer of less than 2^62 in size: the sum and the difference of two such integers always
+/// fit into 64 bits, so that leaving the range is found before anything overflows. Forces are computed in double, from
+/// the rounded reading of s or from the exact difference of two.
 struct Lattice {
   using Real = double;
   using Stored = std::int64_t;
   static constexpr std::string_view name = "lattice";
   static constexpr bool exact_undo = true;
-  static constexpr double default_unit = 0x1p-52;  // range +-2048 at a spacing of 2.2e-16
+  static constexpr double default_unit = 0x1p-52;  // range +-1024 at a spacing of 2.2e-16
+  static constexpr Stored range = Stored{1} << 62;
 
   struct Axis {
     double unit = default_unit;            // a power of two, so that scaling either way is exact
@@ -34,21 +37,35 @@ struct Lattice {
       return s;
     }
     Real read(Stored s) const { return static_cast<Real>(s) * unit; }
-    /// s <- s + round(r / unit). Rounding to nearest, ties to even, is odd: round(-x) = -round(x).
-    void add(Stored& s, Real r) {
+    /// (a - b) unit. The integers are subtracted, which is exact, and then rounded: moving all by one vector of the
+    /// lattice changes no bit, and close neighbours far from the origin lose no digits.
+    Real difference(Stored a, Stored b) const { return static_cast<Real>(a - b) * unit; }
+    /// k = round(r / unit), to nearest, ties to even, which is odd: round(-x) = -round(x).
+    /// @return false, with k left as it was, unless r / unit is below `limit` <= 2^62 in size; false for NaN too
+    bool units(Real r, Real limit, Stored& k) const {
       const Real scaled = r * per_unit;
-      // 2^62 leaves room to round and add; the comparison is false for NaN too.
-      if (!(std::fabs(scaled) < 0x1p62)) {
+      if (!(std::fabs(scaled) < limit)) return false;
+      k = static_cast<Stored>(std::llrint(scaled));
+      return true;
+    }
+    /// s <- s + k, |k| < 2^62.
+    void add_units(Stored& s, Stored k) {
+      const Stored sum = s + k;
+      // The range is symmetric, so that negating a momentum always works.
+      if (sum <= -range || sum >= range) {
         lost = true;
-        return;
+      } else {
+        s = sum;
       }
-      Stored sum = 0;
-      // The range is kept symmetric (no -2^63), so that negating a momentum always works.
-      if (__builtin_add_overflow(s, static_cast<Stored>(std::llrint(scaled)), &sum) || sum == INT64_MIN) {
+    }
+    /// s <- s + round(r / unit).
+    void add(Stored& s, Real r) {
+      Stored k = 0;
+      if (units(r, static_cast<Real>(range), k)) {
+        add_units(s, k);
+      } else {
         lost = true;
-        return;
       }
-      s = sum;
     }
     static Stored negated(Stored s) { return -s; }
     template <class Archive>

@@ -22,6 +22,16 @@ concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real 
   { A::exact_undo } -> std::convertible_to<bool>;  // add(s, r); add(s, -r); restores every bit of s
 };
 
+/// **IntegerSums**: stored are integers, so that contributions, each rounded, can be summed without rounding: the sum
+/// does not depend on their order.
+template <class A>
+concept IntegerSums = Arithmetic<A> && std::integral<typename A::Stored> &&
+    requires(A a, typename A::Stored s, typename A::Real r) {
+  { a.position.difference(s, s) } -> std::convertible_to<typename A::Real>;  // of two coordinates, as a number
+  { a.momentum.units(r, r, s) } -> std::same_as<bool>;                       // s = r rounded; false beyond a limit
+  a.momentum.add_units(s, s);
+};
+
 template <class P>
 using RealOf = typename P::Real;
 template <class P, class S = typename P::Real>
@@ -70,6 +80,14 @@ concept HasDualGradient = requires(const P& problem, const VectorOf<P, Dual<type
                                    VectorOf<P, Dual<typename P::Real, 2 * P::dimension>>& out) {
   problem.gradient(x, x, out, out);
 };
+template <class R>
+struct AnyDifference {
+  R operator()(std::size_t a, std::size_t b) const;  // q_a - q_b
+};
+template <class R>
+struct AnyPairSink {
+  void operator()(std::size_t up, std::size_t down, const R& r);  // r is added to p_up and subtracted from p_down
+};
 template <class P>
 using EnergyDual = Dual<typename P::Real, 2 * P::dimension>;
 }  // namespace detail
@@ -112,6 +130,18 @@ concept Smooth = Differentiable<P> &&
      (P::dimension != dynamic &&
       (detail::HasDualGradient<P> || detail::HasParts<P, Dual<GradientDual<P>, P::dimension>> ||
        detail::HasEnergy<P, Dual<detail::EnergyDual<P>, 2 * P::dimension>>)));
+
+/// **PairwiseForces**: V is a sum over pairs, and a kick can be had pair by pair, as a function of differences of
+/// coordinates. pair_kicks(factor, difference, first, last, sink) visits the pairs of the rows first .. last - 1 and
+/// calls sink(a, b, r) where factor times the pair's force adds r to p_a and subtracts it from p_b.
+template <class P>
+concept PairwiseForces = Separable<P> && requires(const P& problem, const typename P::Real& factor,
+                                                  const detail::AnyDifference<typename P::Real>& difference,
+                                                  std::size_t row, detail::AnyPairSink<typename P::Real>& sink) {
+  { problem.pair_rows() } -> std::convertible_to<std::size_t>;        // no coordinate is in more pairs than this
+  { problem.pairs_in_row(row) } -> std::convertible_to<std::size_t>;  // for sharing the work
+  problem.pair_kicks(factor, difference, row, row, sink);
+};
 
 /// **Cyclic**: H does not depend on the last coordinate, and for its constant momentum the others are those of a
 /// QuadraticKinetic problem, reduced(p). Implicit elements then solve in the others alone.

@@ -50,6 +50,10 @@ struct PhasePoint {
   void push(const Vector<Real, N>& increment) {
     for (std::size_t i = 0; i < p.size(); ++i) arithmetic.momentum.add(p[i], increment[i]);
   }
+  /// p <- p + increment, in lattice units.
+  void push(const Vector<Stored, N>& units) requires IntegerSums<A> {
+    for (std::size_t i = 0; i < p.size(); ++i) arithmetic.momentum.add_units(p[i], units[i]);
+  }
   /// q <- q + factor * direction (a drift, for direction = dT/dp).
   template <class F>
   void move(const F& factor, const Vector<Real, N>& direction) {

@@ -6,6 +6,8 @@
 // The factors c h and d h go into the force and the velocity of a problem that takes them (scaled_force,
 // scaled_velocity): multiplied by them afterwards, every force would end one operation later, and the next one waits
 // for it.
+// On an integer lattice, forces between pairs are rounded and summed pair by pair (pair_sums.hpp); the kick is then
+// kept as integers, and where the last kick of a table is not as strong as the first it is computed anew.
 #pragma once
 
 #include <array>
@@ -16,6 +18,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/pair_sums.hpp"
 #include "hamflow/methods/tables.hpp"
 
 namespace hamflow {
@@ -113,6 +116,22 @@ inline MethodInfo describe(const SplittingTable& table) {
 
 inline constexpr int any_length = 0;
 
+namespace detail {
+/// Kicks are summed in floating point.
+struct NoPairSums {};
+template <class P, class A>
+struct PairSumsOf {
+  using type = NoPairSums;
+  using Increment = typename A::Real;
+};
+template <class P, class A>
+requires PairwiseForces<P> && IntegerSums<A>
+struct PairSumsOf<P, A> {
+  using type = PairSums<P, A>;
+  using Increment = typename A::Stored;
+};
+}  // namespace detail
+
 /// One step of a splitting method.
 /// @tparam Links drifts in a step when known at compile time (the loop is then unrolled), else any_length
 template <class P, Arithmetic A, Shape shape, int Links = any_length>
@@ -125,6 +144,7 @@ class Splitting {
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
+  static constexpr bool sums_integers = PairwiseForces<P> && IntegerSums<A>;
 
   Splitting(const SplittingSequence<Base>& sequence, MethodInfo (*describe_table)(const void*), const void* table)
       : info_(describe_table), table_(table) {
@@ -147,7 +167,7 @@ class Splitting {
   [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
     auto&& f = working_copy(kick_);
     if constexpr (n == dynamic) {
-      if (f.size() == 0) f = zeros<Real, n>(z.p.size());
+      if (f.size() == 0) f = zeros<Increment, n>(z.p.size());
     }
     if (leading()) {
       const Base factor = h * leading_kick_;
@@ -176,6 +196,8 @@ class Splitting {
 
   /// To be called when the state was changed from outside.
   void invalidate() { kick_is_current_ = false; }
+  /// How many threads compute the forces; the bits are the same for any number.
+  void use_threads(std::size_t count) requires sums_integers { sums_.use_threads(count); }
   Effort effort() const { return {.force = forces_}; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -183,6 +205,8 @@ class Splitting {
   }
 
  private:
+  using Increment = typename detail::PairSumsOf<P, A>::Increment;
+
   constexpr bool leading() const {
     if constexpr (shape == Shape::any) {
       return leading_;
@@ -199,7 +223,9 @@ class Splitting {
   }
   /// Whether the factor of a kick goes into f: not where f serves two kicks of different strength.
   constexpr bool factor_within() const {
-    if constexpr (!detail::HasScaledForce<P, Base, Vector<Real, n>>) {
+    if constexpr (sums_integers) {
+      return true;
+    } else if constexpr (!detail::HasScaledForce<P, Base, Vector<Real, n>>) {
       return false;
     } else if constexpr (shape == Shape::any) {
       return ends_alike_;
@@ -215,17 +241,21 @@ class Splitting {
   };
 
   /// f <- F(q), or factor F(q).
-  [[gnu::always_inline]] void evaluate(const P& problem, const Base& factor, const PhasePoint<A, n>& z,
-                                       Vector<Real, n>& f) {
-    if (factor_within()) {
+  [[gnu::always_inline]] void evaluate(const P& problem, const Base& factor, PhasePoint<A, n>& z,
+                                       Vector<Increment, n>& f) {
+    if constexpr (sums_integers) {
+      if (!sums_.evaluate(problem, factor, z, f)) z.arithmetic.momentum.lost = true;
+    } else if (factor_within()) {
       scaled_force(problem, factor, z.positions(), f);
     } else {
       force(problem, z.positions(), f);
     }
     ++forces_;
   }
-  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Real, n>& f, PhasePoint<A, n>& z) const {
-    if (factor_within()) [[likely]] {  // else one multiplication, by factor or 1, is made of it
+  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z) const {
+    if constexpr (sums_integers) {
+      z.push(f);
+    } else if (factor_within()) [[likely]] {  // else one multiplication, by factor or 1, is made of it
       z.push(f);
     } else {
       z.push(factor, f);
@@ -242,15 +272,16 @@ class Splitting {
     }
   }
   /// In place vectors are copied, to live in registers; others are used where they are.
-  [[gnu::always_inline]] static decltype(auto) working_copy(Vector<Real, n>& kept) {
+  [[gnu::always_inline]] static decltype(auto) working_copy(Vector<Increment, n>& kept) {
     if constexpr (n == dynamic) {
       return (kept);
     } else {
-      return Vector<Real, n>(kept);
+      return Vector<Increment, n>(kept);
     }
   }
 
-  Vector<Real, n> kick_{};  // of the last kick: kept_factor_ F(q)
+  [[no_unique_address]] typename detail::PairSumsOf<P, A>::type sums_;
+  Vector<Increment, n> kick_{};  // of the last kick: kept_factor_ F(q)
   Base kept_factor_{};
   bool kick_is_current_ = false;
   long long forces_ = 0;

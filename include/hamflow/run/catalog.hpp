@@ -63,6 +63,7 @@ struct Request {
   std::string kernel = "exact";
   double position_unit = 0x1p-52;  // lattice spacings, powers of two
   double momentum_unit = 0x1p-52;
+  int threads = 1;    // for the forces of one step
   bool watch = true;  // energy and invariants at every step
 };
 
@@ -79,6 +80,7 @@ struct ProblemEntry {
   /// Whether the problem has what the method needs.
   std::function<bool(const MethodSpec&)> accepts;
   bool has_fast_kernel = false;
+  bool has_pairwise_forces = false;  // on the lattice several threads may compute them
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The same behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
@@ -135,6 +137,9 @@ std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem);
 /// Why a request cannot have kernel = "fast"; empty if it can.
 std::string refused_fast_kernel(const Request& request, const ProblemEntry& problem);
+/// Why a request cannot have several threads; empty if it can.
+std::string refused_threads(const Request& request, const ProblemEntry& problem);
+inline constexpr int most_threads = 256;
 /// The name nearest to `name` by edit distance, empty if none is near.
 std::string nearest(const std::string& name, std::span<const std::string> candidates);
 

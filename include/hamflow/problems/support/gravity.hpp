@@ -78,6 +78,20 @@ class Gravity {
       pair_forces<3>(q, f);
     }
   }
+  /// The kick, pair by pair: row i holds the pairs i, j > i. Every operation is symmetric in i and j or changes its
+  /// sign, so that numbering the bodies otherwise changes no bit of a contribution.
+  template <class F, class Difference, class Sink>
+  void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
+                  Sink& sink) const {
+    if (space_ == 2) {
+      pair_kicks_in<2>(factor, difference, first, last, sink);
+    } else {
+      pair_kicks_in<3>(factor, difference, first, last, sink);
+    }
+  }
+  std::size_t pair_rows() const { return masses_.size(); }
+  std::size_t pairs_in_row(std::size_t i) const { return masses_.size() - 1 - i; }
+
   /// The pair i, j adds c (I - 3 d d^T/u) with d = x_i - x_j, u = d^2 + softening^2, c = G m_i m_j u^(-3/2) to the blocks
   /// ii and jj and subtracts it from ij and ji.
   template <class S>
@@ -125,6 +139,23 @@ class Gravity {
   }
 
  private:
+  template <std::size_t Space, class F, class Difference, class Sink>
+  void pair_kicks_in(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
+                     Sink& sink) const {
+    const F strength = factor * constant_;
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t j = i + 1; j < masses_.size(); ++j) {
+        F d[Space];
+        F u(softening_squared_);
+        for (std::size_t k = 0; k < Space; ++k) {
+          d[k] = difference(i * Space + k, j * Space + k);
+          u += d[k] * d[k];
+        }
+        const F c = (strength * (masses_[i] * masses_[j])) / (u * sqrt(u));
+        for (std::size_t k = 0; k < Space; ++k) sink(j * Space + k, i * Space + k, c * d[k]);
+      }
+    }
+  }
   template <std::size_t Space, class S>
   void pair_forces(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
     for (S& x : f) x = S(0);

@@ -1,0 +1,106 @@
+// Threads that wait for work that comes in pieces of some microseconds: the forces of one step. They look for it a
+// while before they sleep, and no piece of work allocates. A piece goes to whichever thread is free: what is computed
+// must not depend on who computes it, as sums of integers do not.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace hamflow {
+
+class ThreadTeam {
+ public:
+  /// @param size how many work at once, the one that calls share() included
+  explicit ThreadTeam(std::size_t size) : size_(size) {
+    for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
+  }
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  ~ThreadTeam() {
+    leaving_.store(true, std::memory_order_relaxed);
+    wake();
+  }
+
+  std::size_t size() const { return size_; }
+  static constexpr std::size_t most_blocks = (std::size_t{1} << 20) - 1;
+
+  /// work(worker, call, block) for each block, by any worker, in any order; back when all are done. A worker that comes
+  /// late finds nothing to do, and is not waited for. One caller at a time; `work` must not throw.
+  /// @return the number of this call, which `work` is told too
+  template <class Work>
+  std::uint64_t share(std::size_t blocks, Work& work) {
+    job_ = &work;
+    run_ = [](void* job, std::size_t worker, std::uint64_t call, std::size_t block) {
+      (*static_cast<Work*>(job))(worker, call, block);
+    };
+    done_.store(0, std::memory_order_relaxed);
+    ++call_;
+    tickets_.store((call_ << ticket_bits) | blocks, std::memory_order_release);
+    wake();
+    help(0);
+    for (int looks = 0; done_.load(std::memory_order_acquire) < blocks; ++looks) {
+      if (looks < patience) {
+        pause();
+      } else {
+        std::this_thread::yield();  // the worker that has the last block may need this very processor
+      }
+    }
+    return call_;
+  }
+
+ private:
+  static constexpr int ticket_bits = 20;
+  static constexpr int patience = 2000;
+
+  static void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
+  void wake() {
+    calls_.fetch_add(1, std::memory_order_release);
+    calls_.notify_all();
+  }
+  void serve(std::size_t worker) {
+    std::uint32_t seen = 0;
+    while (true) {
+      for (int looks = 0; calls_.load(std::memory_order_acquire) == seen; ++looks) {
+        if (looks < patience) {
+          pause();
+        } else {
+          calls_.wait(seen, std::memory_order_acquire);
+        }
+      }
+      seen = calls_.load(std::memory_order_acquire);
+      if (leaving_.load(std::memory_order_relaxed)) return;
+      help(worker);
+    }
+  }
+  /// Takes blocks while there are any. The number of the call stands in the ticket: one that was looked at before the
+  /// call ended cannot be taken afterwards, and what belongs to a call is read only with a block of it in hand, for
+  /// which the caller waits.
+  void help(std::size_t worker) {
+    std::uint64_t ticket = tickets_.load(std::memory_order_acquire);
+    while ((ticket & most_blocks) != 0) {
+      if (!tickets_.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acquire)) continue;
+      run_(job_, worker, ticket >> ticket_bits, (ticket & most_blocks) - 1);
+      done_.fetch_add(1, std::memory_order_release);
+      ticket = tickets_.load(std::memory_order_acquire);
+    }
+  }
+
+  std::size_t size_;
+  void* job_ = nullptr;
+  void (*run_)(void*, std::size_t, std::uint64_t, std::size_t) = nullptr;
+  std::uint64_t call_ = 0;
+  alignas(64) std::atomic<std::uint64_t> tickets_{0};  // the number of the call, and how many of its blocks are left
+  alignas(64) std::atomic<std::size_t> done_{0};
+  alignas(64) std::atomic<std::uint32_t> calls_{0};  // what the sleeping wait for
+  std::atomic<bool> leaving_{false};
+  std::vector<std::jthread> threads_;  // the last member: joined before the others go
+};
+
+}  // namespace hamflow

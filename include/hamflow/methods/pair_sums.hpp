@@ -1,0 +1,132 @@
+// A kick on the lattice from forces between pairs: each pair's contribution is rounded to the lattice of momenta, added
+// to one body and subtracted from the other, and the integers are summed. [spec: methods, section 7] The sum depends
+// neither on the order of the pairs nor on who adds them up, so that any number of threads gives the same bits; the
+// total momentum does not change at all; and since the rounding is odd, a kick of -h takes back one of h.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/thread_team.hpp"
+
+namespace hamflow {
+
+/// Copies share their threads, and take turns.
+template <class P, Arithmetic A>
+requires PairwiseForces<P> && IntegerSums<A>
+class PairSums {
+ public:
+  static constexpr std::size_t n = P::dimension;
+  using Real = typename A::Real;
+  using Stored = typename A::Stored;
+
+  void use_threads(std::size_t count) { crew_ = count > 1 ? std::make_shared<Crew>(count) : nullptr; }
+
+  /// kick <- factor F(q), rounded pair by pair.
+  /// @return false where a contribution is too large; `kick` is then of no use
+  template <class F>
+  [[gnu::noinline]] bool evaluate(const P& problem, const F& factor, const PhasePoint<A, n>& z,
+                                  Vector<Stored, n>& kick) const {
+    if (crew_) return evaluate_by_many(problem, factor, z, kick);
+    for (Stored& k : kick) k = 0;
+    Sink sink{z.arithmetic, limit(problem), kick.begin()};
+    problem.pair_kicks(factor, Difference{z}, 0, problem.pair_rows(), sink);
+    return !sink.lost;
+  }
+
+ private:
+  struct Difference {
+    const PhasePoint<A, n>& z;
+    Real operator()(std::size_t a, std::size_t b) const { return z.arithmetic.position.difference(z.q[a], z.q[b]); }
+  };
+  struct Sink {
+    const A& arithmetic;
+    Real limit;
+    Stored* sums;
+    bool lost = false;
+    void operator()(std::size_t up, std::size_t down, const Real& r) {
+      Stored k = 0;
+      if (!arithmetic.momentum.units(r, limit, k)) [[unlikely]]
+        lost = true;
+      sums[up] += k;
+      sums[down] -= k;
+    }
+  };
+  /// A power of two such that as many contributions as a coordinate has stay below 2^62 together: no partial sum can
+  /// overflow, whatever its order, and whether a kick is refused does not depend on the order either.
+  static Real limit(const P& problem) {
+    return std::ldexp(Real(1), 62 - static_cast<int>(std::bit_width(problem.pair_rows())));
+  }
+
+  /// What one thread has summed in the call that it last took part in.
+  struct alignas(64) Share {
+    std::uint64_t call = 0;
+    bool lost = false;
+    std::vector<Stored> sums;
+  };
+  struct Crew {
+    explicit Crew(std::size_t count) : team(count), shares(count) {}
+    std::mutex busy;
+    std::vector<std::size_t> rows;  // where each block begins, and the end
+    ThreadTeam team;
+    std::vector<Share> shares;
+  };
+
+  template <class F>
+  bool evaluate_by_many(const P& problem, const F& factor, const PhasePoint<A, n>& z, Vector<Stored, n>& kick) const {
+    Crew& crew = *crew_;
+    const std::lock_guard turn(crew.busy);
+    if (crew.rows.empty() || crew.rows.back() != problem.pair_rows() || crew.shares[0].sums.size() != kick.size()) {
+      divide(problem, kick.size(), crew);
+    }
+    const Real most = limit(problem);
+    auto work = [&](std::size_t worker, std::uint64_t call, std::size_t block) {
+      Share& share = crew.shares[worker];
+      if (share.call != call) {
+        share.call = call;
+        share.lost = false;
+        std::fill(share.sums.begin(), share.sums.end(), Stored{0});
+      }
+      Sink sink{z.arithmetic, most, share.sums.data()};
+      problem.pair_kicks(factor, Difference{z}, crew.rows[block], crew.rows[block + 1], sink);
+      share.lost = share.lost || sink.lost;
+    };
+    const std::uint64_t call = crew.team.share(crew.rows.size() - 1, work);
+    for (Stored& k : kick) k = 0;
+    bool lost = false;
+    for (const Share& share : crew.shares) {
+      if (share.call != call) continue;
+      lost = lost || share.lost;
+      for (std::size_t i = 0; i < kick.size(); ++i) kick[i] += share.sums[i];
+    }
+    return !lost;
+  }
+
+  /// Rows to blocks of about as many pairs: some for each thread, so that one that comes late holds up nobody.
+  static void divide(const P& problem, std::size_t coordinates, Crew& crew) {
+    constexpr std::size_t blocks_each = 4;
+    std::size_t pairs = 0;
+    for (std::size_t row = 0; row < problem.pair_rows(); ++row) pairs += problem.pairs_in_row(row);
+    const std::size_t each = pairs / (blocks_each * crew.team.size()) + 1;
+    crew.rows.assign(1, 0);
+    std::size_t held = 0;
+    for (std::size_t row = 0; row < problem.pair_rows(); ++row) {
+      held += problem.pairs_in_row(row);
+      if (held >= each || row + 1 == problem.pair_rows()) {
+        crew.rows.push_back(row + 1);
+        held = 0;
+      }
+    }
+    for (Share& share : crew.shares) share = {0, false, std::vector<Stored>(coordinates)};
+  }
+
+  std::shared_ptr<Crew> crew_;
+};
+
+}  // namespace hamflow
