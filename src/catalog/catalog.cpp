@@ -1,10 +1,8 @@
 #include "hamflow/run/catalog.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 
-#include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/problems/magnetic.hpp"
@@ -33,12 +31,16 @@ std::span<const MethodEntry> methods() {
     for (const std::string& name : generated_tableaus()) list.push_back({name, MethodKind::runge_kutta});
     list.push_back({"cg", MethodKind::cg});
     list.push_back({"boris", MethodKind::boris});
+    list.push_back({"dop853", MethodKind::dop853});
+    list.push_back({"taylor", MethodKind::taylor});
     // Explicit methods by order and cost, then the rest.
     std::stable_sort(list.begin(), list.end(), [](const MethodEntry& a, const MethodEntry& b) {
       const auto key = [](const MethodEntry& e) {
         if (e.kind == MethodKind::cg) return 1000;
         if (e.kind == MethodKind::boris) return 1001;
-        const MethodInfo info = describe(MethodSpec{e.name, {}});
+        if (e.kind == MethodKind::dop853) return 1002;
+        if (e.kind == MethodKind::taylor) return 1003;
+        const MethodInfo info = describe(MethodSpec{.name = e.name});
         return 50 * info.order + info.forces_per_step;
       };
       return key(a) < key(b);
@@ -77,42 +79,6 @@ namespace {
   const std::string near = nearest(name, candidates);
   throw Error(what + " '" + name + "' is unknown" + (near.empty() ? "" : "; did you mean " + near + "?") +
               " (list them with: hamflow list " + what + "s)");
-}
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-int whole_number(const std::string& key, const std::string& text) {
-  double value = 0;
-  try {
-    value = evaluate_number<double>(text);
-  } catch (const Error&) {
-    value = 0.5;
-  }
-  if (value != static_cast<double>(static_cast<int>(std::clamp(value, -1e6, 1e6)))) {
-    throw Error("cg: " + key + " has to be a whole number, not '" + text + "'");
-  }
-  return static_cast<int>(value);
-}
-
-void set_cg_option(CgOptions& cg, const std::string& key, const std::string& value) {
-  if (key == "degree") {
-    cg.degree = whole_number(key, value);
-    if (cg.degree != 1) throw Error("cg: degree is 1 in this version, not " + value);
-  } else if (key == "quadrature") {
-    cg.quadrature = value == "auto" ? 0 : whole_number(key, value);
-    if (value != "auto" && (cg.quadrature < cg.degree || cg.quadrature > 64)) {
-      throw Error("cg: quadrature is a number of Gauss points from the degree to 64, or auto, not " + value);
-    }
-  } else if (key == "tolerance") {
-    cg.tolerance = evaluate_number<double>(value);
-    if (!(*cg.tolerance > 0)) throw Error("cg: tolerance has to be positive, not " + value);
-  } else {
-    throw Error("cg: option '" + key + "' is unknown; allowed: degree, quadrature, tolerance");
-  }
 }
 }  // namespace
 
@@ -154,33 +120,6 @@ Texts complete(const ProblemInfo& info, const Texts& given) {
   return all;
 }
 
-MethodSpec parse_method(const std::string& text) {
-  MethodSpec spec;
-  const auto open = text.find('(');
-  spec.name = trimmed(text.substr(0, open));
-  const MethodEntry& entry = find_method(spec.name);
-  if (open == std::string::npos) return spec;
-  if (text.back() != ')') throw Error("method '" + text + "' lacks its closing parenthesis");
-  if (entry.kind != MethodKind::cg) throw Error("method '" + spec.name + "' takes no options");
-  const std::string inside = text.substr(open + 1, text.size() - open - 2);
-  const std::vector<std::string> in_order{"degree", "quadrature"};
-  std::size_t position = 0;
-  for (std::size_t begin = 0; begin <= inside.size();) {
-    const std::size_t end = std::min(inside.find(',', begin), inside.size());
-    const std::string part = trimmed(inside.substr(begin, end - begin));
-    const auto equals = part.find('=');
-    if (equals != std::string::npos) {
-      set_cg_option(spec.cg, trimmed(part.substr(0, equals)), trimmed(part.substr(equals + 1)));
-    } else if (position < in_order.size()) {
-      set_cg_option(spec.cg, in_order[position++], part);
-    } else {
-      throw Error("method '" + text + "' has too many options; cg takes (degree, quadrature)");
-    }
-    begin = end + 1;
-  }
-  return spec;
-}
-
 MethodInfo describe(const MethodSpec& spec) {
   for (const CompositionTable* table : generated_compositions()) {
     if (spec.name == table->name) return describe(*table, StartsWith::kick);
@@ -194,65 +133,18 @@ MethodInfo describe(const MethodSpec& spec) {
   }
   if (spec.name == "cg") return describe(spec.cg);
   if (spec.name == "boris") return BorisStep<Magnetic<double>, Plain<double>>::describe();
+  if (spec.name == "dop853") return describe_dop853(spec.adaptive);
+  if (spec.name == "taylor") return describe_taylor(spec.adaptive, taylor_order(spec.adaptive));
   if (const auto info = generated_tableau_info(spec.name)) return *info;
   (void)find_method(spec.name);  // throws, naming the nearest
   throw Error("method '" + spec.name + "' has no description");
-}
-
-int mp_digits(const std::string& arithmetic) {
-  if (!arithmetic.starts_with("mp(") || !arithmetic.ends_with(")")) return 0;
-  const std::string inside = arithmetic.substr(3, arithmetic.size() - 4);
-  int digits = 0;
-  const auto [end, error] = std::from_chars(inside.data(), inside.data() + inside.size(), digits);
-  if (error != std::errc() || end != inside.data() + inside.size() || digits < MpDigits::fewest ||
-      digits > MpDigits::most) {
-    throw Error("mp(d) takes a number of decimal digits from " + std::to_string(MpDigits::fewest) + " to " +
-                std::to_string(MpDigits::most) + ", not '" + inside + "'");
-  }
-  return digits;
-}
-
-int digits_beyond_double(const std::string& arithmetic) {
-  if (arithmetic == "double-double") return 31;
-  if (arithmetic == "quad") return 33;
-  return mp_digits(arithmetic);
-}
-
-void check_arithmetic(const std::string& arithmetic) {
-  if (mp_digits(arithmetic) > 0) return;
-  const std::vector<std::string>& names = arithmetics();
-  if (arithmetic != "mp(d)" && std::find(names.begin(), names.end(), arithmetic) != names.end()) return;
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  const std::string near = nearest(arithmetic, names);
-  throw Error("arithmetic '" + arithmetic + "' is unknown; allowed: " + all + ", e.g. mp(50)" +
-              (near.empty() ? "" : "; did you mean " + near + "?"));
-}
-
-namespace {
-/// Whether problems are compiled with the method in double.
-bool has_typed_kernel(const MethodSpec&) { return true; }
-}  // namespace
-
-std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {
-  if (arithmetic != "lattice") return {};
-  const MethodEntry& entry = find_method(spec.name);
-  if (entry.kind == MethodKind::runge_kutta) {
-    return spec.name +
-           " is no bijection of the lattice, so nothing would come back exactly; use a splitting method, e.g. stv4";
-  }
-  if (entry.kind == MethodKind::cg) {
-    return "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4";
-  }
-  if (entry.kind == MethodKind::boris) return "boris rotates velocities, which is no bijection of the lattice";
-  return {};
 }
 
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
   if (problem.accepts(spec)) return {};
   std::string all;
   for (const MethodEntry& entry : methods()) {
-    if (problem.accepts(MethodSpec{entry.name, {}})) all += (all.empty() ? "" : ", ") + entry.name;
+    if (problem.accepts(MethodSpec{.name = entry.name})) all += (all.empty() ? "" : ", ") + entry.name;
   }
   std::string needs;
   const MethodEntry& method = find_method(spec.name);
@@ -268,7 +160,11 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
       needs = "a separable H = T(p) + V(q), T quadratic in p with constant mass matrix, V twice differentiable";
       break;
     case MethodKind::runge_kutta:
+    case MethodKind::dop853:
       needs = "a differentiable H";
+      break;
+    case MethodKind::taylor:
+      needs = "an H whose derivatives can be recorded";
       break;
     case MethodKind::cg:
       needs = "a twice differentiable H";
@@ -294,6 +190,9 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
   const MethodKind kind = find_method(request.method.name).kind;
   if (kind == MethodKind::cg) return "an energy-conserving element needs the exact force; allowed exact";
   if (kind == MethodKind::force_gradient) return "a force gradient needs the exact force; allowed exact";
+  if (kind == MethodKind::dop853 || kind == MethodKind::taylor || digits_beyond_double(request.arithmetic) > 0) {
+    return "the fast kernel is for splitting methods in double; allowed exact";
+  }
   return {};
 }
 
@@ -334,7 +233,9 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   if (!one_thread.empty()) throw Error("threads = " + std::to_string(request.threads) + ": " + one_thread);
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
-  const bool typed = digits_beyond_double(request.arithmetic) == 0 && has_typed_kernel(request.method);
+  const MethodKind kind = find_method(request.method.name).kind;
+  const bool typed = digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 &&
+                     kind != MethodKind::taylor && kind != MethodKind::force_gradient;
   return typed ? problem.simulate(full) : problem.simulate_erased(full);
 }
 

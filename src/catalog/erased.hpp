@@ -24,11 +24,13 @@ struct ErasedFunctions {
   std::shared_ptr<const Functions<R>> plain;
   std::shared_ptr<const Functions<Trace<R>>> trace;
   std::shared_ptr<const Functions<Dual<double, 1>>> dual;
+  std::shared_ptr<const Functions<Trace<Dual<double, 1>>>> dual_trace;
 
   template <Capability c>
   auto as() const {
     if constexpr (std::is_same_v<R, double>) {
-      return AnyProblem<double, c, Trace<double>, Dual<double, 1>>(size, plain, trace, dual);
+      return AnyProblem<double, c, Trace<double>, Dual<double, 1>, Trace<Dual<double, 1>>>(size, plain, trace, dual,
+                                                                                           dual_trace);
     } else {
       return AnyProblem<R, c, Trace<R>>(size, plain, trace);
     }
@@ -45,9 +47,9 @@ struct ErasedRun {
   Vector<R, dynamic> p;
   R h;
 };
-/// Of the request only the method is asked for. Defined for each number type in a file of its own.
+/// Of the request the method and the arithmetic count. Defined for each number type in a file of its own.
 template <class R>
-std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const MethodSpec& method, bool compensated);
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request);
 
 /// What a StepMap computes in: double for structure, more digits for orders.
 struct ErasedProblem {

@@ -1,27 +1,38 @@
 // The definition of simulate_erased, instantiated in one file for each number type.
 #pragma once
 
+#include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "visit_erased.hpp"
 
 namespace hamflow {
 
 template <class R>
-std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const MethodSpec& spec, bool compensated) {
-  return visit_erased(run.functions.capability, spec, [&]<Capability c, class Recipe>(const Recipe& recipe) {
-    const auto build = [&]<class A>() -> std::unique_ptr<Simulation> {
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+  return visit_erased(run.functions.capability, request.method, [&]<Capability c, class Recipe>(const Recipe& recipe) {
+    const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
       const auto problem = run.functions.template as<c>();
-      auto method = recipe.template bind<decltype(problem), A>(problem);
-      return std::make_unique<SimulationOf<std::remove_const_t<decltype(problem)>, decltype(method), A>>(
-          problem, method, run.q, run.p, run.h);
+      using P = std::remove_const_t<decltype(problem)>;
+      auto method = recipe.template bind<P, A>(problem);
+      return std::make_unique<SimulationOf<P, decltype(method), A>>(problem, method, run.q, run.p, run.h, arithmetic);
     };
-    if constexpr (always_compensated<Recipe>()) {
-      return build.template operator()<Compensated<R>>();
+    if constexpr (std::is_same_v<R, double> && has_typed_kernel<Recipe>) {
+      return std::unique_ptr<Simulation>();  // compiled with each problem
+    } else if constexpr (always_compensated<Recipe>()) {
+      return build(Compensated<R>{});
+    } else if constexpr (!std::is_same_v<R, double>) {
+      return build(Plain<R>{});
     } else {
-      if constexpr (std::is_same_v<R, double>) {
-        if (compensated) return build.template operator()<Compensated<R>>();
+      if (request.arithmetic == "compensated") return build(Compensated<R>{});
+      if constexpr (Recipe::bijective) {
+        if (request.arithmetic == "lattice") {
+          Lattice lattice;
+          lattice.position.set_unit(request.position_unit);
+          lattice.momentum.set_unit(request.momentum_unit);
+          return build(lattice);
+        }
       }
-      return build.template operator()<Plain<R>>();
+      return build(Plain<R>{});
     }
   });
 }

@@ -1,5 +1,5 @@
 #include "erased_simulation.hpp"
 
 namespace hamflow {
-template std::unique_ptr<Simulation> simulate_erased<Mp>(const ErasedRun<Mp>&, const MethodSpec&, bool);
+template std::unique_ptr<Simulation> simulate_erased<Mp>(const ErasedRun<Mp>&, const Request&);
 }  // namespace hamflow

@@ -36,16 +36,17 @@ class ErasedUnit : ProblemStart<Family> {
       return y;
     };
     return simulate_erased<R>({functions_of<R>(problem), moved(s.q), moved(s.p), evaluate_number<R>(request.dt)},
-                              request.method, request.arithmetic == "compensated");
+                              request);
   }
 
   template <class R>
   static ErasedFunctions<R> functions_of(const Family<R>& problem) {
     ErasedFunctions<R> all{capability_of<Family<R>>(), degrees_of_freedom(problem),
                            std::make_shared<FunctionsOf<Family<R>, R>>(problem),
-                           std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr};
+                           std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr, nullptr};
     if constexpr (std::is_same_v<R, double>) {
       all.dual = std::make_shared<FunctionsOf<Family<double>, Dual<double, 1>>>(problem);
+      all.dual_trace = std::make_shared<FunctionsOf<Family<double>, Trace<Dual<double, 1>>>>(problem);
     }
     return all;
   }

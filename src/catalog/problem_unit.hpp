@@ -158,7 +158,7 @@ class ProblemUnit : ProblemStart<Family> {
 
   static std::unique_ptr<Simulation> simulate(const Request& request) {
     return visit_method(request.method, [&]<class Recipe>(const Recipe& recipe) -> std::unique_ptr<Simulation> {
-      if constexpr (!Recipe::template accepts<P>) {
+      if constexpr (!Recipe::template accepts<P> || !has_typed_kernel<Recipe>) {
         return nullptr;  // make_simulation has said why
       } else if constexpr (always_compensated<Recipe>()) {
         return build<Compensated<double>>(request, recipe);

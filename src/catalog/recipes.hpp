@@ -3,12 +3,20 @@
 
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/dop853.hpp"
 #include "hamflow/methods/force_gradient.hpp"
 #include "hamflow/methods/splitting.hpp"
+#include "hamflow/methods/taylor.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "tableau_list.hpp"  // generated: includes every tableau, defines HAMFLOW_FOR_EACH_TABLEAU
 
 namespace hamflow {
+
+/// Whether the method is compiled with every problem in double. What is bound by more than its forces runs behind
+/// virtual calls there, too.
+template <class Recipe>
+inline constexpr bool has_typed_kernel =
+    !std::is_same_v<Recipe, Dop853> && !std::is_same_v<Recipe, Taylor> && !std::is_same_v<Recipe, ForceGradient>;
 
 /// Any table of one shape, its length known at run time.
 template <Shape shape>
@@ -66,6 +74,8 @@ auto visit_method(const MethodSpec& spec, F&& f) {
   const MethodEntry& entry = find_method(spec.name);
   if (entry.kind == MethodKind::cg) return f(Cg{spec.cg});
   if (entry.kind == MethodKind::boris) return f(Boris{});
+  if (entry.kind == MethodKind::dop853) return f(Dop853{spec.adaptive});
+  if (entry.kind == MethodKind::taylor) return f(Taylor{spec.adaptive});
   if (entry.kind == MethodKind::force_gradient) return f(ForceGradient{entry.force_gradient});
 #define HAMFLOW_TRY_TABLEAU(table) \
   if (entry.name == tableaus::table.name) return f(RungeKuttaBy<tableaus::table>{});

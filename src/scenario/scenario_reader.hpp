@@ -44,6 +44,8 @@ class ScenarioReader {
   void check_start(TomlTable& table);
   void read_method(TomlTable& table);
   void read_cg(TomlTable& table);
+  void read_adaptive(TomlTable& table);
+  void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
   void read_length(TomlTable& table);
   void usual_units();

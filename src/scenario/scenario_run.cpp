@@ -27,6 +27,8 @@ void ScenarioReader::read_method(TomlTable& table) {
     scenario_.request.method.name = *name;
     if (*name == "cg") {
       read_cg(table);
+    } else if (*name == "dop853" || *name == "taylor") {
+      read_adaptive(table);
     } else if (table.from_set("name")) {
       // Another method from the command line: the options of the one in the file do not apply.
       for (const std::string& key : cg_keys) {
@@ -74,6 +76,23 @@ void ScenarioReader::read_cg(TomlTable& table) {
   cg.diagnostics = table.boolean("diagnostics").value_or(false);
 }
 
+void ScenarioReader::read_adaptive(TomlTable& table) {
+  AdaptiveOptions& options = scenario_.request.method.adaptive;
+  if (const auto tolerance = table.number("tolerance")) {
+    if (tolerance->value > 0 && tolerance->value < 1) {
+      options.tolerance = tolerance->value;
+    } else {
+      table.complain("tolerance", table.found("tolerance") + "; allowed a number between 0 and 1");
+    }
+  }
+  if (scenario_.request.method.name == "taylor") {
+    if (const auto order = table.whole("order", least_taylor_order, most_taylor_order)) {
+      options.order = static_cast<int>(*order);
+    }
+  }
+  if (const auto control = table.choice("step_control", {"adaptive", "fixed"})) options.fixed = *control == "fixed";
+}
+
 void ScenarioReader::read_run(TomlTable& table) {
   if (!table.has("dt")) {
     table.know("dt");
@@ -92,12 +111,7 @@ void ScenarioReader::read_run(TomlTable& table) {
   } else {
     scenario_.record_every = default_record_every(scenario_.steps);
   }
-  if (const auto arithmetic = table.choice("arithmetic", arithmetics())) {
-    scenario_.request.arithmetic = *arithmetic;
-    const std::string why_not =
-        scenario_.request.method.name.empty() ? "" : refusal(scenario_.request.method, *arithmetic);
-    if (!why_not.empty()) table.complain("arithmetic", table.found("arithmetic") + "; " + why_not);
-  }
+  read_arithmetic(table);
   if (const auto kernel = table.choice("kernel", {"exact", "fast"})) {
     scenario_.request.kernel = *kernel;
     if (*kernel == "fast" && scenario_.problem != nullptr && !scenario_.request.method.name.empty()) {
@@ -114,6 +128,21 @@ void ScenarioReader::read_run(TomlTable& table) {
   }
   read_lattice(table);
   table.finish();
+}
+
+void ScenarioReader::read_arithmetic(TomlTable& table) {
+  const auto arithmetic = table.string("arithmetic");
+  if (!arithmetic) return;
+  try {
+    check_arithmetic(*arithmetic);
+  } catch (const Error& error) {
+    table.complain("arithmetic", table.found("arithmetic") + "; " + error.what());
+    return;
+  }
+  scenario_.request.arithmetic = *arithmetic;
+  const std::string why_not =
+      scenario_.request.method.name.empty() ? "" : refusal(scenario_.request.method, *arithmetic);
+  if (!why_not.empty()) table.complain("arithmetic", table.found("arithmetic") + "; " + why_not);
 }
 
 void ScenarioReader::read_length(TomlTable& table) {

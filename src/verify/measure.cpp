@@ -146,7 +146,9 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
 
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method) {
   const ProblemEntry& entry = find_problem(region.problem, region.variant);
-  auto map = entry.step_map(complete(entry.info, region.parameters), method, region.centre.size() / 2);
+  MethodSpec fixed = method;
+  fixed.adaptive.fixed = true;  // with sub-steps of its own a step has no order
+  auto map = entry.step_map(complete(entry.info, region.parameters), fixed, region.centre.size() / 2);
   if (!map) throw Error(refusal(method, entry));
   return map;
 }

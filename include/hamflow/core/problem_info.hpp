@@ -100,6 +100,18 @@ class Parameters {
   R operator[](const std::string& name) const { return values_.at(name).at(0); }
   const std::vector<R>& list(const std::string& name) const { return values_.at(name); }
   void set(const std::string& name, const R& value) { values_[name] = {value}; }
+  /// The same values in another number type.
+  template <class To>
+  Parameters<To> as() const {
+    Parameters<To> out;
+    for (const auto& [name, list] : values_) {
+      std::vector<To> values;
+      for (const R& x : list) values.push_back(static_cast<To>(x));
+      out.set_list(name, values);
+    }
+    return out;
+  }
+  void set_list(const std::string& name, const std::vector<R>& values) { values_[name] = values; }
 
  private:
   std::map<std::string, std::vector<R>> values_;

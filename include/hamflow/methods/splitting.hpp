@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "hamflow/core/derivatives.hpp"
@@ -58,7 +59,8 @@ std::vector<R> composition_weights(const CompositionTable& table) {
   std::vector<R> gamma(2 * half + 1);
   R sum(0);
   for (std::size_t i = 0; i < half; ++i) {
-    gamma[i] = gamma[2 * half - i] = evaluate_number<R>(table.half[i]);
+    const bool any_digits = std::numeric_limits<R>::digits == 0 && !table.closed_half[i].empty();
+    gamma[i] = gamma[2 * half - i] = evaluate_number<R>(any_digits ? table.closed_half[i] : table.half[i]);
     sum += gamma[i];
   }
   gamma[half] = R(1) - R(2) * sum;

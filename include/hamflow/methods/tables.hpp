@@ -17,6 +17,7 @@ struct CompositionTable {
   int order;
   std::string_view reference;
   std::array<std::string_view, most> half{};
+  std::array<std::string_view, most> closed_half{};  // expressions, where there are, for any number of digits
 
   constexpr int half_count() const {
     int count = 0;

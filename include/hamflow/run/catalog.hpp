@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/cg_options.hpp"
 #include "hamflow/methods/tables.hpp"
 #include "hamflow/run/simulation.hpp"
@@ -24,9 +25,10 @@ namespace hamflow {
 struct MethodSpec {
   std::string name = "stv4";
   CgOptions cg{};
+  AdaptiveOptions adaptive{};  // of dop853 and taylor
 };
 
-enum class MethodKind { composition, splitting, force_gradient, runge_kutta, cg, boris };
+enum class MethodKind { composition, splitting, force_gradient, runge_kutta, cg, boris, dop853, taylor };
 
 /// One name of the closed list of methods.
 struct MethodEntry {
@@ -131,6 +133,10 @@ Texts complete(const ProblemInfo& info, const Texts& given);
 MethodInfo describe(const MethodSpec& spec);
 /// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)". @throws Error
 MethodSpec parse_method(const std::string& text);
+/// The order of taylor with these options.
+int taylor_order(const AdaptiveOptions& options);
+inline constexpr int least_taylor_order = 2;
+inline constexpr int most_taylor_order = 200;
 /// Why a method cannot run in an arithmetic; empty if it can.
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
 /// Why a method cannot run on a problem, and which can; empty if it can.

@@ -130,7 +130,7 @@ class CentralForce {
                            Conditions& conditions) {
     if (kind.empty()) {
       const R l = orbit["angular_momentum"];
-      const auto at = turning_point(Potential<R>(given), given["mass"], orbit["energy"], l, conditions);
+      const auto at = turning_point<Potential>(given, R(orbit["energy"]), l, conditions);
       return at.circle ? circular_start(at.radius, l) : pericentre_start(at.radius, l);
     }
     if constexpr (requires { Potential<R>::start(kind, given["mass"], given, orbit, conditions); }) {

@@ -47,10 +47,15 @@ R polished(const F& f, long double x) {
 
 /// @param conditions receives "V_eff <= energy" at the deepest point of V_eff, which fails where there is no orbit
 /// @throws Error when the motion has no turning point
-template <class Potential, class R>
-TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R& energy, const R& angular_momentum,
+template <template <class> class Potential, class R>
+TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const R& angular_momentum,
                               Conditions& conditions) {
   using L = long double;
+  // The search is done in the hardware's numbers.
+  using Rough = std::conditional_t<std::is_floating_point_v<R>, R, L>;
+  const Potential<R> exact(given);
+  const Potential<Rough> potential(given.template as<Rough>());
+  const R mass = given["mass"];
   const L l = static_cast<L>(angular_momentum);
   const L mu = static_cast<L>(mass);
   const L e = static_cast<L>(energy);
@@ -58,14 +63,14 @@ TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R
   const auto turning = [&](L r) {
     return detail::polished<R>(
         [&](const R& x) {
-          return energy - potential.value(R(x * x)) - angular_momentum * angular_momentum / (R(2) * mass * x * x);
+          return energy - exact.value(R(x * x)) - angular_momentum * angular_momentum / (R(2) * mass * x * x);
         },
         r);
   };
   const auto circular = [&](L r) {
     return detail::polished<R>(
         [&](const R& x) {
-          return angular_momentum * angular_momentum - mass * x * x * x * x * potential.slope(R(x * x));
+          return angular_momentum * angular_momentum - mass * x * x * x * x * exact.slope(R(x * x));
         },
         r);
   };
@@ -75,7 +80,7 @@ TurningPoint<R> turning_point(const Potential& potential, const R& mass, const R
   };
   // The shape of V_eff is the same for every energy: any state of this angular momentum shows its extrema, between
   // which V_eff is monotone.
-  const RadialMotion<Potential> shape(potential, mu, Vector<L, 2>{1, 0}, Vector<L, 2>{0, l}, rounding);
+  const RadialMotion<Potential<Rough>> shape(potential, mu, Vector<L, 2>{1, 0}, Vector<L, 2>{0, l}, rounding);
   std::vector<L> radii{0x1p-60L, 0x1p60L};
   for (const CircularOrbit& at : shape.extrema()) radii.push_back(at.radius);
   std::sort(radii.begin(), radii.end());
