@@ -95,8 +95,11 @@ std::string hint_for(const Request& request, Outcome outcome) {
     case Outcome::lattice_overflow:
       return fmt::format(
           "a position or momentum left the range of 2^62 lattice units: give larger powers of two in run.lattice, e.g. "
-          "{{ position = \"2^{}\", momentum = \"2^{}\" }}",
-          std::ilogb(request.position_unit) + 8, std::ilogb(request.momentum_unit) + 8);
+          "{{ position = \"2^{}\", momentum = \"2^{}\" }}{}",
+          std::ilogb(request.position_unit) + 8, std::ilogb(request.momentum_unit) + 8,
+          find_problem(request.problem, request.variant).has_pairwise_forces
+              ? "; if two bodies met, a smaller dt or a softening"
+              : "");
     case Outcome::done:
     case Outcome::stopped:
       break;

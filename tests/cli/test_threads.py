@@ -57,6 +57,24 @@ arithmetic = "lattice"
         self.assertEqual(s["lattice"]["momentum"], 2.0 ** (71 - 52))
         self.assertEqual(s["lattice"]["position"], 2.0 ** (19 - 52))
 
+    def test_two_bodies_that_meet(self):
+        head_on = """[problem]
+name = "n-body"
+masses = [1, 1]
+initial = { q = [1, 0, -1, 0], p = [0, 0, 0, 0] }
+[method]
+name = "verlet"
+[run]
+dt = "1/16"
+steps = 100000
+arithmetic = "lattice"
+"""
+        self.write("head_on.toml", head_on)
+        s = self.summary("head_on.toml", status=1)
+        self.assertEqual(s["error"]["kind"], "lattice_overflow")
+        self.assertIn("softening", s["error"]["hint"])
+        self.assertEqual(sum(s["final"]["p"]), 0.0)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -143,6 +143,15 @@ concept PairwiseForces = Separable<P> && requires(const P& problem, const typena
   problem.pair_kicks(factor, difference, row, row, sink);
 };
 
+/// **PairwiseGradients**: the same of V'' v, for kicks with force gradient.
+template <class P>
+concept PairwiseGradients = PairwiseForces<P> && requires(const P& problem, const typename P::Real& factor,
+                                                          const detail::AnyDifference<typename P::Real>& difference,
+                                                          const VectorOf<P>& v, std::size_t row,
+                                                          detail::AnyPairSink<typename P::Real>& sink) {
+  problem.pair_gradient_kicks(factor, factor, v, difference, row, row, sink);
+};
+
 /// **Cyclic**: H does not depend on the last coordinate, and for its constant momentum the others are those of a
 /// QuadraticKinetic problem, reduced(p). Implicit elements then solve in the others alone.
 template <class P>

@@ -3,7 +3,8 @@
 // |V'|^2 = V'^T M^-1 V' with constant M. As vector fields, B = -V' d/dp and A = M^-1 p d/dq, [B, [A, B]] is
 // (|V'|^2)' d/dp: the kick is the flow of the potential b V - g h^2 |V'|^2. With F = -V',
 //     (|V'|^2)' = 2 V'' M^-1 V' = -2 V'' M^-1 F,
-// so that such a kick needs force and Hessian at one q. It is symplectic, and one-to-one on the lattice. In return fourth order has no negative coefficients. A last kick equal to the first serves the next step.
+// so that such a kick needs force and Hessian at one q. It is symplectic, and one-to-one on the lattice. In return
+// fourth order has no negative coefficients. A last kick equal to the first serves the next step.
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/pair_sums.hpp"
 #include "hamflow/methods/tables.hpp"
 
 namespace hamflow {
@@ -52,6 +54,7 @@ class ForceGradientStep {
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
+  static constexpr bool sums_integers = PairwiseGradients<P> && IntegerSums<A>;
 
   explicit ForceGradientStep(const ForceGradientTable& table) : table_(&table), keeps_(keeps_last_kick(table)) {
     for (int i = 0; i < table.count(); ++i) {
@@ -74,6 +77,8 @@ class ForceGradientStep {
         Vector<Real, n> v = zeros<Real, n>(z.q.size());
         velocity(problem, z.momenta(), v);
         z.move(action.drift * h, v);
+      } else if constexpr (sums_integers) {
+        kick_by_pairs(problem, h, action, i == 0, z);
       } else if (action.has_gradient) {
         kick_with_gradient(problem, h, action, z);
       } else {
@@ -88,14 +93,23 @@ class ForceGradientStep {
       }
     }
     force_is_current_ = keeps_;
+    if constexpr (sums_integers) kept_step_ = h;
     return Outcome::done;
   }
 
   /// To be called when the state was changed from outside.
   void invalidate() { force_is_current_ = false; }
+  /// How many threads compute the forces; the bits are the same for any number.
+  void use_threads(std::size_t count) requires sums_integers { sums_.use_threads(count); }
   Effort effort() const { return {.force = forces_, .hessian = hessians_}; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(force_is_current_, force_, kick_, kept_step_, forces_, hessians_);
+  }
 
  private:
+  using Increment = typename detail::PairSumsOf<P, A, sums_integers>::Increment;
+
   struct Action {
     Base drift{};
     Base kick{};
@@ -103,6 +117,34 @@ class ForceGradientStep {
     bool kicks = false;
     bool has_gradient = false;
   };
+
+  /// On an integer lattice, rounded and summed pair by pair. M^-1 F is had from rounded integers as well, so that it
+  /// does not depend on the order of the pairs either: h M^-1 F from the kick of factor h, then 2 h^2 g V'' (h M^-1 F).
+  void kick_by_pairs(const P& problem, const Base& h, const Action& action, bool first, PhasePoint<A, n>& z) {
+    if constexpr (sums_integers) {
+      if constexpr (n == dynamic) {
+        if (kick_.size() == 0) kick_ = zeros<Increment, n>(z.q.size());
+      }
+      bool sound = true;
+      if (action.has_gradient) {
+        Vector<Real, n> f = zeros<Real, n>(z.q.size());
+        Vector<Real, n> a = zeros<Real, n>(z.q.size());
+        sound = sums_.evaluate(problem, h, z, kick_);
+        for (std::size_t i = 0; i < f.size(); ++i) f[i] = z.arithmetic.momentum.read(kick_[i]);
+        velocity(problem, f, a);
+        sound =
+            sums_.evaluate_with_gradient(problem, action.kick * h, Base(2) * action.gradient * (h * h), a, z, kick_) &&
+            sound;
+        ++forces_;
+        ++hessians_;
+      } else if (!(first && force_is_current_ && kept_step_ == h)) {
+        sound = sums_.evaluate(problem, action.kick * h, z, kick_);
+        ++forces_;
+      }
+      if (!sound) z.arithmetic.momentum.lost = true;
+      z.push(kick_);
+    }
+  }
 
   /// p <- p + h b F - 2 h^3 g V'' M^-1 F.
   void kick_with_gradient(const P& problem, const Base& h, const Action& action, PhasePoint<A, n>& z) {
@@ -127,6 +169,9 @@ class ForceGradientStep {
   const ForceGradientTable* table_;
   bool keeps_;
   bool force_is_current_ = false;
+  [[no_unique_address]] typename detail::PairSumsOf<P, A, sums_integers>::type sums_;
+  Vector<Increment, n> kick_{};  // on the lattice: the last one, of a step of length kept_step_
+  Base kept_step_{};
   Vector<Real, n> force_{};  // of the last kick without gradient
   long long forces_ = 0;
   long long hessians_ = 0;

@@ -33,11 +33,18 @@ class PairSums {
   template <class F>
   [[gnu::noinline]] bool evaluate(const P& problem, const F& factor, const PhasePoint<A, n>& z,
                                   Vector<Stored, n>& kick) const {
-    if (crew_) return evaluate_by_many(problem, factor, z, kick);
-    for (Stored& k : kick) k = 0;
-    Sink sink{z.arithmetic, limit(problem), kick.begin()};
-    problem.pair_kicks(factor, Difference{z}, 0, problem.pair_rows(), sink);
-    return !sink.lost;
+    return sum(problem, z, kick, [&](std::size_t first, std::size_t last, Sink& sink) {
+      problem.pair_kicks(factor, Difference{z}, first, last, sink);
+    });
+  }
+  /// kick <- first F(q) - third V''(q) v, likewise.
+  template <class F>
+  [[gnu::noinline]] bool evaluate_with_gradient(const P& problem, const F& first, const F& third,
+                                                const Vector<Real, n>& v, const PhasePoint<A, n>& z,
+                                                Vector<Stored, n>& kick) const {
+    return sum(problem, z, kick, [&](std::size_t from, std::size_t to, Sink& sink) {
+      problem.pair_gradient_kicks(first, third, v, Difference{z}, from, to, sink);
+    });
   }
 
  private:
@@ -78,8 +85,17 @@ class PairSums {
     std::vector<Share> shares;
   };
 
-  template <class F>
-  bool evaluate_by_many(const P& problem, const F& factor, const PhasePoint<A, n>& z, Vector<Stored, n>& kick) const {
+  /// @param visit (first, last, sink): gives the sink what the pairs of these rows contribute
+  template <class Visit>
+  bool sum(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
+    if (crew_) return sum_by_many(problem, z, kick, visit);
+    for (Stored& k : kick) k = 0;
+    Sink sink{z.arithmetic, limit(problem), kick.begin()};
+    visit(0, problem.pair_rows(), sink);
+    return !sink.lost;
+  }
+  template <class Visit>
+  bool sum_by_many(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
     Crew& crew = *crew_;
     const std::lock_guard turn(crew.busy);
     if (crew.rows.empty() || crew.rows.back() != problem.pair_rows() || crew.shares[0].sums.size() != kick.size()) {
@@ -94,7 +110,7 @@ class PairSums {
         std::fill(share.sums.begin(), share.sums.end(), Stored{0});
       }
       Sink sink{z.arithmetic, most, share.sums.data()};
-      problem.pair_kicks(factor, Difference{z}, crew.rows[block], crew.rows[block + 1], sink);
+      visit(crew.rows[block], crew.rows[block + 1], sink);
       share.lost = share.lost || sink.lost;
     };
     const std::uint64_t call = crew.team.share(crew.rows.size() - 1, work);
@@ -128,5 +144,20 @@ class PairSums {
 
   std::shared_ptr<Crew> crew_;
 };
+
+namespace detail {
+/// What a kernel keeps: nothing, and floating-point kicks, where it does not sum integers.
+struct NoPairSums {};
+template <class P, class A, bool sums_integers>
+struct PairSumsOf {
+  using type = NoPairSums;
+  using Increment = typename A::Real;
+};
+template <class P, class A>
+struct PairSumsOf<P, A, true> {
+  using type = PairSums<P, A>;
+  using Increment = typename A::Stored;
+};
+}  // namespace detail
 
 }  // namespace hamflow

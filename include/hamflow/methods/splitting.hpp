@@ -118,22 +118,6 @@ inline MethodInfo describe(const SplittingTable& table) {
 
 inline constexpr int any_length = 0;
 
-namespace detail {
-/// Kicks are summed in floating point.
-struct NoPairSums {};
-template <class P, class A>
-struct PairSumsOf {
-  using type = NoPairSums;
-  using Increment = typename A::Real;
-};
-template <class P, class A>
-requires PairwiseForces<P> && IntegerSums<A>
-struct PairSumsOf<P, A> {
-  using type = PairSums<P, A>;
-  using Increment = typename A::Stored;
-};
-}  // namespace detail
-
 /// One step of a splitting method.
 /// @tparam Links drifts in a step when known at compile time (the loop is then unrolled), else any_length
 template <class P, Arithmetic A, Shape shape, int Links = any_length>
@@ -207,7 +191,7 @@ class Splitting {
   }
 
  private:
-  using Increment = typename detail::PairSumsOf<P, A>::Increment;
+  using Increment = typename detail::PairSumsOf<P, A, sums_integers>::Increment;
 
   constexpr bool leading() const {
     if constexpr (shape == Shape::any) {
@@ -282,7 +266,7 @@ class Splitting {
     }
   }
 
-  [[no_unique_address]] typename detail::PairSumsOf<P, A>::type sums_;
+  [[no_unique_address]] typename detail::PairSumsOf<P, A, sums_integers>::type sums_;
   Vector<Increment, n> kick_{};  // of the last kick: kept_factor_ F(q)
   Base kept_factor_{};
   bool kick_is_current_ = false;

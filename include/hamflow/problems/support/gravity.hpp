@@ -89,6 +89,30 @@ class Gravity {
       pair_kicks_in<3>(factor, difference, first, last, sink);
     }
   }
+  /// The same of -third V''(q) v besides.
+  template <class F, class Difference, class Sink>
+  void pair_gradient_kicks(const F& factor, const F& third, const Vector<F, dynamic>& v, const Difference& difference,
+                           std::size_t first, std::size_t last, Sink& sink) const {
+    const F strength = constant_;
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t j = i + 1; j < masses_.size(); ++j) {
+        F d[3]{};
+        F w[3]{};  // v_i - v_j
+        F u(softening_squared_);
+        F dw(0);
+        for (std::size_t k = 0; k < space_; ++k) {
+          d[k] = difference(i * space_ + k, j * space_ + k);
+          w[k] = v[i * space_ + k] - v[j * space_ + k];
+          u += d[k] * d[k];
+          dw += d[k] * w[k];
+        }
+        const F c = (strength * (masses_[i] * masses_[j])) / (u * sqrt(u));
+        for (std::size_t k = 0; k < space_; ++k) {
+          sink(j * space_ + k, i * space_ + k, factor * (c * d[k]) + third * (c * (w[k] - F(3) * d[k] * dw / u)));
+        }
+      }
+    }
+  }
   std::size_t pair_rows() const { return masses_.size(); }
   std::size_t pairs_in_row(std::size_t i) const { return masses_.size() - 1 - i; }
 
