@@ -164,26 +164,25 @@ int carry_out(const Scenario& asked, const RunOptions& options) {
   return result.outcome == Outcome::stopped ? exit_interrupted : exit_done;
 }
 
-/// What is wrong with the options together.
-std::vector<Complaint> contradictions(const RunOptions& options) {
-  std::vector<Complaint> all;
-  if (!options.resume) return all;
-  const auto complain = [&](const std::string& with) {
-    all.push_back({options.scenario, 0, 0, "--resume", "found --resume with " + with + "; allowed one of them"});
-  };
-  if (options.force) complain("--force");
-  if (options.out == "none") complain("--out none");
-  return all;
+/// What is wrong with the options together; empty if nothing is.
+std::string contradiction(const RunOptions& options) {
+  if (options.resume && options.force) return "found --resume with --force; allowed one of them";
+  if (options.resume && options.out == "none") return "found --resume with --out none; allowed with a folder";
+  return {};
 }
 
 }  // namespace
 
 int run_scenario(const RunOptions& options) {
+  if (const std::string why = contradiction(options); !why.empty()) {
+    std::cerr << "error: " << why << '\n';
+    if (options.json)
+      std::cout << json_text({{"status", "rejected"}, {"errors", {{{"key", "--resume"}, {"message", why}}}}});
+    return exit_rejected;
+  }
   try {
     const Reading reading = read_scenario(options.scenario, options.sets);
-    std::vector<Complaint> complaints = contradictions(options);
-    complaints.insert(complaints.end(), reading.complaints.begin(), reading.complaints.end());
-    if (!complaints.empty()) return rejected(options, complaints);
+    if (!reading.scenario) return rejected(options, reading.complaints);
     return carry_out(*reading.scenario, options);
   } catch (const FileError& error) {
     return file_trouble(options, error.what());

@@ -26,12 +26,16 @@ std::string instruction_set() { return std::string(name(fast_kernel_instruction_
 std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& checkpoint) {
   std::vector<Complaint> all;
   const auto complain = [&](const std::string& key, const std::string& message) {
-    all.push_back({scenario.file, 0, 0, key, message + "; give --out another folder, or --force to begin anew"});
+    const auto found = scenario.settings.find(key);
+    const Setting where = found == scenario.settings.end() ? Setting{{}, 1, 1} : found->second;
+    all.push_back({scenario.file, where.line, where.column, key,
+                   message + "; give --out another folder, or --force to begin anew"});
   };
   std::map<std::string, std::string> before;
   for (std::size_t i = 0; i < checkpoint.keys.size(); ++i) before[checkpoint.keys[i]] = checkpoint.values[i];
-  for (const auto& [key, value] : scenario.settings) {
+  for (const auto& [key, setting] : scenario.settings) {
     if (is_free(key)) continue;
+    const std::string& value = setting.text;
     const auto there = before.find(key);
     if (there == before.end()) {
       complain(key, "found " + value + "; allowed with --resume nothing, as when the run began");
@@ -44,8 +48,9 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     complain(key, "found nothing; allowed with --resume " + value + ", as when the run began");
   }
   if (scenario.steps < checkpoint.step) {
-    complain("run.steps", "found " + std::to_string(scenario.steps) + " steps; allowed with --resume at least the " +
-                              std::to_string(checkpoint.step) + " that were taken");
+    complain(scenario.settings.contains("run.t_end") ? "run.t_end" : "run.steps",
+             "found " + std::to_string(scenario.steps) + " steps; allowed with --resume at least the " +
+                 std::to_string(checkpoint.step) + " that were taken");
   }
   if (checkpoint.version != HAMFLOW_VERSION) {
     complain("hamflow", std::string("found version " HAMFLOW_VERSION "; allowed with --resume version ") +
@@ -79,9 +84,9 @@ CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& s
       seconds_before_(seconds_before) {
   checkpoint_.version = HAMFLOW_VERSION;
   checkpoint_.instruction_set = instruction_set();
-  for (const auto& [key, value] : scenario.settings) {
+  for (const auto& [key, setting] : scenario.settings) {
     checkpoint_.keys.push_back(key);
-    checkpoint_.values.push_back(value);
+    checkpoint_.values.push_back(setting.text);
   }
   checkpoint_.steps = scenario.steps;
   checkpoint_.record_every = scenario.record_every;

@@ -23,7 +23,7 @@ void make_folder(const fs::path& folder, bool force) {
     if (!fs::is_directory(folder)) throw FileError(folder.string() + " exists and is no folder");
     if (!force) {
       throw FileError("the folder " + folder.string() +
-                      " exists; give --force to replace the run in it, or --out another");
+                      " exists; give --resume to go on with the run in it, --force to replace it, or --out another");
     }
     const FolderLock lock(folder);
     for (const char* left : {"checkpoint.bin", "run.h5", "summary.json", "trajectory.csv", "figures"})

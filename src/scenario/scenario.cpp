@@ -45,7 +45,7 @@ void apply_set(toml::table& root, const std::string& set, const std::string& fil
 }
 
 /// Every value by its dotted path.
-void list_settings(const toml::table& table, const std::string& path, std::map<std::string, std::string>& settings) {
+void list_settings(const toml::table& table, const std::string& path, std::map<std::string, Setting>& settings) {
   for (const auto& [key, node] : table) {
     const std::string name = path + std::string(key.str());
     if (const auto* inner = node.as_table()) {
@@ -53,7 +53,8 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
     } else {
       std::ostringstream text;
       node.visit([&](const auto& value) { text << value; });
-      settings[name] = text.str();
+      const toml::source_position where = node.source().begin;
+      settings[name] = {text.str(), static_cast<int>(where.line), static_cast<int>(where.column)};
     }
   }
 }

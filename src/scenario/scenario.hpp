@@ -25,6 +25,13 @@ struct Complaint {
   std::string text() const;
 };
 
+/// What was given for a key, and where; line 0: with --set.
+struct Setting {
+  std::string text;
+  int line = 0;
+  int column = 0;
+};
+
 struct Scenario {
   std::string file;  // as named by the user
   std::string text;  // what the file held, with a comment line for each --set
@@ -43,7 +50,7 @@ struct Scenario {
   std::optional<TwoBodies> bodies;  // of a start by two bodies in space
   std::vector<double> start_q;      // in double, canonical
   std::vector<double> start_p;
-  std::map<std::string, std::string> settings;  // every key that was given, by its dotted path, as text
+  std::map<std::string, Setting> settings;  // every key that was given, by its dotted path
 };
 
 struct Reading {
