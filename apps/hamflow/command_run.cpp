@@ -1,87 +1,20 @@
 // hamflow run: a scenario becomes a simulation, the simulation samples, the samples a folder and a summary.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <iostream>
 
 #include "commands.hpp"
-#include "csv_file.hpp"
 #include "figures_of_run.hpp"
 #include "progress.hpp"
-#include "run_file.hpp"
+#include "resume.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
 
 namespace hamflow::app {
 
 namespace {
-
-/// Keeps the start, every n-th step and the last one.
-class Recorder final : public Observer {
- public:
-  Recorder(const Scenario& scenario, const std::filesystem::path& folder) : scenario_(scenario) {
-    const auto wants = [&](const char* format) {
-      return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
-    };
-    const std::vector<InvariantInfo>& declared = scenario.problem->info.invariants;
-    const std::vector<std::size_t> sizes =
-        scenario.problem->invariant_sizes(scenario.request.parameters, scenario.start_q.size());
-    std::vector<std::pair<std::string, std::size_t>> invariants;
-    for (std::size_t i = 0; i < declared.size(); ++i) invariants.emplace_back(declared[i].name, sizes[i]);
-    if (wants("h5")) {
-      char host[256] = "";
-      (void)gethostname(host, sizeof host - 1);
-      h5_ = std::make_unique<RunFile>(
-          folder / "run.h5",
-          RunDescription{.scenario = scenario.text,
-                         .version = HAMFLOW_VERSION,
-                         .host = host,
-                         .problem = scenario.request.problem,
-                         .method = describe(scenario.request.method).name,
-                         .arithmetic = scenario.request.arithmetic,
-                         .kernel = scenario.request.kernel,
-                         .dimension = scenario.start_q.size(),
-                         .invariants = invariants,
-                         .diagnostics = scenario.request.method.cg.diagnostics,
-                         .samples = static_cast<std::size_t>(sample_count(scenario.steps, scenario.record_every))});
-    }
-    if (wants("csv"))
-      csv_ = std::make_unique<CsvFile>(folder / "trajectory.csv", scenario.start_q.size(), invariants);
-  }
-
-  std::int64_t next_due(std::int64_t step) const override {
-    const std::int64_t every = scenario_.record_every;
-    const std::int64_t next = step % every == 0 ? step : step + (every - step % every);
-    return step <= scenario_.steps ? std::min(next, scenario_.steps) : never;
-  }
-  Verdict observe(const Frame& frame) override {
-    if (h5_) h5_->append(frame);
-    if (csv_) csv_->append(frame);
-    last_ = frame.step;
-    return Verdict::go_on;
-  }
-  /// The state in which a run ended early is a sample too.
-  void finish(const Simulation& simulation) {
-    if (last_ != simulation.step()) {
-      Frame frame;
-      simulation.look(frame);
-      (void)observe(frame);
-    }
-    if (h5_) h5_->flush();
-    if (csv_) csv_->flush();
-  }
-  void flush_if_due() {
-    if (h5_) h5_->flush_if_due();
-  }
-
- private:
-  const Scenario& scenario_;
-  std::unique_ptr<RunFile> h5_;
-  std::unique_ptr<CsvFile> csv_;
-  std::int64_t last_ = -1;
-};
 
 int file_trouble(const RunOptions& options, const std::string& message) {
   std::cerr << "error: " << message << '\n';
@@ -103,44 +36,100 @@ void draw_figures(const Scenario& scenario, const std::filesystem::path& folder)
   }
 }
 
-int carry_out(const Scenario& scenario, const RunOptions& options) {
-  const bool writes = options.out != "none";
-  if (!options.quiet) {
-    for (const std::string& note : scenario.notes) std::cerr << "note: " << note << '\n';
-  }
-  const std::filesystem::path folder = folder_of(scenario, options.out);
-  std::unique_ptr<Recorder> recorder;
-  if (writes) {
-    make_folder(folder, options.force);
-    recorder = std::make_unique<Recorder>(scenario, folder);
-  }
-  const auto simulation = make_simulation(scenario.request);
+/// Takes the steps that are left and tells what they came to.
+RunResult take_steps(const Scenario& scenario, const RunOptions& options, Simulation& simulation, Recorder* recorder,
+                     CheckpointWriter* checkpoints) {
   std::vector<Observer*> observers;
-  if (recorder) observers.push_back(recorder.get());
-
+  if (recorder != nullptr) observers = {recorder, checkpoints};  // in this order: samples of a step belong to it
   RunResult result;
-  catch_interrupts();
-  const auto begin = std::chrono::steady_clock::now();
-  {
-    Progress progress(scenario.steps, options.quiet);
-    try {
-      result.outcome = run(*simulation, scenario.steps, observers, [&](std::int64_t step) {
-        progress.show(step);
-        if (recorder) recorder->flush_if_due();
-        return !interrupted();
-      });
-    } catch (const FileError& error) {  // a full disk, say: what was computed is still told
-      result.file_trouble = error.what();
-    }
-  }
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  result.steps_taken = simulation->step();
-  if (result.outcome == Outcome::not_converged) result.failure = simulation->failure();
+  Progress progress(simulation.step(), scenario.steps, options.quiet);
   try {
-    if (recorder && result.file_trouble.empty()) recorder->finish(*simulation);
-  } catch (const FileError& error) {
+    result.outcome = run(simulation, scenario.steps, observers, [&](std::int64_t step) {
+      progress.show(step);
+      if (recorder != nullptr) {
+        recorder->flush_if_due();
+        checkpoints->write_if_due();
+      }
+      return !interrupted();
+    });
+    if (recorder != nullptr) {
+      if (const auto time = recorder->failed_at(simulation.step()); time && status_of(result.outcome) == "failed") {
+        result.failure = "the partial step to the sample at t = " + *time + " failed";
+      }
+      recorder->finish(simulation);
+      if (status_of(result.outcome) != "failed") checkpoints->write();
+    }
+  } catch (const FileError& error) {  // a full disk, say: what was computed is still told
     result.file_trouble = error.what();
   }
+  if (result.outcome == Outcome::not_converged && result.failure.empty()) result.failure = simulation.failure();
+  return result;
+}
+
+void say(const RunOptions& options, const std::string& note) {
+  if (!options.quiet) std::cerr << "note: " << note << '\n';
+}
+
+/// What the run in the folder left to go on from, if it left anything.
+std::optional<Checkpoint> checkpoint_in(const std::filesystem::path& folder, const RunOptions& options) {
+  if (!options.resume || !std::filesystem::exists(folder)) return std::nullopt;
+  if (std::filesystem::exists(folder / "checkpoint.bin")) return read_checkpoint(folder / "checkpoint.bin");
+  say(options, "there is no checkpoint in " + folder.string() + ": the run starts from the beginning");
+  return std::nullopt;
+}
+
+/// The scenario with the samples as they were spaced when the run began.
+Scenario with_spacing_of(const Checkpoint& checkpoint, Scenario scenario, const RunOptions& options) {
+  if (scenario.record_every != checkpoint.record_every && scenario.record.empty()) {
+    scenario.record_every = checkpoint.record_every;
+    say(options, fmt::format("samples stay {} steps apart, as when the run began", checkpoint.record_every));
+  }
+  return scenario;
+}
+
+void restore(Simulation& simulation, const Checkpoint& checkpoint) {
+  try {
+    simulation.restore(checkpoint.simulation);
+  } catch (const Error& error) {
+    throw FileError(std::string("the checkpoint cannot be used: ") + error.what());
+  }
+}
+
+int finish_at_once(const std::string& summary, const RunOptions& options) {
+  say(options, "the run is complete: there is nothing to do");
+  std::cout << (options.json ? summary : readable(nlohmann::ordered_json::parse(summary)));
+  return exit_done;
+}
+
+int carry_out(const Scenario& asked, const RunOptions& options) {
+  const bool writes = options.out != "none";
+  for (const std::string& note : asked.notes) say(options, note);
+  const std::filesystem::path folder = folder_of(asked, options.out);
+  const std::optional<Checkpoint> from = checkpoint_in(folder, options);
+  if (from) {
+    if (const auto complaints = differences(asked, *from); !complaints.empty()) return rejected(options, complaints);
+    if (const auto summary = finished_summary(asked, *from, folder)) return finish_at_once(*summary, options);
+  }
+  const Scenario scenario = from ? with_spacing_of(*from, asked, options) : asked;
+  const auto simulation = make_simulation(scenario.request);
+  std::optional<FolderLock> lock;
+  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<CheckpointWriter> checkpoints;
+  if (from) restore(*simulation, *from);
+  if (writes) {
+    if (!from) make_folder(folder, options.force || options.resume);
+    lock.emplace(folder);
+    recorder = std::make_unique<Recorder>(scenario, folder, from ? &*from : nullptr);
+    std::filesystem::remove(folder / "summary.json");  // of a run that was interrupted
+    checkpoints =
+        std::make_unique<CheckpointWriter>(scenario, *simulation, *recorder, folder, from ? from->wall_seconds : 0);
+  }
+  catch_interrupts();
+  const auto begin = std::chrono::steady_clock::now();
+  RunResult result = take_steps(scenario, options, *simulation, recorder.get(), checkpoints.get());
+  result.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() + (from ? from->wall_seconds : 0);
+  result.steps_taken = simulation->step();
 
   const auto summary = summary_of(scenario, *simulation, result);
   const bool failed = summary["status"] == "failed";
@@ -148,6 +137,7 @@ int carry_out(const Scenario& scenario, const RunOptions& options) {
   if (writes) {
     try {
       write_text(folder / "summary.json", json_text(summary));
+      checkpoints.reset();
       recorder.reset();  // closes run.h5, from which the figures are drawn
       if (!failed) draw_figures(scenario, folder);
     } catch (const std::exception& error) {  // the run itself is done: say what it came to all the same
@@ -155,11 +145,16 @@ int carry_out(const Scenario& scenario, const RunOptions& options) {
     }
   }
   std::cout << (options.json ? json_text(summary) : readable(summary));
-  if (writes && !options.json && !options.quiet) std::cout << fmt::format("{:<20}{}\n", "written to", folder.string());
+  if (writes && !options.json && !options.quiet) {
+    std::cout << fmt::format("{:<20}{}\n", "written to", folder.string());
+    if (result.outcome == Outcome::stopped)
+      std::cout << fmt::format("{:<20}the same command with --resume\n", "to go on");
+  }
   if (failed) {
     std::cerr << "error: " << summary["error"]["message"].get<std::string>()
               << "\nhint: " << summary["error"]["hint"].get<std::string>() << '\n';
     if (writes) std::cerr << "what was computed is in " << folder.string() << '\n';
+    if (!result.file_trouble.empty()) std::cerr << "the same command with --resume goes on from the last checkpoint\n";
     return result.file_trouble.empty() ? exit_failed : exit_file;
   }
   if (!late_trouble.empty()) {
@@ -169,9 +164,22 @@ int carry_out(const Scenario& scenario, const RunOptions& options) {
   return result.outcome == Outcome::stopped ? exit_interrupted : exit_done;
 }
 
+/// What is wrong with the options together; empty if nothing is.
+std::string contradiction(const RunOptions& options) {
+  if (options.resume && options.force) return "found --resume with --force; allowed one of them";
+  if (options.resume && options.out == "none") return "found --resume with --out none; allowed with a folder";
+  return {};
+}
+
 }  // namespace
 
 int run_scenario(const RunOptions& options) {
+  if (const std::string why = contradiction(options); !why.empty()) {
+    std::cerr << "error: " << why << '\n';
+    if (options.json)
+      std::cout << json_text({{"status", "rejected"}, {"errors", {{{"key", "--resume"}, {"message", why}}}}});
+    return exit_rejected;
+  }
   try {
     const Reading reading = read_scenario(options.scenario, options.sets);
     if (!reading.scenario) return rejected(options, reading.complaints);

@@ -205,7 +205,7 @@ class Shell {
     Outcome outcome = Outcome::done;
     const std::int64_t spacing = samples_.every();
     {
-      Progress progress(count, options_.quiet || !interactive_);
+      Progress progress(0, count, options_.quiet || !interactive_);
       outcome = run(session_, first + count, observers, [&](std::int64_t now) {
         progress.show(now - first);
         return !interrupted();

@@ -15,6 +15,7 @@ struct RunOptions {
   std::vector<std::string> sets;
   std::string out;  // a folder, "none", or empty for the default
   bool force = false;
+  bool resume = false;
   bool json = false;
   bool quiet = false;
 };

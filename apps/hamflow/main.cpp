@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
   CLI::App* run_command =
       add(app, "run", "Run a scenario: integrate, record, draw, sum up",
           "  hamflow run kepler.toml\n  hamflow run kepler.toml --set run.dt=0.05 --set method.name=verlet "
-          "--out finer.run\n  hamflow run kepler.toml --json --out none\n");
+          "--out finer.run\n  hamflow run kepler.toml --json --out none\n"
+          "  hamflow run kepler.toml --resume\n");
   run_command->add_option("scenario", run.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
   run_command->add_option("--set", run.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
       ->type_name("DIR")
       ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
   run_command->add_flag("--force", run.force, "replace the run in an existing folder");
+  run_command->add_flag("--resume", run.resume, "go on from the last checkpoint, or take more steps after the end");
   run_command->add_flag("--json", run.json, "print the summary as JSON, and nothing else, on stdout");
   run_command->add_flag("--quiet", run.quiet, "no progress, no notes");
   run_command->callback([&] { status = run_scenario(run); });

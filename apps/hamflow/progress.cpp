@@ -26,7 +26,8 @@ void catch_interrupts() {
 
 bool interrupted() { return asked_to_stop != 0; }
 
-Progress::Progress(std::int64_t steps, bool quiet) : steps_(steps), visible_(!quiet && isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::int64_t first, std::int64_t steps, bool quiet)
+    : first_(first), steps_(steps), visible_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
@@ -39,7 +40,7 @@ void Progress::show(std::int64_t step) {
   last_ = now;
   const double seconds = std::chrono::duration<double>(now - begin_).count();
   const double part = static_cast<double>(step) / static_cast<double>(steps_);
-  const double rate = static_cast<double>(step) / seconds;
+  const double rate = static_cast<double>(step - first_) / seconds;
   constexpr int width = 30;
   const auto filled = static_cast<std::size_t>(part * width);
   fmt::print(stderr, "\r[{:<{}}] {:5.1f} %  {:.3g} steps/s  {:.0f} s left\033[K", std::string(filled, '='), width,

@@ -12,13 +12,15 @@ bool interrupted();
 
 class Progress {
  public:
-  Progress(std::int64_t steps, bool quiet);
+  /// @param first step at which this part of the run begins
+  Progress(std::int64_t first, std::int64_t steps, bool quiet);
   ~Progress();
   /// Redraws at most ten times a second.
   void show(std::int64_t step);
 
  private:
   using Clock = std::chrono::steady_clock;
+  std::int64_t first_;
   std::int64_t steps_;
   bool visible_;
   bool drawn_ = false;

@@ -6,7 +6,8 @@
 
 namespace hamflow {
 
-CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<std::pair<std::string, std::size_t>>& invariants)
+CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
+                 const std::vector<std::pair<std::string, std::size_t>>& invariants)
     : path_(file), out_(file) {
   if (!out_) throw FileError("cannot write " + file.string());
   out_ << "step,t";
@@ -19,6 +20,21 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const
   }
   out_ << '\n';
 }
+
+CsvFile::CsvFile(const std::filesystem::path& file, std::uint64_t bytes) : path_(file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) throw FileError("cannot go on with " + file.string() + ": " + error.message());
+  if (size < bytes) {
+    throw FileError("cannot go on with " + file.string() + ": it has " + std::to_string(size) + " bytes, not the " +
+                    std::to_string(bytes) + " that the checkpoint counts");
+  }
+  std::filesystem::resize_file(file, bytes, error);
+  out_.open(file, std::ios::in | std::ios::out | std::ios::ate);
+  if (error || !out_) throw FileError("cannot write " + file.string());
+}
+
+std::uint64_t CsvFile::bytes() { return static_cast<std::uint64_t>(out_.tellp()); }
 
 void CsvFile::append(const Frame& frame) {
   fmt::memory_buffer line;

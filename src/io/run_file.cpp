@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <ctime>
 
+#include "checkpoint.hpp"
 #include "hdf5_handle.hpp"
 
 namespace hamflow {
 
 namespace {
 
-constexpr std::size_t batch_rows = 8192;  // one write call per batch: 35 ns a row instead of 25 us
-constexpr double flush_seconds = 0.25;    // at most so much is lost by a crash
+constexpr std::size_t batch_rows = 8192;                     // one write call per batch: 35 ns a row instead of 25 us
+constexpr std::size_t batch_numbers = std::size_t{1} << 20;  // of large systems fewer rows: 8 megabytes wait at most
+constexpr std::size_t chunk_numbers = std::size_t{1} << 17;  // a chunk has to fit the cache of 1 megabyte
+constexpr double flush_seconds = 0.25;                       // at most so much is lost by a crash
 using Clock = std::chrono::steady_clock;
 constexpr const char* diagnostic_names[] = {"iterations", "residual", "condition_tangent", "determinant_tangent",
                                             "condition_inverse_mass"};
@@ -27,7 +30,9 @@ class Column {
     const hsize_t columns = std::max<std::size_t>(width, 1);
     const hsize_t size[2] = {0, columns};
     const hsize_t most[2] = {H5S_UNLIMITED, columns};
-    const hsize_t chunk[2] = {std::max<hsize_t>(std::min(batch_rows, rows) / columns, 16), columns};
+    const hsize_t most_rows = std::max<hsize_t>(chunk_numbers / columns, 1);
+    const hsize_t chunk[2] = {std::min(std::max<hsize_t>(std::min(batch_rows, rows) / columns, 16), most_rows),
+                              columns};
     const Hdf5Handle space(H5Screate_simple(rank, size, most), H5Sclose, "make a data space");
     const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
     check_hdf5(H5Pset_chunk(plist, rank, chunk), "chunk " + name_);
@@ -35,6 +40,31 @@ class Column {
                           H5Dclose, "create dataset " + name_);
   }
   void add(T value) { waiting_.push_back(value); }
+  std::size_t numbers_a_row() const { return std::max<std::size_t>(width_, 1); }
+  /// Writes the first `rows` rows of the dataset of the same name in another file.
+  void copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
+    const Hdf5Handle source(H5Dopen2(other, name_.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name_);
+    const Hdf5Handle space(H5Dget_space(source), H5Sclose, "open the space of " + name_);
+    const int rank = width_ > 0 ? 2 : 1;
+    hsize_t size[2] = {0, 1};
+    if (H5Sget_simple_extent_ndims(space) != rank) throw FileError("HDF5: dataset " + name_ + " has another shape");
+    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name_);
+    if (size[1] != numbers_a_row()) throw FileError("HDF5: dataset " + name_ + " has another width");
+    if (size[0] < rows) {
+      throw FileError("HDF5: dataset " + name_ + " has " + std::to_string(size[0]) + " rows, not the " +
+                      std::to_string(rows) + " that the checkpoint counts");
+    }
+    while (written_ < rows) {
+      const hsize_t offset[2] = {written_, 0};
+      const hsize_t count[2] = {std::min<hsize_t>(rows - written_, at_once), size[1]};
+      const Hdf5Handle part(H5Dget_space(source), H5Sclose, "open the space of " + name_);
+      check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset, nullptr, count, nullptr), "select rows of " + name_);
+      const Hdf5Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose, "make a data space");
+      waiting_.resize(count[0] * count[1]);
+      check_hdf5(H5Dread(source, memory_type(), memory, part, H5P_DEFAULT, waiting_.data()), "read " + name_);
+      write(count[0]);
+    }
+  }
   void write(std::size_t rows) {
     const hsize_t columns = std::max<std::size_t>(width_, 1);
     const int rank = width_ > 0 ? 2 : 1;
@@ -110,8 +140,30 @@ struct RunFile::Impl {
   std::vector<Column<std::int64_t>> counts;
   std::vector<Column<double>> time;  // last: its length tells how many rows are complete
   std::size_t waiting = 0;
+  std::size_t most_waiting = batch_rows;
+  std::uint64_t rows = 0;
   Clock::time_point flushed = Clock::now();
+
+  template <class F>
+  void for_each_column(F&& f) {
+    for (auto* columns : {&vectors, &scalars, &invariants, &diagnostics}) {
+      for (auto& column : *columns) f(column);
+    }
+    for (auto& column : counts) f(column);
+    for (auto& column : time) f(column);
+  }
 };
+
+namespace {
+/// Reads what a writer has open or a crash has left. A reader beside a writer may meet metadata half written and tries
+/// again, each time twice as long after. HDF5's own 100 attempts would wait for ever on a damaged file; 24 are over in
+/// a few hundredths of a second each.
+Hdf5Handle open_to_read(const std::filesystem::path& path) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open " + path.string()};
+}
+}  // namespace
 
 RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description)
     : impl_(std::make_unique<Impl>()) {
@@ -127,7 +179,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   write_attribute(id, "method", description.method);
   write_attribute(id, "arithmetic", description.arithmetic);
   write_attribute(id, "kernel", description.kernel);
-  write_attribute(id, "created", now_utc());
+  write_attribute(id, "created", description.created.empty() ? now_utc() : description.created);
   {
     const Hdf5Handle type = text_type(description.scenario.size());
     const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
@@ -151,11 +203,38 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     impl_->counts.emplace_back(id, name, 0, rows);
   }
   impl_->time.emplace_back(id, "t", 0, rows);
+  std::size_t numbers = 0;
+  impl_->for_each_column([&](const auto& column) { numbers += column.numbers_a_row(); });
+  impl_->most_waiting = std::clamp<std::size_t>(batch_numbers / numbers, 1, batch_rows);
   // Every object has to exist before this; from here on readers may look in, and a crash leaves a readable file.
   check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
 }
 
+RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows) {
+  silence_hdf5();
+  std::filesystem::path fresh = file;
+  fresh += ".new";
+  try {
+    const Hdf5Handle old = open_to_read(file);
+    RunDescription same = description;
+    same.created = read_attribute(old, "created");
+    RunFile copy(fresh, same);
+    copy.impl_->for_each_column([&](auto& column) { column.copy_from(old, rows, copy.impl_->most_waiting); });
+    copy.impl_->rows = rows;
+    force_to_disk(fresh);
+    std::filesystem::rename(fresh, file);  // the open file keeps its identity
+    impl_ = std::move(copy.impl_);
+  } catch (const FileError& error) {
+    std::error_code ignored;
+    std::filesystem::remove(fresh, ignored);
+    throw FileError("cannot go on with " + file.string() + ": " + error.what());
+  }
+}
+
+std::uint64_t RunFile::rows() const { return impl_->rows; }
+
 RunFile::~RunFile() {
+  if (!impl_) return;
   try {
     flush();
   } catch (const FileError&) {  // NOLINT: a destructor cannot report; flush() was called before where it matters
@@ -178,17 +257,14 @@ void RunFile::append(const Frame& frame) {
                                  frame.effort.halved};
   for (std::size_t i = 0; i < impl_->counts.size(); ++i) impl_->counts[i].add(counts[i]);
   impl_->time[0].add(frame.time);
-  if (++impl_->waiting == batch_rows) flush();
+  ++impl_->rows;
+  if (++impl_->waiting == impl_->most_waiting) flush();
 }
 
 void RunFile::flush() {
   if (impl_->waiting == 0) return;
   const std::size_t rows = std::exchange(impl_->waiting, 0);
-  for (auto* columns : {&impl_->vectors, &impl_->scalars, &impl_->invariants, &impl_->diagnostics}) {
-    for (auto& column : *columns) column.write(rows);
-  }
-  for (auto& column : impl_->counts) column.write(rows);
-  for (auto& column : impl_->time) column.write(rows);
+  impl_->for_each_column([&](auto& column) { column.write(rows); });
   impl_->flushed = Clock::now();
 }
 
@@ -227,11 +303,7 @@ namespace {
 RunSamples read_samples(const std::filesystem::path& path) {
   silence_hdf5();
   if (!std::filesystem::exists(path)) throw FileError("there is no such file");
-  // A reader beside a writer may meet metadata half written and tries again, each time twice as long after. HDF5's own
-  // 100 attempts would wait for ever on a damaged file; 24 are over in a few hundredths of a second each.
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open it");
+  const Hdf5Handle file = open_to_read(path);
   RunSamples run;
   {
     const Hdf5Handle dataset(H5Dopen2(file, "scenario", H5P_DEFAULT), H5Dclose, "open dataset scenario");

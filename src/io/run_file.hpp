@@ -1,11 +1,12 @@
 // run.h5: the samples of a run. Written in single-writer-multiple-readers mode and flushed several times a second, so
 // that it can be read while it grows, and after a crash at any moment, up to the last flush. Datasets, one row a
-// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n, or n x components), where asked for
-// /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last step, NaN
-// at the start where there is none), and the totals since the start
-// /solver/force, /solver/hessian, /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps);
-// beside them /scenario, the scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic,
-// kernel, created. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
+// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n, or n x components), where asked
+// for /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last
+// step, NaN at the start where there is none), and the totals since the start /solver/force, /solver/hessian,
+// /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps); beside them /scenario, the
+// scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic, kernel, created. A run that
+// goes on copies the rows that stay into a fresh file, which then takes the place of the old one: only a reader can
+// open what a crash leaves. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
 #pragma once
 
 #include <chrono>
@@ -32,6 +33,7 @@ struct RunDescription {
   std::vector<std::pair<std::string, std::size_t>> invariants;  // names and numbers of components
   bool diagnostics = false;                                     // of implicit steps
   std::size_t samples = 0;  // expected, so that a short run leaves a small file; 0: unknown
+  std::string created;      // empty: now
 };
 
 /// Writes one row per sample.
@@ -39,8 +41,13 @@ class RunFile {
  public:
   /// @throws FileError
   RunFile(const std::filesystem::path& file, const RunDescription& description);
+  /// Goes on after the first `rows` rows of a file that is there, however it was left. @throws FileError; the file is
+  /// then as it was
+  RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows);
   ~RunFile();
   void append(const Frame& frame);
+  /// Appended so far, written or not.
+  std::uint64_t rows() const;
   /// Writes and flushes what has gathered. @throws FileError, e.g. when the disk is full
   void flush();
   /// Flushes if some time has passed since the last flush: bounds what a crash can lose.

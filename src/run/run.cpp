@@ -6,18 +6,33 @@
 namespace hamflow {
 
 namespace {
-/// Wakes the observers due at the simulation's step.
-Verdict wake(const Simulation& simulation, std::span<Observer* const> observers, Frame& frame) {
+struct Frames {
+  Frame of_step;
+  Frame between;  // of a partial step
+};
+
+/// Wakes the observers due at the simulation's step, in their order.
+Outcome wake(const Simulation& simulation, std::span<Observer* const> observers, Frames& frames) {
   const std::int64_t now = simulation.step();
   bool looked = false;
-  Verdict verdict = Verdict::go_on;
+  Outcome outcome = Outcome::done;
+  const auto show = [&](Observer& observer, const Frame& frame) {
+    if (observer.observe(frame) == Verdict::stop) outcome = Outcome::stopped;
+  };
   for (Observer* observer : observers) {
     if (observer->next_due(now) != now) continue;
-    if (!looked) simulation.look(frame);
+    const auto times = observer->times(now);
+    for (const std::string& time : times) {
+      const Outcome ahead = simulation.look_ahead(time, frames.between);
+      if (ahead != Outcome::done) return ahead;
+      show(*observer, frames.between);
+    }
+    if (!times.empty()) continue;
+    if (!looked) simulation.look(frames.of_step);
     looked = true;
-    if (observer->observe(frame) == Verdict::stop) verdict = Verdict::stop;
+    show(*observer, frames.of_step);
   }
-  return verdict;
+  return outcome;
 }
 
 std::int64_t earliest_due(std::int64_t from, std::int64_t last, std::span<Observer* const> observers) {
@@ -34,15 +49,15 @@ Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* 
   std::int64_t block = 256;
   std::int64_t since_pulse = 0;
   Clock::time_point pulsed = Clock::now();
-  Frame frame;
-  if (wake(simulation, observers, frame) == Verdict::stop) return Outcome::stopped;
+  Frames frames;
+  if (const Outcome first = wake(simulation, observers, frames); first != Outcome::done) return first;
   while (simulation.step() < last_step) {
     const std::int64_t now = simulation.step();
     const std::int64_t target = std::min(earliest_due(now + 1, last_step, observers), now + block - since_pulse);
-    const Outcome outcome = simulation.advance(target - now);
+    Outcome outcome = simulation.advance(target - now);
     since_pulse += target - now;
+    if (outcome == Outcome::done) outcome = wake(simulation, observers, frames);
     if (outcome != Outcome::done) return outcome;
-    if (wake(simulation, observers, frame) == Verdict::stop) return Outcome::stopped;
     if (since_pulse >= block) {
       const double seconds = std::chrono::duration<double>(Clock::now() - pulsed).count();
       if (seconds < wanted_seconds / 2) block = std::min(block * 2, std::int64_t{1} << 30);

@@ -44,10 +44,30 @@ void apply_set(toml::table& root, const std::string& set, const std::string& fil
   table->insert_or_assign(rest, *value.get("value"));
 }
 
+/// Every value by its dotted path.
+void list_settings(const toml::table& table, const std::string& path, std::map<std::string, Setting>& settings) {
+  for (const auto& [key, node] : table) {
+    const std::string name = path + std::string(key.str());
+    if (const auto* inner = node.as_table()) {
+      list_settings(*inner, name + ".", settings);
+    } else {
+      std::ostringstream text;
+      node.visit([&](const auto& value) { text << value; });
+      const toml::source_position where = node.source().begin;
+      settings[name] = {text.str(), static_cast<int>(where.line), static_cast<int>(where.column)};
+    }
+  }
+}
+
 }  // namespace
 
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every) {
   return steps / record_every + 1 + (steps % record_every != 0 ? 1 : 0);
+}
+
+std::int64_t sample_count(const Scenario& scenario) {
+  return scenario.record.empty() ? sample_count(scenario.steps, scenario.record_every)
+                                 : static_cast<std::int64_t>(scenario.record.size());
 }
 
 std::int64_t default_record_every(std::int64_t steps) {
@@ -75,6 +95,7 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
   }
   Scenario scenario = ScenarioReader(root, name, reading.complaints).read();
   scenario.text = full_text;
+  list_settings(root, "", scenario.settings);
   // In the order of the file, so that a reader can walk through it.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });

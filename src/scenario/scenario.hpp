@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ struct Complaint {
   std::string text() const;
 };
 
+/// What was given for a key, and where; line 0: with --set.
+struct Setting {
+  std::string text;
+  int line = 0;
+  int column = 0;
+};
+
 struct Scenario {
   std::string file;  // as named by the user
   std::string text;  // what the file held, with a comment line for each --set
@@ -32,13 +40,17 @@ struct Scenario {
   double dt = 0;
   std::int64_t steps = 0;
   std::int64_t record_every = 1;
-  std::string folder;  // empty: derived from the file's name
+  std::vector<std::string> record;  // times of samples, number expressions in the order of the run; none: by steps
+  std::vector<std::int64_t> record_steps;  // from which the partial steps to them are taken
+  std::int64_t checkpoint_every = 0;       // steps; 0: by the clock
+  std::string folder;                      // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
-  std::vector<std::string> notes;  // worth saying, but no errors
+  std::vector<std::string> notes;   // worth saying, but no errors
   std::optional<TwoBodies> bodies;  // of a start by two bodies in space
   std::vector<double> start_q;      // in double, canonical
   std::vector<double> start_p;
+  std::map<std::string, Setting> settings;  // every key that was given, by its dotted path
 };
 
 struct Reading {
@@ -55,5 +67,7 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
 std::int64_t default_record_every(std::int64_t steps);
 /// Samples kept: the start, every `record_every`-th step, and the last.
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every);
+/// Those at given times, where there are any.
+std::int64_t sample_count(const Scenario& scenario);
 
 }  // namespace hamflow

@@ -106,11 +106,8 @@ void ScenarioReader::read_run(TomlTable& table) {
   if (!std::isfinite(scenario_.dt * static_cast<double>(scenario_.steps))) {
     table.complain("dt", table.found("dt") + "; allowed a dt whose product with the number of steps is finite");
   }
-  if (const auto every = table.whole("record_every", 1, most_steps)) {
-    scenario_.record_every = *every;
-  } else {
-    scenario_.record_every = default_record_every(scenario_.steps);
-  }
+  read_samples(table);
+  if (const auto every = table.whole("checkpoint_every", 1, most_steps)) scenario_.checkpoint_every = *every;
   read_arithmetic(table);
   if (const auto kernel = table.choice("kernel", {"exact", "fast"})) {
     scenario_.request.kernel = *kernel;
@@ -173,6 +170,42 @@ void ScenarioReader::read_length(TomlTable& table) {
     } else {
       scenario_.steps = static_cast<std::int64_t>(whole);
     }
+  }
+}
+
+/// By steps, or at given times. A time belongs to the step before it, one that is a step's up to rounding to that step.
+void ScenarioReader::read_samples(TomlTable& table) {
+  const auto every = table.whole("record_every", 1, most_steps);
+  scenario_.record_every = every ? *every : default_record_every(scenario_.steps);
+  const auto times = table.numbers("record", 0);
+  if (!times) return;
+  if (table.has("record_every")) {
+    table.complain("record", "found record and record_every together; allowed one of them");
+    return;
+  }
+  if (scenario_.dt == 0) return;  // told
+  const auto steps = static_cast<double>(scenario_.steps);
+  double before = 0;
+  for (const Number& time : *times) {
+    const double ratio = time.value / scenario_.dt;
+    const double whole = std::round(ratio);
+    const bool at_step = std::abs(ratio - whole) <= 4 * 0x1p-52 * whole;  // time, dt and their quotient are rounded
+    const double step = at_step ? whole : std::floor(ratio);
+    if (!(step >= 0 && (at_step ? whole <= steps : ratio < steps))) {
+      table.complain("record",
+                     "found the time " + time.text + "; allowed from 0 to the end, " + shortest(steps * scenario_.dt));
+      return;
+    }
+    if (!scenario_.record.empty() && !((time.value - before) * scenario_.dt > 0)) {
+      table.complain("record", "found the time " + time.text + " after " + scenario_.record.back() +
+                                   "; allowed times in the order of the run, " +
+                                   (scenario_.dt > 0 ? "each later" : "with dt < 0 each earlier") +
+                                   " than the one before");
+      return;
+    }
+    before = time.value;
+    scenario_.record.push_back(time.text);
+    scenario_.record_steps.push_back(static_cast<std::int64_t>(step));
   }
 }
 

@@ -397,6 +397,8 @@ class TemplateWriter {
                "0 or more; or t_end, which has to be a whole number of dt");
     page_.off("t_end = " + shortest(example_.dt * static_cast<double>(example_.steps)), "in place of steps");
     page_.off("record_every = 1", "steps from one sample to the next; default: at most 10000 samples");
+    page_.off("record = [0, " + shortest(example_.dt * 1.5) + "]", "in place of record_every: times, not only of steps");
+    page_.off("checkpoint_every = 1000000", "steps from one checkpoint to the next; default: every 10 seconds");
     std::vector<std::string> allowed;
     for (const std::string& arithmetic : arithmetics()) {
       if (refusal(method_, arithmetic).empty()) allowed.push_back(arithmetic);

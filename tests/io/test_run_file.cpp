@@ -77,6 +77,79 @@ TEST_F(RunFileTest, ReadableWhileItGrows) {
   expect_rows(read_run_file(file_), 100);
 }
 
+TEST_F(RunFileTest, GoesOnAfterTheRowsThatStay) {
+  for (const std::uint64_t kept : {0u, 1u, 777u, 20000u}) {  // within a chunk, and over several batches
+    {
+      RunFile file(file_, description);
+      for (std::int64_t k = 0; k < 20000; ++k) file.append(row(k));
+    }
+    RunFile file(file_, description, kept);
+    EXPECT_EQ(file.rows(), kept);
+    expect_rows(read_run_file(file_), static_cast<std::int64_t>(kept));
+    for (auto k = static_cast<std::int64_t>(kept); k < 21000; ++k) file.append(row(k));
+    EXPECT_EQ(file.rows(), 21000u);
+    file.flush();
+    const RunSamples run = read_run_file(file_);
+    EXPECT_EQ(run.t.size(), 21000u);
+    expect_rows(run, 21000);
+  }
+}
+
+TEST_F(RunFileTest, CannotGoOnAfterMoreRowsThanThereAre) {
+  { RunFile(file_, description).append(row(0)); }
+  EXPECT_THROW(RunFile(file_, description, 2), FileError);
+  RunDescription other = description;
+  other.dimension = 3;
+  EXPECT_THROW(RunFile(file_, other, 1), FileError);
+  expect_rows(read_run_file(file_), 1);  // it is as it was
+  EXPECT_FALSE(std::filesystem::exists(file_.string() + ".new"));
+}
+
+TEST_F(RunFileTest, RowsOfALargeSystemDoNotPileUp) {
+  RunDescription large = description;
+  large.dimension = 100000;
+  RunFile file(file_, large);
+  Frame frame = row(0);
+  frame.q.assign(large.dimension, 1.0);
+  frame.p.assign(large.dimension, 2.0);
+  for (int k = 0; k < 40; ++k) file.append(frame);
+  // 2^20 numbers wait at most: 5 rows of 200010 numbers.
+  EXPECT_EQ(read_run_file(file_).t.size(), 40u);
+}
+
+TEST_F(RunFileTest, ConfirmedRowsAreThereToGoOnFromAfterAKill) {
+  for (int round = 0; round < 10; ++round) {
+    std::filesystem::remove(file_);
+    int confirmed[2];
+    ASSERT_EQ(pipe(confirmed), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      close(confirmed[0]);
+      RunFile file(file_, description);
+      for (std::int64_t k = 0;; ++k) {
+        file.append(row(k));
+        if (k % 37 != 36) continue;
+        file.flush();
+        const std::int64_t count = k + 1;
+        if (write(confirmed[1], &count, sizeof count) != sizeof count) _exit(1);
+      }
+    }
+    close(confirmed[1]);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 + 7 * round));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    std::int64_t last = 0;
+    for (std::int64_t count = 0; read(confirmed[0], &count, sizeof count) == sizeof count;) last = count;
+    close(confirmed[0]);
+    if (last == 0) continue;
+    RunFile file(file_, description, static_cast<std::uint64_t>(last));
+    for (std::int64_t k = last; k < last + 100; ++k) file.append(row(k));
+    file.flush();
+    expect_rows(read_run_file(file_), last + 100);
+    if (HasFatalFailure()) FAIL() << "round " << round;
+  }
+}
+
 TEST_F(RunFileTest, NotARunFileIsSaid) {
   EXPECT_THROW(read_run_file("no such file"), FileError);
   EXPECT_THROW(RunFile("no such folder/run.h5", description), FileError);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <string>
 
 #include "hamflow/run/simulation.hpp"
 
@@ -20,9 +21,14 @@ class Observer {
   /// The next step >= `step` at which to be woken, or never.
   virtual std::int64_t next_due(std::int64_t step) const = 0;
   virtual Verdict observe(const Frame& frame) = 0;
+  /// Where due at `step`: the times from this step on, before the next one, at which the state is wanted, as number
+  /// expressions in the order of the run. observe() is called once for each, with the state that a partial step gives
+  /// (Simulation::look_ahead). None: once, with the state of the step.
+  virtual std::span<const std::string> times(std::int64_t /*step*/) const { return {}; }
 };
 
-/// Advances to `last_step`, waking each observer when it is due, the start included.
+/// Advances to `last_step`, waking each observer when it is due, the start included. A partial step that fails ends the
+/// run like a step that fails.
 /// @param pulse called between blocks, several times a second; returns false to stop at the step boundary reached
 Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* const> observers,
             const std::function<bool(std::int64_t step)>& pulse = {});

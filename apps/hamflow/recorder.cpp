@@ -1,0 +1,113 @@
+#include "recorder.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace hamflow::app {
+
+Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder, const Checkpoint* from)
+    : scenario_(scenario), folder_(folder) {
+  const auto wants = [&](const char* format) {
+    return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
+  };
+  const std::vector<InvariantInfo>& declared = scenario.problem->info.invariants;
+  const std::vector<std::size_t> sizes =
+      scenario.problem->invariant_sizes(scenario.request.parameters, scenario.start_q.size());
+  std::vector<std::pair<std::string, std::size_t>> invariants;
+  for (std::size_t i = 0; i < declared.size(); ++i) invariants.emplace_back(declared[i].name, sizes[i]);
+  if (from != nullptr) {
+    // A checkpoint is written after the samples of its step, but without one that is there only for the end.
+    const bool step_is_written = by_times() || from->step % scenario.record_every == 0;
+    first_ = from->step + (step_is_written ? 1 : 0);
+    last_ = step_is_written ? from->step : -1;
+    written_ = static_cast<std::size_t>(
+        std::upper_bound(scenario.record_steps.begin(), scenario.record_steps.end(), from->step) -
+        scenario.record_steps.begin());
+  }
+  if (wants("h5")) {
+    char host[256] = "";
+    (void)gethostname(host, sizeof host - 1);
+    const RunDescription description{.scenario = scenario.text,
+                                     .version = HAMFLOW_VERSION,
+                                     .host = host,
+                                     .problem = scenario.request.problem,
+                                     .method = describe(scenario.request.method).name,
+                                     .arithmetic = scenario.request.arithmetic,
+                                     .kernel = scenario.request.kernel,
+                                     .dimension = scenario.start_q.size(),
+                                     .invariants = invariants,
+                                     .diagnostics = scenario.request.method.cg.diagnostics,
+                                     .samples = static_cast<std::size_t>(sample_count(scenario))};
+    const std::filesystem::path file = folder / "run.h5";
+    h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
+                          : std::make_unique<RunFile>(file, description, from->rows);
+  }
+  if (wants("csv")) {
+    const std::filesystem::path file = folder / "trajectory.csv";
+    csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), invariants)
+                           : std::make_unique<CsvFile>(file, from->csv_bytes);
+  }
+}
+
+std::int64_t Recorder::next_due(std::int64_t step) const {
+  step = std::max(step, first_);
+  if (by_times()) {
+    const auto next = std::lower_bound(scenario_.record_steps.begin(), scenario_.record_steps.end(), step);
+    return next == scenario_.record_steps.end() ? never : *next;
+  }
+  const std::int64_t every = scenario_.record_every;
+  const std::int64_t next = step % every == 0 ? step : step + (every - step % every);
+  return step <= scenario_.steps ? std::min(next, scenario_.steps) : never;
+}
+
+std::span<const std::string> Recorder::times(std::int64_t step) const {
+  const auto [begin, end] = std::equal_range(scenario_.record_steps.begin(), scenario_.record_steps.end(), step);
+  return std::span(scenario_.record)
+      .subspan(static_cast<std::size_t>(begin - scenario_.record_steps.begin()), static_cast<std::size_t>(end - begin));
+}
+
+Verdict Recorder::observe(const Frame& frame) {
+  if (!by_times() && frame.step % scenario_.record_every != 0) before_the_end_ = sizes();
+  if (h5_) h5_->append(frame);
+  if (csv_) csv_->append(frame);
+  last_ = frame.step;
+  ++written_;
+  return Verdict::go_on;
+}
+
+void Recorder::finish(const Simulation& simulation) {
+  if (!by_times() && last_ != simulation.step()) {
+    Frame frame;
+    simulation.look(frame);
+    (void)observe(frame);
+  }
+  flush();
+}
+
+void Recorder::flush() {
+  if (h5_) h5_->flush();
+  if (csv_) csv_->flush();
+}
+
+void Recorder::flush_if_due() {
+  if (h5_) h5_->flush_if_due();
+}
+
+Recorder::Sizes Recorder::sizes() const { return {h5_ ? h5_->rows() : 0, csv_ ? csv_->bytes() : 0}; }
+
+void Recorder::mark(Checkpoint& checkpoint) {
+  flush();
+  if (h5_) force_to_disk(folder_ / "run.h5");
+  if (csv_) force_to_disk(folder_ / "trajectory.csv");
+  const Sizes now = before_the_end_.value_or(sizes());
+  checkpoint.rows = now.rows;
+  checkpoint.csv_bytes = now.csv_bytes;
+}
+
+std::optional<std::string> Recorder::failed_at(std::int64_t step) const {
+  if (!by_times() || written_ >= scenario_.record.size() || scenario_.record_steps[written_] != step) return {};
+  return scenario_.record[written_];
+}
+
+}  // namespace hamflow::app

@@ -1,0 +1,52 @@
+// Writes the samples of a run: the start, every n-th step and the last one; or the states at given times.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "checkpoint.hpp"
+#include "csv_file.hpp"
+#include "hamflow/run/observer.hpp"
+#include "run_file.hpp"
+#include "scenario.hpp"
+
+namespace hamflow::app {
+
+class Recorder final : public Observer {
+ public:
+  /// @param from where the run goes on; null: at its start   @throws FileError
+  Recorder(const Scenario& scenario, const std::filesystem::path& folder, const Checkpoint* from);
+
+  std::int64_t next_due(std::int64_t step) const override;
+  std::span<const std::string> times(std::int64_t step) const override;
+  Verdict observe(const Frame& frame) override;
+
+  /// The state in which a run by steps ended early is a sample too.
+  void finish(const Simulation& simulation);
+  void flush();
+  void flush_if_due();
+  /// The files as they would be had the run no end yet, written and forced to the disk, go into the checkpoint.
+  void mark(Checkpoint& checkpoint);
+  /// The time of the sample at which a run stopped for want of a partial step; else nothing.
+  std::optional<std::string> failed_at(std::int64_t step) const;
+
+ private:
+  struct Sizes {
+    std::uint64_t rows = 0;
+    std::uint64_t csv_bytes = 0;
+  };
+  bool by_times() const { return !scenario_.record.empty(); }
+  Sizes sizes() const;
+
+  const Scenario& scenario_;
+  std::filesystem::path folder_;
+  std::unique_ptr<RunFile> h5_;
+  std::unique_ptr<CsvFile> csv_;
+  std::int64_t first_ = 0;               // step from which samples are still to be written
+  std::int64_t last_ = -1;               // step of the last sample
+  std::size_t written_ = 0;              // of the given times
+  std::optional<Sizes> before_the_end_;  // where the last sample is there only because the run ended
+};
+
+}  // namespace hamflow::app

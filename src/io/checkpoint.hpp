@@ -1,0 +1,42 @@
+// checkpoint.bin: where a run can go on, bit for bit. Written beside its predecessor, forced to the disk, then renamed
+// onto it: whenever a crash comes, one whole checkpoint is there, the old one or the new one. It names the rows of
+// run.h5 and the bytes of trajectory.csv that belong to it; what stands behind them is dropped when the run goes on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hamflow/core/archive.hpp"
+
+namespace hamflow {
+
+struct Checkpoint {
+  std::string version;            // of hamflow
+  std::string instruction_set;    // of kernel = "fast"
+  std::vector<std::string> keys;  // the scenario's settings
+  std::vector<std::string> values;
+  std::int64_t steps = 0;  // to be taken
+  std::int64_t step = 0;   // taken
+  std::int64_t record_every = 0;
+  std::uint64_t rows = 0;       // of run.h5
+  std::uint64_t csv_bytes = 0;  // of trajectory.csv
+  double wall_seconds = 0;
+  std::vector<std::byte> simulation;  // Simulation::save()
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(version, instruction_set, keys, values, steps, step, record_every, rows, csv_bytes, wall_seconds, simulation);
+  }
+};
+
+/// @throws FileError; the checkpoint that was there is then still there
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+/// @throws FileError when it cannot be read, is damaged or of another format
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+/// Until then a crash of the machine can lose what was written. @throws FileError
+void force_to_disk(const std::filesystem::path& file_or_folder);
+
+}  // namespace hamflow

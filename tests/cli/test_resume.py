@@ -1,0 +1,241 @@
+"""Runs that are killed, interrupted or extended and resumed: what they leave is what the uninterrupted run leaves."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from command import HAMFLOW, CommandCase
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+from kill_and_resume import differences, kill_and_resume  # noqa: E402
+
+COMPARE = os.environ["COMPARE_RUNS"]
+
+RUN = """
+[problem]
+{problem}
+[method]
+{method}
+[run]
+{run}
+[output]
+formats = ["h5", "csv"]
+"""
+KEPLER = 'name = "central-force"\npotential = "kepler"\norbit = { kind = "ellipse", r_per = 1.0, r_aph = 3.0 }'
+MAGNETIC = 'name = "magnetic"\ninitial = { q = [1, 0, 0], p = [0, 1, 0.1] }'
+
+
+class Resume(CommandCase):
+    def scenario(self, method='name = "stv4"', run="dt = 0.01\nsteps = 3000", problem=KEPLER):
+        return self.write("s.toml", RUN.format(problem=problem, method=method, run=run))
+
+    def run_to(self, folder, *arguments, status=0):
+        return self.hamflow("run", "s.toml", "--out", folder, "--json", *arguments, status=status)
+
+    def expect_equal(self, a, b):
+        self.assertEqual(differences(COMPARE, self.folder / a, self.folder / b), [])
+
+    def interrupted(self, folder, *arguments, after=0.4):
+        """A run stopped by Ctrl-C; its summary."""
+        process = subprocess.Popen([HAMFLOW, "run", "s.toml", "--out", folder, "--json", *arguments], cwd=self.folder,
+                                   stdout=subprocess.PIPE, text=True)
+        time.sleep(after)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=20)
+        return process.returncode, json.loads(out)
+
+    def test_kills_at_random_moments(self):
+        for method, run, problem in (
+            ('name = "stv4"', "dt = 0.01\nsteps = 300_000\nrecord_every = 101", KEPLER),
+            ('name = "verlet-dkd"', "dt = 0.01\nsteps = 300_000\narithmetic = 'compensated'", KEPLER),
+            ('name = "yoshida6"', "dt = 0.01\nsteps = 200_000\narithmetic = 'lattice'", KEPLER),
+            ('name = "rk4"', "dt = 0.01\nsteps = 200_000\nrecord_every = 7000", KEPLER),
+            ('name = "boris"', "dt = 0.01\nsteps = 300_000", MAGNETIC),
+            ('name = "cg"\ndiagnostics = true\non_divergence = "halve"', "dt = 0.1\nsteps = 30_000", KEPLER),
+        ):
+            with self.subTest(method=method, run=run):
+                self.scenario(method, run + "\ncheckpoint_every = 7001", problem)
+                room = self.folder / method.split('"')[1]
+                room.mkdir()
+                killed, with_checkpoint, compared, wrong = kill_and_resume(
+                    HAMFLOW, COMPARE, self.folder / "s.toml", [], 5, 1, room, say=lambda text: None)
+                self.assertEqual(wrong, [])
+                self.assertEqual(killed, 5)
+                self.assertGreater(compared, 0)
+
+    def test_interrupt_and_resume(self):
+        # One sample would stand at the interruption only: it has to be gone in the end.
+        self.scenario(run="dt = 0.01\nsteps = 3_000_000\nrecord_every = 1007")
+        self.run_to("whole")
+        status, summary = self.interrupted("part", after=0.15)
+        self.assertEqual(status, 130)
+        self.assertEqual(summary["status"], "interrupted")
+        self.assertGreater(summary["steps"], 0)
+        resumed = json.loads(self.run_to("part", "--resume").stdout)
+        self.assertEqual(resumed["steps"], 3_000_000)
+        self.expect_equal("whole", "part")
+
+    def test_more_steps(self):
+        self.scenario(run="dt = 0.01\nsteps = 1000\nrecord_every = 3")  # the last step is a sample as the last one only
+        self.run_to("part")
+        self.run_to("part", "--resume", "--set", "run.steps=2000")
+        self.run_to("whole", "--set", "run.steps=2000")
+        a, b = ((self.folder / name / "trajectory.csv").read_text() for name in ("whole", "part"))
+        self.assertEqual(a, b)
+        done = self.run_to("part", "--resume", "--set", "run.steps=100", status=2)
+        self.assertIn("at least the 2000", done.stderr)
+
+    def test_more_steps_keep_the_spacing_of_samples(self):
+        self.scenario(run="dt = 0.01\nsteps = 25_000")
+        self.run_to("part")
+        done = self.run_to("part", "--resume", "--set", "run.steps=70_000")
+        self.assertIn("3 steps apart", done.stderr)
+        self.run_to("whole", "--set", "run.steps=70_000", "--set", "run.record_every=3")
+        a, b = ((self.folder / name / "trajectory.csv").read_text() for name in ("whole", "part"))
+        self.assertEqual(a, b)
+
+    def test_a_finished_run_has_nothing_to_do(self):
+        self.scenario()
+        first = self.run_to("r").stdout
+        before = {p.name: p.read_bytes() for p in (self.folder / "r").iterdir()}
+        again = self.run_to("r", "--resume")
+        self.assertEqual(again.stdout, first)
+        self.assertIn("nothing to do", again.stderr)
+        self.assertEqual({p.name: p.read_bytes() for p in (self.folder / "r").iterdir()}, before)
+        self.hamflow("run", "s.toml", "--out", "r", "--resume")  # as text, too
+
+    def test_killed_between_the_last_step_and_the_summary(self):
+        self.scenario(run="dt = 0.01\nsteps = 1000\nrecord_every = 3")
+        self.run_to("whole")
+        self.run_to("part")
+        (self.folder / "part" / "summary.json").unlink()
+        self.run_to("part", "--resume")
+        self.expect_equal("whole", "part")
+
+    def test_without_a_checkpoint_it_starts_from_the_beginning(self):
+        self.scenario()
+        self.run_to("whole")
+        self.run_to("new", "--resume")  # no folder at all
+        self.expect_equal("whole", "new")
+        (self.folder / "new" / "checkpoint.bin").unlink()
+        done = self.run_to("new", "--resume")
+        self.assertIn("no checkpoint", done.stderr)
+        self.assertIn("from the beginning", done.stderr)
+        self.expect_equal("whole", "new")
+
+    def test_another_scenario_is_refused(self):
+        self.scenario()
+        self.run_to("r")
+        before = {p.name: p.read_bytes() for p in (self.folder / "r").iterdir()}
+        for change, key in (("run.dt=0.02", "run.dt"), ("method.name=verlet", "method.name"),
+                            ("problem.k=2", "problem.k"), ("run.arithmetic=compensated", "run.arithmetic"),
+                            ("run.record_every=7", "run.record_every"), ("problem.orbit.r_aph=2.5", "problem.orbit.r_aph"),
+                            ("output.formats=['h5']", "output.formats")):
+            done = self.run_to("r", "--resume", "--set", change, "--set", "run.steps=4000", status=2)
+            self.assertIn(f"error: {key}: found", done.stderr)
+            rejected = json.loads(done.stdout)
+            self.assertEqual(rejected["status"], "rejected")
+            self.assertEqual([e["key"] for e in rejected["errors"]], [key])
+        self.write("s.toml", (self.folder / "s.toml").read_text().replace("dt = 0.01\n", "dt = 0.03\n"))
+        self.assertIn("s.toml:9:6: error: run.dt", self.run_to("r", "--resume", status=2).stderr)
+        self.assertEqual({p.name: p.read_bytes() for p in (self.folder / "r").iterdir()}, before)
+
+    def test_options_that_exclude_each_other(self):
+        self.scenario()
+        for other in (["--force"], ["--out", "none"]):
+            done = self.hamflow("run", "s.toml", "--json", "--resume", *other, status=2)
+            self.assertIn("--resume", done.stderr)
+            self.assertEqual(json.loads(done.stdout)["status"], "rejected")
+        self.assertEqual([p.name for p in self.folder.iterdir() if p.is_dir()], [])
+        self.run_to("r")
+        self.assertIn("--resume", self.run_to("r", status=3).stderr)
+
+    def test_damaged_files(self):
+        self.scenario(run="dt = 0.01\nsteps = 1000\nrecord_every = 3")
+        self.run_to("r")
+        checkpoint = self.folder / "r" / "checkpoint.bin"
+        good = checkpoint.read_bytes()
+        more = ("--resume", "--set", "run.steps=2000")
+        for bad in (b"", good[:20], good[:-1], good + b"x", b"\0" * len(good),
+                    *(good[:i] + bytes([good[i] ^ 1]) + good[i + 1:] for i in range(0, len(good), 50))):
+            checkpoint.write_bytes(bad)
+            done = self.run_to("r", *more, status=3)
+            self.assertIn("checkpoint", done.stderr)
+            self.assertEqual(json.loads(done.stdout)["status"], "failed")
+        checkpoint.write_bytes(good)
+        h5 = self.folder / "r" / "run.h5"
+        whole = h5.read_bytes()
+        for bad in (b"", whole[:3000], b"\0" * 1000):
+            h5.write_bytes(bad)
+            self.assertIn("run.h5", self.run_to("r", *more, status=3).stderr)
+            self.assertEqual(h5.read_bytes(), bad)
+        h5.write_bytes(whole)
+        csv = self.folder / "r" / "trajectory.csv"
+        text = csv.read_bytes()
+        csv.write_bytes(text[:-10])
+        # The last row stands for the end only, so that ten bytes are not missed; a thousand are.
+        csv.write_bytes(text[:-1000])
+        self.assertIn("trajectory.csv", self.run_to("r", *more, status=3).stderr)
+        csv.write_bytes(text)
+        self.run_to("r", *more)
+        self.run_to("whole", "--set", "run.steps=2000")
+        a, b = ((self.folder / name / "trajectory.csv").read_text() for name in ("whole", "r"))
+        self.assertEqual(a, b)
+
+    def test_an_unfinished_checkpoint_does_not_count(self):
+        self.scenario(run="dt = 0.01\nsteps = 1000")
+        self.run_to("r")
+        (self.folder / "r" / "checkpoint.bin.new").write_bytes(b"half")
+        (self.folder / "r" / "run.h5.new").write_bytes(b"half")
+        self.run_to("r", "--resume", "--set", "run.steps=1500")
+        self.assertEqual(sorted(p.name for p in (self.folder / "r").iterdir()),
+                         ["checkpoint.bin", "run.h5", "summary.json", "trajectory.csv"])
+
+    def test_a_failed_run_fails_again_in_the_same_way(self):
+        self.scenario(method='name = "rk4"', run="dt = 0.05\nsteps = 100_000\ncheckpoint_every = 10",
+                      problem='name = "henon-heiles"\ninitial = { q = [0, 3], p = [0, 1] }')
+        first = json.loads(self.run_to("r", status=1).stdout)
+        self.assertTrue((self.folder / "r" / "checkpoint.bin").exists())
+        again = json.loads(self.run_to("r", "--resume", status=1).stdout)
+        for summary in (first, again):
+            del summary["wall_seconds"], summary["steps_per_second"]
+        self.assertEqual(first, again)
+
+    def test_two_runs_in_one_folder(self):
+        self.scenario(run="dt = 0.01\nsteps = 1_000_000_000")
+        process = subprocess.Popen([HAMFLOW, "run", "s.toml", "--out", "r"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.5)
+        for option in ("--resume", "--force"):
+            self.assertIn("another run", self.run_to("r", option, status=3).stderr)
+        process.send_signal(signal.SIGINT)
+        process.wait()
+
+    def test_fast_kernel(self):
+        self.scenario(run='dt = 0.01\nsteps = 1000\nkernel = "fast"')
+        self.run_to("r")
+        checkpoint = self.folder / "r" / "checkpoint.bin"
+        data = checkpoint.read_bytes()
+        self.run_to("r", "--resume", "--set", "run.steps=2000")
+        self.run_to("whole", "--set", "run.steps=2000")
+        a, b = ((self.folder / name / "trajectory.csv").read_text() for name in ("whole", "r"))
+        self.assertEqual(a, b)
+        # A checkpoint as another machine would leave it, its checksum (FNV-1a) included.
+        name = json.loads((self.folder / "r" / "summary.json").read_text())["instruction_set"].encode()
+        content = data[:-8].replace(name, b"z" * len(name))
+        total = 0xCBF29CE484222325
+        for byte in content:
+            total = (total ^ byte) * 0x100000001B3 % 2**64
+        checkpoint.write_bytes(content + total.to_bytes(8, sys.byteorder))
+        done = self.run_to("r", "--resume", "--set", "run.steps=3000", status=2)
+        self.assertIn("run.kernel", done.stderr)
+        self.assertIn("instruction set", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

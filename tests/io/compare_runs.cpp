@@ -1,0 +1,71 @@
+// compare_runs A.h5 B.h5: whether two files hold the same datasets, bit for bit. Says which differ; exit 1 then.
+#include <cstring>
+#include <iostream>
+#include <map>
+#include <vector>
+
+#include "hdf5_handle.hpp"
+
+namespace {
+
+using hamflow::check_hdf5;
+using hamflow::Hdf5Handle;
+
+struct Content {
+  std::vector<hsize_t> size;
+  std::vector<char> bytes;
+  bool operator==(const Content&) const = default;
+};
+using Contents = std::map<std::string, Content>;
+
+Content read(hid_t file, const char* name) {
+  const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, "open a dataset");
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open a space");
+  Content content;
+  content.size.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, content.size.data(), nullptr);
+  content.bytes.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type));
+  if (!content.bytes.empty()) {
+    check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, content.bytes.data()), "read a dataset");
+  }
+  return content;
+}
+
+Contents contents(const char* path) {
+  const Hdf5Handle file(H5Fopen(path, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose, "open a file");
+  std::vector<std::string> names;
+  const auto note = [](hid_t, const char* name, const H5O_info_t* info, void* all) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(all)->emplace_back(name);
+    return 0;
+  };
+  check_hdf5(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, note, &names, H5O_INFO_BASIC), "list the datasets");
+  Contents all;
+  for (const std::string& name : names) all[name] = read(file, name.c_str());
+  return all;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: compare_runs A.h5 B.h5\n";
+    return 2;
+  }
+  try {
+    const Contents a = contents(argv[1]);
+    const Contents b = contents(argv[2]);
+    int different = a.size() == b.size() ? 0 : 1;
+    for (const auto& [name, content] : a) {
+      if (b.contains(name) && b.at(name) == content) continue;
+      std::cout << name << " differs\n";
+      ++different;
+    }
+    std::cout << a.size() << " datasets, " << (a.contains("t") ? a.at("t").bytes.size() / 8 : 0) << " rows, "
+              << different << " differences\n";
+    return different == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+}
