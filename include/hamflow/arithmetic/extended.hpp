@@ -46,7 +46,7 @@ class Extended {
   Extended& operator*=(const Extended& b) { return *this = *this * b; }
   Extended& operator/=(const Extended& b) { return *this = *this / b; }
 
-  friend bool operator==(const Extended& a, const Extended& b) { return a.value == b.value; }
+  friend constexpr bool operator==(const Extended& a, const Extended& b) { return a.value == b.value; }
   friend bool operator<(const Extended& a, const Extended& b) { return a.value < b.value; }
   friend bool operator>(const Extended& a, const Extended& b) { return a.value > b.value; }
   friend bool operator<=(const Extended& a, const Extended& b) { return a.value <= b.value; }

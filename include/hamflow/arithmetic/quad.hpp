@@ -59,10 +59,10 @@ struct ExtendedTraits<__float128> {
   static T atan2(const T& y, const T& x) { return atan2q(y, x); }
   static T pow(const T& x, const T& y) { return powq(x, y); }
   static T read(std::string_view text) { return strtoflt128(std::string(text).c_str(), nullptr); }
-  /// @param digits 36 read back as the same number
-  static std::string written(const T& x, int digits = 36) {
+  /// @param places significant decimal digits; 36 read back as the same number
+  static std::string written(const T& x, int places = 36) {
     char buffer[64];
-    const int length = quadmath_snprintf(buffer, sizeof buffer, "%.*Qg", digits, x);
+    const int length = quadmath_snprintf(buffer, sizeof buffer, "%.*Qg", places, x);
     return {buffer, static_cast<std::size_t>(length)};
   }
   static T power_of_two(int exponent) { return ldexpq(static_cast<T>(1), exponent); }
