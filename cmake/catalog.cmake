@@ -125,7 +125,10 @@ namespace hamflow {
 @declarations@
 inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
   entry.simulate_erased = erased.simulate;
-  entry.step_map = erased.step_map;
+  entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Texts& parameters, const MethodSpec& method,
+                                                                     std::size_t size) {
+    return accepts(method) ? make(parameters, method, size) : nullptr;
+  };
   return entry;
 }
 inline std::vector<ProblemEntry> generated_problems() { return {@problem_calls@}; }

@@ -1,11 +1,20 @@
 // The evaluations that a method reports are those that the problem sees.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
+#include "hamflow/methods/force_gradient.hpp"
+#include "hamflow/methods/force_gradient/chin4a.hpp"
+#include "hamflow/methods/force_gradient/chin4b.hpp"
 #include "hamflow/methods/runge_kutta.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/methods/splittings/euler_a.hpp"
+#include "hamflow/methods/splittings/mcate4.hpp"
+#include "hamflow/methods/splittings/pefrl.hpp"
+#include "hamflow/methods/splittings/srkn6b.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/run/simulation_of.hpp"
@@ -79,9 +88,57 @@ TEST(Cost, ReportedEvaluationsAreThoseTheProblemSees) {
   expect_counts(Composition<compositions::stv4, StartsWith::drift>{}, 3, 0);
   expect_counts(SplittingBy<splittings::euler_a>{}, 1, 0);
   expect_counts(SplittingBy<unlike_ends>{}, 1, 1);  // one force for two kicks also here
+  expect_counts(Composition<compositions::kahan_li8>{}, 17, 1);
+  expect_counts(SplittingBy<splittings::srkn6b>{}, 6, 1);
+  expect_counts(SplittingBy<splittings::mcate4>{}, 4, 0);
+  expect_counts(SplittingBy<splittings::pefrl>{}, 4, 0);
+  expect_counts(ForceGradient{&force_gradient::chin4a}, 2, 1);
+  expect_counts(ForceGradient{&force_gradient::chin4b}, 2, 0);
   expect_counts(RungeKuttaBy<tableaus::rk4>{}, 4, 0);
   expect_counts(Cg{CgOptions{.quadrature = 5}}, 0, 0);
   expect_counts(Cg{}, 0, 0);
+}
+
+TEST(Cost, ForceGradientsCostAHessianEach) {
+  const HenonHeiles<double> problem{};
+  for (const auto& [table, hessians] : {std::pair{&force_gradient::chin4a, 1}, {&force_gradient::chin4b, 2}}) {
+    auto simulation = simulate<false>(problem, ForceGradient{table}, {0.3, -0.15}, {0.2, 0.25}, 0.1);
+    ASSERT_EQ(simulation.advance(100), Outcome::done);
+    EXPECT_EQ(simulation.effort().hessian, 100 * hessians);
+  }
+}
+
+/// The kick with gradient written out: one step of chin4b, all in one place.   [Chin1997, algorithm B]
+TEST(Cost, AForceGradientIsTheGradientOfTheSquaredForce) {
+  const HenonHeiles<double> problem{};
+  const double h = 0.1;
+  const double t1 = (1 - std::sqrt(1.0 / 3)) / 2;
+  const double t2 = std::sqrt(1.0 / 3);
+  Vector<double, 2> q{0.3, -0.15}, p{0.2, 0.25};
+  auto simulation = simulate<false>(problem, ForceGradient{&force_gradient::chin4b}, q, p, h);
+  ASSERT_EQ(simulation.advance(1), Outcome::done);
+  const auto drift = [&](double t) {
+    for (std::size_t k = 0; k < 2; ++k) q[k] += t * h * p[k];
+  };
+  // V = (x^2 + y^2)/2 + x^2 y - y^3/3: V_x = x + 2 x y, V_y = y + x^2 - y^2; |V'|^2 by its own derivative.
+  const auto kick = [&] {
+    const double x = q[0], y = q[1];
+    const double vx = x + 2 * x * y, vy = y + x * x - y * y;
+    const double square_x = 2 * vx * (1 + 2 * y) + 2 * vy * 2 * x;
+    const double square_y = 2 * vx * 2 * x + 2 * vy * (1 - 2 * y);
+    const double c = (2 - std::sqrt(3.0)) / 24 * h * h;
+    p[0] += h / 2 * (-vx + c * square_x);
+    p[1] += h / 2 * (-vy + c * square_y);
+  };
+  drift(t1);
+  kick();
+  drift(t2);
+  kick();
+  drift(t1);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(simulation.state().q[k], q[k], 8 * std::numeric_limits<double>::epsilon());
+    EXPECT_NEAR(simulation.state().p[k], p[k], 8 * std::numeric_limits<double>::epsilon());
+  }
 }
 
 TEST(Cost, ATableWithUnlikeEndsKicksWithTheForceOfWhereItIs) {

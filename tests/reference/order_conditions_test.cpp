@@ -6,6 +6,9 @@
 
 #include <deque>
 
+#include "hamflow/arithmetic/double_double.hpp"
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow::test {
@@ -78,6 +81,12 @@ void check_conditions() {
 
 TEST(OrderConditions, HoldInDouble) { check_conditions<double>(); }
 TEST(OrderConditions, HoldInLongDouble) { check_conditions<long double>(); }
+TEST(OrderConditions, HoldInDoubleDouble) { check_conditions<DoubleDouble>(); }
+TEST(OrderConditions, HoldInQuad) { check_conditions<Quad>(); }
+TEST(OrderConditions, HoldWith38Digits) {
+  const MpDigits scope(38);
+  check_conditions<Mp>();
+}
 
 TEST(OrderConditions, DoNotHoldOneOrderHigher) {
   for_each_table([](const auto& table) { EXPECT_GT(worst(conditions<long double>(table, table.order + 1)), 1e-7L); });
@@ -222,6 +231,8 @@ void check_mutants(const std::vector<int>& places) {
 // The 15th place would be too much to ask: sofroniou10 has neighbours in the middle that differ by 4e-4, and what one
 // of them takes from the other changes the conditions by 3e-4 of it.
 TEST(OrderConditions, CatchEveryWrongDigitInLongDouble) { check_mutants<long double>({4, 8, 12, 14}); }
+TEST(OrderConditions, CatchEveryWrongDigitInDoubleDouble) { check_mutants<DoubleDouble>({18, 25}); }
+TEST(OrderConditions, CatchEveryWrongDigitInQuad) { check_mutants<Quad>({25, 28}); }
 TEST(OrderConditions, CatchEveryWrongDigitInDouble) { check_mutants<double>({4, 8, 10}); }
 
 }  // namespace

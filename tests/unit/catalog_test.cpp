@@ -116,6 +116,33 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
   EXPECT_NE(message("cg(1,)").find("cg: quadrature has to be a whole number"), std::string::npos);
 }
 
+TEST(Catalog, RefusesTablesForQuadraticKineticEnergyElsewhere) {
+  const ProblemEntry& sextic = find_problem("sextic", {});  // T = p^3/3 - p/2
+  for (const MethodEntry& entry : methods()) {
+    const bool needs_quadratic =
+        entry.force_gradient != nullptr || (entry.splitting != nullptr && entry.splitting->nystroem);
+    if (entry.composition == nullptr && entry.splitting == nullptr && entry.force_gradient == nullptr) continue;
+    SCOPED_TRACE(entry.name);
+    const MethodSpec spec = parse_method(entry.name);
+    EXPECT_EQ(sextic.accepts(spec), !needs_quadratic);
+    EXPECT_EQ(sextic.step_map({}, spec, 1) == nullptr, needs_quadratic);
+    EXPECT_TRUE(find_problem("henon-heiles", {}).accepts(spec));
+    if (!needs_quadratic) continue;
+    const std::string message = refusal(spec, sextic);
+    EXPECT_NE(message.find("T quadratic in p with constant mass matrix"), std::string::npos) << message;
+    Request request;
+    request.problem = "sextic";
+    request.method = spec;
+    request.start.q = {"0.6"};
+    request.start.p = {"0.9"};
+    EXPECT_EQ(test::message_of<Error>([&] { (void)make_simulation(request); }), message);
+  }
+  for (const char* name : {"mcate4", "mcate5", "sb3a-4", "sb3a-5", "calvo-sanz-serna4", "srkn6b", "srkn11b", "srkn14a",
+                           "okunbor-skeel6", "rkn8-s19", "chin4a", "chin4b"}) {
+    EXPECT_FALSE(sextic.accepts(parse_method(name))) << name;
+  }
+}
+
 TEST(Catalog, SaysWhatIsWrongWithAProblem) {
   const auto message = [](const char* name, std::map<std::string, std::string> variant) {
     return test::message_of<Error>([&] { (void)find_problem(name, variant); });

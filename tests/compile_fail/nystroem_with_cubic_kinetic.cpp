@@ -1,0 +1,7 @@
+// expect: this table has its order for a QuadraticKinetic problem only
+#include "hamflow/hamflow.hpp"
+
+void misuse() {
+  const hamflow::Sextic<double> h;
+  (void)hamflow::simulate(h, hamflow::SplittingBy<hamflow::splittings::srkn6b>{}, {0.6}, {0.9}, 0.1);
+}
