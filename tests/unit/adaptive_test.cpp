@@ -21,10 +21,15 @@
 #include "hamflow/problems/support/from_functions.hpp"
 #include "hamflow/problems/support/gravity.hpp"
 #include "hamflow/problems/support/polar.hpp"
+#include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
+
+template <class R>
+inline constexpr bool first_derivatives_only<Trace<R>> = true;
+
 namespace {
 
 using L = long double;
@@ -322,6 +327,32 @@ TEST(Adaptive, more_digits_are_used) {
   expect_digits_on_kepler<DoubleDouble>(Taylor{{.tolerance = 1e-28}}, 50);
   const MpDigits scope(60);
   expect_digits_on_kepler<Mp>(Taylor{{.tolerance = 1e-55}}, 50);
+}
+
+/// Behind virtual calls (run/any_problem.hpp) the same bits, and dual numbers pass there, too.
+template <class P, class Recipe>
+void expect_same_behind_virtual_calls(const P& problem, const Recipe& recipe) {
+  using Any = AnyProblem<double, capability_of<P>(), Trace<double>, Dual<double, 1>>;
+  const auto typed = after(problem, recipe, {0.5, -0.3}, {1.0, 0.4}, 0.5);
+  const auto erased = after(Any::of(problem), recipe, {0.5, -0.3}, {1.0, 0.4}, 0.5);
+  using A = Plain<Dual<double, 1>>;
+  PhasePoint<A, dynamic> dual;
+  dual.store({0.5, -0.3}, {1.0, 0.4});
+  const Any any = Any::of(problem);
+  auto method = recipe.template bind<Any, A>(any);
+  EXPECT_EQ(method.step(any, 0.5, dual), Outcome::done);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(typed.q[i], erased.q[i]);
+    EXPECT_EQ(typed.p[i], erased.p[i]);
+    EXPECT_EQ(typed.q[i], dual.q[i].value);
+    EXPECT_EQ(typed.p[i], dual.p[i].value);
+  }
+}
+TEST(Adaptive, types_do_not_change_bits) {
+  expect_same_behind_virtual_calls(HenonHeiles<double>(), Dop853{});
+  expect_same_behind_virtual_calls(HenonHeiles<double>(), Taylor{});
+  expect_same_behind_virtual_calls(DoublePendulumNonlinearAbsolute<double>(), Dop853{});
+  expect_same_behind_virtual_calls(DoublePendulumNonlinearAbsolute<double>(), Taylor{});
 }
 
 TEST(Adaptive, doubles_are_read_exactly_in_other_numbers) {
