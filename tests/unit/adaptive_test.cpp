@@ -136,6 +136,27 @@ TEST(Adaptive, taylor_differentiates_functions_of_the_user) {
       1e-13L);
 }
 
+/// However a time is divided into steps, the end is the same to a few tolerances: here a period, so that there is no
+/// drift of the phase to tell orbits apart but that of their own errors.
+template <class Recipe>
+void expect_the_same_however_divided() {
+  const KeplerProblem problem(1.0, Kepler<double>(1.0));
+  const Recipe recipe{{.tolerance = 1e-11}};
+  const double time = 2 * pi_value<double>();
+  const auto whole = after(problem, recipe, {0.4, 0}, {0, 2}, time);
+  for (const int steps : {2, 7, 100, 1000}) {
+    const auto parts = after(problem, recipe, {0.4, 0}, {0, 2}, time / steps, steps);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_LE(std::fabs(parts.q[i] - whole.q[i]), 100e-11) << steps;
+      EXPECT_LE(std::fabs(parts.p[i] - whole.p[i]), 200e-11) << steps;
+    }
+  }
+}
+TEST(Adaptive, the_spacing_of_steps_does_not_matter) {
+  expect_the_same_however_divided<Dop853>();
+  expect_the_same_however_divided<Taylor>();
+}
+
 template <class P>
 double taylor_slope(const P& problem, int order, const VectorOf<P>& q, const VectorOf<P>& p, L time, int steps) {
   std::vector<L> errors;
