@@ -21,10 +21,15 @@
 #include "hamflow/problems/support/from_functions.hpp"
 #include "hamflow/problems/support/gravity.hpp"
 #include "hamflow/problems/support/polar.hpp"
+#include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
+
+template <class R>
+inline constexpr bool first_derivatives_only<Trace<R>> = true;
+
 namespace {
 
 using L = long double;
@@ -129,6 +134,27 @@ TEST(Adaptive, taylor_differentiates_functions_of_the_user) {
   EXPECT_LE(
       (distance_to_flow<decltype(whole), Plain<double>>(whole, after(whole, Taylor{options}, x, y, 2.0), x, y, 2.0)),
       1e-13L);
+}
+
+/// However a time is divided into steps, the end is the same to a few tolerances: here a period, so that there is no
+/// drift of the phase to tell orbits apart but that of their own errors.
+template <class Recipe>
+void expect_the_same_however_divided() {
+  const KeplerProblem problem(1.0, Kepler<double>(1.0));
+  const Recipe recipe{{.tolerance = 1e-11}};
+  const double time = 2 * pi_value<double>();
+  const auto whole = after(problem, recipe, {0.4, 0}, {0, 2}, time);
+  for (const int steps : {2, 7, 100, 1000}) {
+    const auto parts = after(problem, recipe, {0.4, 0}, {0, 2}, time / steps, steps);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_LE(std::fabs(parts.q[i] - whole.q[i]), 100e-11) << steps;
+      EXPECT_LE(std::fabs(parts.p[i] - whole.p[i]), 200e-11) << steps;
+    }
+  }
+}
+TEST(Adaptive, the_spacing_of_steps_does_not_matter) {
+  expect_the_same_however_divided<Dop853>();
+  expect_the_same_however_divided<Taylor>();
 }
 
 template <class P>
@@ -322,6 +348,32 @@ TEST(Adaptive, more_digits_are_used) {
   expect_digits_on_kepler<DoubleDouble>(Taylor{{.tolerance = 1e-28}}, 50);
   const MpDigits scope(60);
   expect_digits_on_kepler<Mp>(Taylor{{.tolerance = 1e-55}}, 50);
+}
+
+/// Behind virtual calls (run/any_problem.hpp) the same bits, and dual numbers pass there, too.
+template <class P, class Recipe>
+void expect_same_behind_virtual_calls(const P& problem, const Recipe& recipe) {
+  using Any = AnyProblem<double, capability_of<P>(), Trace<double>, Dual<double, 1>>;
+  const auto typed = after(problem, recipe, {0.5, -0.3}, {1.0, 0.4}, 0.5);
+  const auto erased = after(Any::of(problem), recipe, {0.5, -0.3}, {1.0, 0.4}, 0.5);
+  using A = Plain<Dual<double, 1>>;
+  PhasePoint<A, dynamic> dual;
+  dual.store({0.5, -0.3}, {1.0, 0.4});
+  const Any any = Any::of(problem);
+  auto method = recipe.template bind<Any, A>(any);
+  EXPECT_EQ(method.step(any, 0.5, dual), Outcome::done);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(typed.q[i], erased.q[i]);
+    EXPECT_EQ(typed.p[i], erased.p[i]);
+    EXPECT_EQ(typed.q[i], dual.q[i].value);
+    EXPECT_EQ(typed.p[i], dual.p[i].value);
+  }
+}
+TEST(Adaptive, types_do_not_change_bits) {
+  expect_same_behind_virtual_calls(HenonHeiles<double>(), Dop853{});
+  expect_same_behind_virtual_calls(HenonHeiles<double>(), Taylor{});
+  expect_same_behind_virtual_calls(DoublePendulumNonlinearAbsolute<double>(), Dop853{});
+  expect_same_behind_virtual_calls(DoublePendulumNonlinearAbsolute<double>(), Taylor{});
 }
 
 TEST(Adaptive, doubles_are_read_exactly_in_other_numbers) {

@@ -69,18 +69,18 @@ class TaylorMethod {
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
-  static_assert(Traceable<P, Real>,
+  static_assert(Traceable<P, Base>,
                 "hamflow: taylor needs a Differentiable problem whose functions are templates over the number type");
 
   /// Records H at a state like any other, so that what cannot be recorded is told before anything runs.
   TaylorMethod(const P& problem, const AdaptiveOptions& options)
       : options_(options), order_(options.order > 0 ? options.order : cheapest_order(options.tolerance)) {
     const std::size_t size = degrees_of_freedom(problem);
-    Vector<Real, n> q = zeros<Real, n>(size);
-    Vector<Real, n> p = q;
+    Vector<Base, n> q = zeros<Base, n>(size);
+    Vector<Base, n> p = q;
     for (std::size_t i = 0; i < size; ++i) {
-      q[i] = Real(Base(static_cast<int>(5 + 2 * i)) / Base(7));
-      p[i] = Real(Base(static_cast<int>(4 + 3 * i)) / Base(11));
+      q[i] = Base(static_cast<int>(5 + 2 * i)) / Base(7);
+      p[i] = Base(static_cast<int>(4 + 3 * i)) / Base(11);
     }
     record(problem, q, p);
   }
@@ -92,7 +92,7 @@ class TaylorMethod {
   /// One sweep over the tape, as long as an evaluation of the gradient, is counted for each coefficient.
   Effort effort() const { return {.gradient = sweeps_}; }
   long long substeps() const { return substeps_; }
-  const Tape<Real>& tape() const { return *tape_; }
+  const Tape<Base>& tape() const { return *tape_; }
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
@@ -149,8 +149,8 @@ class TaylorMethod {
     return Outcome::done;
   }
 
-  void record(const P& problem, const Vector<Real, n>& q, const Vector<Real, n>& p) {
-    tape_ = std::make_shared<const Tape<Real>>(tape_of_motion(problem, q, p));
+  void record(const P& problem, const Vector<Base, n>& q, const Vector<Base, n>& p) {
+    tape_ = std::make_shared<const Tape<Base>>(tape_of_motion(problem, q, p));
   }
   /// The series at z; a tape that was recorded on another side of a test for equality is recorded anew.
   void expand(const P& problem, const Base& unit, const PhasePoint<A, n>& z) {
@@ -165,9 +165,14 @@ class TaylorMethod {
         series.of(static_cast<int>(q.size() + i))[0] = p[i];
       }
       if (series.solve(*tape_, order, unit)) break;
-      record(problem, q, p);
+      record(problem, values(q), values(p));
     }
     sweeps_ += order_;
+  }
+  static Vector<Base, n> values(const Vector<Real, n>& x) {
+    Vector<Base, n> y = zeros<Base, n>(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) y[i] = value_of(x[i]);
+    return y;
   }
   /// z <- z + sum_{k>0} z_k s^k.
   void add(const Base& s, PhasePoint<A, n>& z) {
@@ -230,7 +235,7 @@ class TaylorMethod {
 
   AdaptiveOptions options_;
   int order_;
-  std::shared_ptr<const Tape<Real>> tape_;
+  std::shared_ptr<const Tape<Base>> tape_;
   Scratch scratch_;
   long long sweeps_ = 0;
   long long substeps_ = 0;

@@ -55,11 +55,14 @@ R self_convolution(const R* a, std::size_t k, std::size_t first) {
 
 }  // namespace detail
 
+/// @tparam R the numbers of the state, those of the tape or dual numbers over them
 template <class R>
 class TaylorSeries {
  public:
+  using Constant = base_scalar<R>;
+
   /// Room for coefficients 0..order of every node.
-  void resize(const Tape<R>& tape, std::size_t order) {
+  void resize(const Tape<Constant>& tape, std::size_t order) {
     width_ = order + 1;
     if (coefficients_.size() != tape.nodes.size() * width_)
       coefficients_ = Vector<R, dynamic>(tape.nodes.size() * width_);
@@ -71,7 +74,7 @@ class TaylorSeries {
   /// Coefficients 1..order of the inputs, from their coefficients 0. f_i is output i.
   /// @return false: at this state a guard of the tape does not hold, and nothing was computed
   template <class U>
-  bool solve(const Tape<R>& tape, std::size_t order, const U& unit) {
+  bool solve(const Tape<Constant>& tape, std::size_t order, const U& unit) {
     for (std::size_t k = 0; k < order; ++k) {
       for (std::size_t i = tape.inputs; i < tape.nodes.size(); ++i) extend(tape, static_cast<int>(i), k);
       if (k == 0 && !guards_hold(tape)) return false;
@@ -83,18 +86,18 @@ class TaylorSeries {
   }
 
   /// Coefficient k of one node, from those up to k of its operands.
-  void extend(const Tape<R>& tape, int node, std::size_t k) {
+  void extend(const Tape<Constant>& tape, int node, std::size_t k) {
     const TapeNode& n = tape.nodes[static_cast<std::size_t>(node)];
     R* const y = of(node);
     const R* const a = of(n.a < 0 ? 0 : n.a);
     const R* const b = of(n.b < 0 ? 0 : n.b);
-    const auto constant = [&]() -> const R& { return tape.constants[static_cast<std::size_t>(n.constant)]; };
+    const auto constant = [&]() -> const Constant& { return tape.constants[static_cast<std::size_t>(n.constant)]; };
     const R whole = R(static_cast<int>(k));
     switch (n.operation) {
       case Operation::input:
         break;
       case Operation::constant:
-        y[k] = k == 0 ? constant() : R(0);
+        y[k] = k == 0 ? R(constant()) : R(0);
         break;
       case Operation::add:
         y[k] = a[k] + b[k];
@@ -158,23 +161,23 @@ class TaylorSeries {
                       : R((a[k] - detail::weighted_convolution(y, b, k, 1, k - 1) / whole) / (R(1) + b[0]));
         break;
       case Operation::power:
-        y[k] = k == 0 ? R(pow(a[0], value_of(constant()))) : power(a, y, constant(), k);
+        y[k] = k == 0 ? R(pow(a[0], constant())) : power(a, y, constant(), k);
         break;
     }
   }
 
  private:
   /// a y' = c a' y:  k a_0 y_k = sum_{j=1}^{k} (c j - (k - j)) a_j y_{k-j}.
-  static R power(const R* a, const R* y, const R& c, std::size_t k) {
+  static R power(const R* a, const R* y, const Constant& c, std::size_t k) {
     R sum(0);
     for (std::size_t j = 1; j <= k; ++j) {
-      sum = sum + (c * R(static_cast<int>(j)) - R(static_cast<int>(k - j))) * a[j] * y[k - j];
+      sum = sum + (c * Constant(static_cast<int>(j)) - Constant(static_cast<int>(k - j))) * a[j] * y[k - j];
     }
     return sum / (R(static_cast<int>(k)) * a[0]);
   }
-  bool guards_hold(const Tape<R>& tape) const {
+  bool guards_hold(const Tape<Constant>& tape) const {
     for (const auto& guard : tape.guards) {
-      const R& now = of(guard.node)[0];
+      const Constant now = value_of(of(guard.node)[0]);
       if ((now <= guard.value && guard.value <= now) != guard.equal) return false;
     }
     return true;
