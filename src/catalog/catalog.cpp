@@ -235,7 +235,8 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   full.parameters = complete(problem.info, request.parameters);
   const MethodKind kind = find_method(request.method.name).kind;
   const bool typed = digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 &&
-                     kind != MethodKind::taylor && kind != MethodKind::force_gradient;
+                     kind != MethodKind::taylor && kind != MethodKind::force_gradient &&
+                     !(kind == MethodKind::runge_kutta && request.arithmetic == "compensated");
   return typed ? problem.simulate(full) : problem.simulate_erased(full);
 }
 

@@ -12,9 +12,6 @@
 
 namespace hamflow {
 
-template <class R>
-inline constexpr bool first_derivatives_only<Trace<R>> = true;
-
 /// The problem in R. It can be recorded on a tape, for taylor; in double it can also be differentiated, for the
 /// Jacobian of a step.
 template <class R>
@@ -24,13 +21,11 @@ struct ErasedFunctions {
   std::shared_ptr<const Functions<R>> plain;
   std::shared_ptr<const Functions<Trace<R>>> trace;
   std::shared_ptr<const Functions<Dual<double, 1>>> dual;
-  std::shared_ptr<const Functions<Trace<Dual<double, 1>>>> dual_trace;
 
   template <Capability c>
   auto as() const {
     if constexpr (std::is_same_v<R, double>) {
-      return AnyProblem<double, c, Trace<double>, Dual<double, 1>, Trace<Dual<double, 1>>>(size, plain, trace, dual,
-                                                                                           dual_trace);
+      return AnyProblem<double, c, Trace<double>, Dual<double, 1>>(size, plain, trace, dual);
     } else {
       return AnyProblem<R, c, Trace<R>>(size, plain, trace);
     }

@@ -16,7 +16,8 @@ std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Reque
       auto method = recipe.template bind<P, A>(problem);
       return std::make_unique<SimulationOf<P, decltype(method), A>>(problem, method, run.q, run.p, run.h, arithmetic);
     };
-    if constexpr (std::is_same_v<R, double> && has_typed_kernel<Recipe>) {
+    if constexpr (std::is_same_v<R, double> && has_typed_kernel<Recipe> &&
+                  (Recipe::bijective || always_compensated<Recipe>())) {
       return std::unique_ptr<Simulation>();  // compiled with each problem
     } else if constexpr (always_compensated<Recipe>()) {
       return build(Compensated<R>{});

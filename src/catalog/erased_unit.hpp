@@ -43,10 +43,9 @@ class ErasedUnit : ProblemStart<Family> {
   static ErasedFunctions<R> functions_of(const Family<R>& problem) {
     ErasedFunctions<R> all{capability_of<Family<R>>(), degrees_of_freedom(problem),
                            std::make_shared<FunctionsOf<Family<R>, R>>(problem),
-                           std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr, nullptr};
+                           std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr};
     if constexpr (std::is_same_v<R, double>) {
       all.dual = std::make_shared<FunctionsOf<Family<double>, Dual<double, 1>>>(problem);
-      all.dual_trace = std::make_shared<FunctionsOf<Family<double>, Trace<Dual<double, 1>>>>(problem);
     }
     return all;
   }

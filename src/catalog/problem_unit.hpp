@@ -142,9 +142,9 @@ class ProblemUnit : ProblemStart<Family> {
     auto method = recipe.template bind<Problems<R>, A>(problem);
     using M = decltype(method);
     if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
-    // Without a probe: what is worth it, being bound by the step alone.
+    // Without a probe where the benchmark looks at the step alone; elsewhere it is not worth the compiler's time.
     if constexpr (std::is_same_v<A, Plain<double>> && !std::is_same_v<Recipe, TableRecipe<Shape::any>> &&
-                  n != dynamic) {
+                  has_fast_kernel) {
       if (!request.watch) {
         return std::make_unique<SimulationOf<Problems<R>, M, A, NoProbe>>(problem, method, s.q, s.p, h,
                                                                           arithmetic_of<A>(request));
@@ -162,6 +162,8 @@ class ProblemUnit : ProblemStart<Family> {
         return nullptr;  // make_simulation has said why
       } else if constexpr (always_compensated<Recipe>()) {
         return build<Compensated<double>>(request, recipe);
+      } else if constexpr (!Recipe::bijective) {
+        return build<Plain<double>>(request, recipe);  // compensated: behind virtual calls
       } else {
         if constexpr (has_fast_kernel) {
           if (request.kernel == "fast") {

@@ -27,8 +27,6 @@
 
 namespace hamflow {
 
-template <class R>
-inline constexpr bool first_derivatives_only<Trace<R>> = true;
 
 namespace {
 

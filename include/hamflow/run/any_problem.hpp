@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/tape.hpp"
 #include "hamflow/run/probe.hpp"
 
 namespace hamflow {
@@ -39,6 +40,8 @@ constexpr Capability capability_of() {
 /// Number types that only record or carry first derivatives: no Hessian is compiled for them.
 template <class S>
 inline constexpr bool first_derivatives_only = false;
+template <class R>
+inline constexpr bool first_derivatives_only<Trace<R>> = true;
 
 /// The functions of one Hamiltonian for states of type S. What its Capability does not promise is never called.
 template <class S>
