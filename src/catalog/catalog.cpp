@@ -236,7 +236,7 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const MethodKind kind = find_method(request.method.name).kind;
   const bool typed = digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 &&
                      kind != MethodKind::taylor && kind != MethodKind::force_gradient &&
-                     !(kind == MethodKind::runge_kutta && request.arithmetic == "compensated");
+                     !(kind == MethodKind::runge_kutta && request.arithmetic == "compensated" && request.kernel == "exact");
   return typed ? problem.simulate(full) : problem.simulate_erased(full);
 }
 

@@ -162,8 +162,6 @@ class ProblemUnit : ProblemStart<Family> {
         return nullptr;  // make_simulation has said why
       } else if constexpr (always_compensated<Recipe>()) {
         return build<Compensated<double>>(request, recipe);
-      } else if constexpr (!Recipe::bijective) {
-        return build<Plain<double>>(request, recipe);  // compensated: behind virtual calls
       } else {
         if constexpr (has_fast_kernel) {
           if (request.kernel == "fast") {
@@ -173,10 +171,10 @@ class ProblemUnit : ProblemStart<Family> {
             return build<Plain<double>, Fast>(request, recipe);
           }
         }
-        if (request.arithmetic == "compensated") {
-          return build<Compensated<double>>(request, with_shape_at_run_time(recipe));
-        }
-        if constexpr (Recipe::bijective) {
+        if constexpr (Recipe::bijective) {  // others compensate behind virtual calls
+          if (request.arithmetic == "compensated") {
+            return build<Compensated<double>>(request, with_shape_at_run_time(recipe));
+          }
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }
         return build<Plain<double>>(request, recipe);
