@@ -52,7 +52,11 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
       list_settings(*inner, name + ".", settings);
     } else {
       std::ostringstream text;
-      node.visit([&](const auto& value) { text << value; });
+      if (const auto* number = node.as_floating_point()) {
+        text << shortest(number->get());
+      } else {
+        node.visit([&](const auto& value) { text << value; });
+      }
       const toml::source_position where = node.source().begin;
       settings[name] = {text.str(), static_cast<int>(where.line), static_cast<int>(where.column)};
     }

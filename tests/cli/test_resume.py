@@ -142,7 +142,7 @@ class Resume(CommandCase):
             self.assertEqual(rejected["status"], "rejected")
             self.assertEqual([e["key"] for e in rejected["errors"]], [key])
         self.write("s.toml", (self.folder / "s.toml").read_text().replace("dt = 0.01\n", "dt = 0.03\n"))
-        self.assertIn("s.toml:9:6: error: run.dt", self.run_to("r", "--resume", status=2).stderr)
+        self.assertIn("s.toml:9:6: error: run.dt: found 0.03;", self.run_to("r", "--resume", status=2).stderr)
         self.assertEqual({p.name: p.read_bytes() for p in (self.folder / "r").iterdir()}, before)
 
     def test_options_that_exclude_each_other(self):
