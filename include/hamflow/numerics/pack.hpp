@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "hamflow/core/math.hpp"
 
@@ -74,12 +75,24 @@ class Pack {
   using Register = simd::Register<Lanes>;
   using Mask = typename simd::RegisterOf<Lanes>::mask;
   static constexpr std::size_t size = Lanes * Registers;
+  static constexpr bool fast_inverse_cube = Lanes == 8;  // AVX-512: inverse_cube(pack, pack) below
 
   Pack() = default;
   /// The same in every lane.
   [[gnu::always_inline]] Pack(double x) {  // NOLINT: a constant is a pack
     for (Register& r : part) r = Register{} + x;
   }
+
+  /// A yes or no for every lane.
+  struct Flags {
+    bool get(std::size_t lane) const { return part[lane / Lanes][lane % Lanes] != 0; }
+    /// No, once x >= 0 is infinite or NaN.
+    [[gnu::always_inline]] void keep_where_finite(const Pack& x) {
+      const Register most = Register{} + std::numeric_limits<double>::max();
+      for (std::size_t i = 0; i < Registers; ++i) part[i] &= x.part[i] <= most;
+    }
+    Mask part[Registers]{};
+  };
 
   double get(std::size_t lane) const { return part[lane / Lanes][lane % Lanes]; }
   void set(std::size_t lane, double x) { part[lane / Lanes][lane % Lanes] = x; }
