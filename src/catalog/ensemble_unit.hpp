@@ -1,5 +1,5 @@
-// The blocks of lanes that the catalogue offers for one problem. The build makes one translation unit of it per problem,
-// as of problem_unit.hpp; a problem that lanes cannot take has an entry that says so.
+// The blocks of lanes that the catalogue offers for one problem. The build makes one translation unit of it per
+// problem, as of problem_unit.hpp; a problem that lanes cannot take has an entry that says so.
 #pragma once
 
 #include "hamflow/problems/support/fast_kernel.hpp"

@@ -1,7 +1,7 @@
 // Many numbers at once, one of each member of an ensemble: a few SIMD registers behind the operators of a number.
-// Everything is done lane by lane, in the operations and in the order of the scalar code, so that a lane has the bits of
-// a double. Several registers make one pack because a step of a splitting method is one chain of dependent operations:
-// while one register waits for its square root, the others work.
+// Everything is done lane by lane, in the operations and in the order of the scalar code, so that a lane has the bits
+// of a double. Several registers make one pack because a step of a splitting method is one chain of dependent
+// operations: while one register waits for its square root, the others work.
 //
 // Packs exist for more than one instruction set in one program, chosen at run time. Each has registers of its own
 // length, hence is a type of its own, and so is every function template that takes it: the linker never merges code of
@@ -137,15 +137,33 @@ class Pack {
   }
 
   // Functions of the system's library, one lane after the other.
-  friend Pack sin(const Pack& a) { return each(a, [](double x) { return std::sin(x); }); }
-  friend Pack cos(const Pack& a) { return each(a, [](double x) { return std::cos(x); }); }
-  friend Pack tan(const Pack& a) { return each(a, [](double x) { return std::tan(x); }); }
-  friend Pack exp(const Pack& a) { return each(a, [](double x) { return std::exp(x); }); }
-  friend Pack log(const Pack& a) { return each(a, [](double x) { return std::log(x); }); }
-  friend Pack atan(const Pack& a) { return each(a, [](double x) { return std::atan(x); }); }
-  friend Pack sinh(const Pack& a) { return each(a, [](double x) { return std::sinh(x); }); }
-  friend Pack cosh(const Pack& a) { return each(a, [](double x) { return std::cosh(x); }); }
-  friend Pack tanh(const Pack& a) { return each(a, [](double x) { return std::tanh(x); }); }
+  friend Pack sin(const Pack& a) {
+    return each(a, [](double x) { return std::sin(x); });
+  }
+  friend Pack cos(const Pack& a) {
+    return each(a, [](double x) { return std::cos(x); });
+  }
+  friend Pack tan(const Pack& a) {
+    return each(a, [](double x) { return std::tan(x); });
+  }
+  friend Pack exp(const Pack& a) {
+    return each(a, [](double x) { return std::exp(x); });
+  }
+  friend Pack log(const Pack& a) {
+    return each(a, [](double x) { return std::log(x); });
+  }
+  friend Pack atan(const Pack& a) {
+    return each(a, [](double x) { return std::atan(x); });
+  }
+  friend Pack sinh(const Pack& a) {
+    return each(a, [](double x) { return std::sinh(x); });
+  }
+  friend Pack cosh(const Pack& a) {
+    return each(a, [](double x) { return std::cosh(x); });
+  }
+  friend Pack tanh(const Pack& a) {
+    return each(a, [](double x) { return std::tanh(x); });
+  }
   friend Pack pow(const Pack& a, const Pack& b) {
     Pack y;
     for (std::size_t i = 0; i < size; ++i) y.set(i, std::pow(a.get(i), b.get(i)));
@@ -179,7 +197,7 @@ class Pack {
 /// k u^(-3/2) with the bits of the scalar inverse_cube on a machine with AVX-512.
 template <std::size_t Registers>
 [[gnu::always_inline]] inline Pack<8, Registers> inverse_cube(const Pack<8, Registers>& u,
-                                                             const Pack<8, Registers>& k) {
+                                                              const Pack<8, Registers>& k) {
   Pack<8, Registers> slope;
 #pragma GCC unroll 8
   for (std::size_t i = 0; i < Registers; ++i) simd::inverse_cube(slope.part[i], u.part[i], k.part[i]);

@@ -1,4 +1,5 @@
-// The typed block of an ensemble: a problem whose parameters are packs, a splitting whose coefficients are, and a state.
+// The typed block of an ensemble: a problem whose parameters are packs, a splitting whose coefficients are, and a
+// state.
 #pragma once
 
 #include <limits>
@@ -17,8 +18,8 @@ namespace hamflow {
 /// A problem that lanes can take: separable, of fixed size, and nothing but numbers. One that asks how large a number
 /// of the state is (lanes would answer differently) says `static constexpr bool lanes = false`.
 template <class P>
-concept LaneProblem = Separable<P> && P::dimension != dynamic && std::is_trivially_copyable_v<P> &&
-    !(requires { requires !P::lanes; });
+concept LaneProblem =
+    Separable<P> && P::dimension != dynamic&& std::is_trivially_copyable_v<P> && !(requires { requires !P::lanes; });
 
 // One function for each instruction set, into which everything is inlined: four registers to a pack, see pack.hpp.
 struct GenericLanes {
@@ -151,8 +152,7 @@ class EnsembleBlockOf final : public EnsembleBlock {
   }
   /// ConservationProbe, lane by lane; what is not finite is remembered, and does not stop the others.
   [[gnu::always_inline]] static void look_at(Parts& all) {
-    const Number error =
-        abs(hamflow::energy(all.problem, all.z.positions(), all.z.momenta()) - all.initial_energy);
+    const Number error = abs(hamflow::energy(all.problem, all.z.positions(), all.z.momenta()) - all.initial_energy);
     all.worst_energy = larger(all.worst_energy, error);
     all.regular.keep_where_finite(error);
     if constexpr (has_invariants) {
