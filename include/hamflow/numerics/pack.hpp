@@ -27,22 +27,12 @@ struct RegisterOf {
 template <std::size_t Lanes>
 using Register = typename RegisterOf<Lanes>::type;
 
-/// y <- sqrt(x), correctly rounded in every lane.
-template <class R>
-inline void square_root(R& y, const R& x) {
-  for (std::size_t i = 0; i < sizeof(R) / sizeof(double); ++i) y[i] = std::sqrt(x[i]);
-}
-
+// square_root: y <- sqrt(x), correctly rounded in every lane.
 #if defined(__x86_64__) && defined(__GNUC__)
-template <>
-inline void square_root(Register<2>& y, const Register<2>& x) {
-  __asm__("sqrtpd %1, %0" : "=x"(y) : "x"(x));
-}
-template <>
-__attribute__((target("avx"))) inline void square_root(Register<4>& y, const Register<4>& x) {
+inline void square_root(Register<2>& y, const Register<2>& x) { __asm__("sqrtpd %1, %0" : "=x"(y) : "x"(x)); }
+__attribute__((target("avx2"))) inline void square_root(Register<4>& y, const Register<4>& x) {
   __asm__("vsqrtpd %1, %0" : "=x"(y) : "x"(x));
 }
-template <>
 __attribute__((target("avx512f"))) inline void square_root(Register<8>& y, const Register<8>& x) {
   __asm__("vsqrtpd %1, %0" : "=v"(y) : "v"(x));
 }
@@ -63,6 +53,11 @@ __attribute__((target("avx512f"))) inline void inverse_cube(Register<8>& slope, 
   __asm__("vfmadd213pd %2, %1, %0" : "+v"(sum) : "v"(e * e), "v"(low));  // e^2 sum + low
   slope = k * (y * yy);
   __asm__("vfmadd231pd %2, %1, %0" : "+v"(slope) : "v"(slope * e), "v"(sum));
+}
+#else
+template <class R>
+inline void square_root(R& y, const R& x) {
+  for (std::size_t i = 0; i < sizeof(R) / sizeof(double); ++i) y[i] = std::sqrt(x[i]);
 }
 #endif
 

@@ -89,13 +89,13 @@ class EnsembleBlockOf final : public EnsembleBlock {
     SplittingSequence<Number> scaled{sequence_.starts_with, {}};
     for (const double c : sequence_.coefficients) scaled.coefficients.push_back(h * Number(c));
     if (scaled.ends_alike() != sequence_.ends_alike()) return false;  // h so small that all coefficients are 0
-    parts_.emplace(Parts{P(parameters), Stepper(scaled, describe_, table_), {}, {}, {}, {}, {}, {}, {}});
+    parts_.emplace(Parts{P(parameters), Stepper(scaled, describe_, table_), {}, {}, {}});
     Parts& all = *parts_;
     all.z.store(q, p);
-    all.initial_energy = hamflow::energy(all.problem, q, p);
-    all.scale = larger(abs(all.initial_energy), abs(all.problem.kinetic(p)) + abs(all.problem.potential(q)));
-    if constexpr (has_invariants) all.initial = invariants_of(all);
-    for (auto& part : all.regular.part) part = ~typename Number::Mask{};
+    all.watched.initial_energy = hamflow::energy(all.problem, q, p);
+    all.scale = larger(abs(all.watched.initial_energy), abs(all.problem.kinetic(p)) + abs(all.problem.potential(q)));
+    if constexpr (has_invariants) all.watched.initial = invariants_of(all.problem, all.z);
+    for (auto& part : all.watched.regular.part) part = ~typename Number::Mask{};
     return true;
   }
 
@@ -103,13 +103,18 @@ class EnsembleBlockOf final : public EnsembleBlock {
 
   /// The loop over steps, on copies that can stay in registers.
   [[gnu::always_inline]] void march(std::int64_t steps) {
-    Parts all = *parts_;
+    const P problem = parts_->problem;
+    Stepper method = parts_->method;
+    PhasePoint<Plain<Number>, n> z = parts_->z;
+    Watched watched = parts_->watched;
     const Number one(1.0);  // h is in the coefficients
     for (std::int64_t i = 0; i < steps; ++i) {
-      (void)all.method.step(all.problem, one, all.z);
-      if constexpr (watch) look_at(all);
+      (void)method.step(problem, one, z);
+      if constexpr (watch) look_at(problem, z, watched);
     }
-    *parts_ = all;
+    parts_->method = method;
+    parts_->z = z;
+    parts_->watched = watched;
   }
 
   MemberEnd look(std::size_t lane) const override {
@@ -119,18 +124,19 @@ class EnsembleBlockOf final : public EnsembleBlock {
     MemberEnd end;
     constexpr double most = std::numeric_limits<double>::max();
     const Number energy = hamflow::energy(all.problem, q, p);
-    end.regular = all.regular.get(lane) && std::abs(energy.get(lane)) <= most;
+    end.regular = all.watched.regular.get(lane) && std::abs(energy.get(lane)) <= most;
     for (std::size_t i = 0; i < n; ++i) {
       end.q.push_back(q[i].get(lane));
       end.p.push_back(p[i].get(lane));
       end.regular = end.regular && std::abs(end.q[i]) <= most && std::abs(end.p[i]) <= most;
     }
-    end.energy = {all.initial_energy.get(lane), energy.get(lane), all.worst_energy.get(lane)};
+    end.energy = {all.watched.initial_energy.get(lane), energy.get(lane), all.watched.worst_energy.get(lane)};
     end.energy_scale = all.scale.get(lane);
     if constexpr (has_invariants) {
-      const Invariants now = invariants_of(all);
+      const Invariants now = invariants_of(all.problem, all.z);
       for (std::size_t k = 0; k < now.size(); ++k) {
-        end.invariants.push_back({{all.initial[k].get(lane)}, {now[k].get(lane)}, all.worst[k].get(lane)});
+        end.invariants.push_back(
+            {{all.watched.initial[k].get(lane)}, {now[k].get(lane)}, all.watched.worst[k].get(lane)});
       }
     }
     return end;
@@ -138,29 +144,33 @@ class EnsembleBlockOf final : public EnsembleBlock {
 
  private:
   using Stepper = Splitting<P, Plain<Number>, Shape::any>;
+  struct Watched {
+    Number initial_energy, worst_energy;
+    Invariants initial, worst;
+    typename Number::Flags regular;
+  };
   struct Parts {
     P problem;
     Stepper method;
     PhasePoint<Plain<Number>, n> z;
-    Number initial_energy, worst_energy, scale;
-    Invariants initial, worst;
-    typename Number::Flags regular;
+    Number scale;
+    Watched watched;
   };
 
-  [[gnu::always_inline]] static Invariants invariants_of(const Parts& all) {
-    return detail::invariants_of(all.problem, all.z.positions(), all.z.momenta(), Number(0.0));
+  [[gnu::always_inline]] static Invariants invariants_of(const P& problem, const PhasePoint<Plain<Number>, n>& z) {
+    return detail::invariants_of(problem, z.positions(), z.momenta(), Number(0.0));
   }
   /// ConservationProbe, lane by lane; what is not finite is remembered, and does not stop the others.
-  [[gnu::always_inline]] static void look_at(Parts& all) {
-    const Number error = abs(hamflow::energy(all.problem, all.z.positions(), all.z.momenta()) - all.initial_energy);
-    all.worst_energy = larger(all.worst_energy, error);
-    all.regular.keep_where_finite(error);
+  [[gnu::always_inline]] static void look_at(const P& problem, const PhasePoint<Plain<Number>, n>& z, Watched& w) {
+    const Number error = abs(hamflow::energy(problem, z.positions(), z.momenta()) - w.initial_energy);
+    w.worst_energy = larger(w.worst_energy, error);
+    w.regular.keep_where_finite(error);
     if constexpr (has_invariants) {
-      static_assert(!(requires(const P& problem) { problem.invariant_sizes(); }),
+      static_assert(!(requires { problem.invariant_sizes(); }),
                     "hamflow: lanes know invariants of one component each; say static constexpr bool lanes = false");
-      const Invariants values = invariants_of(all);
+      const Invariants values = invariants_of(problem, z);
       for (std::size_t k = 0; k < values.size(); ++k) {
-        all.worst[k] = larger(all.worst[k], abs(values[k] - all.initial[k]));
+        w.worst[k] = larger(w.worst[k], abs(values[k] - w.initial[k]));
       }
     }
   }
