@@ -187,7 +187,7 @@ int carry_out(Sweep& sweep, const SweepCommandOptions& options) {
   catch_interrupts();
   const auto begin = std::chrono::steady_clock::now();
   {
-    Progress progress(sweep.total_steps(), options.quiet);
+    Progress progress(0, sweep.total_steps(), options.quiet);
     sweep.run([&](std::int64_t steps) {
       progress.show(steps);
       return !interrupted();
