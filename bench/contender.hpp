@@ -72,5 +72,6 @@ std::vector<Workload> explicit_workloads(const Task& task);
 std::vector<Workload> element_workloads(const Task& task);
 /// For verlet and stv4.
 void add_fast_contenders(Workload& workload, const Task& task);
+void add_lane_contenders(Workload& workload, const Task& task);
 
 }  // namespace bench

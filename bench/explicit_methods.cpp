@@ -180,6 +180,7 @@ Workload workload(const Task& task, const std::string& method, int forces, const
   }
   add_library_contenders(w, task, recipe, 1.03, true);
   add_fast_contenders(w, task);
+  add_lane_contenders(w, task);
   add_peers(w, task);
   return w;
 }

@@ -21,6 +21,19 @@ struct RunOptions {
 };
 int run_scenario(const RunOptions& options);
 
+struct SweepCommandOptions {
+  std::string scenario;
+  std::vector<std::string> varied;  // PATH=a:b:n or PATH=v1,v2,...
+  std::vector<std::string> sets;
+  std::string out;    // a folder, "none", or empty for <stem>.sweep
+  std::string lanes;  // auto, none, generic, avx2, avx512
+  int threads = 0;    // 0: as the scenario says, else all cores
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+int run_sweep(const SweepCommandOptions& options);
+
 struct PlotOptions {
   std::string run;   // a folder or its run.h5
   std::string kind;  // empty: orbit where there is one, else phase

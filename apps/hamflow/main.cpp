@@ -77,6 +77,37 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   plot_command->callback([&] { status = plot_run(plot); });
 
+  SweepCommandOptions sweep;
+  CLI::App* sweep_command =
+      add(app, "sweep", "Run a scenario for many values of some keys: one table, one row each, on all cores",
+          "  hamflow sweep kepler.toml --vary problem.orbit.r_aph=1:5:1000\n"
+          "  hamflow sweep pendulum.toml --vary 'problem.initial.q[0]=-3:3:200' --vary 'problem.initial.p[0]=-2:2:200'\n"
+          "  hamflow sweep kepler.toml --vary method.name=verlet,stv4,yoshida6 --vary run.dt=0.1,0.05,0.025 --json "
+          "--out none\n");
+  sweep_command->add_option("scenario", sweep.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
+  sweep_command
+      ->add_option("--vary", sweep.varied,
+                   "a key and its values: PATH=a:b:n, n values from a to b, or PATH=v1,v2,...; of several, every "
+                   "combination, the last one changing fastest")
+      ->required()
+      ->type_name("PATH=VALUES")
+      ->allow_extra_args(false);
+  sweep_command->add_option("--set", sweep.sets, "override a key for all members, e.g. run.dt=0.05")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")
+      ->type_name("DIR")
+      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+  sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")->type_name("N");
+  sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
+      ->type_name("SET");
+  sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
+  sweep_command->add_flag("--json", sweep.json,
+                          "print the summary as JSON, and nothing else, on stdout; with --out none and at most 10^4 "
+                          "members their rows too");
+  sweep_command->add_flag("--quiet", sweep.quiet, "no progress, no notes");
+  sweep_command->callback([&] { status = run_sweep(sweep); });
+
   VerifyOptions verify;
   CLI::App* verify_command =
       add(app, "verify", "Measure the properties of methods: order, symplecticity, reversibility, energy",

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "scenario_reader.hpp"
+#include "toml_path.hpp"
 
 namespace hamflow {
 
@@ -18,30 +19,8 @@ void apply_set(toml::table& root, const std::string& set, const std::string& fil
     complaints.push_back({file, 0, 0, set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"});
     return;
   }
-  const std::string text = set.substr(equals + 1);
-  toml::table value;
-  try {
-    value = toml::parse("value = " + text);
-  } catch (const toml::parse_error&) {
-    value.clear();
-  }
-  if (value.size() != 1) {  // not a TOML value: a string
-    value.clear();
-    value.insert_or_assign("value", text);
-  }
-  toml::table* table = &root;
-  std::string rest = path;
-  for (auto dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-    const std::string head = rest.substr(0, dot);
-    if (!table->contains(head)) table->insert(head, toml::table{});
-    table = table->get(head)->as_table();
-    if (table == nullptr) {
-      complaints.push_back({file, 0, 0, path, "found " + head + " to be no table; allowed a path through tables"});
-      return;
-    }
-    rest = rest.substr(dot + 1);
-  }
-  table->insert_or_assign(rest, *value.get("value"));
+  const std::string wrong = assign(root, path, *parsed_value(set.substr(equals + 1)).get("value"));
+  if (!wrong.empty()) complaints.push_back({file, 0, 0, path, wrong});
 }
 
 /// Every value by its dotted path.

@@ -38,6 +38,8 @@ class Kepler {
   S fast_slope(const S& u, const F& factor = F(1)) const {
     if constexpr (std::is_same_v<S, double> && std::is_same_v<R, double> && std::is_same_v<F, double>) {
       return inverse_cube(u, factor * k_);
+    } else if constexpr (requires { requires S::fast_inverse_cube; }) {  // lanes that have the instructions
+      return inverse_cube(u, factor * k_);
     } else {
       return slope(u, factor);
     }

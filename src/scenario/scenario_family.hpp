@@ -1,0 +1,38 @@
+// Many scenarios that differ in a few keys: the text is parsed once, then each member is read and checked like a
+// scenario of its own with --set PATH=VALUE.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scenario.hpp"
+
+namespace hamflow {
+
+class ScenarioFamily {
+ public:
+  /// @param sets PATH=VALUE texts, for all members
+  ScenarioFamily(const std::string& text, const std::string& name, const std::vector<std::string>& sets);
+  ~ScenarioFamily();
+  ScenarioFamily(const ScenarioFamily&) = delete;
+  ScenarioFamily& operator=(const ScenarioFamily&) = delete;
+
+  /// What is wrong for all members.
+  const std::vector<Complaint>& complaints() const;
+  /// Prepares a value that members may have, so that it is parsed once. @return its number
+  std::size_t add_value(const std::string& text);
+  /// Sets paths[i] to the value of number values[i] and reads the scenario. Its text is empty.
+  Reading read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values);
+  /// The text with a comment line for each --set.
+  const std::string& text() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The text of a scenario file. @throws FileError
+std::string scenario_text(const std::string& file);
+
+}  // namespace hamflow

@@ -1,0 +1,360 @@
+#include "sweep.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <limits>
+#include <thread>
+
+#include "hamflow/run/observer.hpp"
+
+namespace hamflow {
+
+std::string_view name(MemberStatus status) {
+  switch (status) {
+    case MemberStatus::done:
+      return "done";
+    case MemberStatus::interrupted:
+      return "interrupted";
+    case MemberStatus::not_converged:
+      return "not_converged";
+    case MemberStatus::non_finite:
+      return "non_finite";
+    case MemberStatus::lattice_overflow:
+      return "lattice_overflow";
+    case MemberStatus::not_run:
+      return "not_run";
+  }
+  return "unknown";
+}
+
+namespace {
+
+MemberStatus status_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::done:
+      return MemberStatus::done;
+    case Outcome::stopped:
+      return MemberStatus::interrupted;
+    case Outcome::not_converged:
+      return MemberStatus::not_converged;
+    case Outcome::non_finite:
+      return MemberStatus::non_finite;
+    case Outcome::lattice_overflow:
+      return MemberStatus::lattice_overflow;
+  }
+  return MemberStatus::not_run;
+}
+
+std::string message_of(Outcome outcome, const Simulation& simulation) {
+  if (outcome == Outcome::non_finite) return "the energy or the state became infinite or NaN";
+  if (outcome == Outcome::lattice_overflow) return "a number left the range of the lattice";
+  return outcome == Outcome::not_converged ? simulation.failure() : "";
+}
+
+/// Each thread with a copy of the scenario of its own. An exception of a thread is that of the caller.
+template <class Work>
+void on_threads(int threads, const Work& work) {
+  std::exception_ptr trouble;
+  std::mutex mutex;
+  const auto guarded = [&] {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!trouble) trouble = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back(guarded);
+    guarded();
+  }
+  if (trouble) std::rethrow_exception(trouble);
+}
+
+}  // namespace
+
+Sweep::Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
+             std::vector<Vary> varied, SweepOptions options)
+    : varied_(std::move(varied)), options_(std::move(options)), raw_text_(text), name_(name), sets_(sets) {
+  ScenarioFamily family(text, name, sets);
+  text_ = family.text();
+  for (const Complaint& complaint : family.complaints()) complaints_.push_back(complaint.text());
+  if (!complaints_.empty()) return;
+  rows_.resize(member_count(varied_));
+  starts_.resize(rows_.size());
+  threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
+  threads_ = std::max(threads_, 1);
+  read_members(name);
+}
+
+std::string Sweep::described(std::size_t member) const {
+  const std::vector<std::size_t> values = values_of_member(varied_, member);
+  std::string text = "member " + std::to_string(member);
+  for (std::size_t k = 0; k < varied_.size(); ++k) {
+    text += (k == 0 ? ": " : ", ") + varied_[k].path + "=" + varied_[k].texts[values[k]];
+  }
+  return text;
+}
+
+void Sweep::read_members(const std::string& name) {
+  std::atomic<std::size_t> next{0};
+  constexpr std::size_t batch = 64;
+  const auto work = [&] {
+    ScenarioFamily family(raw_text_, name, sets_);
+    std::vector<std::string> paths;
+    std::vector<std::size_t> first;
+    for (const Vary& vary : varied_) {
+      paths.push_back(vary.path);
+      for (std::size_t i = 0; i < vary.texts.size(); ++i) {
+        const std::size_t number = family.add_value(vary.texts[i]);
+        if (i == 0) first.push_back(number);
+      }
+    }
+    for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
+      for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
+        std::vector<std::size_t> values = values_of_member(varied_, member);
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] += first[k];
+        const Reading reading = family.read(paths, values);
+        if (reading.scenario) {
+          add(member, *reading.scenario);
+          continue;
+        }
+        const std::lock_guard lock(mutex_);
+        for (const Complaint& complaint : reading.complaints) {
+          std::string text = complaint.text();
+          const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+            return path.starts_with(complaint.key) || complaint.key.starts_with(path);
+          });
+          if (complaint.line == 0 && of_vary) text = "--vary" + text.substr(std::string("--set").size());
+          found_[text].push_back(member);
+        }
+      }
+    }
+  };
+  on_threads(rows_.size() > 4 * batch ? threads_ : 1, work);
+  if (!found_.empty()) {
+    report(found_);
+    return;
+  }
+  for (auto& [key, group] : groups_) std::sort(group.members.begin(), group.members.end());
+}
+
+void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found) {
+  constexpr std::size_t most = 10;
+  std::vector<std::pair<std::size_t, std::string>> lines;
+  for (const auto& [text, members] : found) {
+    const std::size_t first = *std::min_element(members.begin(), members.end());
+    const bool all = members.size() == rows_.size();
+    lines.emplace_back(first, all ? text
+                                  : text + " (" + described(first) +
+                                        (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") +
+                                        ")");
+  }
+  std::sort(lines.begin(), lines.end());
+  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) complaints_.push_back(lines[i].second);
+  if (lines.size() > most) {
+    complaints_.push_back("error: and " + std::to_string(lines.size() - most) + " more of this kind");
+  }
+}
+
+/// Rows of one table have the same columns.
+void Sweep::check_alike(std::size_t member, const Scenario& scenario) {
+  if (scenario.start_q.size() == common_.start_q.size() && scenario.problem->info.name == common_.problem->info.name) {
+    return;
+  }
+  found_
+      ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
+       "that is one problem of one size"]
+          .push_back(member);
+}
+
+void Sweep::add(std::size_t member, const Scenario& scenario) {
+  const Request& request = scenario.request;
+  const Parameters<double> parameters(request.parameters);
+  ParameterShape shape;
+  MemberStart start{scenario.start_q, scenario.start_p, {}, evaluate_number<double>(request.dt)};
+  std::string key = request.problem + '\n' + request.method.name + '\n' + request.arithmetic + '\n' + request.kernel;
+  for (const auto& [choice, value] : request.variant) key += '\n' + choice + '=' + value;
+  for (const ParameterInfo& info : scenario.problem->info.parameters) {
+    if (!parameters.has(info.name)) continue;
+    const std::vector<double>& numbers = parameters.list(info.name);
+    shape.emplace_back(info.name, numbers.size());
+    start.parameters.insert(start.parameters.end(), numbers.begin(), numbers.end());
+    key += '\n' + info.name + ' ' + std::to_string(numbers.size());
+  }
+  key += '\n' + std::to_string(scenario.steps);
+
+  const std::lock_guard lock(mutex_);
+  if (common_.problem == nullptr || member == 0) {
+    common_ = scenario;
+  } else {
+    check_alike(member, scenario);
+  }
+  auto [at, is_new] = groups_.try_emplace(key);
+  Group& group = at->second;
+  if (is_new) {
+    group.request = request;
+    group.shape = shape;
+    group.steps = scenario.steps;
+    const auto block = make_ensemble_block(request, options_.lanes);
+    group.lanes = block == nullptr || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
+  }
+  group.members.push_back(member);
+  total_steps_ += scenario.steps;
+  if (group.lanes > 0) {
+    ++in_lanes_;
+    lane_count_ = group.lanes;
+    starts_[member] = std::move(start);
+  }
+}
+
+/// What one thread has of its own.
+class Sweep::Worker {
+ public:
+  explicit Worker(Sweep& sweep) : sweep_(sweep) {}
+
+  void carry_out(const Task& task) {
+    if (task.group->lanes == 0) {
+      run_alone(task.group->members[task.first]);
+    } else {
+      run_in_lanes(task);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void run_in_lanes(const Task& task) {
+    const Group& group = *task.group;
+    auto& block = blocks_[task.group];
+    if (!block) block = make_ensemble_block(group.request, sweep_.options_.lanes);
+    const auto* const members = group.members.data() + task.first;
+    std::vector<MemberStart> starts;
+    for (std::size_t lane = 0; lane < task.count; ++lane) starts.push_back(sweep_.starts_[members[lane]]);
+    if (!block->load(group.shape, starts)) {
+      for (std::size_t lane = 0; lane < task.count; ++lane) run_alone(members[lane]);
+      return;
+    }
+    std::int64_t taken = 0;
+    std::int64_t chunk = 256;
+    while (taken < group.steps && !sweep_.stop_) {
+      const auto begin = Clock::now();
+      const std::int64_t steps = std::min(chunk, group.steps - taken);
+      block->advance(steps);
+      taken += steps;
+      sweep_.steps_taken_ += steps * static_cast<std::int64_t>(task.count);
+      if (Clock::now() - begin < std::chrono::milliseconds(10)) chunk = std::min(chunk * 2, std::int64_t{1} << 40);
+    }
+    const bool complete = taken == group.steps;
+    for (std::size_t lane = 0; lane < task.count; ++lane) {
+      MemberEnd end = block->look(lane);
+      MemberRow& row = sweep_.rows_[members[lane]];
+      if (!end.regular) {  // the run alone tells what happened, and when
+        if (complete) run_alone(members[lane]);
+        continue;
+      }
+      row.status = complete ? MemberStatus::done : MemberStatus::interrupted;
+      row.steps = taken;
+      row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[members[lane]].h;
+      row.q = std::move(end.q);
+      row.p = std::move(end.p);
+      row.energy = end.energy;
+      row.energy_scale = end.energy_scale;
+      row.invariants = std::move(end.invariants);
+      if (complete && sweep_.options_.observables.observe) {
+        row.observables = sweep_.options_.observables.observe(scenario_of(members[lane]));
+      }
+    }
+  }
+
+  void run_alone(std::size_t member) {
+    const Scenario scenario = scenario_of(member);
+    const auto simulation = make_simulation(scenario.request);
+    std::int64_t counted = 0;
+    const Outcome outcome = hamflow::run(*simulation, scenario.steps, {}, [&](std::int64_t step) {
+      sweep_.steps_taken_ += step - counted;
+      counted = step;
+      return !sweep_.stop_;
+    });
+    MemberRow& row = sweep_.rows_[member];
+    Frame frame;
+    simulation->look(frame);
+    row.status = hamflow::status_of(outcome);
+    row.steps = frame.step;
+    row.t = frame.time;
+    row.q = frame.q;
+    row.p = frame.p;
+    row.energy = simulation->energy();
+    row.energy_scale = simulation->energy_scale();
+    row.invariants = simulation->invariants();
+    row.message = message_of(outcome, *simulation);
+    if (outcome == Outcome::done && sweep_.options_.observables.observe) {
+      row.observables = sweep_.options_.observables.observe(scenario);
+    }
+  }
+
+  /// Read anew: 10^5 scenarios at once would fill the memory.
+  Scenario scenario_of(std::size_t member) {
+    if (!family_) {
+      family_ = std::make_unique<ScenarioFamily>(sweep_.raw_text_, sweep_.name_, sweep_.sets_);
+      for (const Vary& vary : sweep_.varied_) paths_.push_back(vary.path);
+    }
+    std::vector<std::size_t> values = values_of_member(sweep_.varied_, member);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto key = std::pair(k, values[k]);
+      if (!numbers_.contains(key)) numbers_[key] = family_->add_value(sweep_.varied_[k].texts[values[k]]);
+      values[k] = numbers_[key];
+    }
+    Reading reading = family_->read(paths_, values);
+    if (!reading.scenario) throw Error("a member that could be read before cannot be read now");
+    return *std::move(reading.scenario);
+  }
+
+  Sweep& sweep_;
+  std::map<const Group*, std::unique_ptr<EnsembleBlock>> blocks_;
+  std::unique_ptr<ScenarioFamily> family_;
+  std::vector<std::string> paths_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers_;
+};
+
+void Sweep::run(const std::function<bool(std::int64_t)>& pulse) {
+  std::vector<Task> tasks;
+  for (const auto& [key, group] : groups_) {
+    const std::size_t at_once = std::max<std::size_t>(group.lanes, 1);
+    for (std::size_t i = 0; i < group.members.size(); i += at_once) {
+      tasks.push_back({&group, i, std::min(at_once, group.members.size() - i)});
+    }
+  }
+  // The longest first, so that no thread is left with one at the end.
+  std::stable_sort(tasks.begin(), tasks.end(),
+                   [](const Task& a, const Task& b) { return a.group->steps > b.group->steps; });
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::condition_variable finished;
+  bool over = false;
+  std::jthread watch([&] {
+    std::unique_lock lock(mutex);
+    while (!finished.wait_for(lock, std::chrono::milliseconds(20), [&] { return over; })) {
+      if (pulse && !pulse(steps_taken_)) stop_ = true;
+    }
+  });
+  const auto end = [&] {
+    const std::lock_guard lock(mutex);
+    over = true;
+    finished.notify_all();
+  };
+  try {
+    on_threads(std::min<int>(threads_, static_cast<int>(std::max<std::size_t>(tasks.size(), 1))), [&] {
+      Worker worker(*this);
+      for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) worker.carry_out(tasks[i]);
+    });
+  } catch (...) {
+    end();
+    throw;
+  }
+  end();
+}
+
+}  // namespace hamflow

@@ -1,0 +1,116 @@
+// A sweep: every member of a family of scenarios, on all cores, one in each SIMD lane where problem and method allow.
+// Results have the bits of the single runs, whatever the lanes and the number of threads.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hamflow/run/ensemble.hpp"
+#include "scenario_family.hpp"
+#include "vary.hpp"
+
+namespace hamflow {
+
+enum class MemberStatus { done, interrupted, not_converged, non_finite, lattice_overflow, not_run };
+std::string_view name(MemberStatus status);
+
+/// What a member leaves. Of one that failed: its last good state.
+struct MemberRow {
+  MemberStatus status = MemberStatus::not_run;
+  std::int64_t steps = 0;
+  double t = 0;
+  std::vector<double> q;
+  std::vector<double> p;
+  Excursion energy;
+  double energy_scale = 0;
+  std::vector<InvariantExcursion> invariants;
+  std::vector<double> observables;
+  std::string message;  // of a failure
+};
+
+/// Further columns, e.g. an exponent: numbers computed for each member from its scenario, on the member's thread.
+struct MemberObservables {
+  std::vector<std::string> names;
+  std::function<std::vector<double>(const Scenario&)> observe;
+};
+
+struct SweepOptions {
+  int threads = 0;  // 0: all cores
+  LaneSet lanes = LaneSet::none;
+  MemberObservables observables{};
+};
+
+class Sweep {
+ public:
+  /// Reads and checks every member. Where something is wrong, complaints() tells it and nothing can be run.
+  Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
+        std::vector<Vary> varied, SweepOptions options);
+
+  /// One line each, at most ten.
+  const std::vector<std::string>& complaints() const { return complaints_; }
+  std::size_t members() const { return rows_.size(); }
+  const std::vector<Vary>& varied() const { return varied_; }
+  const std::vector<MemberRow>& rows() const { return rows_; }
+  /// The first member's scenario, for what all have in common.
+  const Scenario& common() const { return common_; }
+  const std::string& text() const { return text_; }
+  const MemberObservables& observables() const { return options_.observables; }
+  int threads() const { return threads_; }
+  LaneSet lanes() const { return in_lanes_ > 0 ? options_.lanes : LaneSet::none; }
+  std::size_t lane_count() const { return lane_count_; }
+  /// Members that run in lanes.
+  std::size_t members_in_lanes() const { return in_lanes_; }
+  std::int64_t total_steps() const { return total_steps_; }
+
+  /// Runs all members. @param pulse called several times a second with the steps taken by all; false stops
+  void run(const std::function<bool(std::int64_t)>& pulse);
+
+ private:
+  /// Members that can share a block.
+  struct Group {
+    Request request;
+    ParameterShape shape;
+    std::int64_t steps = 0;
+    std::size_t lanes = 0;  // 0: they run one by one
+    std::vector<std::size_t> members;
+  };
+  struct Task {
+    const Group* group;
+    std::size_t first;
+    std::size_t count;
+  };
+  class Worker;
+
+  void read_members(const std::string& name);
+  void add(std::size_t member, const Scenario& scenario);
+  void check_alike(std::size_t member, const Scenario& scenario);
+  void report(const std::map<std::string, std::vector<std::size_t>>& found);
+  std::string described(std::size_t member) const;
+
+  std::vector<Vary> varied_;
+  SweepOptions options_;
+  std::string raw_text_;
+  std::string name_;
+  std::vector<std::string> sets_;
+  std::string text_;
+  Scenario common_;
+  std::vector<std::string> complaints_;
+  std::vector<MemberStart> starts_;  // of members in lanes
+  std::vector<MemberRow> rows_;
+  std::map<std::string, Group> groups_;
+  std::mutex mutex_;
+  std::map<std::string, std::vector<std::size_t>> found_;  // complaint -> members
+  int threads_ = 1;
+  std::size_t in_lanes_ = 0;
+  std::size_t lane_count_ = 0;
+  std::int64_t total_steps_ = 0;
+  std::atomic<bool> stop_{false};
+  std::atomic<std::int64_t> steps_taken_{0};
+};
+
+}  // namespace hamflow

@@ -1,0 +1,204 @@
+#include "sweep_table.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+
+#include "hdf5_handle.hpp"
+
+namespace hamflow {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// A column of `width` numbers a row; value(row) is a vector that may be empty.
+template <class F>
+SweepColumn vectors(const Sweep& sweep, std::string name, std::size_t width, bool scalar, const F& value) {
+  SweepColumn column{std::move(name), width, scalar};
+  column.numbers.reserve(sweep.members() * width);
+  for (const MemberRow& row : sweep.rows()) {
+    const std::vector<double>& x = value(row);
+    for (std::size_t i = 0; i < width; ++i) column.numbers.push_back(i < x.size() ? x[i] : nothing);
+  }
+  return column;
+}
+
+template <class F>
+SweepColumn numbers(const Sweep& sweep, std::string name, const F& value) {
+  SweepColumn column{std::move(name)};
+  column.numbers.reserve(sweep.members());
+  for (const MemberRow& row : sweep.rows()) column.numbers.push_back(row.q.empty() ? nothing : value(row));
+  return column;
+}
+
+void add_varied(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+  for (std::size_t k = 0; k < sweep.varied().size(); ++k) {
+    const Vary& vary = sweep.varied()[k];
+    SweepColumn column{"varied/" + vary.path};
+    for (std::size_t member = 0; member < sweep.members(); ++member) {
+      const std::size_t value = values_of_member(sweep.varied(), member)[k];
+      if (vary.numbers.empty()) {
+        column.texts.push_back(vary.texts[value]);
+      } else {
+        column.numbers.push_back(vary.numbers[value]);
+      }
+    }
+    columns.push_back(std::move(column));
+  }
+}
+
+void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+  const Scenario& common = sweep.common();
+  const std::vector<InvariantInfo>& declared = common.problem->info.invariants;
+  const std::vector<std::size_t> sizes =
+      common.problem->invariant_sizes(common.request.parameters, common.start_q.size());
+  static const InvariantExcursion none{{}, {}, nothing};
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    const std::string group = "invariants/" + declared[i].name + "/";
+    const auto of = [i](const MemberRow& row) -> const InvariantExcursion& {
+      return i < row.invariants.size() ? row.invariants[i] : none;
+    };
+    const bool scalar = sizes[i] == 1;
+    columns.push_back(vectors(sweep, group + "initial", sizes[i], scalar,
+                              [&](const MemberRow& row) -> const std::vector<double>& { return of(row).initial; }));
+    columns.push_back(vectors(sweep, group + "final", sizes[i], scalar,
+                              [&](const MemberRow& row) -> const std::vector<double>& { return of(row).final; }));
+    columns.push_back(numbers(sweep, group + "max_error", [&](const MemberRow& row) { return of(row).max_error; }));
+  }
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  check_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "size a text type");
+  check_hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
+  return type;
+}
+
+void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memory, int rank, const hsize_t* size,
+                   const void* values) {
+  const Hdf5Handle space(rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, size, nullptr), H5Sclose,
+                         "make a data space");
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_create_intermediate_group(links, 1), "ask for groups on the way");
+  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                           "create dataset " + name);
+  check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
+}
+
+void write_attribute(hid_t file, const char* name, const std::string& text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+  const Hdf5Handle attribute(H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "create an attribute");
+  check_hdf5(H5Awrite(attribute, type, text.c_str()), std::string("write attribute ") + name);
+}
+
+void write_column(hid_t file, const SweepColumn& column) {
+  const hsize_t rows = !column.texts.empty()
+                           ? column.texts.size()
+                           : (!column.counts.empty() ? column.counts.size() : column.numbers.size()) / column.width;
+  const hsize_t size[2] = {rows, column.width};
+  const int rank = column.scalar ? 1 : 2;
+  if (!column.texts.empty()) {
+    std::size_t longest = 1;
+    for (const std::string& text : column.texts) longest = std::max(longest, text.size());
+    std::string all;
+    for (const std::string& text : column.texts) all += text + std::string(longest - text.size(), '\0');
+    const Hdf5Handle type = text_type(longest);
+    write_dataset(file, column.name, type, type, 1, size, all.data());
+  } else if (!column.counts.empty()) {
+    write_dataset(file, column.name, H5T_STD_I64LE, H5T_NATIVE_INT64, rank, size, column.counts.data());
+  } else {
+    write_dataset(file, column.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, column.numbers.data());
+  }
+}
+
+}  // namespace
+
+std::vector<SweepColumn> columns_of(const Sweep& sweep) {
+  std::vector<SweepColumn> columns;
+  add_varied(sweep, columns);
+  SweepColumn status{"member/status"};
+  SweepColumn steps{"member/steps"};
+  for (const MemberRow& row : sweep.rows()) {
+    status.texts.emplace_back(name(row.status));
+    steps.counts.push_back(row.steps);
+  }
+  columns.push_back(std::move(status));
+  columns.push_back(std::move(steps));
+  const std::size_t n = sweep.common().start_q.size();
+  columns.push_back(numbers(sweep, "final/t", [](const MemberRow& row) { return row.t; }));
+  columns.push_back(
+      vectors(sweep, "final/q", n, false, [](const MemberRow& row) -> const std::vector<double>& { return row.q; }));
+  columns.push_back(
+      vectors(sweep, "final/p", n, false, [](const MemberRow& row) -> const std::vector<double>& { return row.p; }));
+  columns.push_back(numbers(sweep, "energy/initial", [](const MemberRow& row) { return row.energy.initial; }));
+  columns.push_back(numbers(sweep, "energy/final", [](const MemberRow& row) { return row.energy.final; }));
+  columns.push_back(numbers(sweep, "energy/max_error", [](const MemberRow& row) { return row.energy.max_error; }));
+  columns.push_back(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy_scale; }));
+  add_invariants(sweep, columns);
+  for (std::size_t i = 0; i < sweep.observables().names.size(); ++i) {
+    columns.push_back(numbers(sweep, "observables/" + sweep.observables().names[i], [&](const MemberRow& row) {
+      return i < row.observables.size() ? row.observables[i] : nothing;
+    }));
+  }
+  return columns;
+}
+
+void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages say what failed
+  const Hdf5Handle id(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                      "create " + file.string());
+  const Request& request = sweep.common().request;
+  write_attribute(id, "hamflow", description.version);
+  write_attribute(id, "host", description.host);
+  write_attribute(id, "problem", request.problem);
+  write_attribute(id, "arithmetic", request.arithmetic);
+  write_attribute(id, "kernel", request.kernel);
+  const Hdf5Handle type = text_type(sweep.text().size());
+  write_dataset(id, "scenario", type, type, 0, nullptr, sweep.text().c_str());
+  for (const SweepColumn& column : columns_of(sweep)) write_column(id, column);
+  check_hdf5(H5Fflush(id, H5F_SCOPE_GLOBAL), "write " + file.string() + " (is the disk full?)");
+}
+
+void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
+  std::ofstream out(file);
+  if (!out) throw FileError("cannot write " + file.string());
+  const std::vector<SweepColumn> columns = columns_of(sweep);
+  const auto quoted = [](const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string all = "\"";
+    for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return all + "\"";
+  };
+  std::string line;
+  for (const SweepColumn& column : columns) {
+    const std::string label = column.name.starts_with("varied/") ? column.name.substr(7) : column.name;
+    for (std::size_t i = 0; i < column.width; ++i) {
+      line += (line.empty() ? "" : ",") + quoted(label) + (column.scalar ? "" : std::to_string(i + 1));
+    }
+  }
+  out << line << '\n';
+  for (std::size_t row = 0; row < sweep.members(); ++row) {
+    line.clear();
+    for (const SweepColumn& column : columns) {
+      for (std::size_t i = 0; i < column.width; ++i) {
+        if (!line.empty()) line += ',';
+        if (!column.texts.empty()) {
+          line += quoted(column.texts[row]);
+        } else if (!column.counts.empty()) {
+          line += std::to_string(column.counts[row]);
+        } else {
+          line += fmt::format("{:.17g}", column.numbers[row * column.width + i]);
+        }
+      }
+    }
+    out << line << '\n';
+  }
+  out.flush();
+  if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
+}
+
+}  // namespace hamflow

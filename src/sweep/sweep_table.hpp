@@ -1,0 +1,37 @@
+// The rows of a sweep as columns, and the files they go to: sweep.h5, sweep.csv.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sweep.hpp"
+
+namespace hamflow {
+
+/// One column, or several side by side (width > 1), row after row. One of the three holds the values.
+struct SweepColumn {
+  std::string name;  // a path in sweep.h5, e.g. "final/q"
+  std::size_t width = 1;
+  bool scalar = true;  // width 1 and no vector that happens to be short
+  std::vector<double> numbers{};
+  std::vector<std::int64_t> counts{};
+  std::vector<std::string> texts{};
+};
+
+/// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
+/// /energy/..., /invariants/NAME/..., /observables/NAME. What a member has not is NaN.
+std::vector<SweepColumn> columns_of(const Sweep& sweep);
+
+/// What is the same for all rows.
+struct SweepDescription {
+  std::string version;
+  std::string host;
+};
+
+/// @throws FileError
+void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description);
+/// @throws FileError
+void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep);
+
+}  // namespace hamflow

@@ -1,0 +1,241 @@
+"""hamflow sweep: every row has the bits of the run of that member alone, whatever the lanes and threads."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from command import HAMFLOW, CommandCase
+
+KEPLER = """
+[problem]
+name = "central-force"
+potential = "kepler"
+k = 1.0
+mass = 2.0
+initial = { q = [1.0, 0.0], p = [0.0, 1.5] }
+[method]
+name = "stv4"
+[run]
+dt = 0.05
+steps = 333
+"""
+
+
+def scenario(problem, q, p, method="stv4", dt=0.05, steps=333):
+    return f"""
+[problem]
+{problem}
+initial = {{ q = {q}, p = {p} }}
+[method]
+name = "{method}"
+[run]
+dt = {dt}
+steps = {steps}
+"""
+
+
+class Sweep(CommandCase):
+    def sweep(self, *arguments, status=0):
+        done = self.hamflow("sweep", *arguments, "--out", "none", "--json", "--quiet", status=status)
+        return json.loads(done.stdout)
+
+    def single(self, file, *sets):
+        arguments = [word for one in sets for word in ("--set", one)]
+        done = subprocess.run(
+            [HAMFLOW, "run", file, *arguments, "--out", "none", "--json", "--quiet"],
+            cwd=self.folder, capture_output=True, text=True, timeout=120)
+        return json.loads(done.stdout)
+
+    def assert_same(self, row, run):
+        """All numbers, as JSON writes them: 17 digits, hence every bit."""
+        self.assertEqual(row["status"], run["status"] if run["status"] == "done" else run["error"]["kind"])
+        self.assertEqual(row["steps"], run["steps"])
+        self.assertEqual(row["final"], run["final"])
+        for key in ("initial", "final", "max_error", "scale"):
+            self.assertEqual(row["energy"][key], run["energy"][key], key)
+        self.assertEqual(set(row["invariants"]), set(run["invariants"]))
+        for name, invariant in run["invariants"].items():
+            for key in ("initial", "final"):
+                value = invariant[key] if isinstance(invariant[key], list) else [invariant[key]]
+                self.assertEqual(row["invariants"][name][key], value)
+            self.assertEqual(row["invariants"][name]["max_error"], invariant["max_error"])
+
+    def check(self, file, vary, *more, members=(0, 3, 16, -1), lanes=True):
+        """A sweep over one key in every kind of lanes, some of its rows against single runs."""
+        path = vary.split("=")[0]
+        kinds = ["auto", "generic", "none"]
+        sweeps = [self.sweep(file, "--vary", vary, *more, "--lanes", kind) for kind in kinds]
+        self.assertEqual(sweeps[0]["members_in_lanes"], sweeps[0]["members"] if lanes else 0)
+        self.assertEqual(sweeps[2]["members_in_lanes"], 0)
+        for other in sweeps[1:]:
+            self.assertEqual(sweeps[0]["rows"], other["rows"])
+        rows = sweeps[0]["rows"]
+        sets = [more[i + 1] for i in range(0, len(more), 2)]
+        for member in members:
+            row = rows[member]
+            self.assert_same(row, self.single(file, *sets, f"{path}={row[path]!r}"))
+        return rows
+
+    def test_methods(self):
+        self.write("k.toml", KEPLER)
+        for method in ("verlet", "verlet-dkd", "stv4", "yoshida6", "yoshida6-dkd", "euler-a", "euler-b", "suzuki4"):
+            rows = self.check("k.toml", "problem.initial.p[1]=1:1.9:21", "--set", f"method.name={method}",
+                              members=(0, 20))
+            self.assertGreater(len({row["final"]["q"][0] for row in rows}), 20)
+
+    def test_parameters_start_and_step(self):
+        self.write("k.toml", KEPLER)
+        for vary in ("problem.k=0.5:1.5:18", "problem.mass=1:3:18", "run.dt=0.01:0.1:18", "run.dt=-0.02,0.02,0.04,0.08",
+                     "problem.initial.q[0]=0.8:1.2:18", "problem.initial.q[1]=-0.3:0.3:18"):
+            self.check("k.toml", vary, members=(0, 2, -1))
+
+    def test_fast_kernel(self):
+        self.write("k.toml", KEPLER)
+        sweep = self.sweep("k.toml", "--vary", "problem.k=0.5:1.5:18", "--set", "run.kernel=fast")
+        for member in (0, 17):
+            row = sweep["rows"][member]
+            self.assert_same(row, self.single("k.toml", "run.kernel=fast", f"problem.k={row['problem.k']!r}"))
+
+    def test_geometric_start(self):
+        self.write("o.toml", KEPLER.replace("initial = { q = [1.0, 0.0], p = [0.0, 1.5] }",
+                                            'orbit = { kind = "ellipse", r_per = 1.0, r_aph = 3.0 }'))
+        self.check("o.toml", "problem.orbit.r_aph=1.5:4:17")
+        # k follows from the orbit, member by member.
+        self.write("h.toml", """
+[problem]
+name = "central-force"
+potential = "hooke"
+orbit = { kind = "ellipse", r_per = 1.0, r_aph = 2.0, energy = 1.0 }
+[method]
+name = "stv4"
+[run]
+dt = 0.05
+steps = 200
+""")
+        self.check("h.toml", "problem.orbit.energy=0.5:2:17")
+
+    def test_problems(self):
+        cases = [
+            ('name = "central-force"\npotential = "linear"\nk = 1.0', "[1.0, 0.0]", "[0.0, 1.0]", "problem.k"),
+            ('name = "central-force"\npotential = "binomial"\nk = 1.0\nlambda = 1.0', "[1.0, 0.2]", "[0.3, 1.0]",
+             "problem.k"),
+            ('name = "henon-heiles"', "[0.1, 0.1]", "[0.2, 0.3]", "problem.lambda"),
+            ('name = "pendulum"', "[1.0]", "[0.5]", "problem.length"),
+            ('name = "harmonic"', "[1.0]", "[0.5]", "problem.omega"),
+            ('name = "free-fall"', "[1.0]", "[0.5]", "problem.gravity"),
+            ('name = "duffing"\nalpha = -1.0\nbeta = 1.0', "[1.0]", "[0.5]", "problem.beta"),
+            ('name = "sextic"', "[0.5]", "[0.5]", "problem.initial.p[0]"),
+            ('name = "lennard-jones-oscillator"', "[1.5]", "[0.0]", "problem.initial.q[0]"),
+        ]
+        for problem, q, p, path in cases:
+            self.write("c.toml", scenario(problem, q, p, dt=0.01))
+            self.check("c.toml", f"{path}=0.9:1.1:17", members=(0, -1))
+
+    def test_without_lanes(self):
+        self.write("k.toml", KEPLER)
+        for sets in (["method.name=rk4"], ["method.name=cg"], ["run.arithmetic=lattice"],
+                     ["run.arithmetic=compensated"]):
+            more = [word for one in sets for word in ("--set", one)]
+            self.check("k.toml", "problem.k=0.9:1.1:5", *more, members=(0, 4), lanes=False)
+        self.write("p.toml", scenario('name = "central-force"\npotential = "power"\na = [1.0]\nn = [1.0]',
+                                      "[1.0, 0.0]", "[0.0, 1.0]"))
+        self.check("p.toml", "problem.a[0]=0.9:1.1:3", members=(0, 2), lanes=False)
+
+    def test_product_in_order_and_methods_mixed(self):
+        self.write("k.toml", KEPLER)
+        sweep = self.sweep("k.toml", "--vary", "method.name=verlet,cg,stv4", "--vary", "run.steps=10,20",
+                           "--vary", "problem.k=1:1.2:3")
+        self.assertEqual((sweep["members"], sweep["members_in_lanes"]), (18, 12))
+        keys = [(row["method.name"], row["run.steps"], row["problem.k"]) for row in sweep["rows"]]
+        self.assertEqual(keys, [(m, s, k) for m in ("verlet", "cg", "stv4") for s in (10, 20) for k in (1, 1.1, 1.2)])
+        for row in sweep["rows"]:
+            self.assert_same(row, self.single("k.toml", f"method.name={row['method.name']}",
+                                              f"run.steps={int(row['run.steps'])}", f"problem.k={row['problem.k']!r}"))
+
+    def test_members_that_fail(self):
+        # Below the saddle bounded, above it the particle escapes to infinity in finite time.
+        self.write("hh.toml", scenario('name = "henon-heiles"', "[0.0, 0.0]", "[0.0, 0.1]", dt=0.1, steps=500))
+        rows = self.check("hh.toml", "problem.initial.p[1]=0.1:2:20", members=range(20))
+        self.assertEqual({row["status"] for row in rows}, {"done", "non_finite"})
+        done = self.hamflow("sweep", "hh.toml", "--vary", "problem.initial.p[1]=0.1:2:20", "--out", "none")
+        self.assertIn("note: member", done.stderr)
+        every = self.hamflow("sweep", "hh.toml", "--vary", "problem.initial.p[1]=1.8,1.9", "--out", "none", status=1)
+        self.assertIn("error: member 0, step", every.stderr)
+
+    def test_threads_and_files(self):
+        self.write("k.toml", KEPLER + '[output]\nformats = ["h5", "csv"]\n')
+        texts = set()
+        for threads in ("1", "2", "4"):
+            self.hamflow("sweep", "k.toml", "--vary", "problem.k=0.5:1.5:101", "--vary", "method.name=stv4,rk4",
+                         "--threads", threads, "--out", "out", "--force")
+            texts.add((self.folder / "out" / "sweep.csv").read_text())
+            self.assertTrue((self.folder / "out" / "sweep.h5").stat().st_size > 0)
+            summary = json.loads((self.folder / "out" / "summary.json").read_text())
+            self.assertEqual((summary["members"], summary["done"], summary["threads"]), (202, 202, int(threads)))
+        self.assertEqual(len(texts), 1)
+        table = list(csv.DictReader(texts.pop().splitlines()))
+        self.assertEqual(len(table), 202)
+        run = self.single("k.toml", "problem.k=1.5", "method.name=rk4")
+        self.assertEqual([float(table[-1][name]) for name in ("final/q1", "final/q2", "energy/max_error")],
+                         [*run["final"]["q"], run["energy"]["max_error"]])
+        self.hamflow("sweep", "k.toml", "--vary", "problem.k=1", "--out", "out", status=3)
+        self.hamflow("sweep", "k.toml", "--vary", "problem.k=1")
+        self.assertTrue((self.folder / "k.sweep" / "sweep.h5").exists())
+
+    def test_errors(self):
+        self.write("k.toml", KEPLER)
+        cases = {
+            "problem.k=1:2": "found 2 parts",
+            "problem.k=1:2:0": "found n = 0",
+            "problem.k=1:2:1.5": "found n = 1.5",
+            "problem.k=1:x:3": 'found "x"',
+            "problem.k=": "allowed PATH=a:b:n",
+            "problem.k": "allowed PATH=a:b:n",
+            "problem.k=1,,2": "empty value",
+            "problem.kk=1:2:3": "problem.kk: found an unknown key",
+            "problme.k=1:2:3": "did you mean problem?",
+            "problem.initial.q[2]=1:2:3": "found index 2 of an array of 2",
+            "problem.k[0]=1:2:3": "found problem.k to be no array",
+            "problem.mass=-1:1:3": "problem.mass",
+            "run.steps=1:2:3": "whole number",
+            "method.name=stv4,stv5": "did you mean stv4?",
+            "problem.k=1:2:9999999999": "found n",
+        }
+        for vary, message in cases.items():
+            done = self.hamflow("sweep", "k.toml", "--vary", vary, "--json", "--out", "none", status=2)
+            self.assertIn(message, done.stderr, vary)
+            self.assertTrue(done.stderr.startswith("--vary"), done.stderr)
+            self.assertEqual(json.loads(done.stdout)["status"], "rejected")
+        self.hamflow("sweep", "k.toml", "--out", "none", status=2)
+        self.hamflow("sweep", "k.toml", "--vary", "problem.k=1,2", "--threads", "-1", "--out", "none", status=2)
+        twice = self.hamflow("sweep", "k.toml", "--vary", "problem.k=1", "--vary", "problem.k=2", status=2)
+        self.assertIn("twice", twice.stderr)
+        # The one member of many that cannot be is named; what is wrong for all is told once.
+        some = self.hamflow("sweep", "k.toml", "--vary", "problem.mass=1,2,-3", status=2)
+        self.assertIn("member 2: problem.mass=-3", some.stderr)
+        every = self.hamflow("sweep", "k.toml", "--vary", "problem.mass=1,2,3", "--set", "run.dt=0", status=2)
+        self.assertEqual(len(every.stderr.splitlines()), 1)
+        self.hamflow("sweep", "missing.toml", "--vary", "problem.k=1", status=3)
+
+    def test_interrupt_saves(self):
+        self.write("k.toml", KEPLER.replace("333", "2000000000") + '[output]\nformats = ["csv"]\n')
+        process = subprocess.Popen([HAMFLOW, "sweep", "k.toml", "--vary", "problem.k=0.9:1.1:40", "--json"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1.5)
+        os.kill(process.pid, signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(json.loads(out)["status"], "interrupted")
+        table = list(csv.DictReader((self.folder / "k.sweep" / "sweep.csv").read_text().splitlines()))
+        self.assertEqual(len(table), 40)
+        begun = [row for row in table if row["member/status"] == "interrupted"]
+        self.assertTrue(begun)
+        self.assertGreater(int(begun[0]["member/steps"]), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
