@@ -28,7 +28,7 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
   if (!problem.accepts(method) || problem.info.invariants.empty()) return;
   const Request request = request_on(region, method, random_state(region, 0));
   const auto simulation = make_simulation(request);
-  EnergyBlocks blocks(map_steps);
+  EnergyBlocks blocks;
   Observer* const observers[] = {&blocks};
   const bool done = run(*simulation, map_steps, observers) == Outcome::done;
   for (const MomentumMap& map :

@@ -92,6 +92,13 @@ class Certificate(CommandCase):
         for key in ("final", "energy", "invariants", "evaluations", "certificate"):
             self.assertEqual(a[key], b[key], key)
 
+    def test_resumed_runs_have_the_certificate_of_whole_ones(self):
+        self.write("stv4.toml", "[problem]\nname='henon-heiles'\ninitial={q=[0.1,-0.2],p=[0.3,0.1]}\n"
+                   "[method]\nname='stv4'\n[run]\ndt=0.1\nsteps=5000\n")
+        self.hamflow("run", "stv4.toml", "--quiet", "--set", "run.steps=777")
+        part = json.loads(self.hamflow("run", "stv4.toml", "--json", "--quiet", "--resume").stdout)
+        self.assertEqual(part["certificate"], self.summary("stv4.toml")["certificate"])
+
     def test_failed_runs_are_certified_as_far_as_they_went(self):
         s = self.summary("kepler.toml", "--set", "problem={name='henon-heiles',initial={q=[3,3],p=[0,0]}}", "--set",
                          "method={name='verlet'}", "--set", "run.dt=0.001", "--set", "run.steps=100000", status=1)
