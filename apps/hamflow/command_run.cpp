@@ -38,9 +38,10 @@ void draw_figures(const Scenario& scenario, const std::filesystem::path& folder)
 
 /// Takes the steps that are left and tells what they came to.
 RunResult take_steps(const Scenario& scenario, const RunOptions& options, Simulation& simulation, Recorder* recorder,
-                     CheckpointWriter* checkpoints) {
+                     CheckpointWriter* checkpoints, EnergyBlocks& blocks) {
   std::vector<Observer*> observers;
-  if (recorder != nullptr) observers = {recorder, checkpoints};  // in this order: samples of a step belong to it
+  if (recorder != nullptr) observers = {recorder, &blocks, checkpoints};  // in this order: samples of a step belong to it
+  if (recorder == nullptr) observers = {&blocks};
   RunResult result;
   Progress progress(simulation.step(), scenario.steps, options.quiet);
   try {
@@ -115,23 +116,29 @@ int carry_out(const Scenario& asked, const RunOptions& options) {
   std::optional<FolderLock> lock;
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<CheckpointWriter> checkpoints;
-  if (from) restore(*simulation, *from);
+  EnergyBlocks blocks;
+  if (from) {
+    restore(*simulation, *from);
+    blocks.state() = from->energy_blocks;
+  }
   if (writes) {
     if (!from) make_folder(folder, options.force || options.resume);
     lock.emplace(folder);
     recorder = std::make_unique<Recorder>(scenario, folder, from ? &*from : nullptr);
     std::filesystem::remove(folder / "summary.json");  // of a run that was interrupted
     checkpoints =
-        std::make_unique<CheckpointWriter>(scenario, *simulation, *recorder, folder, from ? from->wall_seconds : 0);
+        std::make_unique<CheckpointWriter>(scenario, *simulation, *recorder, blocks, folder, from ? from->wall_seconds : 0);
   }
   catch_interrupts();
   const auto begin = std::chrono::steady_clock::now();
-  RunResult result = take_steps(scenario, options, *simulation, recorder.get(), checkpoints.get());
+  RunResult result = take_steps(scenario, options, *simulation, recorder.get(), checkpoints.get(), blocks);
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() + (from ? from->wall_seconds : 0);
   result.steps_taken = simulation->step();
 
-  const auto summary = summary_of(scenario, *simulation, result);
+  const RunCertificate certificate =
+      certify(scenario.request, *scenario.problem, *simulation, blocks, result.steps_taken);
+  const auto summary = summary_of(scenario, *simulation, result, &certificate);
   const bool failed = summary["status"] == "failed";
   std::string late_trouble;
   if (writes) {

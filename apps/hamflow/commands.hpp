@@ -59,6 +59,28 @@ struct ConvertOptions {
 };
 int convert_coordinates(const ConvertOptions& options);
 
+struct ReverseOptions {
+  std::string scenario;
+  std::vector<std::string> sets;
+  bool json = false;
+  bool quiet = false;
+};
+int reverse_scenario(const ReverseOptions& options);
+
+struct CompareOptions {
+  std::string scenario;
+  std::vector<std::string> sets;
+  std::string methods;  // commas between, but not those in parentheses
+  std::string dts;      // numbers with commas between; empty: from twice the scenario's dt to a sixteenth
+  std::string out;      // a folder; empty or "none": nothing is written
+  std::string csv;      // a file
+  std::string figure;   // .svg, .pdf or .png
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+};
+int compare_methods(const CompareOptions& options);
+
 struct ShellOptions {
   std::string scenario;
   std::vector<std::string> sets;

@@ -118,6 +118,43 @@ int main(int argc, char** argv) {
   verify_command->add_flag("--json", verify.json, "print JSON");
   verify_command->callback([&] { status = run_verify(verify); });
 
+  ReverseOptions reverse;
+  CLI::App* reverse_command =
+      add(app, "reverse", "Forward, negate the momenta, forward again, negate: what came back",
+          "  hamflow reverse kepler.toml\n  hamflow reverse kepler.toml --set method.name=stv4 --set "
+          "run.arithmetic=lattice\n");
+  reverse_command->add_option("scenario", reverse.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
+  reverse_command->add_option("--set", reverse.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
+  reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
+  reverse_command->callback([&] { status = reverse_scenario(reverse); });
+
+  CompareOptions compare;
+  CLI::App* compare_command =
+      add(app, "compare", "Work and precision: error, evaluations and time of several methods with several steps",
+          "  hamflow compare kepler.toml --methods 'verlet,stv4,cg(1,5)'\n"
+          "  hamflow compare kepler.toml --methods stv4,rk4 --dt 0.1,0.05,0.025 --figure work.svg --csv work.csv\n");
+  compare_command->add_option("scenario", compare.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
+  compare_command->add_option("--methods", compare.methods, "commas between, e.g. 'verlet,stv4,cg(1,5)'")
+      ->required()
+      ->type_name("METHODS");
+  compare_command
+      ->add_option("--dt", compare.dts, "steps, commas between; each is moved to the nearest that divides t_end")
+      ->type_name("DT");
+  compare_command->add_option("--set", compare.sets, "override a key: dotted path and TOML value, e.g. run.t_end=10")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  compare_command->add_option("--out", compare.out, "folder for compare.json, compare.csv and figures/")
+      ->type_name("DIR|none");
+  compare_command->add_flag("--force", compare.force, "replace the files in an existing folder");
+  compare_command->add_option("--csv", compare.csv, "write the table to a file")->type_name("FILE");
+  compare_command->add_option("--figure", compare.figure, "draw it: .svg, .pdf or .png")->type_name("FILE");
+  compare_command->add_flag("--json", compare.json, "print JSON, and nothing else, on stdout");
+  compare_command->add_flag("--quiet", compare.quiet, "no progress, no notes");
+  compare_command->callback([&] { status = compare_methods(compare); });
+
   ShellOptions shell;
   CLI::App* shell_command = add(
       app, "shell", "Steer a run line by line: step n, dt x, tol x, method m, show, save, reset, reverse, help, quit",

@@ -76,9 +76,10 @@ std::optional<std::string> finished_summary(const Scenario& scenario, const Chec
 }
 
 CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& simulation, Recorder& recorder,
-                                   const std::filesystem::path& folder, double seconds_before)
+                                   const EnergyBlocks& blocks, const std::filesystem::path& folder, double seconds_before)
     : simulation_(simulation),
       recorder_(recorder),
+      blocks_(blocks),
       file_(folder / "checkpoint.bin"),
       every_(scenario.checkpoint_every),
       seconds_before_(seconds_before) {
@@ -111,6 +112,7 @@ void CheckpointWriter::write() {
   recorder_.mark(checkpoint_);
   checkpoint_.step = simulation_.step();
   checkpoint_.simulation = simulation_.save();
+  checkpoint_.energy_blocks = blocks_.state();
   checkpoint_.wall_seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
   write_checkpoint(file_, checkpoint_);
   last_ = Clock::now();

@@ -20,7 +20,7 @@ std::optional<std::string> finished_summary(const Scenario& scenario, const Chec
 class CheckpointWriter final : public Observer {
  public:
   CheckpointWriter(const Scenario& scenario, const Simulation& simulation, Recorder& recorder,
-                   const std::filesystem::path& folder, double seconds_before);
+                   const EnergyBlocks& blocks, const std::filesystem::path& folder, double seconds_before);
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
   void write_if_due();
@@ -31,6 +31,7 @@ class CheckpointWriter final : public Observer {
   using Clock = std::chrono::steady_clock;
   const Simulation& simulation_;
   Recorder& recorder_;
+  const EnergyBlocks& blocks_;
   std::filesystem::path file_;
   std::int64_t every_;
   Checkpoint checkpoint_;

@@ -14,7 +14,7 @@ namespace {
 
 // The file: these words, the payload, the checksum of all that.
 constexpr std::uint64_t magic = 0x4b43'574f'4c46'4d48u;  // "HMFLOWCK", which also tells the order of bytes
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t format = 2;
 constexpr std::size_t sum_bytes = sizeof(std::uint64_t);
 
 class Descriptor {
@@ -89,7 +89,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     ar(found_magic, found_format);
     if (found_magic != magic) throw damaged("is none of hamflow on a machine like this, or damaged");
     if (found_sum != checksum(content)) throw damaged("is damaged: its checksum is wrong");
-    if (found_format != format) throw damaged("has format " + std::to_string(found_format) + ", this hamflow knows 1");
+    if (found_format != format) throw damaged("has format " + std::to_string(found_format) + ", this hamflow knows " + std::to_string(format));
     ar(checkpoint);
     ar.finish();
   } catch (const Error& error) {

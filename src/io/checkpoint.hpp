@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hamflow/core/archive.hpp"
+#include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
 
@@ -24,10 +25,12 @@ struct Checkpoint {
   std::uint64_t csv_bytes = 0;  // of trajectory.csv
   double wall_seconds = 0;
   std::vector<std::byte> simulation;  // Simulation::save()
+  EnergyBlockState energy_blocks;     // of the certificate
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(version, instruction_set, keys, values, steps, step, record_every, rows, csv_bytes, wall_seconds, simulation);
+    ar(version, instruction_set, keys, values, steps, step, record_every, rows, csv_bytes, wall_seconds, simulation,
+       energy_blocks);
   }
 };
 

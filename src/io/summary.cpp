@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "certificate_json.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "hamflow/problems/support/polar.hpp"
 
@@ -136,7 +137,8 @@ std::string status_of(Outcome outcome) {
   return outcome == Outcome::stopped ? "interrupted" : "failed";
 }
 
-Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
+Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
+                const RunCertificate* certificate) {
   Frame frame;
   simulation.look(frame);
   const Effort effort = simulation.effort();
@@ -191,6 +193,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   }
   s["events"] = Json::object();
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
+  s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
   if (s["status"] == "failed") s["error"] = error_of(scenario.request, simulation, result);
@@ -277,6 +280,9 @@ std::string readable(const Json& s) {
                             s["newton"]["stagnated"].get<long long>()));
   }
   for (const auto& [key, value] : s["events"].items()) text += row("event " + key, value.dump());
+  if (s.contains("certificate") && !s["certificate"].is_null()) {
+    text += row("certificate", certificate_text(s["certificate"]));
+  }
   text += row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s["wall_seconds"].get<double>(),
                                        s["steps_per_second"].get<double>()));
   return text;

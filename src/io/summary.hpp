@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/run/simulation.hpp"
+#include "hamflow/verify/certificate.hpp"
 #include "scenario.hpp"
 
 namespace hamflow {
@@ -19,7 +20,9 @@ struct RunResult {
 
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
-nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result);
+/// @param certificate null where nobody has watched
+nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
+                                  const RunCertificate* certificate = nullptr);
 /// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}
 nlohmann::ordered_json rejection_of(const std::vector<Complaint>& complaints);
 /// The same summary for people.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "drift_class.hpp"
+
 namespace hamflow {
 
 double student_p_value(double t, int degrees_of_freedom) {
@@ -39,8 +41,6 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) 
   return xy / xx;
 }
 
-namespace {
-/// p-value of the t-test that the increments of one series have mean 0.
 double increments_p_value(const std::vector<double>& energies) {
   const std::size_t blocks = energies.size() - 1;
   const double mean = (energies.back() - energies.front()) / static_cast<double>(blocks);
@@ -54,6 +54,12 @@ double increments_p_value(const std::vector<double>& energies) {
   return student_p_value(mean / std::sqrt(variance_of_mean), static_cast<int>(blocks) - 1);
 }
 
+DriftClass drift_class(double p_value, double growth_exponent) {
+  if (p_value < DriftStatistics::level || growth_exponent > DriftStatistics::linear_above) return DriftClass::linear;
+  return growth_exponent > DriftStatistics::random_walk_above ? DriftClass::random_walk : DriftClass::bounded;
+}
+
+namespace {
 /// The exponent of the RMS of H - H0 over starts and over the blocks of the windows [2^j, 2^(j+1)).
 double growth_exponent(const std::vector<std::vector<double>>& energies) {
   std::vector<double> log_time;
@@ -86,11 +92,7 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
   for (const auto& series : energies) smallest = std::min(smallest, increments_p_value(series));
   found.p_value = std::min(1.0, smallest * static_cast<double>(energies.size()));
   found.growth_exponent = growth_exponent(energies);
-  if (found.p_value < DriftStatistics::level || found.growth_exponent > DriftStatistics::linear_above) {
-    found.drift = DriftClass::linear;
-  } else if (found.growth_exponent > DriftStatistics::random_walk_above) {
-    found.drift = DriftClass::random_walk;
-  }
+  found.drift = drift_class(found.p_value, found.growth_exponent);
   return found;
 }
 

@@ -176,7 +176,10 @@ PropertyRow measure_method(const MethodSpec& method, std::span<const Region> reg
     claims = map->claims();
     on.push_back(measure(*map, region));
   }
-  return judge(claims, std::move(on));
+  MethodCertificate certificate = certificate_of(method, regions, on);
+  PropertyRow row = judge(claims, std::move(on));
+  row.certificate = std::move(certificate);
+  return row;
 }
 
 }  // namespace hamflow

@@ -5,19 +5,21 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "aligned.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
 
-namespace {
-using Lines = std::vector<std::vector<std::string>>;
-
-/// Columns as wide as their widest entry, two blanks between them.
 std::string aligned(const Lines& lines) {
   std::vector<std::size_t> width;
+  const auto is_remark = [&](const std::vector<std::string>& line, std::size_t i) {
+    return i + 1 == line.size() && line.size() < lines.front().size();
+  };
   for (const auto& line : lines) {
     width.resize(std::max(width.size(), line.size()));
-    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (!is_remark(line, i)) width[i] = std::max(width[i], line[i].size());
+    }
   }
   std::string out;
   for (const auto& line : lines) {
@@ -29,6 +31,7 @@ std::string aligned(const Lines& lines) {
   return out;
 }
 
+namespace {
 std::string flag(Finding agrees) { return agrees == Finding::yes ? "" : agrees == Finding::no ? " !!" : " ??"; }
 
 std::string units(const DefectMeasurement& d) { return fmt::format("{:.0e} ({})", d.defect, name(d.holds)); }
@@ -67,6 +70,59 @@ nlohmann::json json_of(const Measurement& m) {
             {"linear_solves", m.cost.linear_solves},
             {"coarse_solves", m.cost.coarse_solves}}}};
 }
+nlohmann::json json_of(const MethodCertificate& c) {
+  nlohmann::json maps = nlohmann::json::array();
+  for (const MethodCertificate::Map& m : c.momentum_maps) {
+    maps.push_back({{"problem", m.problem},
+                    {"name", m.name},
+                    {"steps", m.steps},
+                    {"max_error", m.max_error},
+                    {"relative", m.relative},
+                    {"rounding", m.rounding},
+                    {"conserved", m.conserved ? "to rounding" : "not"}});
+  }
+  nlohmann::json returns = nlohmann::json::array();
+  for (const MethodCertificate::Return& r : c.reversals) {
+    returns.push_back({{"problem", r.problem},
+                       {"steps", r.steps},
+                       {"relative", r.measured ? nlohmann::json(r.distance) : nlohmann::json(nullptr)}});
+  }
+  return {{"drift", name(c.drift)}, {"momentum_maps", maps}, {"reversal_distance", returns}};
+}
+
+/// One line for each method, one column for each momentum map and each return that any of them has.
+std::string certificates(std::span<const PropertyRow> rows) {
+  Lines lines{{"method", "energy drift"}};
+  const auto column = [&](const std::string& heading) {
+    auto& headings = lines.front();
+    const auto found = std::find(headings.begin(), headings.end(), heading);
+    if (found != headings.end()) return static_cast<std::size_t>(found - headings.begin());
+    headings.push_back(heading);
+    return headings.size() - 1;
+  };
+  const auto map_heading = [](const auto& m) { return m.name + ", " + m.problem; };
+  const auto return_heading = [](const auto& r) { return "back, " + r.problem; };
+  for (const PropertyRow& row : rows) {
+    for (const auto& m : row.certificate.momentum_maps) (void)column(map_heading(m));
+  }
+  for (const PropertyRow& row : rows) {
+    for (const auto& r : row.certificate.reversals) (void)column(return_heading(r));
+  }
+  for (const PropertyRow& row : rows) {
+    const MethodCertificate& c = row.certificate;
+    std::vector<std::string> line(lines.front().size(), "-");
+    line[0] = row.claims.name;
+    line[1] = name(c.drift);
+    for (const auto& m : c.momentum_maps) {
+      line[column(map_heading(m))] = fmt::format("{} ({:.0e})", m.conserved ? "kept" : "not", m.relative);
+    }
+    for (const auto& r : c.reversals) {
+      line[column(return_heading(r))] = r.measured ? fmt::format("{:.0e} off", r.distance) : "broke down";
+    }
+    lines.push_back(line);
+  }
+  return aligned(lines);
+}
 }  // namespace
 
 std::string property_table(std::span<const PropertyRow> rows) {
@@ -104,7 +160,8 @@ std::string property_table(std::span<const PropertyRow> rows) {
     }
   }
   return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + "\norder and structure: defects\n" +
-         aligned(structure) + "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy);
+         aligned(structure) + "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy) +
+         "\ncertificates: what was kept over long runs\n" + certificates(rows);
 }
 
 std::string property_json(std::span<const PropertyRow> rows) {
@@ -123,6 +180,7 @@ std::string property_json(std::span<const PropertyRow> rows) {
                    {"reference", row.claims.reference},
                    {"agrees", row.agrees()},
                    {"properties", properties},
+                   {"certificate", json_of(row.certificate)},
                    {"measurements", on}});
   }
   return nlohmann::json{{"methods", all}}.dump(2) + "\n";

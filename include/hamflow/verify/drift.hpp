@@ -2,6 +2,8 @@
 // [spec: methods, section 1]
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +34,21 @@ struct DriftStatistics {
   DriftClass drift = DriftClass::bounded;
 };
 
+/// The same of one run, from its own blocks.
+struct RunDrift {
+  static constexpr int fewest_blocks = 32;
+  static constexpr double sign_level = 1e-6;
+  int blocks = 0;
+  std::optional<DriftClass> drift;  // none: too few blocks, for the reason given
+  std::string reason;               // for the class, or for having none
+  double p_value = 1;               // of "the mean increment of a block is 0", t-test
+  double sign_p_value = 1;          // of "an increment is as often up as down": a drift that slows down or speeds up
+  double growth_exponent = 0;       // of the RMS change over a lag
+  double growth_uncertainty = 0;    // its standard error
+  double mean_increment = 0;        // of the energy, over a block
+  double mean_increment_error = 0;  // its standard error
+};
+
 /// P(|T| >= |t|) for Student's t with a whole number of degrees of freedom.   [Abramowitz, Stegun, 26.7.3, 26.7.4]
 double student_p_value(double t, int degrees_of_freedom);
 
@@ -41,5 +58,17 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 /// @param energies for each start, H at the start and after each of at least 32 blocks of equal length. A series that
 /// is shorter than the others, or not finite, is one that broke down: linear.
 DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies);
+
+/// @param energies H once in each of consecutive blocks of equal length, the start first. Not finite ones: linear. Also
+/// linear: nearly all increments of one sign, the mark of a drift that changes its speed (the energy of euler on an
+/// orbit that widens), which a t-test cannot see.
+///
+/// The growth exponent is the slope of log S(m) over log m, halved, where S(m) is the mean of (E_(i+m) - E_i)^2 over
+/// all i (structure function): m for a walk, m^2 for a drift, constant for an oscillation that the blocks do not
+/// resolve. One that they do resolve rises like m^2 before it turns: lags below the first at which (S(2m) - 2 S(m))/(2
+/// S(m)), the correlation of neighbouring increments, is no longer above 2 sqrt(m/B) are left out. For a walk of B
+/// increments ln S(m) has the variance 2 (2 m^2 + 1)/(3 m B), by which the lags are weighted.   [Lo, MacKinlay 1988,
+/// for the variance ratio]
+RunDrift classify_run(const std::vector<double>& energies);
 
 }  // namespace hamflow

@@ -95,11 +95,34 @@ struct PropertyCell {
   Finding agrees = Finding::unclear;
 };
 
+/// What a method was seen to keep.
+struct MethodCertificate {
+  struct Map {
+    std::string problem;
+    std::string name;
+    std::int64_t steps = 0;
+    double max_error = 0;
+    double relative = 0;
+    double rounding = 0;
+    bool conserved = false;
+  };
+  struct Return {
+    std::string problem;
+    std::int64_t steps = 0;
+    double distance = 0;  // relative to the largest coordinate of the start
+    bool measured = false;
+  };
+  DriftClass drift = DriftClass::bounded;  // the worst over the problems, each from its ensemble of starts
+  std::vector<Map> momentum_maps;
+  std::vector<Return> reversals;
+};
+
 /// One method: its claims beside the measurements.
 struct PropertyRow {
   MethodInfo claims;
   std::vector<Measurement> on;  // one for each problem
   std::vector<PropertyCell> cells;
+  MethodCertificate certificate{};
   bool agrees() const;
   /// The names of the properties that do not agree, joined by commas.
   std::string differing() const;
@@ -118,6 +141,11 @@ Measurement measure(const StepMap& map, const Region& region);
 /// Claims against measurements. A claim is refuted by one problem. A property that is not claimed has to be missing on
 /// at least one of two or more problems; on a single problem nothing follows from its presence.
 PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on);
+
+/// Drift from the measurements; momentum maps and returns from runs of their own: the maps on the Kepler ellipse and on
+/// three bodies where the method can run there, else on the regions; the returns on the regions.
+MethodCertificate certificate_of(const MethodSpec& method, std::span<const Region> regions,
+                                 std::span<const Measurement> on);
 
 /// A state of the region, the k-th of its own sequence of random ones.
 State<double> random_state(const Region& region, std::uint64_t k);

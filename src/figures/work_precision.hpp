@@ -1,0 +1,34 @@
+// **Work-precision figure**: what accuracy costs, method by method, on logarithmic axes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hamflow {
+
+/// One method; one entry per step length, NaN where a run failed.
+struct WorkCurve {
+  std::string name;
+  int order = 0;
+  bool explicit_step = true;
+  std::vector<double> evaluations;
+  std::vector<double> seconds;
+  std::vector<double> error;
+  std::vector<double> energy_error;
+};
+
+struct WorkPrecision {
+  std::string title;
+  std::vector<WorkCurve> curves;
+  double floor = 0;  // the uncertainty of the reference: errors below it mean nothing
+};
+
+/// Writes svg, pdf or png by the extension of `file`.
+/// @throws Error when the extension or the data do not fit   @throws FileError when gnuplot or the file fails
+void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file);
+
+/// Empty if the file's extension is that of a figure, else what is wrong with it.
+std::string refused_figure_file(const std::filesystem::path& file);
+
+}  // namespace hamflow

@@ -1,0 +1,85 @@
+// A comparison for people and for spreadsheets.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "aligned.hpp"
+#include "hamflow/verify/comparison.hpp"
+
+namespace hamflow {
+
+namespace {
+std::string time_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+/// A field of RFC 4180.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : ""; }
+}  // namespace
+
+std::string comparison_table(const Comparison& c) {
+  Lines lines{
+      {"method", "order", "dt", "steps", "evals/step", "evaluations", "error", "energy error", "at the end", "time"}};
+  std::string last;
+  for (const ComparisonPoint& p : c.points) {
+    std::vector<std::string> line{p.method == last ? "" : p.method, p.method == last ? "" : std::to_string(p.order),
+                                  p.tolerance ? fmt::format("tol {:.0e}", *p.tolerance) : fmt::format("{:.6g}", p.dt),
+                                  std::to_string(p.steps)};
+    last = p.method;
+    if (p.done()) {
+      const double per_step = p.evaluations() / static_cast<double>(p.steps);
+      for (const std::string& text : {fmt::format("{:.4g}", per_step), fmt::format("{:.0f}", p.evaluations()),
+                                      fmt::format("{:.2e}", p.error), fmt::format("{:.1e}", p.max_energy_error),
+                                      fmt::format("{:.1e}", p.end_energy_error), time_text(p.seconds)}) {
+        line.push_back(text);
+      }
+    } else {
+      line.push_back("failed: " + p.failure);
+    }
+    lines.push_back(line);
+  }
+  std::string text = fmt::format("{}, t = {}, {} arithmetic\nreference: {}; uncertain by {:.1e}\n\n", c.problem,
+                                 shortest(c.t_end), c.arithmetic, c.reference.description, c.reference.uncertainty);
+  text += aligned(lines);
+  Lines best{{"error", "fewest evaluations", "", "", "least time", "", ""}};
+  const std::vector<ComparisonWinner> all = winners(c);
+  for (const ComparisonWinner& w : all) {
+    if (w.by != "evaluations") continue;
+    std::vector<std::string> line{fmt::format("{:.0e}", w.error), w.method, fmt::format("{:.3g}", w.work),
+                                  w.second.empty() ? "" : fmt::format("(then {}, {:.3g})", w.second, w.second_work)};
+    for (const ComparisonWinner& t : all) {
+      if (t.by != "seconds" || t.error != w.error) continue;
+      line.push_back(t.method);
+      line.push_back(time_text(t.work));
+      line.push_back(t.second.empty() ? "" : fmt::format("(then {}, {})", t.second, time_text(t.second_work)));
+    }
+    best.push_back(line);
+  }
+  if (best.size() > 1) text += "\n" + aligned(best);
+  return text;
+}
+
+std::string comparison_csv(const Comparison& c) {
+  std::string text =
+      "method,order,dt,tolerance,steps,status,force,gradient,hessian,linear_solves,error,max_energy_error,"
+      "end_energy_error,seconds,reason\n";
+  for (const ComparisonPoint& p : c.points) {
+    const auto measured = [&](double x) { return p.done() ? number(x) : std::string(); };
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(p.method), p.order, number(p.dt),
+                        p.tolerance ? number(*p.tolerance) : "", p.steps, p.done() ? "done" : "failed", p.force,
+                        p.gradient, p.hessian, p.linear_solves, measured(p.error), measured(p.max_energy_error),
+                        measured(p.end_energy_error), measured(p.seconds), field(p.failure));
+  }
+  return text;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,62 @@
+// Forward, negate the momenta, forward, negate: the experiment that finds every step that is not reversible.
+#include <algorithm>
+#include <cmath>
+
+#include "hamflow/verify/certificate.hpp"
+
+namespace hamflow {
+
+std::uint64_t hash_of(const std::vector<std::byte>& bits) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::byte b : bits) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
+  return hash;
+}
+
+namespace {
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+double size_of(const std::vector<double>& a) { return distance(a, std::vector<double>(a.size())); }
+}  // namespace
+
+Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse) {
+  Reversal found;
+  found.steps = steps;
+  simulation.look(found.start);
+  const std::vector<std::byte> bits = simulation.bits();
+  found.start_hash = hash_of(bits);
+  const std::int64_t first = simulation.step();
+  const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
+  const auto go = [&](std::int64_t to) {
+    found.outcome = run(simulation, to, {}, counted);
+    if (found.outcome == Outcome::not_converged) found.failure = simulation.failure();
+    return found.outcome == Outcome::done;
+  };
+  const bool there = go(first + steps);
+  simulation.look(found.turn);
+  found.turn_hash = hash_of(simulation.bits());
+  if (!there) return found;
+  simulation.negate_momenta();
+  const bool back = go(first + 2 * steps);
+  simulation.negate_momenta();
+  simulation.look(found.end);
+  found.end_hash = hash_of(simulation.bits());
+  if (!back) return found;
+  found.distance = std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p));
+  const double size = std::max(size_of(found.start.q), size_of(found.start.p));
+  found.relative_distance = size > 0 ? found.distance / size : found.distance;
+  found.bit_exact = simulation.bits() == bits;
+  return found;
+}
+
+std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps) {
+  Request plain = request;
+  plain.watch = false;
+  const auto simulation = make_simulation(plain);
+  const Reversal found = reverse(*simulation, steps);
+  return found.outcome == Outcome::done ? std::optional<Reversal>(found) : std::nullopt;
+}
+
+}  // namespace hamflow
