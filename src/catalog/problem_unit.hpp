@@ -142,9 +142,11 @@ class ProblemUnit : ProblemStart<Family> {
     auto method = recipe.template bind<Problems<R>, A>(problem);
     using M = decltype(method);
     if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
-    // Without a probe where the benchmark looks at the step alone; elsewhere it is not worth the compiler's time.
-    if constexpr (std::is_same_v<A, Plain<double>> && !std::is_same_v<Recipe, TableRecipe<Shape::any>> &&
-                  has_fast_kernel) {
+    // Without a probe where the benchmark looks at the step alone, and where the step runs on several threads and the
+    // probe would run on one; elsewhere it is not worth the compiler's time.
+    if constexpr ((std::is_same_v<A, Plain<double>> && !std::is_same_v<Recipe, TableRecipe<Shape::any>> &&
+                   has_fast_kernel) ||
+                  (A::exact_undo && n == dynamic)) {
       if (!request.watch) {
         return std::make_unique<SimulationOf<Problems<R>, M, A, NoProbe>>(problem, method, s.q, s.p, h,
                                                                           arithmetic_of<A>(request));

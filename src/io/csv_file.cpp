@@ -39,10 +39,17 @@ std::uint64_t CsvFile::bytes() { return static_cast<std::uint64_t>(out_.tellp())
 void CsvFile::append(const Frame& frame) {
   fmt::memory_buffer line;
   const auto to = std::back_inserter(line);
-  fmt::format_to(to, "{},{:.17g}", frame.step, frame.time);
-  for (const double x : frame.q) fmt::format_to(to, ",{:.17g}", x);
-  for (const double x : frame.p) fmt::format_to(to, ",{:.17g}", x);
-  fmt::format_to(to, ",{:.17g}", frame.energy);
+  if (const FrameDigits& digits = frame.digits; !digits.q.empty()) {
+    fmt::format_to(to, "{},{}", frame.step, digits.time);
+    for (const std::string& x : digits.q) fmt::format_to(to, ",{}", x);
+    for (const std::string& x : digits.p) fmt::format_to(to, ",{}", x);
+    fmt::format_to(to, ",{}", digits.energy);
+  } else {
+    fmt::format_to(to, "{},{:.17g}", frame.step, frame.time);
+    for (const double x : frame.q) fmt::format_to(to, ",{:.17g}", x);
+    for (const double x : frame.p) fmt::format_to(to, ",{:.17g}", x);
+    fmt::format_to(to, ",{:.17g}", frame.energy);
+  }
   for (const double x : frame.invariants) fmt::format_to(to, ",{:.17g}", x);
   line.push_back('\n');
   out_.write(line.data(), static_cast<std::streamsize>(line.size()));

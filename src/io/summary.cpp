@@ -161,6 +161,11 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["energy"] = excursion(energy);
   s["energy"]["scale"] = scale;
   s["energy"]["max_relative_error"] = scale > 0 ? energy.max_error / scale : energy.max_error;
+  if (!frame.digits.q.empty()) {  // more digits than a JSON number may be read with: texts; errors need no more
+    s["final"] = {{"t", frame.digits.time}, {"q", frame.digits.q}, {"p", frame.digits.p}};
+    s["energy"]["initial"] = frame.digits.initial_energy;
+    s["energy"]["final"] = frame.digits.energy;
+  }
   s["invariants"] = Json::object();
   const std::vector<InvariantExcursion> invariants = simulation.invariants();
   for (std::size_t i = 0; i < invariants.size(); ++i) {
@@ -226,6 +231,7 @@ std::string readable(const Json& s) {
     return fmt::format("{:<20}{}\n", label, text);
   };
   const auto number = [](const Json& x) {
+    if (x.is_string()) return x.get<std::string>();
     return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
   };
   const auto list = [&](const Json& xs) {

@@ -34,7 +34,17 @@ TEST_P(Claims, AreWhatIsMeasured) {
   EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
 }
 
+/// Tables differ in their coefficients alone, which the other tests look at. What a problem can do to the one kernel
+/// that runs them shows in one table of each shape and need.
+bool stands_for_others(const std::string& name) {
+  const MethodEntry& entry = find_method(parse_method(name).name);
+  if (entry.kind != MethodKind::composition && entry.kind != MethodKind::splitting) return true;
+  const std::vector<std::string> chosen{"euler-a", "euler-b", "verlet", "stv4", "yoshida6-dkd", "sb3a-4"};
+  return std::find(chosen.begin(), chosen.end(), name) != chosen.end();
+}
+
 TEST_P(Claims, HoldOnEveryOtherProblem) {
+  if (!stands_for_others(GetParam())) return;
   for (const ProblemEntry& problem : problems()) {
     std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
     if (!problem.accepts(parse_method(GetParam()))) continue;

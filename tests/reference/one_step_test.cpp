@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "reference_data.hpp"
 
@@ -79,6 +80,45 @@ TEST_P(OneStep, MatchesTheDefinitionInLongDouble) {
       for (std::size_t i = 0; i < z.size(); ++i) distance = std::max(distance, std::fabs(z[i] - wanted[i]));
       EXPECT_LE(distance, 0x1p-11L * bound) << q_key;  // 64 bits instead of 53
       std::printf("  %s, %d steps: %.1Le\n", GetParam().method, steps, distance);
+    }
+  }
+}
+
+/// |a - b| of two decimal literals, in 60 digits.
+long double distance(const std::string& a, const std::string& b) {
+  const MpDigits scope(60);
+  return static_cast<long double>(abs(evaluate_number<Mp>(a) - evaluate_number<Mp>(b)));
+}
+
+TEST_P(OneStep, MatchesTheDefinitionInAllDigits) {
+  // Through the catalogue, from the digits of the scenario to those of the result. The file has 32 digits after the
+  // point, hence its own unit of 1e-32; rounding is that of double times 2^-51 (106 bits), 2^-60 (113) and 10^-40.
+  const auto file = reference_file("one_step.json")["one_step"][0];
+  nlohmann::json wanted;
+  for (const auto& m : file["methods"]) {
+    if (m["method"] == GetParam().reference) wanted = m;
+  }
+  for (const auto& [arithmetic, unit] :
+       {std::pair{"double-double", 0x1p-51L}, std::pair{"quad", 0x1p-60L}, std::pair{"mp(40)", 0x1p-80L}}) {
+    Request request{.problem = "central-force", .variant = {{"potential", "kepler"}}};
+    request.method = parse_method(GetParam().method);
+    request.start.q = texts(file["q0"]);
+    request.start.p = texts(file["p0"]);
+    request.dt = file["h"].get<std::string>();
+    request.arithmetic = arithmetic;
+    const auto simulation = make_simulation(request);
+    Frame frame;
+    for (const auto& [steps, q_key, p_key, bound] :
+         {std::tuple{1, "q1", "p1", one_step_bound}, std::tuple{9, "q10", "p10", ten_steps_bound}}) {
+      ASSERT_EQ(simulation->advance(steps), Outcome::done);
+      simulation->look(frame);
+      long double worst = 0;
+      for (std::size_t i = 0; i < 2; ++i) {
+        worst = std::max({worst, distance(frame.digits.q[i], wanted[q_key][i]),
+                          distance(frame.digits.p[i], wanted[p_key][i])});
+      }
+      EXPECT_LE(worst, unit * bound + 2e-32L) << arithmetic << " " << q_key;
+      std::printf("  %s in %s, %s: %.1Le\n", GetParam().method, arithmetic, q_key, worst);
     }
   }
 }

@@ -1,0 +1,58 @@
+"""Arithmetic beyond double: digits, texts, refusals."""
+import unittest
+from decimal import Decimal, getcontext
+
+from command import CommandCase
+
+getcontext().prec = 60
+KEPLER = "kepler.toml"
+
+
+class Arithmetic(CommandCase):
+    def run_with(self, *sets, status=0):
+        return self.summary(KEPLER, *[x for s in sets for x in ("--set", s)], status=status)
+
+    def test_more_digits_agree_with_each_other(self):
+        common = ("method.name=stv4", "run.steps=50", "run.dt=\"1/20\"")
+        wide = self.run_with(*common, "run.arithmetic=mp(45)")["final"]["q"]
+        # Fifty steps of a smooth orbit: a few hundred roundings of numbers up to 3.
+        for arithmetic, bound in (("double-double", "1e-28"), ("quad", "1e-30"), ("mp(60)", "1e-41")):
+            narrow = self.run_with(*common, f"run.arithmetic={arithmetic}")["final"]["q"]
+            for a, b in zip(wide, narrow):
+                self.assertIsInstance(b, str)
+                self.assertLess(abs(Decimal(a) - Decimal(b)), Decimal(bound))
+                self.assertGreater(abs(Decimal(a) - Decimal(b)), 0, "two arithmetics cannot agree in every digit")
+
+    def test_a_scenario_float_is_its_shortest_decimal(self):
+        one = self.run_with("method.name=verlet", "run.steps=1", "run.dt=0.1", "run.arithmetic=quad")
+        two = self.run_with("method.name=verlet", "run.steps=1", "run.dt=\"1/10\"", "run.arithmetic=quad")
+        self.assertEqual(one["final"], two["final"])
+
+    def test_energy_of_an_element_in_many_digits(self):
+        for arithmetic, bound in (("double-double", 1e-30), ("quad", 1e-32), ("mp(50)", 1e-48)):
+            s = self.run_with("method.quadrature=\"auto\"", "run.steps=20", "run.dt=0.01",
+                             f"run.arithmetic={arithmetic}")
+            self.assertLess(s["energy"]["max_relative_error"], bound, arithmetic)
+
+    def test_tables_are_not_used_beyond_their_digits(self):
+        result = self.hamflow("run", KEPLER, "--set", "method.name=kahan-li8", "--set", "run.arithmetic=mp(80)",
+                              "--out", "none", status=2)
+        self.assertIn("are known here to", result.stderr)
+        s = self.run_with("method.name=stv4", "run.steps=3", "run.arithmetic=mp(80)")
+        self.assertGreater(len(s["final"]["q"][0]), 75)
+
+    def test_unknown_arithmetic(self):
+        for name in ("quadd", "mp(x)", "mp(0)", "mp", "mp()", "mp(-3)", "mp(1e9)"):
+            result = self.hamflow("run", KEPLER, "--set", f"run.arithmetic={name}", "--out", "none", status=2)
+            self.assertIn("run.arithmetic: found", result.stderr)
+
+    def test_csv_has_all_digits(self):
+        self.hamflow("run", KEPLER, "--set", "method.name=verlet", "--set", "run.steps=2", "--set",
+                     "run.arithmetic=quad", "--set", 'output.formats=["csv"]', "--out", "digits.run", "--quiet")
+        with open(f"{self.folder}/digits.run/trajectory.csv") as file:
+            last = file.read().strip().split("\n")[-1].split(",")
+        self.assertGreater(len(last[2]), 30)
+
+
+if __name__ == "__main__":
+    unittest.main()
