@@ -142,10 +142,20 @@ MethodInfo describe(const MethodSpec& spec) {
 
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
   if (problem.accepts(spec)) return {};
-  std::string all;
+  // All of them, or, of the many, the best known.
+  const std::vector<std::string> well_known{"verlet", "stv4", "yoshida6", "kahan-li8", "cg", "rk4", "dop853", "taylor"};
+  std::vector<std::string> accepted;
   for (const MethodEntry& entry : methods()) {
-    if (problem.accepts(MethodSpec{.name = entry.name})) all += (all.empty() ? "" : ", ") + entry.name;
+    if (problem.accepts(MethodSpec{.name = entry.name})) accepted.push_back(entry.name);
   }
+  const bool many = accepted.size() > 12;
+  std::string all;
+  for (const std::string& name : accepted) {
+    if (!many || std::find(well_known.begin(), well_known.end(), name) != well_known.end()) {
+      all += (all.empty() ? "" : ", ") + name;
+    }
+  }
+  if (many) all += " and others (hamflow list methods)";
   std::string needs;
   const MethodEntry& method = find_method(spec.name);
   switch (method.kind) {

@@ -144,10 +144,20 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
   return region;
 }
 
+namespace {
+/// With sub-steps of its own a step has no order; and of a series of order 15, the default, the error cannot be halved
+/// four times in any arithmetic at hand.
+MethodSpec measurable(const MethodSpec& method) {
+  MethodSpec fixed = method;
+  fixed.adaptive.fixed = true;
+  if (fixed.adaptive.order == 0) fixed.adaptive.order = 8;
+  return fixed;
+}
+}  // namespace
+
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method) {
   const ProblemEntry& entry = find_problem(region.problem, region.variant);
-  MethodSpec fixed = method;
-  fixed.adaptive.fixed = true;  // with sub-steps of its own a step has no order
+  const MethodSpec fixed = measurable(method);
   auto map = entry.step_map(complete(entry.info, region.parameters), fixed, region.centre.size() / 2);
   if (!map) throw Error(refusal(method, entry));
   return map;

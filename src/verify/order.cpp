@@ -40,8 +40,9 @@ Finding OrderMeasurement::is(int order) const {
 }
 
 OrderMeasurement measure_order(const StepMap& map, const Region& region) {
-  // In long double four halvings of a method of order 8 lead from half a digit to the rounding.
-  constexpr int highest_in_long_double = 6;
+  // In long double four halvings of a method of order 8 lead from half a digit to the rounding; those of order 6 with
+  // small error constants have no four.
+  constexpr int highest_in_long_double = 5;
   const bool in_quad = map.claims().order > highest_in_long_double && map.has_quad();
   return in_quad ? slope_in<Quad>(map, region) : slope_in<long double>(map, region);
 }
