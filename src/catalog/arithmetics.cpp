@@ -11,6 +11,7 @@ namespace hamflow {
 int mp_digits(const std::string& arithmetic) {
   if (!arithmetic.starts_with("mp(") || !arithmetic.ends_with(")")) return 0;
   const std::string inside = arithmetic.substr(3, arithmetic.size() - 4);
+  if (inside == "d") return 0;  // the name in lists
   int digits = 0;
   const auto [end, error] = std::from_chars(inside.data(), inside.data() + inside.size(), digits);
   if (error != std::errc() || end != inside.data() + inside.size() || digits < MpDigits::fewest ||

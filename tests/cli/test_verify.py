@@ -33,14 +33,6 @@ class Verify(CommandCase):
         answer = json.loads(self.hamflow("verify", "verlet", "--problem", "central-force", "--json").stdout)
         self.assertEqual([m["problem"] for m in answer["methods"][0]["measurements"]], ["central-force"])
 
-    def test_all_of_the_catalogue(self):
-        answer = json.loads(self.hamflow("verify", "--all", "--json").stdout)
-        names = {m["method"] for m in answer["methods"]}
-        listed = json.loads(self.hamflow("list", "methods", "--json").stdout)
-        self.assertLessEqual({m["name"] for m in listed if not m["name"].startswith("cg")}, names)
-        self.assertLessEqual({"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}, names)
-        self.assertEqual([m["method"] for m in answer["methods"] if not m["agrees"]], [])
-
     def test_wrong_requests_name_what_is_meant(self):
         for arguments, words in (
             (["stv5"], "did you mean stv4?"),
