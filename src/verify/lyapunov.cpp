@@ -178,8 +178,8 @@ std::int64_t LyapunovWatch::taken(std::int64_t steps) {
   return block_ = steps_between(block_, logs_);
 }
 
-LyapunovSpectrum lyapunov_spectrum(const StepMap& map, State<double> z, double h, std::int64_t steps,
-                                   std::size_t count, const LyapunovOptions& options) {
+LyapunovSpectrum lyapunov_spectrum(const StepMap& map, State<double> z, double h, std::int64_t steps, std::size_t count,
+                                   const LyapunovOptions& options) {
   TangentFrame frame(map.dimension(), count > 0 ? count : 2 * map.dimension(), options.seed);
   LyapunovSums sums(frame.vectors().size());
   std::vector<double> logs(frame.vectors().size());

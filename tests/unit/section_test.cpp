@@ -1,4 +1,6 @@
 // Poincare sections on partial steps: where the points lie, how many there are, and when.
+#include "hamflow/run/section.hpp"
+
 #include "../support/near.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
@@ -6,7 +8,6 @@
 #include "hamflow/problems/harmonic.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
-#include "hamflow/run/section.hpp"
 #include "hamflow/run/simulation_of.hpp"
 
 namespace hamflow {

@@ -148,7 +148,8 @@ TEST(Lyapunov, RegularOrbitGoesToZero) {
 /// Two orbits 1e-7 apart, their distance reset every 8 steps: no derivative anywhere. The other orbit is off the
 /// tangent by the distance times second derivatives.   [Benettin, Galgani, Strelcyn 1976]
 template <class R>
-std::vector<double> growth_of_distance(const StepMap& map, State<R> z, R h, int resets, const State<double>& direction) {
+std::vector<double> growth_of_distance(const StepMap& map, State<R> z, R h, int resets,
+                                       const State<double>& direction) {
   const R distance = R(1e-7);
   State<R> other = z;
   for (std::size_t i = 0; i < z.size(); ++i) other[i] += distance * static_cast<R>(direction[i]);
@@ -170,7 +171,8 @@ TEST(Lyapunov, ChaoticOrbitAgreesWithTwoNeighbours) {
   const State<double> first = TangentFrame(2, 1).vectors()[0];
   {  // The same orbit, for so short a time that the arithmetic does not matter.
     double sum = 0;
-    for (const double x : growth_of_distance<long double>(map, {0, -0.15L, chaotic()[2], 0.1L}, 0.1L, 125, first)) sum += x;
+    for (const double x : growth_of_distance<long double>(map, {0, -0.15L, chaotic()[2], 0.1L}, 0.1L, 125, first))
+      sum += x;
     EXPECT_TRUE(within(largest_lyapunov(map, chaotic(), h, 1000), sum / 100, 1e-4));
   }
   // For long: averages over different pieces of one chaotic orbit.
@@ -264,7 +266,8 @@ TEST(Lyapunov, TypedKernelAgrees) {
 
 TEST(Lyapunov, WatchedRunGivesTheSameAndKeepsItsBits) {
   const State<double> z = chaotic();
-  const auto map = std::make_shared<StepMapOf<HenonHeiles, Stv4>>([]<class R>() { return HenonHeiles<R>(R(1)); }, Stv4{});
+  const auto map =
+      std::make_shared<StepMapOf<HenonHeiles, Stv4>>([]<class R>() { return HenonHeiles<R>(R(1)); }, Stv4{});
   const std::int64_t steps = 1001;
   auto watched = simulate(HenonHeiles<double>(), Stv4{}, {z[0], z[1]}, {z[2], z[3]}, 0.1);
   auto alone = watched;

@@ -82,6 +82,8 @@ class TangentWatch : public Observer {
   Verdict observe(const Frame& frame) override;
   /// Whether every step could be followed.
   bool followed() const { return followed_; }
+  /// The step that the vectors have reached, -1 before the first.
+  std::int64_t step() const { return at_; }
 
  protected:
   virtual std::vector<State<double>>& tangents() = 0;
