@@ -84,6 +84,14 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
   }
+  if (scenario.section) {  // of a coordinate that is there no more
+    edits.push_back({"run.section", {}});
+    std::string others;
+    for (const std::string& figure : scenario.figures) {
+      if (figure != "section") others += (others.empty() ? "\"" : ", \"") + figure + "\"";
+    }
+    if (!scenario.figures.empty()) edits.push_back({"output.figures", "[" + others + "]"});
+  }
   return edited_scenario(scenario.text, edits);
 }
 

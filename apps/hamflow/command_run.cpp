@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "figures_of_run.hpp"
+#include "measures.hpp"
 #include "progress.hpp"
 #include "resume.hpp"
 #include "run_folder.hpp"
@@ -38,10 +39,12 @@ void draw_figures(const Scenario& scenario, const std::filesystem::path& folder)
 
 /// Takes the steps that are left and tells what they came to.
 RunResult take_steps(const Scenario& scenario, const RunOptions& options, Simulation& simulation, Recorder* recorder,
-                     CheckpointWriter* checkpoints, EnergyBlocks& blocks) {
+                     CheckpointWriter* checkpoints, EnergyBlocks& blocks, Measures& measures) {
   std::vector<Observer*> observers;
   if (recorder != nullptr) observers = {recorder, &blocks, checkpoints};  // in this order: samples of a step belong to it
   if (recorder == nullptr) observers = {&blocks};
+  const std::vector<Observer*> measuring = measures.observers();
+  observers.insert(observers.begin(), measuring.begin(), measuring.end());
   RunResult result;
   Progress progress(simulation.step(), scenario.steps, options.quiet);
   try {
@@ -110,6 +113,7 @@ int carry_out(const Scenario& asked, const RunOptions& options) {
   if (from) {
     if (const auto complaints = differences(asked, *from); !complaints.empty()) return rejected(options, complaints);
     if (const auto summary = finished_summary(asked, *from, folder)) return finish_at_once(*summary, options);
+    if (const auto complaints = refused_resumption(asked); !complaints.empty()) return rejected(options, complaints);
   }
   const Scenario scenario = from ? with_spacing_of(*from, asked, options) : asked;
   const auto simulation = make_simulation(scenario.request);
@@ -129,12 +133,14 @@ int carry_out(const Scenario& asked, const RunOptions& options) {
     checkpoints =
         std::make_unique<CheckpointWriter>(scenario, *simulation, *recorder, blocks, folder, from ? from->wall_seconds : 0);
   }
+  Measures measures(scenario, *simulation, recorder.get());
   catch_interrupts();
   const auto begin = std::chrono::steady_clock::now();
-  RunResult result = take_steps(scenario, options, *simulation, recorder.get(), checkpoints.get(), blocks);
+  RunResult result = take_steps(scenario, options, *simulation, recorder.get(), checkpoints.get(), blocks, measures);
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() + (from ? from->wall_seconds : 0);
   result.steps_taken = simulation->step();
+  result.measures = measures.summary();
 
   const RunCertificate certificate =
       certify(scenario.request, *scenario.problem, *simulation, blocks, result.steps_taken);

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "measures.hpp"
 #include "progress.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
@@ -215,6 +216,29 @@ int carry_out(Sweep& sweep, const SweepCommandOptions& options) {
   return summary["status"] == "failed" ? exit_failed : exit_done;
 }
 
+/// Lyapunov exponents, where the scenario asks for them (run.lyapunov): a column each.
+MemberObservables exponents_asked_for(const std::string& text, const SweepCommandOptions& options,
+                                      const std::vector<Vary>& varied) {
+  std::vector<std::string> sets = options.sets;
+  for (const Vary& vary : varied) sets.push_back(vary.path + "=" + vary.texts.front());
+  const Reading first = read_scenario_text(text, options.scenario, sets);
+  MemberObservables columns;
+  if (!first.scenario) return columns;  // the sweep complains
+  if (first.scenario->section || first.scenario->eigenvalues) {
+    std::cerr << "note: run.section and run.eigenvalues belong to single runs: a sweep leaves them out\n";
+  }
+  const std::size_t count = first.scenario->lyapunov;
+  for (std::size_t i = 1; i <= count; ++i) columns.names.push_back("lyapunov" + std::to_string(i));
+  if (count > 0) {
+    columns.observe = [count](const Scenario& scenario) {
+      std::vector<double> found = exponents_of(scenario);
+      found.resize(count, std::numeric_limits<double>::quiet_NaN());
+      return found;
+    };
+  }
+  return columns;
+}
+
 }  // namespace
 
 int run_sweep(const SweepCommandOptions& options) {
@@ -247,6 +271,7 @@ int run_sweep(const SweepCommandOptions& options) {
     try_to("--vary: error: ", [&] { (void)member_count(varied); });
     try_to("", [&] { how.lanes = lanes_named(options.lanes); });
     if (!wrong.empty()) return rejected(options, wrong);
+    how.observables = exponents_asked_for(text, options, varied);
     Sweep sweep(text, options.scenario, options.sets, varied, how);
     if (!sweep.complaints().empty()) return rejected(options, sweep.complaints());
     return carry_out(sweep, options);

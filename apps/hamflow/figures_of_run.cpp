@@ -61,6 +61,13 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
   if (problem.dimension == 1) {
     data.hamiltonian_1d = [&problem, &parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
+  if (scenario.section && samples.description.section && data.q.size() >= 2) {
+    const Section& section = *scenario.section;
+    const std::size_t shown = (section.coordinate + 1) % data.q.size();
+    data.section_q = std::move(samples.section_q[shown]);
+    data.section_p = std::move(samples.section_p[shown]);
+    data.section_coordinate = data.coordinates.size() == data.q.size() ? data.coordinates[shown] : "q";
+  }
   const char* const usual = problem.dimension == 2 || data.space > 0 ? "orbit"
                             : data.q.size() <= 12                    ? "phase"
                                                                      : "energy-error";

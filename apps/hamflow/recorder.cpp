@@ -38,6 +38,7 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
                                      .dimension = scenario.start_q.size(),
                                      .invariants = invariants,
                                      .diagnostics = scenario.request.method.cg.diagnostics,
+                                     .section = scenario.section.has_value(),
                                      .samples = static_cast<std::size_t>(sample_count(scenario))};
     const std::filesystem::path file = folder / "run.h5";
     h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
@@ -74,6 +75,10 @@ Verdict Recorder::observe(const Frame& frame) {
   last_ = frame.step;
   ++written_;
   return Verdict::go_on;
+}
+
+void Recorder::append(const SectionPoint& point) {
+  if (h5_) h5_->append(point);
 }
 
 void Recorder::finish(const Simulation& simulation) {

@@ -21,6 +21,7 @@ class Recorder final : public Observer {
   std::int64_t next_due(std::int64_t step) const override;
   std::span<const std::string> times(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
+  void append(const SectionPoint& point);
 
   /// The state in which a run by steps ended early is a sample too.
   void finish(const Simulation& simulation);

@@ -57,6 +57,9 @@ class MpSimulation final : public Simulation {
   Outcome look_ahead(const std::string& time, Frame& frame) const override {
     return in_scope([&] { return inner_->look_ahead(time, frame); });
   }
+  Outcome look_part(double theta, Frame& frame) const override {
+    return in_scope([&] { return inner_->look_part(theta, frame); });
+  }
 
  private:
   template <class F>

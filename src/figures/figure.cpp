@@ -82,12 +82,19 @@ std::string condition_obstacle(const FigureData& data) {
   return no_samples("condition");
 }
 
+std::string section_obstacle(const FigureData& data) {
+  if (data.q.size() < 2) return "a section is a plane of points with 2 degrees of freedom or more";
+  if (data.section_coordinate.empty()) return "the run has no section; one is recorded with run.section";
+  return both_finite(data.section_q, data.section_p) ? "" : "the section has no points";
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list{{"orbit", figures::orbit_page, orbit_obstacle},
                                       {"energy", figures::energy_page, energy_obstacle},
                                       {"energy-error", figures::energy_error_page, energy_error_obstacle},
                                       {"phase", figures::phase_page, phase_obstacle},
-                                      {"condition", figures::condition_page, condition_obstacle}};
+                                      {"condition", figures::condition_page, condition_obstacle},
+                                      {"section", figures::section_page, section_obstacle}};
   return list;
 }
 

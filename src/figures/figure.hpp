@@ -23,6 +23,10 @@ struct FigureData {
   std::size_t space = 0;
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run was asked for them.
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;
+  /// The points of a Poincare section in the plane of another coordinate and its momentum, and its name.
+  std::vector<double> section_q;
+  std::vector<double> section_p;
+  std::string section_coordinate;
   /// H(q, p) of one degree of freedom, for the exact level curve in the phase plane; empty otherwise.
   std::function<double(double q, double p)> hamiltonian_1d;
 };
@@ -31,7 +35,7 @@ struct FigureData {
 /// whole if the data go round it. Does nothing without r(phi) or without an orbit in the data.
 void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureData& data);
 
-/// "orbit", "energy", "energy-error", "phase", "condition".
+/// "orbit", "energy", "energy-error", "phase", "condition", "section".
 std::vector<std::string> figure_kinds();
 
 /// Empty if the kind can be drawn from these data, else a sentence saying why not and what can be.

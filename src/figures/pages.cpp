@@ -261,4 +261,21 @@ Page phase_page(const FigureData& data) {
   return page;
 }
 
+Page section_page(const FigureData& data) {
+  constexpr std::size_t most_points = 20000;
+  const Curve points = finite_points(data.section_q, data.section_p);
+  Extent q;
+  Extent p;
+  q.include(points.x);
+  p.include(points.y);
+  Panel panel;
+  panel.x = fit_axis(q, padding, {7, 40});
+  panel.y = fit_axis(p, padding, {7});
+  panel.x_label = symbol(data.section_coordinate);
+  panel.y_label = momentum_symbol(data.section_coordinate);
+  panel.aspect = 0.8;
+  panel.series.push_back({Ink::fine_dots, "", thin_out(points, most_points)});
+  return {data.title, {panel}, 1};
+}
+
 }  // namespace hamflow::figures

@@ -12,6 +12,8 @@ Page energy_error_page(const FigureData& data);
 Page phase_page(const FigureData& data);
 /// Condition and determinant of the tangent, condition of M^-1 and iterations over time.   [Gross1999, figures 3.27, 3.28]
 Page condition_page(const FigureData& data);
+/// Points of a Poincare section.
+Page section_page(const FigureData& data);
 
 constexpr std::size_t most_planes = 12;  // phase planes on one page
 

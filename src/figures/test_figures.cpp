@@ -54,7 +54,10 @@ FigureData ellipse(int samples = 300) {
     data.p[0].push_back(-std::sin(phi));
     data.p[1].push_back(std::cos(phi) + 0.5);
     data.energy.push_back(-0.25 + 1e-16 * (k % 5));
+    data.section_q.push_back(std::sin(phi * phi));
+    data.section_p.push_back(std::cos(phi * phi));
   }
+  data.section_coordinate = "y";
   sample_polar_curve(r, data);
   // Before the first step there is no tangent.
   const auto from_first_step = [&](auto value) {
@@ -125,7 +128,7 @@ std::string message_of(const std::function<void()>& action) {
 }
 
 TEST_F(Figures, EveryKindInEveryFormat) {
-  EXPECT_EQ(figure_kinds(), (std::vector<std::string>{"orbit", "energy", "energy-error", "phase", "condition"}));
+  EXPECT_EQ(figure_kinds(), (std::vector<std::string>{"orbit", "energy", "energy-error", "phase", "condition", "section"}));
   for (const FigureData& data : {ellipse(), oscillator()}) {
     for (const std::string& kind : figure_kinds()) {
       if (!why_not(data, kind).empty()) continue;
@@ -244,6 +247,13 @@ TEST_F(Figures, StrangeNumbersAreDrawn) {
     EXPECT_NO_THROW(drawn(ellipse(1), kind)) << kind;
     EXPECT_THROW(drawn(ellipse(0), kind), Error) << kind;
   }
+}
+
+TEST_F(Figures, SectionsNeedARunThatRecordedThem) {
+  FigureData data = ellipse();
+  data.section_coordinate.clear();
+  EXPECT_NE(why_not(data, "section").find("run.section"), std::string::npos);
+  EXPECT_NE(why_not(oscillator(), "section").find("2 degrees of freedom"), std::string::npos);
 }
 
 TEST_F(Figures, ConditionsNeedARunThatRecordedThem) {

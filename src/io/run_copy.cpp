@@ -84,6 +84,7 @@ void copy_run_file(const std::filesystem::path& source, const std::filesystem::p
   for (const std::string& name : names_in(from, true)) copy_attribute(from, to, name.c_str());
   for (const std::string& name : names_in(from, false)) {
     if (name == "q" || name == "p" || name == "scenario") continue;
+    if (name == "section") continue;  // that of another coordinate
     check_hdf5(H5Ocopy(from, name.c_str(), to, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "copy " + name);
   }
   write_text_dataset(to, "scenario", scenario);

@@ -138,6 +138,8 @@ struct RunFile::Impl {
   std::vector<Column<double>> diagnostics;
   std::vector<Column<double>> scalars;  // energy
   std::vector<Column<std::int64_t>> counts;
+  std::vector<Column<double>> section;  // q, p, t of its points: rows of their own
+  std::size_t section_waiting = 0;
   std::vector<Column<double>> time;  // last: its length tells how many rows are complete
   std::size_t waiting = 0;
   std::size_t most_waiting = batch_rows;
@@ -202,6 +204,12 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   for (const char* name : {"step", "solver/force", "solver/hessian", "solver/linear_solves", "events/halved"}) {
     impl_->counts.emplace_back(id, name, 0, rows);
   }
+  if (description.section) {
+    (void)make_group(id, "section");
+    impl_->section.emplace_back(id, "section/q", description.dimension, batch_rows);
+    impl_->section.emplace_back(id, "section/p", description.dimension, batch_rows);
+    impl_->section.emplace_back(id, "section/t", 0, batch_rows);
+  }
   impl_->time.emplace_back(id, "t", 0, rows);
   std::size_t numbers = 0;
   impl_->for_each_column([&](const auto& column) { numbers += column.numbers_a_row(); });
@@ -261,7 +269,18 @@ void RunFile::append(const Frame& frame) {
   if (++impl_->waiting == impl_->most_waiting) flush();
 }
 
+void RunFile::append(const SectionPoint& point) {
+  for (const double x : point.q) impl_->section.at(0).add(x);
+  for (const double x : point.p) impl_->section[1].add(x);
+  impl_->section[2].add(point.time);
+  if (++impl_->section_waiting == impl_->most_waiting) flush();
+}
+
 void RunFile::flush() {
+  if (impl_->section_waiting > 0) {
+    const std::size_t points = std::exchange(impl_->section_waiting, 0);
+    for (auto& column : impl_->section) column.write(points);
+  }
   if (impl_->waiting == 0) return;
   const std::size_t rows = std::exchange(impl_->waiting, 0);
   impl_->for_each_column([&](auto& column) { column.write(rows); });
@@ -339,6 +358,16 @@ RunSamples read_samples(const std::filesystem::path& path) {
   run.q = by_coordinate(q, q_width, count);
   run.p = by_coordinate(p, p_width, count);
   run.description.dimension = q_width;
+  if (H5Lexists(file, "section", H5P_DEFAULT) > 0) {
+    run.section_t = read_column(file, "section/t", one);
+    const std::vector<double> section_q = read_column(file, "section/q", one);
+    const std::vector<double> section_p = read_column(file, "section/p", one);
+    const std::size_t points = std::min({run.section_t.size(), section_q.size() / q_width, section_p.size() / p_width});
+    run.section_t.resize(points);
+    run.section_q = by_coordinate(section_q, q_width, points);
+    run.section_p = by_coordinate(section_p, p_width, points);
+    run.description.section = true;
+  }
   return run;
 }
 

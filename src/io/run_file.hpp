@@ -4,7 +4,7 @@
 // for /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last
 // step, NaN at the start where there is none), and the totals since the start /solver/force, /solver/hessian,
 // /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps); beside them /scenario, the
-// scenario's text. Root attributes: hamflow (version), host, problem, method, arithmetic, kernel, created. A run that
+// scenario's text. Where asked for, the points of a Poincare section, a row each: /section/t, q, p. Root attributes: hamflow (version), host, problem, method, arithmetic, kernel, created. A run that
 // goes on copies the rows that stay into a fresh file, which then takes the place of the old one: only a reader can
 // open what a crash leaves. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
 #pragma once
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "hamflow/run/observer.hpp"
+#include "hamflow/run/section.hpp"
 
 namespace hamflow {
 
@@ -32,6 +32,7 @@ struct RunDescription {
   std::size_t dimension = 0;
   std::vector<std::pair<std::string, std::size_t>> invariants;  // names and numbers of components
   bool diagnostics = false;                                     // of implicit steps
+  bool section = false;                                         // points of one are written
   std::size_t samples = 0;  // expected, so that a short run leaves a small file; 0: unknown
   std::string created;      // empty: now
 };
@@ -46,6 +47,7 @@ class RunFile {
   RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows);
   ~RunFile();
   void append(const Frame& frame);
+  void append(const SectionPoint& point);
   /// Appended so far, written or not.
   std::uint64_t rows() const;
   /// Writes and flushes what has gathered. @throws FileError, e.g. when the disk is full
@@ -66,6 +68,9 @@ struct RunSamples {
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;  // empty unless the run was asked for them
+  std::vector<double> section_t;  // of the points of a section
+  std::vector<std::vector<double>> section_q;
+  std::vector<std::vector<double>> section_p;
 };
 
 /// @throws FileError naming the file and what is wrong with it

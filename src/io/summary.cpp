@@ -198,6 +198,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   }
   s["events"] = Json::object();
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
+  for (const auto& [key, value] : result.measures.items()) s[key] = value;
   s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
@@ -223,6 +224,45 @@ std::string orbit_text(const Json& orbit) {
                       orbit["r_max"].get<double>(), orbit["apsidal_angle"].get<double>());
   if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
   return text;
+}
+}  // namespace
+
+namespace {
+std::string shown_number(const Json& x, const char* form) {
+  return x.is_null() ? std::string("nan") : fmt::format(fmt::runtime(form), x.get<double>());
+}
+
+/// The largest of some numbers, without sign.
+double largest_of(const Json& xs) {
+  double largest = 0;
+  for (const Json& x : xs) largest = x.is_null() ? largest : std::max(largest, std::abs(x.get<double>()));
+  return largest;
+}
+
+std::string lyapunov_text(const Json& found) {
+  constexpr std::size_t most_shown = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found["exponents"].size(), most_shown); ++i) {
+    text += (i > 0 ? ", " : "") + shown_number(found["exponents"][i], "{:.6g}") + " +- " +
+            shown_number(found["standard_errors"][i], "{:.2g}");
+  }
+  if (found["exponents"].size() > most_shown) text += ", ...";
+  if (!found["pair_sums"].empty()) text += fmt::format("; pairs sum to at most {:.2g}", largest_of(found["pair_sums"]));
+  return text;
+}
+
+std::string eigenvalues_text(const Json& found) {
+  if (found["values"].is_null()) return found["message"].get<std::string>();
+  constexpr std::size_t most_shown = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found["values"].size(), most_shown); ++i) {
+    const double imaginary = found["values"][i][1].get<double>();
+    text += (i > 0 ? ", " : "") + fmt::format("{:.6g}", found["values"][i][0].get<double>()) +
+            (imaginary != 0 ? fmt::format("{:+.6g}i", imaginary) : "");
+  }
+  if (found["values"].size() > most_shown) text += ", ...";
+  return text + fmt::format("; products of pairs {:.2g} off 1, {:.2g} off symplectic",
+                            found["pair_defect"].get<double>(), found["symplectic_defect"].get<double>());
 }
 }  // namespace
 
@@ -286,6 +326,12 @@ std::string readable(const Json& s) {
                             s["newton"]["stagnated"].get<long long>()));
   }
   for (const auto& [key, value] : s["events"].items()) text += row("event " + key, value.dump());
+  if (s.contains("lyapunov")) text += row("Lyapunov exponents", lyapunov_text(s["lyapunov"]));
+  if (s.contains("eigenvalues")) text += row("eigenvalues", eigenvalues_text(s["eigenvalues"]));
+  if (s.contains("section")) {
+    text += row("section", fmt::format("{} points, at most {:.2g} off it", s["section"]["points"].get<std::int64_t>(),
+                                       s["section"]["max_residual"].get<double>()));
+  }
   if (s.contains("certificate") && !s["certificate"].is_null()) {
     text += row("certificate", certificate_text(s["certificate"]));
   }

@@ -16,6 +16,7 @@ struct RunResult {
   std::string file_trouble;  // why the samples could not be written any further
   double wall_seconds = 0;
   std::int64_t steps_taken = 0;
+  nlohmann::ordered_json measures = nlohmann::ordered_json::object();  // further entries of the summary
 };
 
 /// "done", "failed" or "interrupted".

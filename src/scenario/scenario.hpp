@@ -10,6 +10,7 @@
 
 #include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/section.hpp"
 
 namespace hamflow {
 
@@ -46,6 +47,9 @@ struct Scenario {
   std::string folder;                      // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
+  std::size_t lyapunov = 0;          // exponents to be measured
+  bool eigenvalues = false;          // of the derivative of all steps
+  std::optional<Section> section{};  // whose points are recorded
   std::vector<std::string> notes;   // worth saying, but no errors
   std::optional<TwoBodies> bodies;  // of a start by two bodies in space
   std::vector<double> start_q;      // in double, canonical

@@ -48,6 +48,8 @@ class ScenarioReader {
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
   void read_length(TomlTable& table);
+  void read_measures(TomlTable& table);
+  void read_section(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
   void read_lattice(TomlTable& table);

@@ -12,7 +12,7 @@ std::vector<std::string> method_names() {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   return names;
 }
-const std::vector<std::string> figure_names{"orbit", "energy", "energy-error", "phase", "condition"};
+const std::vector<std::string> figure_names{"orbit", "energy", "energy-error", "phase", "condition", "section"};
 const std::vector<std::string> cg_keys{"degree",         "quadrature", "tolerance",     "criterion",
                                        "max_iterations", "iteration",  "on_divergence", "diagnostics"};
 }  // namespace
@@ -109,6 +109,7 @@ void ScenarioReader::read_run(TomlTable& table) {
   read_samples(table);
   if (const auto every = table.whole("checkpoint_every", 1, most_steps)) scenario_.checkpoint_every = *every;
   read_arithmetic(table);
+  read_measures(table);
   if (const auto kernel = table.choice("kernel", {"exact", "fast"})) {
     scenario_.request.kernel = *kernel;
     if (*kernel == "fast" && scenario_.problem != nullptr && !scenario_.request.method.name.empty()) {
@@ -325,6 +326,11 @@ void ScenarioReader::read_output(TomlTable& table) {
   }
   if (wants(scenario_.figures, "condition") && !scenario_.request.method.cg.diagnostics) {
     table.complain("figures", "found \"condition\", which needs method.diagnostics = true of an implicit method");
+  }
+  if (wants(scenario_.figures, "section") && dimension == 1) {
+    table.complain("figures", "found \"section\" for a problem with 1 degree of freedom; allowed with 2 and more");
+  } else if (wants(scenario_.figures, "section") && !scenario_.section) {
+    table.complain("figures", "found \"section\", which needs run.section, e.g. { coordinate = \"q1\" }");
   }
   table.finish();
 }

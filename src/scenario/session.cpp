@@ -202,6 +202,12 @@ Outcome Session::look_ahead(const std::string& time, Frame& frame) const {
   return outcome;
 }
 
+Outcome Session::look_part(double theta, Frame& frame) const {
+  const Outcome outcome = simulation_->look_part(theta, frame);
+  if (outcome == Outcome::done) in_session(frame);
+  return outcome;
+}
+
 void Session::reverse_time() {
   watch_from_here();
   simulation_->reverse_time();

@@ -57,6 +57,7 @@ class Session final : public Simulation {
   void restore(std::span<const std::byte> saved) override;
   std::unique_ptr<Simulation> clone() const override;
   Outcome look_ahead(const std::string& time, Frame& frame) const override;
+  Outcome look_part(double theta, Frame& frame) const override;
 
  private:
   void change(const Request& next, const std::string& what);

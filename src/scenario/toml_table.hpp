@@ -43,6 +43,7 @@ class TomlTable {
   TomlTable table(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
   void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
+  bool is_boolean(const std::string& key) const { return has(key) && table_->get(key)->is_boolean(); }
   /// Whether the value came from the command line and not from the file.
   bool from_set(const std::string& key) const { return has(key) && table_->get(key)->source().begin.line == 0; }
 

@@ -70,6 +70,29 @@ TEST_F(RunFileTest, RoundTrip) {
   EXPECT_EQ(run.description.method, "m");
 }
 
+TEST_F(RunFileTest, PointsOfASectionHaveRowsOfTheirOwn) {
+  RunDescription with_section = description;
+  with_section.section = true;
+  {
+    RunFile file(file_, with_section);
+    for (std::int64_t k = 0; k < 3; ++k) file.append(row(k));
+    for (int k = 0; k < 5; ++k) file.append(SectionPoint{0.25 * k, {0.0, 1.0 * k}, {2.0 * k, 3.0 * k}, 0});
+    file.flush();
+    EXPECT_EQ(read_run_file(file_).section_t.size(), 5U);
+    file.append(SectionPoint{1.25, {0, 5}, {10, 15}, 0});
+  }
+  const RunSamples run = read_run_file(file_);
+  expect_rows(run, 3);
+  ASSERT_EQ(run.section_t.size(), 6U);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto x = static_cast<double>(k);
+    EXPECT_EQ(run.section_t[k], 0.25 * x);
+    EXPECT_EQ(run.section_q[1][k], x);
+    EXPECT_EQ(run.section_p[0][k], 2 * x);
+    EXPECT_EQ(run.section_p[1][k], 3 * x);
+  }
+}
+
 TEST_F(RunFileTest, ReadableWhileItGrows) {
   RunFile file(file_, description);
   for (std::int64_t k = 0; k < 100; ++k) file.append(row(k));

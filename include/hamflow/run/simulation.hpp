@@ -88,6 +88,9 @@ class Simulation {
   /// A time that differs from t_n by rounding alone is t_n.   [spec: methods, section 3b]
   /// @param time a number expression, read in the arithmetic of the simulation
   virtual Outcome look_ahead(const std::string& time, Frame& frame) const = 0;
+  /// The same after the part theta of a step, theta in [0, 1]: what happens within a step is found to the rounding of
+  /// theta h, not of the time.
+  virtual Outcome look_part(double theta, Frame& frame) const = 0;
 };
 
 }  // namespace hamflow

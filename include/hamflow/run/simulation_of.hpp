@@ -93,15 +93,15 @@ class SimulationOf final : public Simulation {
       look(frame);
       return Outcome::done;
     }
-    if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
-    M method = method_;
-    method.invalidate();  // what it remembers belongs to steps of length h
-    PhasePoint<A, n> z = z_;
-    Probe probe = probe_;
-    std::int64_t taken = 0;
-    const Outcome outcome = march(1, part, taken, method, z, probe);
-    if (outcome == Outcome::done) show(z, t, frame);
-    return outcome;
+    return show_after(part, t, frame);
+  }
+  [[gnu::cold]] Outcome look_part(double theta, Frame& frame) const override {
+    if (theta == 0) {
+      look(frame);
+      return Outcome::done;
+    }
+    const Real part = Real(theta) * clock_.step_length();
+    return show_after(part, clock_.time() + part, frame);
   }
 
   void reverse_time() override {
@@ -202,6 +202,19 @@ class SimulationOf final : public Simulation {
   [[gnu::cold]] static void archive(Archive& ar, Self& self) {
     ar(self.z_, self.clock_, self.probe_, self.initial_energy_, self.scale_);
     if constexpr (detail::HasArchive<M, Archive>) ar(self.method_);
+  }
+
+  /// The state after one step of length `part`, which is at time t.
+  [[gnu::cold]] Outcome show_after(const Real& part, const Real& t, Frame& frame) const {
+    if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
+    M method = method_;
+    method.invalidate();  // what it remembers belongs to steps of length h
+    PhasePoint<A, n> z = z_;
+    Probe probe = probe_;
+    std::int64_t taken = 0;
+    const Outcome outcome = march(1, part, taken, method, z, probe);
+    if (outcome == Outcome::done) show(z, t, frame);
+    return outcome;
   }
 
   [[gnu::noinline]] void show(const PhasePoint<A, n>& z, const Real& time, Frame& frame) const {

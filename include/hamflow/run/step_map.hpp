@@ -41,6 +41,10 @@ class StepMap {
   virtual bool has_quad() const { return false; }
   virtual bool advance(State<Quad>&, const Quad&, std::int64_t) const { return false; }
   virtual State<Quad> flow(const State<Quad>& z, const Quad&) const { return z; }
+  /// advance(z, h, steps), bit for bit, that takes tangent vectors with it: each becomes (d Psi_h^steps/dz) times
+  /// itself, exact to rounding like jacobian().
+  virtual bool advance_with_tangents(State<double>& z, std::vector<State<double>>& tangents, double h,
+                                     std::int64_t steps) const = 0;
 };
 
 }  // namespace hamflow

@@ -95,6 +95,20 @@ class StepMapOf final : public StepMap {
     }
   }
 
+  bool advance_with_tangents(State<double>& z, std::vector<State<double>>& tangents, double h,
+                             std::int64_t steps) const override {
+    if constexpr (Recipe::implicit) {
+      return implicit_tangents(z, tangents, h, steps);
+    } else {
+      const State<double> from = z;
+      if (!go(problem_, z, h, steps)) return false;
+      for (State<double>& tangent : tangents) {
+        if (!explicit_tangent(from, tangent, h, steps)) return false;
+      }
+      return true;
+    }
+  }
+
   std::vector<double> energies(const State<double>& z, double h, int blocks, std::int64_t steps) const override {
     auto simulation = simulation_from(z, h);
     std::vector<double> all{simulation.energy().initial};
@@ -204,6 +218,83 @@ class StepMapOf final : public StepMap {
       for (std::size_t k = 0; k < width; ++k) rows[i][k] = (i == k ? 1.0 : 0.0) - by_z[i * width + k];
     }
     return rows;
+  }
+
+  /// x as dual numbers along the tangent vector whose part from `first` on belongs to x.
+  static Vector<Dual<double, 1>, n> along(const V& x, const State<double>& tangent, std::size_t first) {
+    auto y = zeros<Dual<double, 1>, n>(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      y[i] = x[i];
+      y[i].slope[0] = tangent[first + i];
+    }
+    return y;
+  }
+
+  /// One method takes one direction through all steps, so that what it keeps from step to step is used here, too.
+  bool explicit_tangent(const State<double>& z, State<double>& tangent, double h, std::int64_t steps) const {
+    using A = Plain<Dual<double, 1>>;
+    auto method = recipe_.template bind<P, A>(problem_);
+    PhasePoint<A, n> point;
+    point.store(along(detail::part_of<double, n>(z, 0), tangent, 0),
+                along(detail::part_of<double, n>(z, size_), tangent, size_));
+    for (std::int64_t i = 0; i < steps; ++i) {
+      if (method.step(problem_, h, point) != Outcome::done) return false;
+    }
+    for (std::size_t i = 0; i < size_; ++i) {
+      tangent[i] = point.q[i].slope[0];
+      tangent[size_ + i] = point.p[i].slope[0];
+    }
+    return true;
+  }
+
+  /// Step by step t <- t - (dr/du)^-1 (dr/dz0) t, see implicit_jacobian(). A step that was replaced by two halves does
+  /// not solve the one equation: refused.
+  bool implicit_tangents(State<double>& z, std::vector<State<double>>& tangents, double h, std::int64_t steps) const {
+    using A = Arithmetic<double>;
+    using D = Dual<double, 1>;
+    auto method = recipe_.template bind<P, A>(problem_);
+    PhasePoint<A, n> point;
+    point.store(detail::part_of<double, n>(z, 0), detail::part_of<double, n>(z, size_));
+    const std::size_t width = 2 * size_;
+    const std::size_t columns = tangents.size();
+    std::vector<double> by_u(width * width);
+    std::vector<double> right(width * columns);
+    for (std::int64_t step = 0; step < steps; ++step) {
+      const V q0 = point.positions();
+      const V p0 = point.momenta();
+      const auto halved = method.effort().halved;
+      if (method.step(problem_, h, point) != Outcome::done || method.effort().halved != halved) return false;
+      V du_q = point.positions();
+      V du_p = point.momenta();
+      for (std::size_t i = 0; i < size_; ++i) {
+        du_q[i] -= q0[i];
+        du_p[i] -= p0[i];
+      }
+      const auto column = [&](const Increment<D, n>& u, const Vector<D, n>& q, const Vector<D, n>& p, double* out,
+                              std::size_t stride) {
+        Increment<D, n> r;
+        method.equations(problem_, h, q, p, u, r);
+        for (std::size_t i = 0; i < size_; ++i) {
+          out[i * stride] = r.q[i].slope[0];
+          out[(size_ + i) * stride] = r.p[i].slope[0];
+        }
+      };
+      const State<double> fixed(width);
+      for (std::size_t k = 0; k < width; ++k) {
+        column({seeded(du_q, k, 0), seeded(du_p, k, size_)}, along(q0, fixed, 0), along(p0, fixed, size_), &by_u[k],
+               width);
+      }
+      for (std::size_t k = 0; k < columns; ++k) {
+        column({along(du_q, fixed, 0), along(du_p, fixed, size_)}, along(q0, tangents[k], 0),
+               along(p0, tangents[k], size_), &right[k], columns);
+      }
+      if (columns > 0) detail::solve_large(by_u.data(), right.data(), width, columns);
+      for (std::size_t k = 0; k < columns; ++k) {
+        for (std::size_t i = 0; i < width; ++i) tangents[k][i] -= right[i * columns + k];
+      }
+    }
+    z = detail::joined<double, n>(point.positions(), point.momenta());
+    return true;
   }
 
   P problem_;

@@ -1,0 +1,57 @@
+// Poincare sections: the states in which a coordinate x passes a value, found on partial steps. Between two steps of
+// opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so that a point of the
+// section lies on the energy level of the method like any of its steps.   [spec: methods, section 3b]
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "hamflow/run/observer.hpp"
+
+namespace hamflow {
+
+struct Section {
+  std::size_t coordinate = 0;  // of q, or of p
+  bool momentum = false;
+  double value = 0;
+  int direction = 1;  // 1: x increases along the run, -1: it decreases, 0: both
+};
+
+struct SectionPoint {
+  double time = 0;
+  std::vector<double> q;
+  std::vector<double> p;
+  double residual = 0;  // |x - value|
+};
+
+/// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
+/// blocks of one, some hundred nanoseconds a step. A start on the section is no point of it; an even number of
+/// crossings within one step is not seen.
+class SectionFinder final : public Observer {
+ public:
+  /// @param simulation that runs
+  SectionFinder(const Simulation& simulation, const Section& section, std::function<void(const SectionPoint&)> found);
+  std::int64_t next_due(std::int64_t step) const override { return failed_ ? never : step; }
+  Verdict observe(const Frame& frame) override;
+  std::int64_t points() const { return points_; }
+  double max_residual() const { return max_residual_; }
+  /// Whether a partial step failed: no points are sought after it.
+  bool failed() const { return failed_; }
+
+ private:
+  double distance(const Frame& frame) const;
+  bool locate(std::int64_t step, double before, double after);
+
+  const Simulation& simulation_;
+  Section section_;
+  std::function<void(const SectionPoint&)> found_;
+  std::unique_ptr<Simulation> copy_;  // at most some steps behind
+  double before_ = 0;                 // x - value at the last step
+  bool begun_ = false;
+  bool failed_ = false;
+  std::int64_t points_ = 0;
+  double max_residual_ = 0;
+  Frame partial_;
+};
+
+}  // namespace hamflow

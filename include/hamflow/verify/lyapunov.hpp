@@ -1,0 +1,137 @@
+// Lyapunov exponents of a step map: how fast neighbouring orbits of the *method* part.
+//
+// Tangent vectors are carried by the exact derivative of each step and orthonormalised from time to time, M Q = Q' R;
+// the exponents are the sums of log R_ii over time.   [Benettin, Galgani, Giorgilli, Strelcyn 1980]
+//
+// Exponents of a Hamiltonian flow come in pairs +-lambda. Here they do so at every finite time, not in the limit alone:
+// the first frame is (u_1 .. u_n, J u_n .. J u_1), orthonormal and symplectic. In this order a symplectic M has a
+// factorisation with Q' orthonormal and symplectic and R symplectic, R_ii R_(2n+1-i)(2n+1-i) = 1 (the Iwasawa
+// decomposition of the symplectic group), and Q R with R_ii > 0 is unique. A sum lambda_i + lambda_(2n+1-i) that
+// differs from 0 by more than rounding therefore shows a step that is not symplectic.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hamflow/run/observer.hpp"
+#include "hamflow/run/step_map.hpp"
+
+namespace hamflow {
+
+/// Orthonormal tangent vectors; all 2n, or the first few of them.
+class TangentFrame {
+ public:
+  /// @param dimension n   @param count 1 .. 2n   @param seed of the generic first frame
+  TangentFrame(std::size_t dimension, std::size_t count, std::uint64_t seed = 1);
+  std::vector<State<double>>& vectors() { return vectors_; }
+  const std::vector<State<double>>& vectors() const { return vectors_; }
+  /// Makes the vectors orthonormal again, in their order, by modified Gram-Schmidt, twice; `logs` are the log R_ii.
+  /// False where one of them vanished or is not finite.
+  bool orthonormalise(std::span<double> logs);
+
+ private:
+  std::vector<State<double>> vectors_;
+};
+
+/// What is known after a time.
+struct LyapunovSpectrum {
+  /// In the order of the frame: falling, once they have settled.
+  std::vector<double> exponents;
+  /// Of the mean over 32 to 63 blocks of time, as if these were independent; NaN before there are two. Of regular
+  /// motion the exponents go to 0 like log(t)/t, and this bias is larger.
+  std::vector<double> standard_errors;
+  std::vector<double> pair_sums;  // lambda_i + lambda_(2n+1-i), i = 1 .. n, where all 2n are known
+  double time = 0;
+  std::int64_t renormalisations = 0;
+};
+
+/// Sums of log R_ii, with block averages on the way.
+class LyapunovSums {
+ public:
+  explicit LyapunovSums(std::size_t count) : total_(count), block_(count) {}
+  void add(std::span<const double> logs, std::int64_t steps);
+  /// @param dimension n   @param h the length of a step
+  LyapunovSpectrum spectrum(std::size_t dimension, double h) const;
+
+ private:
+  struct Block {
+    std::vector<double> logs;
+    std::int64_t steps = 0;
+  };
+  std::vector<double> total_;
+  std::int64_t steps_ = 0;
+  std::int64_t renormalisations_ = 0;
+  std::vector<double> block_;  // the present one
+  std::int64_t block_steps_ = 0;
+  std::int64_t wanted_steps_ = 1;  // of a block; doubles when there are too many
+  std::vector<Block> blocks_;
+};
+
+/// How many steps to take before the next orthonormalisation: their growth should be some powers of 2, which costs
+/// about as many bits of the most contracting directions, and stays below 2^20 unless it suddenly triples.
+std::int64_t steps_between(std::int64_t present, std::span<const double> logs);
+
+/// Follows a run: tangent vectors are carried along its states, which it does not change. Of a run in double.
+class TangentWatch : public Observer {
+ public:
+  /// @param last_step of the run   @throws Error when there is no such map
+  TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
+  std::int64_t next_due(std::int64_t step) const override;
+  Verdict observe(const Frame& frame) override;
+  /// Whether every step could be followed.
+  bool followed() const { return followed_; }
+  /// The step that the vectors have reached, -1 before the first.
+  std::int64_t step() const { return at_; }
+
+ protected:
+  virtual std::vector<State<double>>& tangents() = 0;
+  /// After so many steps. Returns how many to take next; 0: the vectors cannot be followed any further.
+  virtual std::int64_t taken(std::int64_t steps) = 0;
+  const StepMap& map() const { return *map_; }
+  double step_length() const { return h_; }
+
+ private:
+  std::shared_ptr<const StepMap> map_;
+  double h_;
+  std::int64_t last_step_;
+  std::int64_t due_ = 0;
+  std::int64_t at_ = -1;  // the step to which the vectors belong
+  State<double> z_;
+  bool followed_ = true;
+};
+
+/// Lyapunov exponents beside a run. Costs, for each exponent, about two to three times the steps of the run.
+class LyapunovWatch final : public TangentWatch {
+ public:
+  /// @param count of exponents, the largest first; 0: all 2n
+  LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count = 0);
+  LyapunovSpectrum spectrum() const { return sums_.spectrum(map().dimension(), step_length()); }
+
+ protected:
+  std::vector<State<double>>& tangents() override { return frame_.vectors(); }
+  std::int64_t taken(std::int64_t steps) override;
+
+ private:
+  TangentFrame frame_;
+  LyapunovSums sums_;
+  std::vector<double> logs_;
+  std::int64_t block_ = 1;
+};
+
+struct LyapunovOptions {
+  std::int64_t transient = 0;  // steps before counting begins, in which the vectors turn towards their directions
+  std::uint64_t seed = 1;      // of the first frame
+};
+
+/// The largest `count` exponents of the orbit of z over `steps` steps after the transient; count 0: all.
+/// @throws Error when a step fails
+LyapunovSpectrum lyapunov_spectrum(const StepMap& map, State<double> z, double h, std::int64_t steps,
+                                   std::size_t count = 0, const LyapunovOptions& options = {});
+/// The largest alone; NaN when a step fails. May be called from several threads, also on one map. At its fastest with a
+/// StepMapOf that names problem and method as types.
+double largest_lyapunov(const StepMap& map, State<double> z, double h, std::int64_t steps,
+                        const LyapunovOptions& options = {});
+
+}  // namespace hamflow

@@ -1,0 +1,222 @@
+#include "hamflow/verify/lyapunov.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "hamflow/core/error.hpp"
+#include "hamflow/verify/counter_random.hpp"
+
+namespace hamflow {
+
+namespace {
+
+double dot(const State<double>& a, const State<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Generic orthonormal columns of C^n; the real and imaginary parts of one are the q and p of a tangent vector. A
+/// unitary matrix is at once orthogonal and symplectic, and J is multiplication by -i.
+std::vector<std::vector<std::complex<double>>> unitary_columns(std::size_t n, std::size_t count, std::uint64_t seed) {
+  std::vector<std::vector<std::complex<double>>> columns(count, std::vector<std::complex<double>>(n));
+  std::uint64_t drawn = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    for (auto& entry : columns[k]) {
+      const double real = counter_uniform(seed, drawn++);
+      entry = {real, counter_uniform(seed, drawn++)};
+    }
+    for (int pass = 0; pass < 2; ++pass) {
+      for (std::size_t j = 0; j < k; ++j) {
+        std::complex<double> product = 0;
+        for (std::size_t i = 0; i < n; ++i) product += std::conj(columns[j][i]) * columns[k][i];
+        for (std::size_t i = 0; i < n; ++i) columns[k][i] -= product * columns[j][i];
+      }
+      double square = 0;
+      for (const auto& entry : columns[k]) square += std::norm(entry);
+      for (auto& entry : columns[k]) entry /= std::sqrt(square);
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+TangentFrame::TangentFrame(std::size_t dimension, std::size_t count, std::uint64_t seed) {
+  if (count < 1 || count > 2 * dimension) {
+    throw Error("found " + std::to_string(count) + " tangent vectors; allowed 1 to " + std::to_string(2 * dimension));
+  }
+  const auto columns = unitary_columns(dimension, std::min(count, dimension), seed);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& u = columns[k < dimension ? k : 2 * dimension - 1 - k];
+    State<double> vector(2 * dimension);
+    for (std::size_t i = 0; i < dimension; ++i) {
+      vector[i] = k < dimension ? u[i].real() : u[i].imag();  // J (q, p) = (p, -q)
+      vector[dimension + i] = k < dimension ? u[i].imag() : -u[i].real();
+    }
+    vectors_.push_back(std::move(vector));
+  }
+}
+
+bool TangentFrame::orthonormalise(std::span<double> logs) {
+  for (std::size_t k = 0; k < vectors_.size(); ++k) {
+    State<double>& v = vectors_[k];
+    for (int pass = 0; pass < (k > 0 ? 2 : 1); ++pass) {  // twice is enough [Parlett 1998, Sect. 6.9]
+      for (std::size_t j = 0; j < k; ++j) {
+        const State<double>& u = vectors_[j];
+        const double product = dot(u, v);
+        for (std::size_t i = 0; i < v.size(); ++i) v[i] -= product * u[i];
+      }
+    }
+    const double length = std::sqrt(dot(v, v));
+    if (!(length > 0 && length <= std::numeric_limits<double>::max())) return false;
+    for (double& x : v) x /= length;
+    logs[k] = std::log(length);
+  }
+  return true;
+}
+
+void LyapunovSums::add(std::span<const double> logs, std::int64_t steps) {
+  constexpr std::size_t most_blocks = 64;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    total_[i] += logs[i];
+    block_[i] += logs[i];
+  }
+  steps_ += steps;
+  block_steps_ += steps;
+  ++renormalisations_;
+  if (block_steps_ < wanted_steps_) return;
+  blocks_.push_back({block_, block_steps_});
+  block_.assign(block_.size(), 0);
+  block_steps_ = 0;
+  if (blocks_.size() < most_blocks) return;
+  for (std::size_t k = 0; k < most_blocks / 2; ++k) {
+    Block& joined = blocks_[k];
+    const Block first = blocks_[2 * k];
+    const Block second = blocks_[2 * k + 1];
+    joined.steps = first.steps + second.steps;
+    for (std::size_t i = 0; i < joined.logs.size(); ++i) joined.logs[i] = first.logs[i] + second.logs[i];
+  }
+  blocks_.resize(most_blocks / 2);
+  wanted_steps_ *= 2;
+}
+
+/// Blocks differ a little in length; each counts by it.
+LyapunovSpectrum LyapunovSums::spectrum(std::size_t dimension, double h) const {
+  LyapunovSpectrum found;
+  const double step = std::abs(h);
+  found.time = static_cast<double>(steps_) * step;
+  found.renormalisations = renormalisations_;
+  double in_blocks = 0;
+  for (const Block& block : blocks_) in_blocks += static_cast<double>(block.steps) * step;
+  const auto count = static_cast<double>(blocks_.size());
+  for (std::size_t i = 0; i < total_.size(); ++i) {
+    found.exponents.push_back(total_[i] / found.time);
+    double mean = 0;
+    for (const Block& block : blocks_) mean += block.logs[i] / in_blocks;
+    double variance = 0;
+    for (const Block& block : blocks_) {
+      const double time = static_cast<double>(block.steps) * step;
+      const double deviation = block.logs[i] / time - mean;
+      variance += time / in_blocks * deviation * deviation;
+    }
+    found.standard_errors.push_back(count < 2 ? std::numeric_limits<double>::quiet_NaN()
+                                              : std::sqrt(variance / (count - 1)));
+  }
+  if (total_.size() == 2 * dimension) {
+    for (std::size_t i = 0; i < dimension; ++i) {
+      found.pair_sums.push_back((total_[i] + total_[2 * dimension - 1 - i]) / found.time);
+    }
+  }
+  return found;
+}
+
+std::int64_t steps_between(std::int64_t present, std::span<const double> logs) {
+  constexpr std::int64_t most = 64;
+  double largest = 0;
+  for (const double x : logs) largest = std::max(largest, std::abs(x) / std::log(2.0));
+  if (largest > 6) return std::max<std::int64_t>(present / 2, 1);
+  return largest < 2 ? std::min(2 * present, most) : present;
+}
+
+TangentWatch::TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
+    : map_(std::move(map)), h_(h), last_step_(last_step) {
+  if (map_ == nullptr) throw Error("hamflow: there is no map of one step to differentiate");
+}
+
+std::int64_t TangentWatch::next_due(std::int64_t step) const {
+  if (!followed_ || step > last_step_) return never;
+  return std::max(step, std::min(due_, last_step_));
+}
+
+Verdict TangentWatch::observe(const Frame& frame) {
+  State<double> now = frame.q;
+  now.insert(now.end(), frame.p.begin(), frame.p.end());
+  std::int64_t next = 1;
+  if (at_ >= 0 && frame.step > at_) {
+    const std::int64_t steps = frame.step - at_;
+    followed_ = map_->advance_with_tangents(z_, tangents(), h_, steps);
+    next = followed_ ? taken(steps) : 0;
+    followed_ = next > 0;
+  }
+  z_ = std::move(now);  // of the run itself, to the bit
+  at_ = frame.step;
+  due_ = at_ + next;
+  return Verdict::go_on;
+}
+
+LyapunovWatch::LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count)
+    : TangentWatch(map, h, last_step),
+      frame_(map->dimension(), count > 0 ? count : 2 * map->dimension()),
+      sums_(frame_.vectors().size()),
+      logs_(frame_.vectors().size()) {}
+
+std::int64_t LyapunovWatch::taken(std::int64_t steps) {
+  if (!frame_.orthonormalise(logs_)) return 0;
+  sums_.add(logs_, steps);
+  return block_ = steps_between(block_, logs_);
+}
+
+LyapunovSpectrum lyapunov_spectrum(const StepMap& map, State<double> z, double h, std::int64_t steps, std::size_t count,
+                                   const LyapunovOptions& options) {
+  TangentFrame frame(map.dimension(), count > 0 ? count : 2 * map.dimension(), options.seed);
+  LyapunovSums sums(frame.vectors().size());
+  std::vector<double> logs(frame.vectors().size());
+  std::int64_t block = 1;
+  const auto go = [&](std::int64_t length, bool counts) {
+    for (std::int64_t done = 0; done < length;) {
+      const std::int64_t now = std::min(block, length - done);
+      if (!map.advance_with_tangents(z, frame.vectors(), h, now) || !frame.orthonormalise(logs)) {
+        throw Error("a step failed on the way to the Lyapunov exponents");
+      }
+      if (counts) sums.add(logs, now);
+      block = steps_between(block, logs);
+      done += now;
+    }
+  };
+  go(options.transient, false);
+  go(steps, true);
+  return sums.spectrum(map.dimension(), h);
+}
+
+double largest_lyapunov(const StepMap& map, State<double> z, double h, std::int64_t steps,
+                        const LyapunovOptions& options) {
+  TangentFrame frame(map.dimension(), 1, options.seed);
+  double total = 0;
+  double log = 0;
+  std::int64_t block = 1;
+  for (std::int64_t done = -options.transient; done < steps;) {
+    const std::int64_t end = done < 0 ? 0 : steps;
+    const std::int64_t now = std::min(block, end - done);
+    if (!map.advance_with_tangents(z, frame.vectors(), h, now) || !frame.orthonormalise({&log, 1})) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (done >= 0) total += log;
+    block = steps_between(block, {&log, 1});
+    done += now;
+  }
+  return total / (static_cast<double>(steps) * std::abs(h));
+}
+
+}  // namespace hamflow

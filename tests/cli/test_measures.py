@@ -1,0 +1,107 @@
+"""What is measured beside a run: Lyapunov exponents, eigenvalues of the steps' derivative, Poincare sections."""
+
+import json
+import math
+import unittest
+
+from command import CommandCase
+
+CHAOS = """
+[problem]
+name = "henon-heiles"
+initial = { q = [0, -0.15], p = [0.54, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 20000
+[output]
+formats = ["h5", "csv"]
+"""
+ALL = ("--set", "run.lyapunov=true", "--set", "run.eigenvalues=true", "--set", "run.section={coordinate='q1'}")
+
+
+class Measures(CommandCase):
+    def setUp(self):
+        super().setUp()
+        self.write("chaos.toml", CHAOS)
+
+    def summary(self, *arguments):
+        return json.loads(self.hamflow("run", "chaos.toml", "--json", *arguments).stdout)
+
+    def test_the_trajectory_keeps_its_bits(self):
+        alone = self.summary("--out", "alone")
+        watched = self.summary("--out", "watched", *ALL)
+        self.assertEqual(alone["final"], watched["final"])
+        self.assertEqual(alone["energy"], watched["energy"])
+        self.assertEqual(alone["evaluations"], watched["evaluations"])
+        texts = [(self.folder / name / "trajectory.csv").read_bytes() for name in ("alone", "watched")]
+        self.assertEqual(*texts)
+
+    def test_exponents(self):
+        found = self.summary("--out", "none", "--set", "run.lyapunov=true")["lyapunov"]
+        self.assertEqual([len(found[key]) for key in ("exponents", "standard_errors", "pair_sums")], [4, 4, 2])
+        self.assertAlmostEqual(found["time"], 2000, delta=1e-9)
+        largest = found["exponents"][0]
+        self.assertGreater(largest, 0.05)
+        self.assertGreater(largest, 5 * found["standard_errors"][0])
+        self.assertLess(max(map(abs, found["pair_sums"])), 1e-12)
+        one = self.summary("--out", "none", "--set", "run.lyapunov=1")["lyapunov"]
+        self.assertEqual(len(one["exponents"]), 1)
+        self.assertEqual(one["pair_sums"], [])
+        self.assertIn("Lyapunov exponents", self.hamflow("run", "chaos.toml", "--out", "none", *ALL).stdout)
+
+    def test_eigenvalues_of_an_oscillator(self):
+        self.write("chaos.toml", '[problem]\nname = "harmonic"\ninitial = { q = [1], p = [0] }\n'
+                   '[method]\nname = "verlet"\n[run]\ndt = 0.1\nsteps = 100\neigenvalues = true\n')
+        found = self.summary("--out", "none")["eigenvalues"]
+        self.assertEqual(found["steps"], 100)
+        angle = 100 * math.acos(1 - 0.1**2 / 2)
+        for real, imaginary in found["values"]:
+            self.assertAlmostEqual(real, math.cos(angle), delta=1e-11)
+            self.assertAlmostEqual(abs(imaginary), abs(math.sin(angle)), delta=1e-11)
+        self.assertLess(found["pair_defect"], 1e-12)
+        self.assertLess(found["symplectic_defect"], 1e-12)
+
+    def test_section(self):
+        section = "run.section={ coordinate = 'q1', value = 0.1, direction = 0 }"
+        found = self.summary("--set", section)["section"]
+        self.assertGreater(found["points"], 400)
+        self.assertLess(found["max_residual"], 1e-15)
+        up = self.summary("--out", "up", "--set", section.replace("= 0 }", "= 1 }"))["section"]
+        down = self.summary("--out", "down", "--set", section.replace("= 0 }", "= -1 }"))["section"]
+        self.assertEqual(up["points"] + down["points"], found["points"])
+        self.hamflow("plot", "chaos.run", "--kind", "section", "-o", "section.svg")
+        self.assertIn("<svg", (self.folder / "section.svg").read_text())
+        self.hamflow("run", "chaos.toml", "--out", "alone")
+        self.assertIn("run.section", self.hamflow("plot", "alone", "--kind", "section", "-o", "s.svg", status=2).stderr)
+
+    def test_refusals(self):
+        def refused(key, *arguments):
+            text = self.hamflow("run", "chaos.toml", "--out", "none", *arguments, status=2).stderr
+            self.assertIn(f"error: {key}: found", text)
+            return text
+
+        for key, value in (("lyapunov", "true"), ("lyapunov", "2"), ("eigenvalues", "true")):
+            for arithmetic in ("lattice", "compensated", "quad"):
+                text = refused(f"run.{key}", "--set", f"run.{key}={value}", "--set", f"run.arithmetic='{arithmetic}'")
+                self.assertIn("allowed with arithmetic = \"double\"", text)
+        self.assertIn("1 to 4, or true, false", refused("run.lyapunov", "--set", "run.lyapunov=5"))
+        refused("run.lyapunov", "--set", "run.lyapunov=0")
+        refused("run.eigenvalues", "--set", "run.eigenvalues=1")
+        self.assertIn("q1, q2, p1, p2", refused("run.section.coordinate", "--set", "run.section={value=1}"))
+        self.assertIn("did you mean", refused("run.section.coordinate", "--set", "run.section={coordinate='q3'}"))
+        refused("run.section.direction", "--set", "run.section={coordinate='q1', direction=2}")
+        refused("output.figures", "--set", "output.figures=['section']")
+
+    def test_not_with_resume(self):
+        self.summary(*ALL)
+        more = ("run", "chaos.toml", "--resume", "--set", "run.steps=30000", *ALL)
+        text = self.hamflow(*more, status=2).stderr
+        for key in ("lyapunov", "eigenvalues", "section"):
+            self.assertIn(f"run.{key}: found with --resume; allowed", text)
+        self.summary("--resume", *ALL)  # complete: there is nothing to go on with
+
+
+if __name__ == "__main__":
+    unittest.main()
