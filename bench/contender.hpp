@@ -40,11 +40,11 @@ struct Run {
 struct Contender {
   std::string name;
   std::function<Run(std::int64_t steps)> run;
-  std::string against;           // the contender whose time divides this one's; empty: none
-  double goal = 0;               // the ratio wanted; 0: none, for information
-  bool same_bits = true;         // the end state has the bits of the first contender's; else it lies within the bound
-  double slack = 1;              // times the bound
-  bool bits_of_against = false;  // beside that: the bits of the contender it is compared to
+  std::string against;    // the contender whose time divides this one's; empty: none
+  double goal = 0;        // the ratio wanted; 0: none, for information
+  bool same_bits = true;  // the end state has the bits of the first contender's; else it lies within the bound
+  double slack = 1;       // times the bound
+  std::string bits_of{};  // beside that: it ends in the bits of this contender
 };
 
 /// A method of another library, or of hamflow by type: any task, any number of steps.
@@ -70,8 +70,12 @@ struct Comparison {
 
 std::vector<Workload> explicit_workloads(const Task& task);
 std::vector<Workload> element_workloads(const Task& task);
-/// For verlet and stv4.
+/// The method of order 8 with 17 stages, on this orbit and in the Henon-Heiles potential.
+std::vector<Workload> order_eight_workloads(const Task& task);
+/// For verlet, stv4 and kahan-li8.
 void add_fast_contenders(Workload& workload, const Task& task);
+/// For stv4 and kahan-li8, after the plain contenders.
+void add_compensated_contenders(Workload& workload, const Task& task);
 void add_lane_contenders(Workload& workload, const Task& task);
 
 }  // namespace bench

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/suzuki4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
@@ -41,6 +42,7 @@ std::vector<Racer> racers() {
   std::vector<Racer> all{typed("stv4", 4, Composition<compositions::stv4>{}),
                          typed("suzuki4", 4, Composition<compositions::suzuki4>{}),
                          typed("yoshida6", 6, Composition<compositions::yoshida6>{}),
+                         typed("kahan-li8", 8, Composition<compositions::kahan_li8>{}),
                          typed("sb3a_m4", 4, SplittingBy<sb3a_m4>{}),
                          typed("rk4", 4, RungeKuttaBy<tableaus::rk4>{}),
                          typed("verlet", 2, Composition<compositions::verlet>{}),
@@ -49,6 +51,7 @@ std::vector<Racer> racers() {
     all.push_back(typed_fast("stv4, fast", 4, Composition<compositions::stv4>{}));
     all.push_back(typed_fast("suzuki4, fast", 4, Composition<compositions::suzuki4>{}));
     all.push_back(typed_fast("yoshida6, fast", 6, Composition<compositions::yoshida6>{}));
+    all.push_back(typed_fast("kahan-li8, fast", 8, Composition<compositions::kahan_li8>{}));
   }
   for (const auto& peers : {odeint_peers(), gsl_peers()}) {
     // At this accuracy a first-order method takes 10^8 steps and more.

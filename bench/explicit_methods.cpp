@@ -1,6 +1,7 @@
 // The explicit methods. The hand-written loops do the operations of the method in the order of hamflow, so that all end
 // states must agree in every bit; only their parameters come at run time. The folded loops, for information, show what
 // algebra could still take off the chain of dependent operations at the price of other roundings.
+#include "composition_loops.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/compositions/yoshida6.hpp"
@@ -9,7 +10,6 @@
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "mclachlan.hpp"
 #include "peers.hpp"
-#include "plane.hpp"
 
 namespace bench {
 
@@ -78,35 +78,6 @@ namespace {
   save(s, z);
 }
 
-/// A composition with the kicks at the end of one step and the beginning of the next joined, and mass, k and h in the
-/// coefficients.
-template <const auto& weights>
-[[gnu::noinline]] void hand_folded(Orbit& z, double mass, double k, double h, std::int64_t steps) {
-  constexpr std::size_t stages = weights.size();
-  Plane s = load(z);
-  double d[stages], c[stages];
-  for (std::size_t i = 0; i < stages; ++i) {
-    d[i] = h * weights[i] / mass;
-    c[i] = h * k * (weights[i] + weights[(i + 1) % stages]) / 2;
-  }
-  const auto kick_by = [&](double strength) {
-    const double u = s.x * s.x + s.y * s.y;
-    const double slope = strength / (u * std::sqrt(u));
-    s.px -= slope * s.x;
-    s.py -= slope * s.y;
-  };
-  kick_by(c[stages - 1] / 2);
-  for (std::int64_t i = 0; i < steps; ++i) {
-    for (std::size_t j = 0; j < stages; ++j) {
-      s.x += d[j] * s.px;
-      s.y += d[j] * s.py;
-      kick_by(c[j]);
-    }
-  }
-  kick_by(-c[stages - 1] / 2);
-  save(s, z);
-}
-
 [[gnu::noinline]] void hand_rk4(Orbit& z, double mass, double k, double h, std::int64_t steps) {
   Plane s = load(z);
   const double sixth = h * (1.0 / 6), third = h * (1.0 / 3);
@@ -151,9 +122,6 @@ template <const auto& table>
   save(s, z);
 }
 
-/// The chain of a kick-drift-kick step runs q -> F -> p -> q: |q|^2 (two operations), its root, u sqrt(u), the
-/// division, the increment of p, the kick and the drift (two); where two steps meet, two kicks follow each other.
-constexpr Chain splitting_chain(int forces) { return {3 * forces + 1, 4 * forces, forces, forces}; }
 /// One that begins with a drift; two drifts follow each other where steps meet unless it ends with a kick.
 constexpr Chain drift_first_chain(std::size_t actions) {
   const int forces = static_cast<int>(actions / 2);
@@ -161,13 +129,6 @@ constexpr Chain drift_first_chain(std::size_t actions) {
 }
 /// Two of the four forces follow one another: F(q2) -> p3 -> q4 -> F(q4), and F(q1) -> p2 -> q3 -> F(q3) beside it.
 constexpr Chain rk4_chain{6, 12, 2, 2};
-
-Workload begin(const Task& task, const std::string& method, int forces, const Chain& chain, HandLoop loop) {
-  Workload w{method, task.h_text, chain, {}, {}};
-  w.contenders.push_back({"hand", [=](std::int64_t steps) { return run_hand(task, loop, forces, steps); }, {}});
-  w.bound = [=](std::int64_t steps) { return parting(task.h, 4 * forces, steps); };
-  return w;
-}
 
 /// @param folded may be null
 template <class Recipe>
@@ -180,6 +141,7 @@ Workload workload(const Task& task, const std::string& method, int forces, const
   }
   add_library_contenders(w, task, recipe, 1.03, true);
   add_fast_contenders(w, task);
+  add_compensated_contenders(w, task);
   add_lane_contenders(w, task);
   add_peers(w, task);
   return w;

@@ -70,7 +70,7 @@ void add_lane_contenders(Workload& workload, const Task& task) {
        fast_goal, false});
   workload.contenders.push_back({"lanes, fast bits",
                                  [=, &table](std::int64_t steps) { return run_widest<Fast, true>(task, table, steps); },
-                                 "typed, fast", 0, false, 1, true});
+                                 "typed, fast", 0, false, 1, "typed, fast"});
 }
 
 }  // namespace bench

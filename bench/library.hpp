@@ -45,35 +45,45 @@ Run run_block(S& simulation, std::int64_t steps) {
   return run;
 }
 
+/// The problem of a task.
+inline hamflow::CentralForce<double, hamflow::Kepler> kepler(const Task& task) {
+  return {task.mass, hamflow::Kepler<double>(task.k)};
+}
+
 template <class Recipe>
 Run run_typed(const Task& task, const Recipe& recipe, std::int64_t steps) {
-  const hamflow::CentralForce<double, hamflow::Kepler> problem(task.mass, hamflow::Kepler<double>(task.k));
-  auto simulation = hamflow::simulate<false>(problem, recipe, task.start.q, task.start.p, task.h);
+  auto simulation = hamflow::simulate<false>(kepler(task), recipe, task.start.q, task.start.p, task.h);
   return run_block(simulation, steps);
 }
 
 template <class Recipe>
 Run run_typed_fast(const Task& task, const Recipe& recipe, std::int64_t steps) {
-  const hamflow::FastKernel problem{
-      hamflow::CentralForce<double, hamflow::Kepler>(task.mass, hamflow::Kepler<double>(task.k))};
+  const hamflow::FastKernel problem{kepler(task)};
   auto simulation = hamflow::simulate<false>(problem, recipe, task.start.q, task.start.p, task.h);
   return run_block(simulation, steps);
 }
 
-inline Run run_named(const Task& task, const std::string& method, bool watch, std::int64_t steps,
-                     const std::string& kernel = "exact") {
-  hamflow::Request request;
-  request.problem = "central-force";
-  request.variant = {{"potential", "kepler"}};
-  request.parameters = {{"mass", hamflow::shortest(task.mass)}, {"k", hamflow::shortest(task.k)}};
+/// @param request problem, kernel and arithmetic
+inline Run run_request(hamflow::Request request, const Task& task, const std::string& method, bool watch,
+                       std::int64_t steps) {
   for (const double x : task.start.q) request.start.q.push_back(hamflow::shortest(x));
   for (const double x : task.start.p) request.start.p.push_back(hamflow::shortest(x));
   request.method = hamflow::parse_method(method);
   request.dt = task.h_text;
-  request.kernel = kernel;
   request.watch = watch;
   const auto simulation = hamflow::make_simulation(request);
   return run_block(*simulation, steps);
+}
+
+inline Run run_named(const Task& task, const std::string& method, bool watch, std::int64_t steps,
+                     const std::string& kernel = "exact", const std::string& arithmetic = "double") {
+  hamflow::Request request;
+  request.problem = "central-force";
+  request.variant = {{"potential", "kepler"}};
+  request.parameters = {{"mass", hamflow::shortest(task.mass)}, {"k", hamflow::shortest(task.k)}};
+  request.kernel = kernel;
+  request.arithmetic = arithmetic;
+  return run_request(std::move(request), task, method, watch, steps);
 }
 
 template <class Recipe>

@@ -69,7 +69,8 @@ int main(int argc, char** argv) try {
   std::vector<bench::Workload> workloads;
   for (const char* h : {"0.1", "0.01"}) {
     const bench::Task task = bench::kepler_task(h);
-    for (auto&& some : {bench::explicit_workloads(task), bench::element_workloads(task)}) {
+    for (auto&& some :
+         {bench::explicit_workloads(task), bench::order_eight_workloads(task), bench::element_workloads(task)}) {
       for (const bench::Workload& workload : some) {
         if (only.empty() || workload.method == only) workloads.push_back(workload);
       }

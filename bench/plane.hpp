@@ -20,6 +20,28 @@ inline constexpr std::array<double, 7> yoshida6_weights = [] {
   return std::array{g1, g2, g3, 1 - 2 * (g1 + g2 + g3), g3, g2, g1};
 }();
 
+inline constexpr std::array<double, 17> kahan_li8_weights = [] {
+  constexpr std::array<double, 8> half{
+      0.1302024830888900808788176320967005223572,  0.5611629817751083845619644077001505672662,
+      -0.3894749626448472864080785982352483888361, 0.1588419065551556008962107457071524814121,
+      -0.3959038941332375773362315393479389360268, 0.1845396409783157070918325415333754628190,
+      0.2583743876863220472939791099949394718131,  0.2950117236093102988709662402182281129765};
+  std::array<double, 17> all{};
+  double sum = 0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    all[i] = all[16 - i] = half[i];
+    sum += half[i];
+  }
+  all[8] = 1 - 2 * sum;
+  return all;
+}();
+
+/// The factor of the kick after drift j, where the kicks of neighbouring Verlet steps are one.
+template <const auto& weights>
+constexpr double kick_weight(std::size_t j) {
+  return j + 1 < weights.size() ? (weights[j] + weights[j + 1]) / 2 : weights[j] / 2;
+}
+
 /// The state and the last kick of a hand-written loop, in locals of the loop's function.
 struct Plane {
   double x, y, px, py;

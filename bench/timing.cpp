@@ -35,9 +35,9 @@ void check(const Workload& workload, const std::vector<Run>& runs, std::size_t i
   const double apart = distance(runs[0].end, runs[i].end);
   const double bound = contender.same_bits ? 0 : contender.slack * workload.bound(steps);
   if (!(contender.same_bits ? runs[0].end == runs[i].end : apart <= bound)) fail(0, apart, bound);  // NaN fails
-  if (!contender.bits_of_against) return;
+  if (contender.bits_of.empty()) return;
   for (std::size_t j = 0; j < runs.size(); ++j) {
-    if (workload.contenders[j].name == contender.against && !(runs[i].end == runs[j].end)) {
+    if (workload.contenders[j].name == contender.bits_of && !(runs[i].end == runs[j].end)) {
       fail(j, distance(runs[i].end, runs[j].end), 0);
     }
   }

@@ -1,0 +1,98 @@
+// What compensated summation costs: every contender against the same in plain double. A kick and a drift each gain one
+// addition on the chain from force to force (increment + low before high + that); the other five of the two-sum that
+// finds the error are beside it.
+#include "composition_loops.hpp"
+#include "hamflow/methods/compositions/kahan_li8.hpp"
+#include "hamflow/methods/compositions/stv4.hpp"
+#include "hamflow/methods/splitting.hpp"
+
+namespace bench {
+
+namespace {
+
+/// A number as high + low.   [Knuth, TAOCP 2, 4.2.2]
+struct Sum {
+  double high, low = 0;
+  void add(double r) {
+    const double increment = r + low;
+    const double sum = high + increment;
+    const double part = sum - high;
+    low = (high - (sum - part)) + (increment - part);
+    high = sum;
+  }
+};
+
+template <const auto& weights>
+[[gnu::noinline]] void hand_compensated(Orbit& z, double mass, double k, double h, std::int64_t steps) {
+  const Factors<weights> factors(1 / mass, k, h);
+  Sum x{z.q[0]}, y{z.q[1]}, px{z.p[0]}, py{z.p[1]};
+  double kick_x = 0, kick_y = 0;
+  const auto find_kick = [&](double strength) {
+    const double u = x.high * x.high + y.high * y.high;
+    const double slope = strength / (u * std::sqrt(u));
+    kick_x = -(slope * x.high);
+    kick_y = -(slope * y.high);
+  };
+  find_kick(factors.c[factors.stages - 1]);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    px.add(kick_x);
+    py.add(kick_y);
+#pragma GCC unroll 20
+    for (std::size_t j = 0; j < factors.stages; ++j) {
+      x.add(factors.d[j] * px.high);
+      y.add(factors.d[j] * py.high);
+      find_kick(factors.c[j]);
+      px.add(kick_x);
+      py.add(kick_y);
+    }
+  }
+  z = {{x.high, y.high}, {px.high, py.high}};
+}
+
+using Arithmetic = hamflow::Compensated<double>;
+
+template <class P, class Recipe>
+Run run_compensated(const Task& task, const P& problem, const Recipe& recipe, std::int64_t steps) {
+  auto simulation = hamflow::simulate<false>(problem, recipe, task.start.q, task.start.p, task.h, Arithmetic{});
+  return run_block(simulation, steps);
+}
+
+/// One addition of an increment to low and one rounding less per action: the bound of plain arithmetic holds.
+template <const auto& weights, class Recipe>
+void add(Workload& w, const Task& task, const Recipe& recipe) {
+  const bool fast = hamflow::fast_kernel_available();
+  const auto put = [&](const std::string& plain, double goal, auto run, const std::string& bits_of) {
+    w.contenders.push_back({plain + ", compensated", run, plain, goal, false, 1, bits_of});
+  };
+  const std::string hand = "hand, compensated", typed_fast = "typed, fast, compensated";
+  const auto named = [task, method = w.method](bool watch, const std::string& kernel) {
+    return [=](std::int64_t steps) { return run_named(task, method, watch, steps, kernel, "compensated"); };
+  };
+  put("hand", 0,
+      [=](std::int64_t steps) {
+        return run_hand(task, hand_compensated<weights>, static_cast<int>(weights.size()), steps);
+      },
+      {});
+  put(
+      "typed", 1.15, [=](std::int64_t steps) { return run_compensated(task, kepler(task), recipe, steps); }, hand);
+  put("named", 1.15, named(false, "exact"), hand);
+  put("watched", 0, named(true, "exact"), hand);
+  put(
+      "typed, fast", fast ? 1.3 : 1.15,
+      [=](std::int64_t steps) { return run_compensated(task, hamflow::FastKernel{kepler(task)}, recipe, steps); },
+      fast ? "" : hand);
+  put("named, fast", fast ? 1.3 : 1.15, named(false, "fast"), typed_fast);
+}
+
+}  // namespace
+
+void add_compensated_contenders(Workload& workload, const Task& task) {
+  using namespace hamflow;
+  if (workload.method == "stv4") {
+    add<stv4_weights>(workload, task, Composition<compositions::stv4>{});
+  } else if (workload.method == "kahan-li8") {
+    add<kahan_li8_weights>(workload, task, Composition<compositions::kahan_li8>{});
+  }
+}
+
+}  // namespace bench
