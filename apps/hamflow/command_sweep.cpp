@@ -7,6 +7,8 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "parameter_map.hpp"
+#include "work_precision.hpp"
 #include "measures.hpp"
 #include "progress.hpp"
 #include "run_folder.hpp"
@@ -181,6 +183,50 @@ void save(const Sweep& sweep, const fs::path& folder, const Json& summary) {
   write_text(folder / "summary.json", json_text(summary));
 }
 
+/// Empty if the figure can be drawn, else what is wrong with the request for it.
+std::string refused_figure(const Sweep& sweep, const SweepCommandOptions& options) {
+  if (options.figure.empty()) return {};
+  const std::string wrong = refused_figure_file(options.figure);
+  if (!wrong.empty()) return "--figure: error: " + wrong;
+  std::size_t numeric = 0;
+  std::vector<std::string> columns;
+  for (const SweepColumn& column : columns_of(sweep)) {
+    if (column.numbers.empty() || column.width != 1) continue;
+    if (column.name.starts_with("varied/")) ++numeric;
+    columns.push_back(column.name);
+  }
+  if (sweep.varied().size() > 2 || numeric != sweep.varied().size()) {
+    return "--figure: error: found " + std::to_string(sweep.varied().size()) +
+           " varied keys; allowed one or two, all numbers";
+  }
+  if (std::find(columns.begin(), columns.end(), options.colour) == columns.end()) {
+    std::string all;
+    for (const std::string& name : columns) all += (all.empty() ? "" : ", ") + name;
+    return "--colour: error: found " + options.colour + "; allowed " + all;
+  }
+  return {};
+}
+
+void draw(const Sweep& sweep, const SweepCommandOptions& options) {
+  if (options.figure.empty()) return;
+  ParameterMap map;
+  map.title = sweep.common().request.problem + ", " + describe(sweep.common().request.method).name;
+  map.value_name = options.colour;
+  for (const SweepColumn& column : columns_of(sweep)) {
+    if (column.name == options.colour) map.value = column.numbers;
+    if (!column.name.starts_with("varied/")) continue;
+    const std::string key = column.name.substr(std::string("varied/").size());
+    if (map.x_name.empty()) {
+      map.x_name = key;
+      map.x = column.numbers;
+    } else {
+      map.y_name = key;
+      map.y = column.numbers;
+    }
+  }
+  write_parameter_map(map, options.figure);
+}
+
 int carry_out(Sweep& sweep, const SweepCommandOptions& options) {
   const bool writes = options.out != "none";
   const fs::path folder = folder_for(options);
@@ -197,6 +243,7 @@ int carry_out(Sweep& sweep, const SweepCommandOptions& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Json summary = summary_of(sweep, seconds, interrupted());
   if (writes) save(sweep, folder, summary);
+  draw(sweep, options);
   if (options.json && !writes && sweep.members() <= most_rows_in_summary) {
     summary["rows"] = Json::array();
     for (std::size_t member = 0; member < sweep.members(); ++member) summary["rows"].push_back(row_of(sweep, member));
@@ -274,6 +321,8 @@ int run_sweep(const SweepCommandOptions& options) {
     how.observables = exponents_asked_for(text, options, varied);
     Sweep sweep(text, options.scenario, options.sets, varied, how);
     if (!sweep.complaints().empty()) return rejected(options, sweep.complaints());
+    const std::string figure = refused_figure(sweep, options);
+    if (!figure.empty()) return rejected(options, {figure});
     return carry_out(sweep, options);
   } catch (const FileError& error) {
     return file_trouble(options, error.what());

@@ -31,6 +31,8 @@ struct SweepCommandOptions {
   bool force = false;
   bool json = false;
   bool quiet = false;
+  std::string figure;  // a file; empty: none
+  std::string colour = "energy/max_error";
 };
 int run_sweep(const SweepCommandOptions& options);
 

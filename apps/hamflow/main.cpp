@@ -101,6 +101,10 @@ int main(int argc, char** argv) {
   sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")->type_name("N");
   sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
       ->type_name("SET");
+  sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
+      ->type_name("FILE");
+  sweep_command->add_option("--colour", sweep.colour, "the column to draw, e.g. energy/max_error, observables/lyapunov1")
+      ->type_name("COLUMN");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
   sweep_command->add_flag("--json", sweep.json,
                           "print the summary as JSON, and nothing else, on stdout; with --out none and at most 10^4 "

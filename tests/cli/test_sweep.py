@@ -236,6 +236,17 @@ steps = 200
         self.assertTrue(begun)
         self.assertGreater(int(begun[0]["member/steps"]), 0)
 
+    def test_figure(self):
+        self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--set", "method.name=stv4",
+                     "--vary", "run.dt=0.01:0.1:4", "--vary", "problem.orbit.r_aph=2:3:5", "--out", "none",
+                     "--figure", "map.svg")
+        self.assertIn("<svg", (self.folder / "map.svg").read_text())
+        for options, words in ((("--colour", "energy/least"), "allowed varied/run.dt"),
+                               (("--figure", "map.gif"), "allowed a file .svg")):
+            done = self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01:0.1:4", "--out", "none", "--figure",
+                                "map.svg", *options, status=2)
+            self.assertIn(words, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
