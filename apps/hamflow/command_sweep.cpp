@@ -271,7 +271,7 @@ MemberObservables exponents_asked_for(const std::string& text, const SweepComman
   const Reading first = read_scenario_text(text, options.scenario, sets);
   MemberObservables columns;
   if (!first.scenario) return columns;  // the sweep complains
-  if (first.scenario->section || first.scenario->eigenvalues) {
+  if (!options.quiet && (first.scenario->section || first.scenario->eigenvalues)) {
     std::cerr << "note: run.section and run.eigenvalues belong to single runs: a sweep leaves them out\n";
   }
   const std::size_t count = first.scenario->lyapunov;

@@ -147,7 +147,7 @@ TEST_F(Figures, EveryKindInEveryFormat) {
       EXPECT_EQ(byte(18) * 256 + byte(19), 643U) << "85 mm, twice the resolution of a screen";
     }
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 15) << "no scratch files stay";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 18) << "no scratch files stay";
 }
 
 TEST_F(Figures, SameDataSameBytes) {
@@ -280,7 +280,7 @@ TEST_F(Figures, WrongRequestsNameWhatIsAllowed) {
             "orbit: an orbit needs 2 degrees of freedom, and these data have 1; what can be drawn: energy, "
             "energy-error, phase");
   EXPECT_EQ(why_not(oscillator(), "orbits"),
-            "there is no figure \"orbits\"; allowed: orbit, energy, energy-error, phase, condition");
+            "there is no figure \"orbits\"; allowed: orbit, energy, energy-error, phase, condition, section");
   EXPECT_THROW(write_figure(ellipse(), "spiral", folder_ / "a.svg"), Error);
   EXPECT_THROW(write_figure(oscillator(), "orbit", folder_ / "a.svg"), Error);
   for (const char* name : {"a.gif", "a", ".svg", "a.svg.gz"}) {

@@ -4,9 +4,10 @@
 // for /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last
 // step, NaN at the start where there is none), and the totals since the start /solver/force, /solver/hessian,
 // /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps); beside them /scenario, the
-// scenario's text. Where asked for, the points of a Poincare section, a row each: /section/t, q, p. Root attributes: hamflow (version), host, problem, method, arithmetic, kernel, created. A run that
-// goes on copies the rows that stay into a fresh file, which then takes the place of the old one: only a reader can
-// open what a crash leaves. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
+// scenario's text. Where asked for, the points of a Poincare section, a row each: /section/t, q, p. Root attributes:
+// hamflow (version), host, problem, method, arithmetic, kernel, created. A run that goes on copies the rows that stay
+// into a fresh file, which then takes the place of the old one: only a reader can open what a crash leaves. Open a file
+// that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
 #pragma once
 
 #include <chrono>
@@ -68,7 +69,7 @@ struct RunSamples {
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;  // empty unless the run was asked for them
-  std::vector<double> section_t;  // of the points of a section
+  std::vector<double> section_t;                                         // of the points of a section
   std::vector<std::vector<double>> section_q;
   std::vector<std::vector<double>> section_p;
 };

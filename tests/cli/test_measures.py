@@ -94,6 +94,21 @@ class Measures(CommandCase):
         refused("run.section.direction", "--set", "run.section={coordinate='q1', direction=2}")
         refused("output.figures", "--set", "output.figures=['section']")
 
+    def test_columns_of_a_sweep(self):
+        def rows(*arguments):
+            done = self.hamflow("sweep", "chaos.toml", "--vary", "problem.initial.p[1]=0.1,0.12", "--out", "none", "--json",
+                                "--set", "run.steps=500", *arguments)
+            return json.loads(done.stdout)["rows"]
+
+        # The kernel of the sweep, and the tangent of the run: the same up to rounding, of which chaos makes e^7.
+        for row, p2 in zip(rows("--set", "run.lyapunov=1"), (0.1, 0.12)):
+            single = self.summary("--out", "none", "--set", "run.lyapunov=1", "--set", "run.steps=500",
+                                  "--set", f"problem.initial.p[1]={p2}")
+            self.assertAlmostEqual(row["lyapunov1"], single["lyapunov"]["exponents"][0], delta=1e-11)
+        whole = rows("--set", "run.lyapunov=true")
+        self.assertEqual([f"lyapunov{i}" in whole[0] for i in (1, 4, 5)], [True, True, False])
+        self.assertAlmostEqual(whole[0]["lyapunov1"] + whole[0]["lyapunov4"], 0, delta=1e-12)
+
     def test_not_with_resume(self):
         self.summary(*ALL)
         more = ("run", "chaos.toml", "--resume", "--set", "run.steps=30000", *ALL)

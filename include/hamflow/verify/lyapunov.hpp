@@ -102,7 +102,7 @@ class TangentWatch : public Observer {
   bool followed_ = true;
 };
 
-/// Lyapunov exponents beside a run. Costs, for each exponent, about two to three times the steps of the run.
+/// Lyapunov exponents beside a run. Costs, for each exponent, about three times the steps behind virtual calls.
 class LyapunovWatch final : public TangentWatch {
  public:
   /// @param count of exponents, the largest first; 0: all 2n
