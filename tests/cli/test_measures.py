@@ -109,6 +109,14 @@ class Measures(CommandCase):
         self.assertEqual([f"lyapunov{i}" in whole[0] for i in (1, 4, 5)], [True, True, False])
         self.assertAlmostEqual(whole[0]["lyapunov1"] + whole[0]["lyapunov4"], 0, delta=1e-12)
 
+    def test_converted_runs_have_no_section(self):
+        sets = ("--set", "run.section={coordinate='y'}", "--set", "output.figures=['section', 'orbit']")
+        self.hamflow("run", "kepler.toml", *sets)
+        self.assertNotIn("section", self.hamflow("convert", "kepler.toml", "--to", "polar", *sets).stdout)
+        self.hamflow("convert", "kepler.run", "--to", "polar", "-o", "polar.h5")
+        self.hamflow("plot", "polar.h5", "-o", "orbit.svg")
+        self.hamflow("plot", "polar.h5", "--kind", "section", "-o", "section.svg", status=2)
+
     def test_not_with_resume(self):
         self.summary(*ALL)
         more = ("run", "chaos.toml", "--resume", "--set", "run.steps=30000", *ALL)
