@@ -128,7 +128,8 @@ std::string message_of(const std::function<void()>& action) {
 }
 
 TEST_F(Figures, EveryKindInEveryFormat) {
-  EXPECT_EQ(figure_kinds(), (std::vector<std::string>{"orbit", "energy", "energy-error", "phase", "condition", "section"}));
+  EXPECT_EQ(figure_kinds(),
+            (std::vector<std::string>{"orbit", "energy", "energy-error", "phase", "condition", "section"}));
   for (const FigureData& data : {ellipse(), oscillator()}) {
     for (const std::string& kind : figure_kinds()) {
       if (!why_not(data, kind).empty()) continue;

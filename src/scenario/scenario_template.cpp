@@ -400,7 +400,8 @@ class TemplateWriter {
     page_.off("record = [0, " + shortest(example_.dt * 1.5) + "]", "in place of record_every: times, not only of steps");
     page_.off("lyapunov = true", "true for all exponents, or how many of the largest");
     page_.off("eigenvalues = true", "of the derivative of all steps");
-    page_.off("section = { coordinate = \"" + (problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1") + "\", value = 0, direction = 1 }",
+    const std::string first = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
+    page_.off("section = { coordinate = \"" + first + "\", value = 0, direction = 1 }",
               "a Poincare section; direction 1 upwards, -1 downwards, 0 both");
     page_.off("checkpoint_every = 1000000", "steps from one checkpoint to the next; default: every 10 seconds");
     std::vector<std::string> allowed;
