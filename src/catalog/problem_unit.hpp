@@ -68,7 +68,8 @@ class ProblemUnit : ProblemStart<Family> {
       return conditions.all();
     };
     e.energy = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-      return hamflow::energy(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q), vector_of(p));
+      return hamflow::energy(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q),
+                             vector_of(p));
     };
     e.regular = regular;
     e.invariant_sizes = [](const Texts& parameters, std::size_t size) {
@@ -168,14 +169,14 @@ class ProblemUnit : ProblemStart<Family> {
         if constexpr (has_fast_kernel) {
           if (request.kernel == "fast") {
             if (request.arithmetic == "compensated") {
-              return build<Compensated<double>, Fast>(request, with_shape_at_run_time(recipe));
+              return build<Compensated<double>, Fast>(request, with_few_shapes(recipe));
             }
             return build<Plain<double>, Fast>(request, recipe);
           }
         }
         if constexpr (Recipe::bijective) {  // others compensate behind virtual calls
           if (request.arithmetic == "compensated") {
-            return build<Compensated<double>>(request, with_shape_at_run_time(recipe));
+            return build<Compensated<double>>(request, with_few_shapes(recipe));
           }
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }

@@ -1,9 +1,16 @@
 // What each arithmetic promises of `add`.
+#include <bit>
+
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/compositions/kahan_li8.hpp"
+#include "hamflow/methods/compositions/stv4.hpp"
+#include "hamflow/methods/compositions/verlet.hpp"
+#include "hamflow/methods/splitting.hpp"
+#include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
@@ -43,6 +50,77 @@ TEST(Compensated, TheTwoPartsAreTheExactSumAfterOneAddition) {
     EXPECT_EQ(s.high, sum);
     EXPECT_EQ(s.low, little - (sum - large));
   }
+}
+
+// Zeros of both signs and the smallest numbers, too: states are compared by their bits.
+TEST(Compensated, AddingSoonerIsAddingBitForBit) {
+  using Axis = Compensated<double>::Axis;
+  const auto expect_alike = [](const Compensated<double>::Stored& s, double r) {
+    auto a = s;
+    auto b = s;
+    Axis::add(a, r);
+    Axis::add_sooner(b, r);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(a.high), std::bit_cast<std::uint64_t>(b.high)) << s.high << ' ' << r;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(a.low), std::bit_cast<std::uint64_t>(b.low))
+        << s.high << " + " << s.low << " + " << r;
+  };
+  const double eps = std::numeric_limits<double>::epsilon();
+  std::vector<double> corners;
+  for (const double x :
+       {0.0, 4.9e-324, 3 * 4.9e-324, 2.3e-308, 1e-20, eps / 2, eps, 1 - eps / 2, 1.0, 1 + eps, 3.0, 1e20}) {
+    corners.push_back(x);
+    corners.push_back(-x);
+  }
+  for (const double high : corners) {
+    for (const double low : corners) {
+      for (const double r : corners) expect_alike({high, low}, r);
+    }
+  }
+  const auto any = [](std::uint64_t k) {
+    const double x = counter_uniform(7, 2 * k) - 0.5;
+    return std::ldexp(x, static_cast<int>(120 * counter_uniform(7, 2 * k + 1)) - 60);
+  };
+  for (std::uint64_t k = 0; k < 100'000; ++k) {
+    expect_alike({any(3 * k), any(3 * k + 1) * eps}, any(3 * k + 2));
+  }
+}
+
+// In a step the errors of sums are found late (Splitting::step); what is found must be the same.
+template <const CompositionTable& table>
+void expect_step_of_single_actions() {
+  using A = Compensated<double>;
+  const CentralForce<double, Kepler> problem(2, Kepler<double>(1));
+  const double h = 0.1;
+  const Composition<table> recipe;
+  auto method = recipe.template bind<CentralForce<double, Kepler>, A>(problem);
+  const auto c = sequence_of<double>(table, StartsWith::kick).coefficients;
+  PhasePoint<A, 2> z;
+  z.store({1, 0}, {0, 1.7});
+  PhasePoint<A, 2> single = z;
+  for (int step = 0; step < 1000; ++step) {
+    ASSERT_EQ(method.step(problem, h, z), Outcome::done);
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      Vector<double, 2> increment{};
+      if (i % 2 == 0) {
+        scaled_force(problem, h * c[i], single.positions(), increment);
+        single.push(increment);
+      } else {
+        scaled_velocity(problem, h * c[i], single.momenta(), increment);
+        single.move(increment);
+      }
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(z.q[i].high), std::bit_cast<std::uint64_t>(single.q[i].high)) << step;
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(z.q[i].low), std::bit_cast<std::uint64_t>(single.q[i].low)) << step;
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(z.p[i].high), std::bit_cast<std::uint64_t>(single.p[i].high)) << step;
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(z.p[i].low), std::bit_cast<std::uint64_t>(single.p[i].low)) << step;
+    }
+  }
+}
+TEST(Compensated, AStepIsItsKicksAndDriftsOneByOne) {
+  expect_step_of_single_actions<compositions::verlet>();
+  expect_step_of_single_actions<compositions::stv4>();
+  expect_step_of_single_actions<compositions::kahan_li8>();
 }
 
 TEST(Compensated, AMillionIncrementsRoundLikeTheIncrements) {

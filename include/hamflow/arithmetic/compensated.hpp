@@ -2,7 +2,9 @@
 // nothing to the rounding of the state. [HLW2006, Sect. VIII.5; the exact sum of two numbers: Knuth, TAOCP 2, 4.2.2]
 #pragma once
 
+#include <cmath>
 #include <string_view>
+#include <type_traits>
 
 namespace hamflow {
 
@@ -25,12 +27,36 @@ struct Compensated {
     static constexpr Stored store(const Real& x) { return {x, R(0)}; }
     static constexpr const Real& read(const Stored& s) { return s.high; }
     /// s <- s + r: the error of high + (r + low) is found exactly (two-sum, no assumption on magnitudes) and kept.
-    static constexpr void add(Stored& s, const Real& r) {
-      const R increment = r + s.low;
-      const R sum = s.high + increment;
-      const R part = sum - s.high;
-      s.low = (s.high - (sum - part)) + (increment - part);
-      s.high = sum;
+    static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
+    /// What `begin` leaves to `settle`.
+    struct Pending {
+      R before{};
+      R increment{};
+    };
+    /// The first half of add, which others wait for: high is the sum already, low not yet its error.
+    static constexpr Pending begin(Stored& s, const Real& r) {
+      const Pending pending{s.high, r + s.low};
+      s.high = pending.before + pending.increment;
+      return pending;
+    }
+    static constexpr void settle(Stored& s, const Pending& pending) {
+      const R part = s.high - pending.before;
+      s.low = (pending.before - (s.high - part)) + (pending.increment - part);
+    }
+    /// The same as add, bit for bit, with low two operations sooner, for one who waits for it, and without a branch.
+    /// The error of a sum is the smaller summand less what the sum has of it [Dekker1971, (4.14)]: computed for either
+    /// order, then chosen. Where it is 0 add gives +0, and so must this: the added zeros turn -0 into +0.
+    static void add_sooner(Stored& s, const Real& r) {
+      if constexpr (std::is_floating_point_v<R>) {
+        const R increment = r + s.low;
+        const R sum = s.high + increment;
+        const R if_smaller = (r + (s.low + R(0))) - (sum - s.high);
+        const R if_larger = (s.high + R(0)) - (sum - increment);
+        s.low = std::abs(increment) <= std::abs(s.high) ? if_smaller : if_larger;
+        s.high = sum;
+      } else {  // may be not exact there
+        add(s, r);
+      }
     }
     static constexpr Stored negated(const Stored& s) { return {-s.high, -s.low}; }
   };

@@ -118,6 +118,27 @@ inline MethodInfo describe(const SplittingTable& table) {
 
 inline constexpr int any_length = 0;
 
+/// Where an addition has two halves (arithmetic/compensated.hpp), the second half waits until the next force is known:
+/// the same operations, but behind those of the force in the order of the program, in which a processor that has the
+/// choice takes them. Else everything that follows one force would compete with what the next one waits for.
+template <Arithmetic A, std::size_t n>
+struct Unsettled {
+  Vector<typename A::Axis::Pending, n> q{};
+  Vector<typename A::Axis::Pending, n> p{};
+
+  [[gnu::always_inline]] static void add(const auto& value, Vector<typename A::Stored, n>& to,
+                                         Vector<typename A::Axis::Pending, n>& pending) {
+    for (std::size_t i = 0; i < n; ++i) pending[i] = A::Axis::begin(to[i], value(i));
+  }
+  [[gnu::always_inline]] void settle(PhasePoint<A, n>& z) const {
+    for (std::size_t i = 0; i < n; ++i) {
+      A::Axis::settle(z.q[i], q[i]);
+      A::Axis::settle(z.p[i], p[i]);
+    }
+  }
+};
+struct NothingUnsettled {};
+
 /// One step of a splitting method.
 /// @tparam Links drifts in a step when known at compile time (the loop is then unrolled), else any_length
 template <class P, Arithmetic A, Shape shape, int Links = any_length>
@@ -152,30 +173,35 @@ class Splitting {
   /// and kick stay in registers from step to step.
   [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
     auto&& f = working_copy(kick_);
+    [[maybe_unused]] std::conditional_t<defers, Unsettled<A, n>, NothingUnsettled> late;
     if constexpr (n == dynamic) {
       if (f.size() == 0) f = zeros<Increment, n>(z.p.size());
     }
     if (leading()) {
       const Base factor = h * leading_kick_;
       if (!(trailing() && kick_is_current_ && kept_factor_ == within(factor))) evaluate(problem, factor, z, f);
-      kick(factor, f, z);
+      kick(factor, f, z, late);
     }
     const std::size_t count = Links == any_length ? count_ : static_cast<std::size_t>(Links);
 #pragma GCC unroll 4
     for (std::size_t i = 0; i + 1 < count; ++i) {
-      drift(problem, h * links_[i].drift, z);
+      drift(problem, h * links_[i].drift, z, late);
       const Base factor = h * links_[i].kick;
       evaluate(problem, factor, z, f);
-      kick(factor, f, z);
+      if constexpr (defers) late.settle(z);
+      kick(factor, f, z, late);
     }
-    drift(problem, h * links_[count - 1].drift, z);
+    drift(problem, h * links_[count - 1].drift, z, late);
     if (trailing()) {
       const Base factor = h * links_[count - 1].kick;
       evaluate(problem, factor, z, f);
-      kick(factor, f, z);
+      if constexpr (defers) late.settle(z);
+      last_kick(factor, f, z);
       if constexpr (n != dynamic) kick_ = f;
       kept_factor_ = within(factor);
       kick_is_current_ = true;
+    } else if constexpr (defers) {
+      late.settle(z);
     }
     return Outcome::done;
   }
@@ -238,22 +264,47 @@ class Splitting {
     }
     ++forces_;
   }
-  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z) const {
+  /// Whether second halves of additions wait for the force. Every step then begins with a kick: there is always
+  /// something to settle.
+  static constexpr bool defers = std::is_floating_point_v<Real> && n != dynamic &&
+                                 (shape == Shape::kick_drift_kick || shape == Shape::kick_drift) && requires {
+    typename A::Axis::Pending;
+  };
+  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z,
+                                   [[maybe_unused]] auto& late) const {
     if constexpr (sums_integers) {
       z.push(f);
+    } else if constexpr (defers) {
+      late.add([&](std::size_t i) { return factor_within() ? f[i] : Real(factor * f[i]); }, z.p, late.p);
     } else if (factor_within()) [[likely]] {  // else one multiplication, by factor or 1, is made of it
       z.push(f);
     } else {
       z.push(factor, f);
     }
   }
-  [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z) {
+  /// Of a step: the first one of the next step follows at once.
+  [[gnu::always_inline]] void last_kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z) const {
+    if constexpr (defers) {
+      for (std::size_t i = 0; i < n; ++i) A::Axis::add_sooner(z.p[i], factor_within() ? f[i] : Real(factor * f[i]));
+    } else {
+      NothingUnsettled nothing;
+      kick(factor, f, z, nothing);
+    }
+  }
+  [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z,
+                                           [[maybe_unused]] auto& late) {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
-    if constexpr (detail::HasScaledVelocity<P, Base, Vector<Real, n>>) {
+    constexpr bool scaled = detail::HasScaledVelocity<P, Base, Vector<Real, n>>;
+    if constexpr (scaled) {
       scaled_velocity(problem, factor, z.momenta(), v);
-      z.move(v);
     } else {
       velocity(problem, z.momenta(), v);
+    }
+    if constexpr (defers) {
+      late.add([&](std::size_t i) { return scaled ? v[i] : Real(factor * v[i]); }, z.q, late.q);
+    } else if constexpr (scaled) {
+      z.move(v);
+    } else {
       z.move(factor, v);
     }
   }
