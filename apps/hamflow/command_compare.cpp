@@ -48,6 +48,11 @@ class Wishes {
   }
 
   void read_methods(const std::string& text) {
+    if (digits_beyond_double(scenario_.request.arithmetic) > 0) {
+      complain("run.arithmetic", "found \"" + scenario_.request.arithmetic +
+                                     "\", whose errors are below those of the reference here; allowed double, " +
+                                     "compensated, lattice");
+    }
     for (const std::string& name : split_list(text)) {
       try {
         const MethodSpec method = parse_method(name);

@@ -49,7 +49,10 @@ std::string note_of(const MethodInfo& method, const std::string& arithmetic, boo
   return {};
 }
 
-Json state(const Frame& frame) { return {{"q", frame.q}, {"p", frame.p}}; }
+Json state(const Frame& frame) {
+  if (!frame.digits.q.empty()) return {{"q", frame.digits.q}, {"p", frame.digits.p}};
+  return {{"q", frame.q}, {"p", frame.p}};
+}
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
 
 Json report_of(const Scenario& scenario, const Simulation& simulation, const Reversal& r) {
@@ -90,7 +93,9 @@ std::string readable_reversal(const Json& s) {
   };
   const auto list = [](const Json& xs) {
     std::string all;
-    for (const Json& x : xs) all += fmt::format("{}{:.17g}", all.empty() ? "" : ", ", x.get<double>());
+    for (const Json& x : xs) {
+      all += (all.empty() ? "" : ", ") + (x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>()));
+    }
     return all;
   };
   std::string text = row("status", s["status"].get<std::string>()) + row("problem", s["problem"].get<std::string>());

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "hamflow/verify/measure.hpp"
+#include "summary.hpp"
 
 namespace {
 std::vector<hamflow::MethodSpec> methods_of(const VerifyOptions& options) {
@@ -55,6 +56,10 @@ int run_verify(const VerifyOptions& options) {
     }
   } catch (const hamflow::Error& error) {
     fmt::print(stderr, "hamflow verify: error: {}\n", error.what());
+    if (options.json) {
+      const nlohmann::ordered_json errors{{{"key", "verify"}, {"message", error.what()}}};
+      std::fputs(hamflow::json_text({{"status", "rejected"}, {"errors", errors}}).c_str(), stdout);
+    }
     return 2;
   }
   const std::vector<hamflow::PropertyRow> rows = measure_all(specs, regions);

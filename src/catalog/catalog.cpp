@@ -1,6 +1,7 @@
 #include "hamflow/run/catalog.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hamflow/arithmetic/plain.hpp"
@@ -133,8 +134,17 @@ MethodInfo describe(const MethodSpec& spec) {
   }
   if (spec.name == "cg") return describe(spec.cg);
   if (spec.name == "boris") return BorisStep<Magnetic<double>, Plain<double>>::describe();
-  if (spec.name == "dop853") return describe_dop853(spec.adaptive);
-  if (spec.name == "taylor") return describe_taylor(spec.adaptive, taylor_order(spec.adaptive));
+  if (spec.name == "dop853" || spec.name == "taylor") {
+    MethodInfo info = spec.name == "dop853" ? describe_dop853(spec.adaptive)
+                                            : describe_taylor(spec.adaptive, taylor_order(spec.adaptive));
+    std::string options;
+    const auto add = [&](const std::string& text) { options += (options.empty() ? "" : ",") + text; };
+    if (spec.adaptive.order > 0) add("order=" + std::to_string(spec.adaptive.order));
+    if (spec.adaptive.tolerance_given) add("tolerance=" + shortest(spec.adaptive.tolerance));
+    if (spec.adaptive.fixed) add("step_control=fixed");
+    if (!options.empty()) info.name += "(" + options + ")";
+    return info;
+  }
   if (const auto info = generated_tableau_info(spec.name)) return *info;
   (void)find_method(spec.name);  // throws, naming the nearest
   throw Error("method '" + spec.name + "' has no description");
@@ -243,6 +253,10 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   if (!one_thread.empty()) throw Error("threads = " + std::to_string(request.threads) + ": " + one_thread);
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
+  // Where more digits are asked for, so is their accuracy: four of them are left to rounding.
+  if (const int digits = digits_beyond_double(request.arithmetic); digits > 0 && !full.method.adaptive.tolerance_given) {
+    full.method.adaptive.tolerance = std::pow(10.0, 4 - std::min(digits, 300));
+  }
   const MethodKind kind = find_method(request.method.name).kind;
   const bool typed = digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 &&
                      kind != MethodKind::taylor && kind != MethodKind::force_gradient &&

@@ -56,6 +56,7 @@ void set_adaptive_option(const std::string& method, AdaptiveOptions& options, co
                          const std::string& value) {
   if (key == "tolerance") {
     options.tolerance = positive_number(method, key, value);
+    options.tolerance_given = true;
     if (options.tolerance >= 1) throw Error(method + ": tolerance has to be less than 1, not " + value);
   } else if (key == "order" && method == "taylor") {
     options.order = whole_number(method, key, value);
@@ -89,7 +90,7 @@ MethodSpec parse_method(const std::string& text) {
   std::vector<std::string> in_order;
   if (entry.kind == MethodKind::cg) in_order = {"degree", "quadrature"};
   if (entry.kind == MethodKind::dop853) in_order = {"tolerance"};
-  if (entry.kind == MethodKind::taylor) in_order = {"tolerance", "order"};
+  if (entry.kind == MethodKind::taylor) in_order = {"order", "tolerance"};
   if (in_order.empty()) throw Error("method '" + spec.name + "' takes no options");
   const auto set = [&](const std::string& key, const std::string& value) {
     if (entry.kind == MethodKind::cg) {

@@ -89,6 +89,10 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
 std::string hint_for(const Request& request, Outcome outcome) {
   switch (outcome) {
     case Outcome::not_converged:
+      if (request.method.name == "dop853" || request.method.name == "taylor") {
+        return "try a smaller dt, a larger method.tolerance" +
+               std::string(request.method.name == "taylor" ? " or another method.order" : "");
+      }
       return std::string("try a smaller dt, ") + (request.method.cg.halve ? "" : "method.on_divergence = \"halve\", ") +
              "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
     case Outcome::non_finite:

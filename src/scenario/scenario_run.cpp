@@ -81,6 +81,7 @@ void ScenarioReader::read_adaptive(TomlTable& table) {
   if (const auto tolerance = table.number("tolerance")) {
     if (tolerance->value > 0 && tolerance->value < 1) {
       options.tolerance = tolerance->value;
+      options.tolerance_given = true;
     } else {
       table.complain("tolerance", table.found("tolerance") + "; allowed a number between 0 and 1");
     }
@@ -134,7 +135,11 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
   try {
     check_arithmetic(*arithmetic);
   } catch (const Error& error) {
-    table.complain("arithmetic", table.found("arithmetic") + "; " + error.what());
+    // "found ...; allowed ...": the name itself is in what was found.
+    const std::string why = error.what();
+    const std::size_t allowed = why.find("allowed: ");
+    table.complain("arithmetic", table.found("arithmetic") + "; " +
+                                     (allowed == std::string::npos ? why : "allowed " + why.substr(allowed + 9)));
     return;
   }
   scenario_.request.arithmetic = *arithmetic;
@@ -284,6 +289,12 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     return most;
   };
   const auto check = [&](const char* what, double largest, double unit) {
+    if (largest > 0 && largest < unit) {
+      table.complain("lattice", std::string("found ") + what + " of at most " + shortest(largest) +
+                                    " at the start, with a unit of " + shortest(unit) +
+                                    "; allowed units far below them");
+      return;
+    }
     if (largest < unit * 0x1p62) return;
     table.complain("lattice", std::string("found ") + what + " up to " + shortest(largest) +
                                   " at the start, with a unit of " + shortest(unit) +

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
@@ -16,6 +17,17 @@ namespace {
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+/// The same of numbers with all their digits.
+double distance(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  std::size_t longest = 0;
+  for (const std::string& text : a) longest = std::max(longest, text.size());
+  const MpDigits scope(static_cast<int>(longest) + 10);
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    most = std::max(most, static_cast<double>(abs(parse_decimal<Mp>(a[i]) - parse_decimal<Mp>(b[i]))));
+  }
   return most;
 }
 double size_of(const std::vector<double>& a) { return distance(a, std::vector<double>(a.size())); }
@@ -44,7 +56,11 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   simulation.look(found.end);
   found.end_hash = hash_of(simulation.bits());
   if (!back) return found;
-  found.distance = std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p));
+  const FrameDigits& to = found.end.digits;
+  const FrameDigits& from = found.start.digits;
+  found.distance = from.q.empty()
+                       ? std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p))
+                       : std::max(distance(to.q, from.q), distance(to.p, from.p));
   const double size = std::max(size_of(found.start.q), size_of(found.start.p));
   found.relative_distance = size > 0 ? found.distance / size : found.distance;
   found.bit_exact = simulation.bits() == bits;
