@@ -78,10 +78,10 @@ void add(Workload& w, const Task& task, const Recipe& recipe) {
   put("named", 1.15, named(false, "exact"), hand);
   put("watched", 0, named(true, "exact"), hand);
   put(
-      "typed, fast", fast ? 1.3 : 1.15,
+      "typed, fast", 1.3,
       [=](std::int64_t steps) { return run_compensated(task, hamflow::FastKernel{kepler(task)}, recipe, steps); },
       fast ? "" : hand);
-  put("named, fast", fast ? 1.3 : 1.15, named(false, "fast"), typed_fast);
+  put("named, fast", 1.3, named(false, "fast"), typed_fast);
 }
 
 }  // namespace
