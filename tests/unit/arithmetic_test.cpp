@@ -183,7 +183,7 @@ TEST(Lattice, UnitsArePowersOfTwoForPositionsAndMomentaApart) {
 }
 
 TEST(Lattice, LeavingTheRangeIsFoundAndChangesNothing) {
-  const double limit = 0x1p63 * Lattice::default_unit;  // 2048
+  const double limit = 0x1p62 * Lattice::default_unit;  // 1024
   const auto lost_after = [](double start, double step) {
     Lattice lattice;
     std::int64_t s = lattice.position.store(start);
