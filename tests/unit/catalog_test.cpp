@@ -22,7 +22,7 @@ std::set<std::string> files_of(const std::string& folder) {
 }
 
 TEST(Catalog, MethodsAreTheFilesOfTheFolders) {
-  std::set<std::string> expected{"cg", "boris"};
+  std::set<std::string> expected{"cg", "boris", "dop853", "taylor"};
   for (const std::string& name : files_of("methods/compositions")) {
     expected.insert(name);
     expected.insert(name + "-dkd");
@@ -179,7 +179,7 @@ TEST(Catalog, RefusesWhatCannotBeRunAndSaysWhy) {
   request.method = parse_method("cg");
   EXPECT_NE(message().find("an implicit step is no bijection of the lattice"), std::string::npos) << message();
   request.arithmetic = "octuple";
-  EXPECT_NE(message().find("arithmetic 'octuple' is unknown; allowed: double, compensated, lattice"),
+  EXPECT_NE(message().find("arithmetic 'octuple' is unknown; allowed: double, compensated, double-double"),
             std::string::npos);
   request = pendulum_request();
   request.start.q = {"1", "2"};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/pool.hpp"
 
 namespace hamflow::detail {
 
@@ -13,7 +14,7 @@ namespace hamflow::detail {
 /// finite.
 template <class R>
 R eliminate(const R* m, R* b, std::size_t size, std::size_t columns) {
-  std::vector<R> a(m, m + size * size);
+  std::vector<R, PoolAllocator<R>> a(m, m + size * size);
   R determinant(1);
   for (std::size_t k = 0; k < size; ++k) {
     std::size_t pivot = k;

@@ -246,7 +246,9 @@ class AnyProblem {
 
   AnyProblem(std::size_t size, std::shared_ptr<const Functions<R>> own,
              std::shared_ptr<const Functions<Others>>... others)
-      : size_(size), functions_(std::move(own), std::move(others)...) {}
+      : size_(size),
+        functions_(std::move(own), std::move(others)...),
+        invariant_sizes_(std::make_shared<const std::vector<std::size_t>>(on<R>().invariant_sizes())) {}
   template <class P>
   static AnyProblem of(const P& problem) {
     return {degrees_of_freedom(problem), std::make_shared<FunctionsOf<P, R>>(problem),
@@ -298,7 +300,7 @@ class AnyProblem {
   Vector<S, dynamic> invariants(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, const S& t) const {
     return on<S>().invariants(q, p, t);
   }
-  std::vector<std::size_t> invariant_sizes() const { return on<R>().invariant_sizes(); }
+  const std::vector<std::size_t>& invariant_sizes() const { return *invariant_sizes_; }
 
   using Reduced = AnyProblem<R, Capability::natural>;
   Reduced reduced(const R& momentum) const requires(capability == Capability::cyclic) {
@@ -326,6 +328,7 @@ class AnyProblem {
   }
   std::size_t size_;
   std::tuple<std::shared_ptr<const Functions<R>>, std::shared_ptr<const Functions<Others>>...> functions_;
+  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // asked for at every step
 };
 
 }  // namespace hamflow
