@@ -27,7 +27,9 @@ TEST(Catalog, MethodsAreTheFilesOfTheFolders) {
     expected.insert(name);
     expected.insert(name + "-dkd");
   }
-  for (const char* folder : {"methods/splittings", "methods/tableaus"}) expected.merge(files_of(folder));
+  for (const char* folder : {"methods/splittings", "methods/tableaus", "methods/force_gradient"}) {
+    expected.merge(files_of(folder));
+  }
   std::set<std::string> found;
   for (const MethodEntry& entry : methods()) EXPECT_TRUE(found.insert(entry.name).second) << entry.name << " twice";
   EXPECT_EQ(found, expected);
