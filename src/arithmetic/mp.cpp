@@ -122,9 +122,9 @@ MpNumber Traits::read(std::string_view text) {
   return made_by([&](mpfr_ptr x) { mpfr_set_str(x, std::string(text).c_str(), 10, MPFR_RNDN); });
 }
 std::string Traits::written(const T& x) {
-  const int digits = static_cast<int>(std::ceil(1 + static_cast<double>(mpfr_get_prec(x.raw())) * std::log10(2.0)));
+  const int places = static_cast<int>(std::ceil(1 + static_cast<double>(mpfr_get_prec(x.raw())) * std::log10(2.0)));
   char* text = nullptr;
-  const int length = mpfr_asprintf(&text, "%.*Rg", digits, x.raw());
+  const int length = mpfr_asprintf(&text, "%.*Rg", places, x.raw());
   if (length < 0) return "nan";
   std::string out(text, static_cast<std::size_t>(length));
   mpfr_free_str(text);
