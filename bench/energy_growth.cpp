@@ -1,5 +1,6 @@
 // How the energy error of long Kepler runs grows: orbit means of H against the first one, rms over 16 starts, and the
-// exponent c in error ~ t^c. Brouwer's law is c = 1/2.   [spec: methods, section 1; Hairer, McLachlan, Razakarivony 2008]
+// exponent c in error ~ t^c. Brouwer's law is c = 1/2.   [spec: methods, section 1; Hairer, McLachlan, Razakarivony
+// 2008]
 //     energy_growth [orbits]      default 100000; the starts differ by a rotation of the plane, which no rounding knows
 #include <array>
 #include <cmath>
@@ -90,7 +91,8 @@ void row(const char* name, int steps_per_orbit, const std::vector<long>& orbits)
     if (orbits[k] == 1000 || orbits[k] == 10000 || orbits[k] == 100000) std::printf("  %9.2e", rms);
   }
   double mx = 0, my = 0, xy = 0, xx = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / static_cast<double>(x.size()), my += y[i] / static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    mx += x[i] / static_cast<double>(x.size()), my += y[i] / static_cast<double>(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) xy += (x[i] - mx) * (y[i] - my), xx += (x[i] - mx) * (x[i] - mx);
   std::printf("   exponent %.2f\n", xy / xx);
   std::fflush(stdout);
@@ -101,7 +103,8 @@ void row(const char* name, int steps_per_orbit, const std::vector<long>& orbits)
 int main(int argc, char** argv) {
   const long most = argc > 1 ? std::atol(argv[1]) : 100000;
   std::vector<long> orbits{0};
-  for (double k = 100; k <= 1.0001 * static_cast<double>(most); k *= std::pow(10.0, 0.125)) orbits.push_back(std::lround(k));
+  for (double k = 100; k <= 1.0001 * static_cast<double>(most); k *= std::pow(10.0, 0.125))
+    orbits.push_back(std::lround(k));
   using Stv4 = Composition<compositions::stv4>;
   using KahanLi8 = Composition<compositions::kahan_li8>;
   std::printf("orbit mean of H, e = 0.5, rms over %d starts, after 10^3, 10^4, 10^5 orbits\n", starts);

@@ -94,7 +94,8 @@ std::string readable_reversal(const Json& s) {
   const auto list = [](const Json& xs) {
     std::string all;
     for (const Json& x : xs) {
-      all += (all.empty() ? "" : ", ") + (x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>()));
+      all +=
+          (all.empty() ? "" : ", ") + (x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>()));
     }
     return all;
   };

@@ -41,7 +41,8 @@ void draw_figures(const Scenario& scenario, const std::filesystem::path& folder)
 RunResult take_steps(const Scenario& scenario, const RunOptions& options, Simulation& simulation, Recorder* recorder,
                      CheckpointWriter* checkpoints, EnergyBlocks& blocks, Measures& measures) {
   std::vector<Observer*> observers;
-  if (recorder != nullptr) observers = {recorder, &blocks, checkpoints};  // in this order: samples of a step belong to it
+  if (recorder != nullptr)
+    observers = {recorder, &blocks, checkpoints};  // in this order: samples of a step belong to it
   if (recorder == nullptr) observers = {&blocks};
   const std::vector<Observer*> measuring = measures.observers();
   observers.insert(observers.begin(), measuring.begin(), measuring.end());
@@ -130,8 +131,8 @@ int carry_out(const Scenario& asked, const RunOptions& options) {
     lock.emplace(folder);
     recorder = std::make_unique<Recorder>(scenario, folder, from ? &*from : nullptr);
     std::filesystem::remove(folder / "summary.json");  // of a run that was interrupted
-    checkpoints =
-        std::make_unique<CheckpointWriter>(scenario, *simulation, *recorder, blocks, folder, from ? from->wall_seconds : 0);
+    checkpoints = std::make_unique<CheckpointWriter>(scenario, *simulation, *recorder, blocks, folder,
+                                                     from ? from->wall_seconds : 0);
   }
   Measures measures(scenario, *simulation, recorder.get());
   catch_interrupts();

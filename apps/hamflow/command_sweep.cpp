@@ -7,13 +7,13 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "parameter_map.hpp"
-#include "work_precision.hpp"
 #include "measures.hpp"
+#include "parameter_map.hpp"
 #include "progress.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
 #include "sweep_table.hpp"
+#include "work_precision.hpp"
 
 namespace hamflow::app {
 

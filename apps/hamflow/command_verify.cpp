@@ -29,7 +29,7 @@ std::vector<hamflow::PropertyRow> measure_all(const std::vector<hamflow::MethodS
   std::vector<std::optional<hamflow::PropertyRow>> measured(specs.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < specs.size(); i = next++) 
+    for (std::size_t i = next++; i < specs.size(); i = next++)
       measured[i] = hamflow::measure_method(specs[i], given.empty() ? hamflow::default_regions(specs[i]) : given);
   };
   {

@@ -78,12 +78,12 @@ int main(int argc, char** argv) {
   plot_command->callback([&] { status = plot_run(plot); });
 
   SweepCommandOptions sweep;
-  CLI::App* sweep_command =
-      add(app, "sweep", "Run a scenario for many values of some keys: one table, one row each, on all cores",
-          "  hamflow sweep kepler.toml --vary problem.orbit.r_aph=1:5:1000\n"
-          "  hamflow sweep pendulum.toml --vary 'problem.initial.q[0]=-3:3:200' --vary 'problem.initial.p[0]=-2:2:200'\n"
-          "  hamflow sweep kepler.toml --vary method.name=verlet,stv4,yoshida6 --vary run.dt=0.1,0.05,0.025 --json "
-          "--out none\n");
+  CLI::App* sweep_command = add(
+      app, "sweep", "Run a scenario for many values of some keys: one table, one row each, on all cores",
+      "  hamflow sweep kepler.toml --vary problem.orbit.r_aph=1:5:1000\n"
+      "  hamflow sweep pendulum.toml --vary 'problem.initial.q[0]=-3:3:200' --vary 'problem.initial.p[0]=-2:2:200'\n"
+      "  hamflow sweep kepler.toml --vary method.name=verlet,stv4,yoshida6 --vary run.dt=0.1,0.05,0.025 --json "
+      "--out none\n");
   sweep_command->add_option("scenario", sweep.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
   sweep_command
       ->add_option("--vary", sweep.varied,
@@ -103,7 +103,8 @@ int main(int argc, char** argv) {
       ->type_name("SET");
   sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
       ->type_name("FILE");
-  sweep_command->add_option("--colour", sweep.colour, "the column to draw, e.g. energy/max_error, observables/lyapunov1")
+  sweep_command
+      ->add_option("--colour", sweep.colour, "the column to draw, e.g. energy/max_error, observables/lyapunov1")
       ->type_name("COLUMN");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
   sweep_command->add_flag("--json", sweep.json,

@@ -76,7 +76,8 @@ std::optional<std::string> finished_summary(const Scenario& scenario, const Chec
 }
 
 CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& simulation, Recorder& recorder,
-                                   const EnergyBlocks& blocks, const std::filesystem::path& folder, double seconds_before)
+                                   const EnergyBlocks& blocks, const std::filesystem::path& folder,
+                                   double seconds_before)
     : simulation_(simulation),
       recorder_(recorder),
       blocks_(blocks),

@@ -87,7 +87,8 @@ void write_parameter_map(const ParameterMap& data, const std::filesystem::path& 
   const std::string refused = refused_figure_file(file);
   if (!refused.empty()) throw Error(refused);
   const Range values = range_of(data.value);
-  if (!(values.least <= values.most)) throw Error("there is nothing to draw: " + data.value_name + " has no finite value");
+  if (!(values.least <= values.most))
+    throw Error("there is nothing to draw: " + data.value_name + " has no finite value");
   const std::string extension = file.extension().string();
   const Format format = extension == ".pdf" ? Format::pdf : extension == ".png" ? Format::png : Format::svg;
   if (format != Format::svg) require_font();

@@ -233,7 +233,8 @@ std::string orbit_text(const Json& orbit) {
 
 namespace {
 std::string shown_number(const Json& x, const char* form) {
-  return x.is_null() || std::isnan(x.get<double>()) ? std::string("nan") : fmt::format(fmt::runtime(form), x.get<double>());
+  return x.is_null() || std::isnan(x.get<double>()) ? std::string("nan")
+                                                    : fmt::format(fmt::runtime(form), x.get<double>());
 }
 
 /// The largest of some numbers, without sign.

@@ -58,9 +58,8 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   if (!back) return found;
   const FrameDigits& to = found.end.digits;
   const FrameDigits& from = found.start.digits;
-  found.distance = from.q.empty()
-                       ? std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p))
-                       : std::max(distance(to.q, from.q), distance(to.p, from.p));
+  found.distance = from.q.empty() ? std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p))
+                                  : std::max(distance(to.q, from.q), distance(to.p, from.p));
   const double size = std::max(size_of(found.start.q), size_of(found.start.p));
   found.relative_distance = size > 0 ? found.distance / size : found.distance;
   found.bit_exact = simulation.bits() == bits;
