@@ -38,9 +38,13 @@ void show_problem(const ProblemEntry& entry) {
                         : p.range == Range::count        ? ", a whole number from 1"
                                                          : "";
     const std::string list = p.kind == ParameterKind::number ? ""
-                             : p.length > 0 ? fmt::format(", a list of {}", p.length)
-                             : p.kind == ParameterKind::list ? ", a list" : ", a number or a list";
-    std::cout << fmt::format("    {:<18} [{}]{}{}  {}\n", p.name, p.required ? "required" : p.default_value.empty() ? "not given" : p.default_value,
+                             : p.length > 0                  ? fmt::format(", a list of {}", p.length)
+                             : p.kind == ParameterKind::list ? ", a list"
+                                                             : ", a number or a list";
+    std::cout << fmt::format("    {:<18} [{}]{}{}  {}\n", p.name,
+                             p.required                ? "required"
+                             : p.default_value.empty() ? "not given"
+                                                       : p.default_value,
                              range, list, p.meaning);
   }
   if (!info.start_key.empty()) {
@@ -79,7 +83,8 @@ void show_method(const MethodSpec& spec) {
            "    max_iterations     [15]\n"
            "    iteration          [newton]\n"
            "    on_divergence      [error]     \"halve\": two half steps in place of one that does not converge\n"
-           "    diagnostics        [false]     condition and determinant of the tangent, condition of M^-1, each step\n";
+           "    diagnostics        [false]     condition and determinant of the tangent, condition of M^-1, each "
+           "step\n";
   }
   std::cout << "  measured properties: hamflow verify " << (spec.name == "cg" ? "'" + info.name + "'" : info.name)
             << "\n";

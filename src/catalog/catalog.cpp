@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "catalog_lists.hpp"  // generated from the folders of problems and tables
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/problems/magnetic.hpp"
-#include "catalog_lists.hpp"  // generated from the folders of problems and tables
 
 namespace hamflow {
 
@@ -246,7 +246,8 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const std::string not_here = refusal(request.method, problem);
   if (!not_here.empty()) throw Error(not_here);
   if (request.kernel != "exact") {
-    const std::string no_kernel = request.kernel == "fast" ? refused_fast_kernel(request, problem) : "allowed exact, fast";
+    const std::string no_kernel =
+        request.kernel == "fast" ? refused_fast_kernel(request, problem) : "allowed exact, fast";
     if (!no_kernel.empty()) throw Error("kernel '" + request.kernel + "': " + no_kernel);
   }
   const std::string one_thread = refused_threads(request, problem);
@@ -254,13 +255,15 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
   // Where more digits are asked for, so is their accuracy: four of them are left to rounding.
-  if (const int digits = digits_beyond_double(request.arithmetic); digits > 0 && !full.method.adaptive.tolerance_given) {
+  if (const int digits = digits_beyond_double(request.arithmetic);
+      digits > 0 && !full.method.adaptive.tolerance_given) {
     full.method.adaptive.tolerance = std::pow(10.0, 4 - std::min(digits, 300));
   }
   const MethodKind kind = find_method(request.method.name).kind;
-  const bool typed = digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 &&
-                     kind != MethodKind::taylor && kind != MethodKind::force_gradient &&
-                     !(kind == MethodKind::runge_kutta && request.arithmetic == "compensated" && request.kernel == "exact");
+  const bool typed =
+      digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 && kind != MethodKind::taylor &&
+      kind != MethodKind::force_gradient &&
+      !(kind == MethodKind::runge_kutta && request.arithmetic == "compensated" && request.kernel == "exact");
   return typed ? problem.simulate(full) : problem.simulate_erased(full);
 }
 

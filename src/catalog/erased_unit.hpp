@@ -51,12 +51,10 @@ class ErasedUnit : ProblemStart<Family> {
   }
 
   static std::unique_ptr<StepMap> step_map(const Texts& parameters, const MethodSpec& method, std::size_t size) {
-    const auto in = [&]<class R>() {
-      return functions_of<R>(In::template make<R>(Parameters<R>(parameters), size));
-    };
-    return erased_step_map({in.template operator()<double>(), in.template operator()<long double>(),
-                            in.template operator()<Quad>()},
-                           method);
+    const auto in = [&]<class R>() { return functions_of<R>(In::template make<R>(Parameters<R>(parameters), size)); };
+    return erased_step_map(
+        {in.template operator()<double>(), in.template operator()<long double>(), in.template operator()<Quad>()},
+        method);
   }
 };
 

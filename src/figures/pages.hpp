@@ -10,7 +10,8 @@ Page orbit_page(const FigureData& data);
 Page energy_page(const FigureData& data);
 Page energy_error_page(const FigureData& data);
 Page phase_page(const FigureData& data);
-/// Condition and determinant of the tangent, condition of M^-1 and iterations over time.   [Gross1999, figures 3.27, 3.28]
+/// Condition and determinant of the tangent, condition of M^-1 and iterations over time.   [Gross1999,
+/// figures 3.27, 3.28]
 Page condition_page(const FigureData& data);
 /// Points of a Poincare section.
 Page section_page(const FigureData& data);

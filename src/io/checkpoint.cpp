@@ -89,7 +89,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     ar(found_magic, found_format);
     if (found_magic != magic) throw damaged("is none of hamflow on a machine like this, or damaged");
     if (found_sum != checksum(content)) throw damaged("is damaged: its checksum is wrong");
-    if (found_format != format) throw damaged("has format " + std::to_string(found_format) + ", this hamflow knows " + std::to_string(format));
+    if (found_format != format)
+      throw damaged("has format " + std::to_string(found_format) + ", this hamflow knows " + std::to_string(format));
     ar(checkpoint);
     ar.finish();
   } catch (const Error& error) {

@@ -397,7 +397,8 @@ class TemplateWriter {
                "0 or more; or t_end, which has to be a whole number of dt");
     page_.off("t_end = " + shortest(example_.dt * static_cast<double>(example_.steps)), "in place of steps");
     page_.off("record_every = 1", "steps from one sample to the next; default: at most 10000 samples");
-    page_.off("record = [0, " + shortest(example_.dt * 1.5) + "]", "in place of record_every: times, not only of steps");
+    page_.off("record = [0, " + shortest(example_.dt * 1.5) + "]",
+              "in place of record_every: times, not only of steps");
     page_.off("lyapunov = true", "true for all exponents, or how many of the largest");
     page_.off("eigenvalues = true", "of the derivative of all steps");
     const std::string first = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";

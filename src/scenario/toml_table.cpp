@@ -175,8 +175,8 @@ std::optional<std::vector<Number>> TomlTable::numbers(const std::string& key, st
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
   const auto* array = node->as_array();
-  const std::string allowed = "allowed an array of " + (count == 0 ? "" : std::to_string(count) + " ") +
-                              (count == 1 ? "number" : "numbers");
+  const std::string allowed =
+      "allowed an array of " + (count == 0 ? "" : std::to_string(count) + " ") + (count == 1 ? "number" : "numbers");
   if (array == nullptr) {
     complain(key, "found " + shown(*node) + "; " + allowed);
     return std::nullopt;

@@ -106,8 +106,8 @@ void measure_structure(const StepMap& map, const Region& region, Measurement& fo
   Defects weak;
   Defects symmetric;
   Defects reversible;
-  // A twentieth of a period: defects of order 6 and more have to be seen. Those of order 8 h^9 need a seventh of a period
-  // where they are claimed to be there.
+  // A twentieth of a period: defects of order 6 and more have to be seen. Those of order 8 h^9 need a seventh of a
+  // period where they are claimed to be there.
   const MethodInfo claims = map.claims();
   const double h = (claims.order > 6 && !claims.symplectic ? 9 : 3) * region.step;
   for (std::uint64_t k = 0; k < states; ++k) {

@@ -81,7 +81,8 @@ TEST(Elements, AClosedAngleSolvesWhatNewtonInAllCoordinatesSolves) {
 }
 
 TEST(Elements, AnyNumberOfCoordinatesIsSolvedLikeAFixedOne) {
-  const NBody<double> problem(Parameters<double>({{"masses", "[1, 0.5]"}, {"gravitational_constant", "1"}, {"softening", "0"}}), 4);
+  const NBody<double> problem(
+      Parameters<double>({{"masses", "[1, 0.5]"}, {"gravitational_constant", "1"}, {"softening", "0"}}), 4);
   auto natural = simulate(problem, Cg{{.quadrature = 6}}, {0, 0, 1, 0}, {0, -0.5, 0, 0.5}, 0.05);
   auto general = simulate(problem, CgBy<GeneralElement<NBody<double>, double>>{{.quadrature = 6}}, {0, 0, 1, 0},
                           {0, -0.5, 0, 0.5}, 0.05);
@@ -174,8 +175,8 @@ TEST(TwoBodies, TheReducedMotionIsThatOfTheFullOne) {
   auto in_space = simulate(full, step, q, p, 0.01);
   ASSERT_EQ(in_plane.advance(1000), Outcome::done);
   ASSERT_EQ(in_space.advance(1000), Outcome::done);
-  const auto [one, other] = reduced.at(10.0, {in_plane.state().q[0], in_plane.state().q[1]},
-                                       {in_plane.state().p[0], in_plane.state().p[1]});
+  const auto [one, other] =
+      reduced.at(10.0, {in_plane.state().q[0], in_plane.state().q[1]}, {in_plane.state().p[0], in_plane.state().p[1]});
   for (std::size_t k = 0; k < 3; ++k) {
     // The map of a step commutes with the reduction: only rounding separates the two, growing linearly with the phase.
     EXPECT_NEAR(one.position[k], in_space.state().q[k], 1e6 * test::epsilon);

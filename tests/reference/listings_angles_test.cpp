@@ -85,7 +85,8 @@ TEST_P(LinearPendulumListing, SameStatesAndTheModalSolution) {
     ASSERT_TRUE(exact);
     const double t = state["t"].get<double>();
     // The phase of the faster mode, 12.2 t, rounds.
-    EXPECT_LE(distance(*exact, doubles(state["q"]), doubles(state["p"])), 1e-15 * size * (8 + 12.3 * t) * 8) << "t = " << t;
+    EXPECT_LE(distance(*exact, doubles(state["q"]), doubles(state["p"])), 1e-15 * size * (8 + 12.3 * t) * 8)
+        << "t = " << t;
   }
 }
 INSTANTIATE_TEST_SUITE_P(Starts, LinearPendulumListing, ::testing::Values("ic1", "ic2", "ic3"));

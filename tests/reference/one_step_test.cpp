@@ -91,8 +91,9 @@ long double distance(const std::string& a, const std::string& b) {
 }
 
 TEST_P(OneStep, MatchesTheDefinitionInAllDigits) {
-  // Through the catalogue, from the digits of the scenario to those of the result. The file was computed with 32 digits,
-  // hence rounds by some 1e-31 itself; rounding here is that of double times 2^-51 (106 bits), 2^-60 (113) and 2^-80.
+  // Through the catalogue, from the digits of the scenario to those of the result. The file was computed with 32
+  // digits, hence rounds by some 1e-31 itself; rounding here is that of double times 2^-51 (106 bits), 2^-60 (113) and
+  // 2^-80.
   const auto file = reference_file("one_step.json")["one_step"][0];
   nlohmann::json wanted;
   for (const auto& m : file["methods"]) {
@@ -114,8 +115,8 @@ TEST_P(OneStep, MatchesTheDefinitionInAllDigits) {
       simulation->look(frame);
       long double worst = 0;
       for (std::size_t i = 0; i < 2; ++i) {
-        worst = std::max({worst, distance(frame.digits.q[i], wanted[q_key][i]),
-                          distance(frame.digits.p[i], wanted[p_key][i])});
+        worst = std::max(
+            {worst, distance(frame.digits.q[i], wanted[q_key][i]), distance(frame.digits.p[i], wanted[p_key][i])});
       }
       // "auto" takes no further point when what it adds to the energy is below an estimate of rounding, which is some
       // hundred times what rounding does: its quadrature differs from the exact one by that.

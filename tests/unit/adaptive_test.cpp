@@ -27,7 +27,6 @@
 
 namespace hamflow {
 
-
 namespace {
 
 using L = long double;

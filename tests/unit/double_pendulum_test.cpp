@@ -1,10 +1,9 @@
 // The double pendulum: entries of its Hamiltonian, derivatives by hand, both sets of angles, modes.
+#include "../support/exact_motion.hpp"
 #include "hamflow/problems/double_pendulum_linear_absolute.hpp"
 #include "hamflow/problems/double_pendulum_linear_relative.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_relative.hpp"
-
-#include "../support/exact_motion.hpp"
 #include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {

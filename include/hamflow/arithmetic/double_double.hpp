@@ -1,6 +1,6 @@
 // Double-double: the unevaluated sum of two doubles, about 32 digits, by the QD library.   [Hida, Li, Bailey 2001]
-// Sums and quotients are QD's accurate ones: its defaults lose digits where terms cancel, and cancelling is what energies
-// and invariants do when they are compared.
+// Sums and quotients are QD's accurate ones: its defaults lose digits where terms cancel, and cancelling is what
+// energies and invariants do when they are compared.
 #pragma once
 
 #include <qd/dd_real.h>

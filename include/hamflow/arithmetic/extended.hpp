@@ -1,6 +1,6 @@
-// Number types with more digits than double, under one roof: Extended<T> around QD's dd_real, libquadmath's __float128 or
-// an MPFR number gives them the same operators, conversions and functions, so that a problem or a method never sees which
-// one it computes in. What differs between them is in ExtendedTraits<T> (double_double.hpp, quad.hpp, mp.hpp).
+// Number types with more digits than double, under one roof: Extended<T> around QD's dd_real, libquadmath's __float128
+// or an MPFR number gives them the same operators, conversions and functions, so that a problem or a method never sees
+// which one it computes in. What differs between them is in ExtendedTraits<T> (double_double.hpp, quad.hpp, mp.hpp).
 #pragma once
 
 #include <compare>
@@ -38,8 +38,12 @@ class Extended {
   friend Extended operator-(const Extended& a) { return Extended(-a.value); }
   friend Extended operator+(const Extended& a) { return a; }
   friend Extended operator+(const Extended& a, const Extended& b) { return Extended(Traits::add(a.value, b.value)); }
-  friend Extended operator-(const Extended& a, const Extended& b) { return Extended(Traits::subtract(a.value, b.value)); }
-  friend Extended operator*(const Extended& a, const Extended& b) { return Extended(Traits::multiply(a.value, b.value)); }
+  friend Extended operator-(const Extended& a, const Extended& b) {
+    return Extended(Traits::subtract(a.value, b.value));
+  }
+  friend Extended operator*(const Extended& a, const Extended& b) {
+    return Extended(Traits::multiply(a.value, b.value));
+  }
   friend Extended operator/(const Extended& a, const Extended& b) { return Extended(Traits::divide(a.value, b.value)); }
   Extended& operator+=(const Extended& b) { return *this = *this + b; }
   Extended& operator-=(const Extended& b) { return *this = *this - b; }

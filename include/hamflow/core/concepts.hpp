@@ -145,10 +145,10 @@ concept PairwiseForces = Separable<P> && requires(const P& problem, const typena
 
 /// **PairwiseGradients**: the same of V'' v, for kicks with force gradient.
 template <class P>
-concept PairwiseGradients = PairwiseForces<P> && requires(const P& problem, const typename P::Real& factor,
-                                                          const detail::AnyDifference<typename P::Real>& difference,
-                                                          const VectorOf<P>& v, std::size_t row,
-                                                          detail::AnyPairSink<typename P::Real>& sink) {
+concept PairwiseGradients = PairwiseForces<P> &&
+    requires(const P& problem, const typename P::Real& factor,
+             const detail::AnyDifference<typename P::Real>& difference, const VectorOf<P>& v, std::size_t row,
+             detail::AnyPairSink<typename P::Real>& sink) {
   problem.pair_gradient_kicks(factor, factor, v, difference, row, row, sink);
 };
 
@@ -164,8 +164,8 @@ concept Cyclic = Smooth<P> && requires(const P& problem, const VectorOf<P>& q, c
 /// **ChargeInField**: a charged particle in a uniform field; canonical momenta are not those of the motion.
 template <class P>
 concept ChargeInField = Smooth<P> && requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
-  problem.velocity_of(x, x, out);  // v from (q, p)
-  problem.momentum_of(x, x, out);  // p from (q, v)
+  problem.velocity_of(x, x, out);                              // v from (q, p)
+  problem.momentum_of(x, x, out);                              // p from (q, v)
   { problem.rotation() } -> std::convertible_to<VectorOf<P>>;  // charge * field / mass: v' = v x rotation
 };
 

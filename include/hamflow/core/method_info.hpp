@@ -60,11 +60,11 @@ struct StepDiagnostics {
     }
   };
   static constexpr double unset = std::numeric_limits<double>::quiet_NaN();  // before the first step
-  double iterations = unset;              // linear solves
-  double residual = unset;                // the last one that was computed
-  double condition_tangent = unset;       // cond_inf(K_T), of the last solve
-  double determinant_tangent = unset;     // det(K_T)
-  double condition_inverse_mass = unset;  // cond_inf(M^-1(q)) at the end of the step
+  double iterations = unset;                                                 // linear solves
+  double residual = unset;                                                   // the last one that was computed
+  double condition_tangent = unset;                                          // cond_inf(K_T), of the last solve
+  double determinant_tangent = unset;                                        // det(K_T)
+  double condition_inverse_mass = unset;                                     // cond_inf(M^-1(q)) at the end of the step
   Extremes of_condition_tangent, of_determinant_tangent, of_condition_inverse_mass;  // over every step
 
   void extend(long long step) {

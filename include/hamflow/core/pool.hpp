@@ -19,7 +19,7 @@ class Pool {
       pool->free_[k] = block->next;
       return block;
     }
-    return ::operator new(std::size_t{1} << k);
+    return ::operator new (std::size_t{1} << k);
   }
   static void give(void* memory, std::size_t bytes) {
     Pool* const pool = mine();

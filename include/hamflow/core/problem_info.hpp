@@ -55,8 +55,8 @@ struct ProblemInfo {
   std::vector<ParameterInfo> parameters{};
   std::vector<InvariantInfo> invariants{};
   std::vector<StartInfo> starts{};
-  /// Empty: the starts are chosen by the kind of `orbit`. Else this key of the problem counts them, 1, 2, ..., and their
-  /// keys stand beside it.
+  /// Empty: the starts are chosen by the kind of `orbit`. Else this key of the problem counts them, 1, 2, ..., and
+  /// their keys stand beside it.
   std::string start_key{};
   std::vector<std::string> default_q{};  // number expressions; empty: a scenario has to give a start
   std::vector<std::string> default_p{};

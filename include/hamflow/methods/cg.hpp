@@ -34,8 +34,7 @@ auto element_for() {
 /// One step of cg(1). What it remembers (the last increments, from which the first guess is extrapolated, and the
 /// number of quadrature points in "auto") is part of a run's state.
 /// @tparam Element how a step is solved; by default the cheapest way that the problem allows
-template <class P, Arithmetic A,
-          class Element = typename decltype(detail::element_for<P, typename A::Real>())::type>
+template <class P, Arithmetic A, class Element = typename decltype(detail::element_for<P, typename A::Real>())::type>
 class ContinuousGalerkin {
  public:
   static_assert(Smooth<P>, "hamflow: cg needs a Smooth problem: its Newton uses all second derivatives of H");

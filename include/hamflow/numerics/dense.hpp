@@ -5,8 +5,8 @@
 #include <Eigen/LU>
 
 #include "hamflow/core/math.hpp"
-#include "hamflow/numerics/elimination.hpp"
 #include "hamflow/core/vector.hpp"
+#include "hamflow/numerics/elimination.hpp"
 
 namespace hamflow {
 

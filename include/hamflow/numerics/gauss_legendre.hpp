@@ -59,8 +59,8 @@ GaussRule<R> make_gauss_rule(int s) {
   }
   return rule;
 }
-/// The recurrence loses 10 roundings at 8 points and 400 at 64: where digits are all that is wanted, it is done in more of
-/// them and rounded once (src/numerics/gauss_rules.cpp).
+/// The recurrence loses 10 roundings at 8 points and 400 at 64: where digits are all that is wanted, it is done in more
+/// of them and rounded once (src/numerics/gauss_rules.cpp).
 template <>
 GaussRule<Extended<dd_real>> make_gauss_rule<Extended<dd_real>>(int s);
 template <>

@@ -1,6 +1,6 @@
-// Chain of n masses between fixed ends, H = sum p_i^2/2 + sum V(q_{i+1} - q_i), V(r) = r^2/2 + alpha r^3/3 + beta r^4/4,
-// q_0 = q_{n+1} = 0.   [Fermi, Pasta, Ulam and Tsingou 1955; HLW2006, Sect. I.5.1]
-// For alpha = 0 V is even, for alpha = beta = 0 the chain is linear with frequencies 2 sin(k pi/(2 n + 2)).
+// Chain of n masses between fixed ends, H = sum p_i^2/2 + sum V(q_{i+1} - q_i), V(r) = r^2/2 + alpha r^3/3 + beta
+// r^4/4, q_0 = q_{n+1} = 0.   [Fermi, Pasta, Ulam and Tsingou 1955; HLW2006, Sect. I.5.1] For alpha = 0 V is even, for
+// alpha = beta = 0 the chain is linear with frequencies 2 sin(k pi/(2 n + 2)).
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"
@@ -19,13 +19,14 @@ class Fput {
   Fput(const Parameters<R>& given, std::size_t size) : Fput(size, given["alpha"], given["beta"]) {}
 
   static ProblemInfo info() {
-    return {.name = "fput",
-            .formula = "H = sum p_i^2/2 + sum (r_i^2/2 + alpha r_i^3/3 + beta r_i^4/4), r_i = q_{i+1} - q_i, fixed ends",
-            .reference = "Fermi, Pasta, Ulam and Tsingou 1955",
-            .coordinates = {"q1", "...", "qn"},
-            .parameters = {{.name = "n", .meaning = "moving masses", .range = Range::count, .required = true},
-                           {"alpha", "0", "cubic strength of a link"},
-                           {"beta", "0", "quartic strength of a link"}}};
+    return {
+        .name = "fput",
+        .formula = "H = sum p_i^2/2 + sum (r_i^2/2 + alpha r_i^3/3 + beta r_i^4/4), r_i = q_{i+1} - q_i, fixed ends",
+        .reference = "Fermi, Pasta, Ulam and Tsingou 1955",
+        .coordinates = {"q1", "...", "qn"},
+        .parameters = {{.name = "n", .meaning = "moving masses", .range = Range::count, .required = true},
+                       {"alpha", "0", "cubic strength of a link"},
+                       {"beta", "0", "quartic strength of a link"}}};
   }
   static std::string refused_size(const Parameters<R>& given, std::size_t size) {
     const double n = static_cast<double>(given["n"]);

@@ -11,7 +11,7 @@ class NBody : public Gravity<R> {
   /// @param size of q: as many coordinates per body as space has dimensions
   NBody(const Parameters<R>& given, std::size_t size)
       : Gravity<R>(given.list("masses"), given["gravitational_constant"], given["softening"],
-              size / given.list("masses").size()) {}
+                   size / given.list("masses").size()) {}
 
   static ProblemInfo info() {
     return {.name = "n-body",

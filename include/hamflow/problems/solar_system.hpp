@@ -14,8 +14,9 @@ class SolarSystem : public Gravity<R> {
 
   static ProblemInfo info() {
     ProblemInfo all{.name = "solar-system",
-                    .formula = "H = sum |p_i|^2/(2 m_i) - G sum_{i<j} m_i m_j/r_ij: Sun, Jupiter, Saturn, Uranus, "
-                               "Neptune, Pluto; AU, days, solar masses",
+                    .formula =
+                        "H = sum |p_i|^2/(2 m_i) - G sum_{i<j} m_i m_j/r_ij: Sun, Jupiter, Saturn, Uranus, "
+                        "Neptune, Pluto; AU, days, solar masses",
                     .reference = "HLW2006, Sect. I.2.4",
                     .coordinates = {"x1", "y1", "z1", "...", "z6"},
                     .invariants = Gravity<R>::gravity_invariants()};

@@ -287,8 +287,8 @@ class AnyProblem {
     on<S>().hessian(q, p, qq, qp, pp);
   }
   template <class S>
-  void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f, Matrix<S, dynamic>& h) const
-      requires separable {
+  void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f,
+                         Matrix<S, dynamic>& h) const requires separable {
     on<S>().force_and_hessian(q, f, h);
   }
   template <class S>

@@ -9,8 +9,8 @@
 #include "hamflow/methods/element/context.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/reference_flow.hpp"
 #include "hamflow/run/step_map.hpp"
+#include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {
 
@@ -84,7 +84,8 @@ class StepMapOf final : public StepMap {
       for (std::size_t k = 0; k < 2 * size_; ++k) {
         auto method = recipe_.template bind<P, A>(problem_);
         PhasePoint<A, n> point;
-        point.store(seeded(detail::part_of<double, n>(z, 0), k, 0), seeded(detail::part_of<double, n>(z, size_), k, size_));
+        point.store(seeded(detail::part_of<double, n>(z, 0), k, 0),
+                    seeded(detail::part_of<double, n>(z, size_), k, size_));
         (void)method.step(problem_, h, point);
         for (std::size_t i = 0; i < size_; ++i) {
           rows[i][k] = point.q[i].slope[0];
@@ -146,7 +147,7 @@ class StepMapOf final : public StepMap {
   }
   template <class Q, class R>
   static State<R> follow(const Q& problem, const State<R>& z, const R& t) {
-    auto point = zeros<R, n == dynamic ? dynamic : 2 * n>(z.size());
+    auto point = zeros < R, n == dynamic ? dynamic : 2 * n > (z.size());
     for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
     const auto end = reference_flow(problem, point, t);
     return {end.begin(), end.end()};

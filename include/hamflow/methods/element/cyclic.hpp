@@ -38,8 +38,7 @@ class CyclicElement {
     const Real momentum = momentum_of(p0);
     const W start = head(q0);
     Increment<Real, Reduced::dimension> of_rest{head(u.q), head(u.p)};
-    const Outcome outcome =
-        rest_.converge(context, problem.reduced(momentum), h, start, head(p0), of_rest, history);
+    const Outcome outcome = rest_.converge(context, problem.reduced(momentum), h, start, head(p0), of_rest, history);
     put(of_rest, u);
     const W middle = detail::midpoint<Real>(start, of_rest.q);
     Real change(0);

@@ -69,9 +69,7 @@ TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const
   };
   const auto circular = [&](L r) {
     return detail::polished<R>(
-        [&](const R& x) {
-          return angular_momentum * angular_momentum - mass * x * x * x * x * exact.slope(R(x * x));
-        },
+        [&](const R& x) { return angular_momentum * angular_momentum - mass * x * x * x * x * exact.slope(R(x * x)); },
         r);
   };
   const auto effective = [&](L r) { return static_cast<L>(potential.value(r * r)) + l * l / (2 * mu * r * r); };

@@ -116,8 +116,8 @@ class Gravity {
   std::size_t pair_rows() const { return masses_.size(); }
   std::size_t pairs_in_row(std::size_t i) const { return masses_.size() - 1 - i; }
 
-  /// The pair i, j adds c (I - 3 d d^T/u) with d = x_i - x_j, u = d^2 + softening^2, c = G m_i m_j u^(-3/2) to the blocks
-  /// ii and jj and subtracts it from ij and ji.
+  /// The pair i, j adds c (I - 3 d d^T/u) with d = x_i - x_j, u = d^2 + softening^2, c = G m_i m_j u^(-3/2) to the
+  /// blocks ii and jj and subtracts it from ij and ji.
   template <class S>
   void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f, Matrix<S, dynamic>& hessian) const {
     force(q, f);
