@@ -62,7 +62,8 @@ std::string range_text(const Range& range) {
   const auto text = [&](double x) {
     return range.whole && std::abs(x) < 0x1p63 ? std::to_string(static_cast<long long>(x)) : shortest(x);
   };
-  if (from && to) return (range.open ? "between " : "from ") + text(range.least) + (range.open ? " and " : " to ") + text(range.most);
+  if (from && to)
+    return (range.open ? "between " : "from ") + text(range.least) + (range.open ? " and " : " to ") + text(range.most);
   if (from && range.least == 0 && !range.whole) return range.open ? "positive" : "not negative";
   if (from) return (range.open ? "above " : "from ") + text(range.least);
   if (to) return (range.open ? "below " : "up to ") + text(range.most);
@@ -110,7 +111,7 @@ std::string wrong_value(const OptionInfo& option, const std::string& text) {
     }
     case OptionType::yes_no:
       if (text == "true" || text == "false") return {};
-      return allowed + suggestion(text, {"true", "false"});
+      return allowed + suggestion(text, std::vector<std::string>{"true", "false"});
     case OptionType::text:
       return text.empty() ? allowed : "";
     case OptionType::word_list:

@@ -1,5 +1,5 @@
-// An option, declared once. From its declaration come the reader of scenarios with its messages, `show`, `list` and `new`,
-// the options of a method on the command line and in the shell, what --resume may change, and docs/reference.md.
+// An option, declared once. From its declaration come the reader of scenarios with its messages, `show`, `list` and
+// `new`, the options of a method on the command line and in the shell, what --resume may change, and docs/reference.md.
 #pragma once
 
 #include <functional>
@@ -55,14 +55,15 @@ struct OptionInfo {
   OptionType type = OptionType::number;
   std::size_t length = 0;  // of a list; 0: any from 1
   bool required = false;
-  std::vector<std::string> words{};  // the closed list of words; beside numbers those allowed in their place, e.g. "auto"
-  std::string unset{};               // what holds where there is no default, e.g. "its rounding level"
-  std::string unit{};                // e.g. "1/time"; empty: that of the input, or none
-  std::string condition{};           // on what it depends, e.g. "with arithmetic = \"lattice\""
-  std::string example{};             // a value for `new` where there is no default
-  int position = 0;                  // from 1: it may be given by position, as in cg(2,6); 0: by name only
-  bool free_on_resume = false;       // it decides no bit of what is written: --resume takes another value
-  std::vector<OptionInfo> keys{};    // of a table
+  std::vector<std::string>
+      words{};                     // the closed list of words; beside numbers those allowed in their place, e.g. "auto"
+  std::string unset{};             // what holds where there is no default, e.g. "its rounding level"
+  std::string unit{};              // e.g. "1/time"; empty: that of the input, or none
+  std::string condition{};         // on what it depends, e.g. "with arithmetic = \"lattice\""
+  std::string example{};           // a value for `new` where there is no default
+  int position = 0;                // from 1: it may be given by position, as in cg(2,6); 0: by name only
+  bool free_on_resume = false;     // it decides no bit of what is written: --resume takes another value
+  std::vector<OptionInfo> keys{};  // of a table
 };
 
 /// What is allowed, for messages: "a whole number from 1 to 1000", "a positive number, or \"auto\"", "error, halve".

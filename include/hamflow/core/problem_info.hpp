@@ -10,23 +10,13 @@
 #include <vector>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/vector.hpp"
 
 namespace hamflow {
 
-enum class Range { any, positive, not_negative, count };  // count: a whole number from 1
-
-enum class ParameterKind { number, list, number_or_list };
-
-struct ParameterInfo {
-  std::string name;
-  std::string default_value;  // a number expression, or "[...]"; empty: it need not be given, and has no default
-  std::string meaning;
-  Range range = Range::any;  // of each number
-  ParameterKind kind = ParameterKind::number;
-  std::size_t length = 0;  // of a list; 0: any from 1
-  bool required = false;
-};
+/// A parameter of a problem is an option like any other; its default is a formula of numbers or "[...]".
+using ParameterInfo = OptionInfo;
 
 /// How many numbers an invariant has: one, one for each dimension of space, or as many as space has rotations.
 enum class Components { one, space, rotations };

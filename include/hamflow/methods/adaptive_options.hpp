@@ -2,6 +2,7 @@
 // [spec: methods, section 8]
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "hamflow/core/method_info.hpp"
@@ -9,10 +10,9 @@
 namespace hamflow {
 
 struct AdaptiveOptions {
-  double tolerance = 1e-12;      // on the error of a sub-step, relative to the size of q and of p, each by itself
-  bool tolerance_given = false;  // else the catalogue takes that which fits the arithmetic of a run
-  int order = 0;                 // of taylor; 0: the cheapest for the tolerance
-  bool fixed = false;            // one sub-step a step, whatever its error: what orders are measured on
+  double tolerance = 1e-12;  // on the error of a sub-step, relative to the size of q and of p, each by itself
+  int order = 0;             // of taylor; 0: the cheapest for the tolerance
+  bool fixed = false;        // one sub-step a step, whatever its error: what orders are measured on
   int max_substeps = 100000;
 };
 
@@ -25,7 +25,13 @@ inline MethodInfo describe_dop853(const AdaptiveOptions& options) {
           .reference = "Hairer, Norsett, Wanner 1993, II.5, II.10",
           .order = 8,
           .weakly_reversible = true,
-          .forces_per_step = options.fixed ? 12 : 0};
+          .forces_per_step = options.fixed ? 12 : 0,
+          .own_substeps = !options.fixed};
+}
+
+/// The order of taylor: that of the options, or the cheapest for the tolerance.   [Jorba and Zou 2005, (3.4)]
+inline int taylor_order(const AdaptiveOptions& options) {
+  return options.order > 0 ? options.order : static_cast<int>(std::ceil(1 - std::log(options.tolerance) / 2));
 }
 
 /// What taylor of a given order claims.
@@ -35,7 +41,8 @@ inline MethodInfo describe_taylor(const AdaptiveOptions& options, int order) {
                      (options.fixed ? "" : ", with sub-steps of its own"),
           .reference = "Jorba and Zou 2005; Griewank and Walther 2008, ch. 13",
           .order = order,
-          .weakly_reversible = true};
+          .weakly_reversible = true,
+          .own_substeps = !options.fixed};
 }
 
 }  // namespace hamflow

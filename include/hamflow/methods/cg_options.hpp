@@ -34,7 +34,9 @@ inline MethodInfo describe(const CgOptions& options) {
           .reversible = true,
           .energy_conserving = automatic  ? Conservation::yes
                                : midpoint ? Conservation::no
-                                          : Conservation::up_to_quadrature};
+                                          : Conservation::up_to_quadrature,
+          .halves_steps = options.halve,
+          .diagnostics = options.diagnostics};
 }
 
 }  // namespace hamflow

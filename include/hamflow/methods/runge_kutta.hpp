@@ -139,6 +139,7 @@ struct RungeKuttaBy {
   static constexpr bool accepts = Differentiable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = false;
+  static constexpr bool typed = true;
   template <class P, class A>
   using Stepper = RungeKutta<P, A, Tableau>;
   template <class P, class A>

@@ -14,35 +14,11 @@
 
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/methods/adaptive_options.hpp"
-#include "hamflow/methods/cg_options.hpp"
-#include "hamflow/methods/tables.hpp"
+#include "hamflow/run/method_family.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/step_map.hpp"
 
 namespace hamflow {
-
-/// A method by name, with its options where it has any.
-struct MethodSpec {
-  std::string name = "stv4";
-  CgOptions cg{};
-  AdaptiveOptions adaptive{};  // of dop853 and taylor
-};
-
-enum class MethodKind { composition, splitting, force_gradient, runge_kutta, cg, boris, dop853, taylor };
-
-/// One name of the closed list of methods.
-struct MethodEntry {
-  std::string name;
-  MethodKind kind;
-  StartsWith starts_with = StartsWith::kick;  // of a composition
-  const CompositionTable* composition = nullptr;
-  const SplittingTable* splitting = nullptr;
-  const ForceGradientTable* force_gradient = nullptr;
-};
-
-/// Numbers are texts, read in the arithmetic of the run.
-using Texts = std::map<std::string, std::string>;
 
 /// Where a run begins: a geometric start or a state; v, if not empty, stands for p = dL/dv.
 struct StartSpec {
@@ -132,12 +108,21 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
 /// The parameters of a problem with defaults for those not given.
 Texts complete(const ProblemInfo& info, const Texts& given);
 MethodInfo describe(const MethodSpec& spec);
-/// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)". @throws Error
+/// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)".
+/// @throws Error naming the option, what was found and what is allowed
 MethodSpec parse_method(const std::string& text);
-/// The order of taylor with these options.
-int taylor_order(const AdaptiveOptions& options);
-inline constexpr int least_taylor_order = 2;
-inline constexpr int most_taylor_order = 200;
+/// The parts of "verlet, cg(1,5), taylor(order=20)": commas within parentheses do not split.
+std::vector<std::string> method_texts(const std::string& list);
+/// The option to blame, and what is wrong with a text for it or with options that do not go together:
+/// "found ...; allowed ...". Empty if nothing is.
+struct RefusedOption {
+  std::string name;
+  std::string message;
+};
+std::optional<RefusedOption> refused_option(const MethodSpec& spec);
+/// The number of its family in method_families().
+std::size_t family_number(const MethodEntry& method);
+std::span<const MethodFamily> method_families();
 /// Why a method cannot run in an arithmetic; empty if it can.
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
 /// Why a method cannot run on a problem, and which can; empty if it can.

@@ -11,6 +11,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/step_clock.hpp"
+#include "hamflow/methods/recipe.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/simulation.hpp"
 
@@ -312,27 +313,17 @@ class SimulationOf final : public Simulation {
   Real scale_{};
 };
 
-/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
-/// the plain type of the problem unless asked.
-template <class Recipe>
-constexpr bool always_compensated() {
-  if constexpr (requires { Recipe::compensated; }) {
-    return Recipe::compensated;
-  } else {
-    return Recipe::implicit;
-  }
-}
-template <class P, class Recipe>
-using DefaultArithmetic = std::conditional_t<always_compensated<Recipe>(), Compensated<RealOf<P>>, Plain<RealOf<P>>>;
+template <class P, class M>
+using DefaultArithmetic = std::conditional_t<always_compensated<M>(), Compensated<RealOf<P>>, Plain<RealOf<P>>>;
 
 /// A simulation whose method is a type: everything is inlined into one loop.
 ///     auto orbit = hamflow::simulate(problem, Composition<compositions::stv4>{}, {0.4, 0}, {0, 2}, 0.1);
 /// @param q, p canonical start   @param h step length
 /// @tparam Watch false drops the probe that looks at energy and invariants in every step
-template <bool Watch = true, class P, class Recipe, class A = DefaultArithmetic<P, Recipe>>
-auto simulate(const P& problem, const Recipe& recipe, const Vector<typename A::Real, P::dimension>& q,
+template <bool Watch = true, class P, MethodRecipe Method, class A = DefaultArithmetic<P, Method>>
+auto simulate(const P& problem, const Method& recipe, const Vector<typename A::Real, P::dimension>& q,
               const Vector<typename A::Real, P::dimension>& p, typename A::Real h, A arithmetic = {}) {
-  using M = typename Recipe::template Stepper<P, A>;
+  using M = typename Method::template Stepper<P, A>;
   using Probe = std::conditional_t<Watch, ConservationProbe<P, typename A::Real>, NoProbe>;
   return SimulationOf<P, M, A, Probe>(problem, recipe.template bind<P, A>(problem), q, p, h, arithmetic);
 }

@@ -24,11 +24,11 @@ class Power {
             .reference = "Gross1999, Sect. 2.5",
             .parameters = {{.name = "a",
                             .meaning = "strengths, a number or a list as long as n",
-                            .kind = ParameterKind::number_or_list,
+                            .type = OptionType::number_or_list,
                             .required = true},
                            {.name = "n",
                             .meaning = "exponents of the force, real, not -1",
-                            .kind = ParameterKind::number_or_list,
+                            .type = OptionType::number_or_list,
                             .required = true}}};
   }
   /// What is wrong with the parameters, as key and message; both empty if nothing is.
