@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hamflow::app {
+namespace hamflow {
 
 Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder, const Checkpoint* from)
     : scenario_(scenario), folder_(folder) {
@@ -115,4 +115,4 @@ std::optional<std::string> Recorder::failed_at(std::int64_t step) const {
   return scenario_.record[written_];
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow

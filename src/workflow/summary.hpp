@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/run/simulation.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
-#include "scenario.hpp"
 
 namespace hamflow {
 

@@ -4,7 +4,7 @@
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/verify/lyapunov_of.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::vector<double> exponents_of(const Scenario& scenario) {
   }
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow
