@@ -3,6 +3,7 @@
 
 #include "ensemble_list.hpp"  // generated
 #include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow {
 
