@@ -11,18 +11,6 @@ namespace hamflow {
 
 namespace {
 
-/// Puts a --set PATH=VALUE into the document.
-void apply_set(toml::table& root, const std::string& set, const std::string& file, std::vector<Complaint>& complaints) {
-  const auto equals = set.find('=');
-  const std::string path = set.substr(0, equals);
-  if (equals == std::string::npos || path.empty()) {
-    complaints.push_back({file, 0, 0, set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"});
-    return;
-  }
-  const std::string wrong = assign(root, path, *parsed_value(set.substr(equals + 1)).get("value"));
-  if (!wrong.empty()) complaints.push_back({file, 0, 0, path, wrong});
-}
-
 /// Every value by its dotted path.
 void list_settings(const toml::table& table, const std::string& path, std::map<std::string, Setting>& settings) {
   for (const auto& [key, node] : table) {
@@ -73,9 +61,11 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
   }
   std::string full_text = text;
   for (const std::string& set : sets) {
-    apply_set(root, set, name, reading.complaints);
+    const auto [path, wrong] = apply_set(root, set);
+    if (!wrong.empty()) reading.complaints.push_back({name, 0, 0, path, wrong});
     full_text += "# --set " + set + "\n";
   }
+  drop_excluded(root);
   Scenario scenario = ScenarioReader(root, name, reading.complaints).read();
   scenario.text = full_text;
   list_settings(root, "", scenario.settings);

@@ -31,15 +31,10 @@ ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name,
   }
   for (const std::string& set : sets) {
     impl_->text += "# --set " + set + "\n";
-    const auto equals = set.find('=');
-    const std::string path = set.substr(0, equals);
-    if (equals == std::string::npos || path.empty()) {
-      impl_->complaints.push_back({name, 0, 0, set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"});
-      continue;
-    }
-    const std::string wrong = assign(impl_->root, path, *parsed_value(set.substr(equals + 1)).get("value"));
+    const auto [path, wrong] = apply_set(impl_->root, set);
     if (!wrong.empty()) impl_->complaints.push_back({name, 0, 0, path, wrong});
   }
+  drop_excluded(impl_->root);
 }
 
 ScenarioFamily::~ScenarioFamily() = default;
@@ -59,6 +54,7 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
     if (!wrong.empty()) reading.complaints.push_back({impl_->name, 0, 0, paths[i], wrong});
   }
   if (!reading.complaints.empty()) return reading;
+  drop_excluded(impl_->root);  // the same keys for every member
   Scenario scenario = ScenarioReader(impl_->root, impl_->name, reading.complaints).read();
   if (reading.complaints.empty()) reading.scenario = std::move(scenario);
   return reading;

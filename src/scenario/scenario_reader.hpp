@@ -5,8 +5,6 @@
 
 namespace hamflow {
 
-inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // t = n h needs n exact in double
-
 /// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
 class ScenarioReader {
  public:
@@ -30,10 +28,8 @@ class ScenarioReader {
 
  private:
   void read_problem(TomlTable& table);
-  std::optional<std::string> read_parameter(TomlTable& table, const ParameterInfo& parameter);
   void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
-  static std::string allowed_form(const ParameterInfo& parameter);
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -43,12 +39,14 @@ class ScenarioReader {
   void read_initial(TomlTable& table);
   void check_start(TomlTable& table);
   void read_method(TomlTable& table);
-  void read_cg(TomlTable& table);
-  void read_adaptive(TomlTable& table);
+  bool has_method() const { return !scenario_.request.method.name.empty(); }
+  bool read_method_name(TomlTable& table);
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
+  void read_kernel(TomlTable& table);
   void read_length(TomlTable& table);
   void read_measures(TomlTable& table);
+  void refuse_derivative(TomlTable& table, const std::string& key);
   void read_section(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
