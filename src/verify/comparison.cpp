@@ -81,9 +81,8 @@ double usual_tolerance(std::size_t k, std::size_t count) {
 
 /// Whether a method chooses its sub-steps itself: then it has a tolerance to vary, and steps that do not matter.
 bool set_tolerance(MethodSpec& method, double tolerance) {
-  const MethodKind kind = find_method(method.name).kind;
-  if ((kind != MethodKind::dop853 && kind != MethodKind::taylor) || method.adaptive.fixed) return false;
-  method.adaptive.tolerance = tolerance;
+  if (!describe(method).own_substeps) return false;
+  method.options[tolerance_option] = shortest(tolerance);
   return true;
 }
 constexpr std::int64_t adaptive_steps = 32;  // few, as each cuts a sub-step short
@@ -221,7 +220,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       }
       point.dt = asked.t_end / static_cast<double>(point.steps);
       request.dt = shortest(point.dt);
-      const MethodInfo info = describe(request.method);
+      const MethodInfo info = describe(method);  // as requested: the tolerance varies like a step
       point.method = info.name;
       point.order = info.order;
       point.explicit_step = info.explicit_step;
@@ -297,8 +296,7 @@ std::vector<ComparisonWinner> winners(const Comparison& comparison) {
     for (int level = highest; level >= lowest; --level) {
       std::vector<std::pair<double, std::string>> ranking;
       for (const auto& [name, points] : methods) {
-        // A sweep over a tape of series is no evaluation of a force.
-        if (!by_time && name == "taylor") continue;
+        if (!by_time && !find_method(parse_method(name).name).family->counts_forces) continue;
         if (const auto work = work_for(points, level, by_time, floor)) ranking.emplace_back(*work, name);
       }
       if (ranking.empty()) continue;
