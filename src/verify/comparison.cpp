@@ -220,8 +220,8 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       }
       point.dt = asked.t_end / static_cast<double>(point.steps);
       request.dt = shortest(point.dt);
-      const MethodInfo info = describe(method);  // as requested: the tolerance varies like a step
-      point.method = info.name;
+      const MethodInfo info = describe(request.method);
+      point.method = describe(method).name;  // as requested: the tolerance varies like a step
       point.order = info.order;
       point.explicit_step = info.explicit_step;
 

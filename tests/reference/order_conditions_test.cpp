@@ -6,10 +6,12 @@
 
 #include <deque>
 
+#include "catalog_tables.hpp"  // generated
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow::test {
 namespace {
@@ -62,12 +64,15 @@ void add_optimality(const Table&, Defects<R>&) {}
 /// Calls f with every table of the catalogue, whatever its kind.
 template <class F>
 void for_each_table(F&& f) {
-  for (const MethodEntry& entry : methods()) {
-    SCOPED_TRACE(entry.name);
-    if (entry.composition != nullptr && entry.starts_with == StartsWith::kick) f(*entry.composition);
-    if (entry.splitting != nullptr) f(*entry.splitting);
-    if (entry.force_gradient != nullptr) f(*entry.force_gradient);
-  }
+  const auto visit = [&](const auto& tables) {
+    for (const auto* table : tables) {
+      SCOPED_TRACE(table->name);
+      f(*table);
+    }
+  };
+  visit(composition_tables());
+  visit(splitting_tables());
+  visit(force_gradient_tables());
 }
 
 template <class R>
