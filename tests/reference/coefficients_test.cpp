@@ -13,7 +13,7 @@
 namespace hamflow::test {
 namespace {
 
-/// The row of coefficients.json of each composition and splitting of the closed list of names.   [spec: methods]
+/// The row of coefficients.json of each composition and splitting of the closed list of names.
 const std::map<std::string, std::string>& rows() {
   static const std::map<std::string, std::string> all{
       {"stv4", "StV4_triple_jump (Forest-Ruth/Candy-Rozmus/Yoshida4)"},

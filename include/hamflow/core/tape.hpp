@@ -1,6 +1,6 @@
 // A recording of the arithmetic in a problem's member templates. Called once with S = Trace<R>, they leave a straight
 // line of operations, from which the Taylor coefficients of a motion are propagated (numerics/taylor_series.hpp).
-// [Griewank and Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 2, 13]
+// [GriewankWalther2008, ch. 2, 13]
 //
 // What is constant is computed at once, what occurs twice is recorded once, and what no output needs is dropped: dual
 // numbers over Trace, which differentiate a Hamiltonian that comes without a gradient, produce many zeros and ones.

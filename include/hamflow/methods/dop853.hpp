@@ -1,5 +1,5 @@
 // DOP853, the explicit Runge-Kutta method of Dormand and Prince of order 8 with 12 stages, and its step control by two
-// embedded formulas of orders 5 and 3.   [Hairer, Norsett, Wanner 1993, II.5, (II.10.17) and the code DOP853]
+// embedded formulas of orders 5 and 3.   [HNW1993, II.5, (II.10.17), and the code DOP853]
 // Non-geometric: it drifts. Here as a reference to compare against.
 //
 // One step advances by h in sub-steps tau. With the max-norms of the q- and of the p-block, each by itself,

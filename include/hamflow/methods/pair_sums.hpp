@@ -1,5 +1,5 @@
 // A kick on the lattice from forces between pairs: each pair's contribution is rounded to the lattice of momenta, added
-// to one body and subtracted from the other, and the integers are summed. [spec: methods, section 7] The sum depends
+// to one body and subtracted from the other, and the integers are summed. The sum depends
 // neither on the order of the pairs nor on who adds them up, so that any number of threads gives the same bits; the
 // total momentum does not change at all; and since the rounding is odd, a kick of -h takes back one of h.
 #pragma once

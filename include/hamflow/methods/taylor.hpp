@@ -1,9 +1,9 @@
 // The Taylor series method: z(t0 + tau) = sum_k z_k tau^k up to any order, the coefficients by automatic
-// differentiation of the problem's own formulas.   [Jorba and Zou, Experimental Mathematics 14 (2005) 99-117]
+// differentiation of the problem's own formulas.   [JorbaZou2005]
 // Non-geometric: it drifts. Here as a reference to compare against.
 //
-// One step advances by h in sub-steps. Each asks the last two coefficients of the q- and of the p-block, in the
-// max-norm, how far the series reaches (Jorba and Zou (3-8) with the size of a block taken within that reach, so that a
+// One step advances by h in sub-steps. The last two coefficients of the q- and of the p-block, in the max-norm, show
+// how far the series reaches (as [JorbaZou2005, (3-8)], with the size of a block taken within that reach, so that a
 // block that passes through 0 does not stop the motion):
 //     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the least rho_j, j = p - 1, p, of both blocks,
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
@@ -84,7 +84,7 @@ class TaylorMethod {
     }
     record(problem, q, p);
   }
-  /// [Jorba and Zou 2005, (3-7)]
+  /// [JorbaZou2005, (3-7)]
   static int cheapest_order(double tolerance) { return static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)); }
 
   MethodInfo info() const { return describe_taylor(options_, order_); }

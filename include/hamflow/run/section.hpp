@@ -1,6 +1,6 @@
 // Poincare sections: the states in which a coordinate x passes a value, found on partial steps. Between two steps of
 // opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so that a point of the
-// section lies on the energy level of the method like any of its steps.   [spec: methods, section 3b]
+// section lies on the energy level of the method like any of its steps.
 #pragma once
 
 #include <functional>

@@ -85,7 +85,7 @@ class Simulation {
   virtual std::unique_ptr<Simulation> clone() const = 0;
   /// Fills `frame` with the state at another time: that after one partial step Psi_(theta h), theta h = time - t_n, of
   /// the same method from the present state. The simulation does not change; counters stay those of its own steps.
-  /// A time that differs from t_n by rounding alone is t_n.   [spec: methods, section 3b]
+  /// A time that differs from t_n by rounding alone is t_n.
   /// @param time a number expression, read in the arithmetic of the simulation
   virtual Outcome look_ahead(const std::string& time, Frame& frame) const = 0;
   /// The same after the part theta of a step, theta in [0, 1]: what happens within a step is found to the rounding of

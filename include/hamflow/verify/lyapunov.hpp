@@ -1,7 +1,7 @@
 // Lyapunov exponents of a step map: how fast neighbouring orbits of the *method* part.
 //
 // Tangent vectors are carried by the exact derivative of each step and orthonormalised from time to time, M Q = Q' R;
-// the exponents are the sums of log R_ii over time.   [Benettin, Galgani, Giorgilli, Strelcyn 1980]
+// the exponents are the sums of log R_ii over time.   [BenettinEtAl1980]
 //
 // Exponents of a Hamiltonian flow come in pairs +-lambda. Here they do so at every finite time, not in the limit alone:
 // the first frame is (u_1 .. u_n, J u_n .. J u_1), orthonormal and symplectic. In this order a symplectic M has a

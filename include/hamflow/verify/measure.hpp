@@ -1,4 +1,4 @@
-// The property table, measured: what a method claims of itself beside what its step does.   [spec: methods, section 1]
+// The property table, measured: what a method claims of itself beside what its step does.
 //     order                     slope of the global error against a reference of another family, in long double
 //     symplectic                |Psi'^T J Psi' - J|, Psi' exact
 //     weakly time-reversible    |S Psi_-h S z - Psi_h z|
