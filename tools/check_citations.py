@@ -2,7 +2,8 @@
 docs/references.bib, for example [Gross1999, (2.61)], and documents of this repository by their paths.
 
 A key is names and a year, or RFC and a number; every key has to be in the bibliography, and every entry of the bibliography
-has to be cited. Names and a year with a space between, or a bracket with a section but no key, are citations that lack a key.
+has to be cited. Names and a year with a space between, a numbered section of nothing, and a place in a bracket without a key
+are citations that lack one.
 A Markdown document that is named has to be in the repository."""
 
 import pathlib
@@ -14,7 +15,7 @@ from sources import ROOT, cpp_sources
 YEAR = r"(?:1[6-9]|20)\d\d"
 ENTRY = re.compile(r"^@\w+\{\s*([^,\s]+)\s*,", re.M)
 KEY = re.compile(rf"\b(?:[A-Z][A-Za-z]+{YEAR}[a-z]?|RFC\d+)\b")
-WITHOUT_KEY = re.compile(rf"\b(?:[A-Z][\w'-]+,? \(?{YEAR}(?=\s*(?:[\])}},;.:\"]|$))|RFC \d+)")
+WITHOUT_KEY = re.compile(rf"\b(?:[A-Z][\w'-]+,? \(?{YEAR}(?=\s*(?:[\])}},;.:\"]|$))|RFC \d+|[Ss]ection \d+)")
 BRACKET = re.compile(r"\[([^\[\]]{3,200})\]")
 PLACE = re.compile(r"^spec\b|\b(?:Sect\.|[Ss]ection|ch\.|chapter|p\.|pp\.|table|figure|theorem|def\.|appendix) [\dA-Z(]")
 DOCUMENT = re.compile(r"(?<![\w*/.-])(?:\.\./)*((?:[\w-]+/)*[\w-]+\.md)\b")
@@ -39,8 +40,9 @@ def wrong_in(text: str, keys: set[str], documents: set[str]) -> list[str]:
     wrong = [f"{key} is not in docs/references.bib" for key in KEY.findall(text) if key not in keys]
     wrong += [f"'{found[0]}' names a work without the key that docs/references.bib has for it"
               for found in WITHOUT_KEY.finditer(text)]
-    wrong += [f"[{inside}] names a place in a work without a key of docs/references.bib"
-              for inside in BRACKET.findall(text) if PLACE.search(inside) and not keys.intersection(re.findall(r"\w+", inside))]
+    wrong += [f"[{part.strip()}] names a place in a work without a key of docs/references.bib"
+              for inside in BRACKET.findall(text) for part in inside.split(";")
+              if PLACE.search(part.strip()) and not KEY.search(part) and not keys.intersection(re.findall(r"\w+", part))]
     wrong += [f"{name} is not in the repository" for name in DOCUMENT.findall(text)
               if not any(path == name or path.endswith("/" + name) for path in documents)]
     return wrong

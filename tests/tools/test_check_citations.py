@@ -52,9 +52,13 @@ class Citations(SmallTree):
         self.wrong("// A field of RFC 4180.\n", "'RFC 4180'")
 
     def test_a_place_in_a_work_without_a_key(self):
-        for text in ("// [Golub and Van Loan, Sect. 3.4]", "// [spec: methods]", "// [the thesis,\n// p. 12]"):
+        for text in ("// [Golub and Van Loan, Sect. 3.4]", "// [spec: methods]", "// [the thesis,\n// p. 12]",
+                     "// [HLW2006, Sect. VI.2; Arnold, Sect. 42]"):
             with self.subTest(text):
                 self.wrong(text, "names a place in a work without a key")
+
+    def test_a_numbered_section_of_nothing(self):
+        self.wrong("// The class by the rule of methods,\n// section 1.\n", "'section 1'")
 
     def test_a_document_that_is_not_there(self):
         self.wrong("// What is meant: spec/methods.md.\n", "spec/methods.md is not in the repository")
