@@ -1,4 +1,4 @@
-// What a problem can offer, and what a method may ask for. A method that asks for more than a problem offers does not
+// What a problem can offer, and what a method may require. A method that requires more than a problem offers does not
 // compile, and the message names the missing capability (tests/compile_fail).
 #pragma once
 
@@ -112,7 +112,7 @@ template <class P>
 concept Differentiable = Problem<P> &&
     (Separable<P> || detail::HasGradient<P> || detail::HasEnergy<P, Dual<typename P::Real, 2 * P::dimension>>);
 
-/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M. The problem says so: `quadratic_kinetic = true`.
+/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M, declared by `quadratic_kinetic = true`.
 template <class P>
 concept QuadraticKinetic = Separable<P> && requires {
   requires P::quadratic_kinetic;

@@ -88,7 +88,7 @@ struct Effort {
   long long steps = 0;          // implicit steps taken
   long long solves_min = 0;     // linear solves per step
   long long solves_max = 0;
-  long long stagnated = 0;  // steps accepted at the rounding level above the tolerance asked for
+  long long stagnated = 0;  // steps accepted at the rounding level above the requested tolerance
   long long halved = 0;     // steps replaced by two half steps (on_divergence = "halve")
 
   template <class Archive>

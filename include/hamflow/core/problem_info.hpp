@@ -38,7 +38,7 @@ struct InvariantInfo {
 };
 
 /// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them. An
-/// empty kind: the keys alone tell it.
+/// empty kind: it is recognised by its keys alone.
 struct StartInfo {
   std::string kind;
   std::vector<std::string> keys;
@@ -137,7 +137,7 @@ struct Condition {
   bool holds() const { return strict ? left < right : left <= right; }
 };
 
-/// The conditions of one start, in the order in which they were asked.
+/// The conditions of one start, in the order in which they were stated.
 class Conditions {
  public:
   template <class R>

@@ -5,8 +5,8 @@
 // What is constant is computed at once, what occurs twice is recorded once, and what no output needs is dropped: dual
 // numbers over Trace, which differentiate a Hamiltonian that comes without a gradient, produce many zeros and ones.
 // A branch on the state has no place in a straight line: < and abs throw. A test for equality (a case of measure zero,
-// such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, by which a later state can tell
-// that it would branch otherwise.
+// such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, which shows for a
+// later state that it would branch otherwise.
 #pragma once
 
 #include <cstddef>
