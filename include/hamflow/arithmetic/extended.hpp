@@ -13,7 +13,7 @@
 
 namespace hamflow {
 
-/// What a library has to say of its numbers: made(x) from any built-in number, as<U>(x) back, add, subtract, multiply,
+/// What a library provides for its numbers: made(x) from any built-in number, as<U>(x) back, add, subtract, multiply,
 /// divide, the elementary functions, read(text), written(x) with all digits, and the limits.
 template <class T>
 struct ExtendedTraits;
