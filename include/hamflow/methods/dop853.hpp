@@ -79,7 +79,7 @@ class DormandPrince853 {
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
-  /// Repeats the step that failed and tells why. Changes nothing.
+  /// Repeats the step that failed and returns why it failed. Changes nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     DormandPrince853 again = *this;
     PhasePoint<A, n> copy = z;

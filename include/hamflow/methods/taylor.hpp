@@ -72,7 +72,7 @@ class TaylorMethod {
   static_assert(Traceable<P, Base>,
                 "hamflow: taylor needs a Differentiable problem whose functions are templates over the number type");
 
-  /// Records H at a state like any other, so that what cannot be recorded is told before anything runs.
+  /// Records H at a state like any other, so that what cannot be recorded is refused before anything runs.
   TaylorMethod(const P& problem, const AdaptiveOptions& options)
       : options_(options), order_(options.order > 0 ? options.order : cheapest_order(options.tolerance)) {
     const std::size_t size = degrees_of_freedom(problem);
@@ -96,7 +96,7 @@ class TaylorMethod {
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
-  /// Repeats the step that failed and tells why. Changes nothing.
+  /// Repeats the step that failed and returns why it failed. Changes nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     TaylorMethod again = *this;
     PhasePoint<A, n> copy = z;
