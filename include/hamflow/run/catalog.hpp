@@ -107,7 +107,7 @@ struct ProblemEntry {
   std::function<std::optional<Frame>(const Texts&, const std::vector<double>& q, const std::vector<double>& p,
                                      double t)>
       exact;
-  /// What the effective potential says of the orbit through (q, p); empty where there is none.
+  /// What follows from the effective potential for the orbit through (q, p); empty where there is none.
   std::function<OrbitFacts(const Texts&, const std::vector<double>& q, const std::vector<double>& p)> describe_orbit;
 };
 

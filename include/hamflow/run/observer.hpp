@@ -1,5 +1,5 @@
-// **Observer**: asks to be woken at given steps. Writers, progress bars and user callbacks are observers. Observing
-// never changes the trajectory.
+// **Observer**: called at the steps that it requests. Writers, progress bars and user callbacks are observers.
+// Observing never changes the trajectory.
 #pragma once
 
 #include <cstdint>

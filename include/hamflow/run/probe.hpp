@@ -42,7 +42,7 @@ struct InvariantsOf<P, R> {
                                       std::declval<const VectorOf<P, R>&>(), R{}));
 };
 
-/// How many numbers each invariant has: ones unless the problem says otherwise.
+/// How many numbers each invariant has: 1 each unless the problem declares more.
 template <class P>
 std::vector<std::size_t> invariant_sizes(const P& problem, std::size_t numbers) {
   if constexpr (requires { problem.invariant_sizes(); }) {

@@ -31,7 +31,7 @@ struct Frame {
   double energy = 0;
   std::vector<double> invariants;
   Effort effort;                // totals since the start
-  StepDiagnostics diagnostics;  // of the last step, where asked for
+  StepDiagnostics diagnostics;  // of the last step, on request
   FrameDigits digits;
 };
 
@@ -70,7 +70,7 @@ class Simulation {
   /// In the order of the problem's invariants.
   virtual std::vector<InvariantExcursion> invariants() const = 0;
   virtual Effort effort() const = 0;
-  /// Of implicit steps, where asked for; else unset.
+  /// Of implicit steps, on request; else unset.
   virtual StepDiagnostics diagnostics() const = 0;
   virtual MethodInfo method() const = 0;
   /// After a failure: what went wrong in the step after the present one, in a sentence.

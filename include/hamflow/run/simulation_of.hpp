@@ -17,7 +17,7 @@
 namespace hamflow {
 
 namespace detail {
-// What saving and restoring say, compiled once and not in every simulation.
+// The messages of saving and restoring, compiled once and not in every simulation.
 inline std::string arithmetic_kind(std::string_view name, int digits) {
   return std::string(name) + " in " + std::to_string(digits) + " bits";
 }
@@ -313,7 +313,7 @@ class SimulationOf final : public Simulation {
 };
 
 /// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
-/// the plain type of the problem unless asked.
+/// the plain type of the problem unless requested.
 template <class Recipe>
 constexpr bool always_compensated() {
   if constexpr (requires { Recipe::compensated; }) {
