@@ -83,7 +83,7 @@ std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps);
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const std::vector<InvariantInfo>& infos,
                                        const std::vector<double>& magnitudes, const Request& request);
 
-/// What is told of a run.
+/// What is reported of a run.
 struct RunCertificate {
   RunDrift drift;
   double energy_level = 0;  // max |H - H0|/scale over every step

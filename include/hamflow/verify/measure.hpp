@@ -149,7 +149,7 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
 
 /// A state of the region, the k-th of its own sequence of random ones.
 State<double> random_state(const Region& region, std::uint64_t k);
-/// The region used for a problem of the catalogue; of a central force, the Kepler ellipse unless the variant says
+/// The region used for a problem of the catalogue; of a central force, the Kepler ellipse unless the variant names
 /// otherwise. @throws Error when there is no such problem
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant = {});
 /// The step of a method on the region's problem. @throws Error when there is no such problem
