@@ -251,7 +251,7 @@ class Sweep::Worker {
     for (std::size_t lane = 0; lane < task.count; ++lane) {
       MemberEnd end = block->look(lane);
       MemberRow& row = sweep_.rows_[members[lane]];
-      if (!end.regular) {  // the run alone tells what happened, and when
+      if (!end.regular) {  // the single run shows what happened, and when
         if (complete) run_alone(members[lane]);
         continue;
       }

@@ -47,7 +47,7 @@ struct SweepOptions {
 
 class Sweep {
  public:
-  /// Reads and checks every member. Where something is wrong, complaints() tells it and nothing can be run.
+  /// Reads and checks every member. Where something is wrong, complaints() lists it and nothing can be run.
   Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
         std::vector<Vary> varied, SweepOptions options);
 
