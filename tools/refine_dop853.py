@@ -188,7 +188,7 @@ class Tableau:
 
 def least_change(equations, width):
     """The smallest dx with J dx = -F, for equations of which many depend on others: rows are orthogonalised, largest
-    first, until what is left is the noise of a rank that is not full. Also the gap that told the rank."""
+    first, until what is left is the noise of a rank that is not full. Also the gap that shows the rank."""
     rows = []
     for e in equations:
         row = [ZERO] * width
