@@ -17,7 +17,7 @@ ENTRY = re.compile(r"^@\w+\{\s*([^,\s]+)\s*,", re.M)
 KEY = re.compile(rf"\b(?:[A-Z][A-Za-z]+{YEAR}[a-z]?|RFC\d+)\b")
 WITHOUT_KEY = re.compile(rf"\b(?:[A-Z][\w'-]+,? \(?{YEAR}(?=\s*(?:[\])}},;.:\"]|$))|RFC \d+|[Ss]ection \d+)")
 BRACKET = re.compile(r"\[([^\[\]]{3,200})\]")
-PLACE = re.compile(r"^spec\b|\b(?:Sect\.|[Ss]ection|ch\.|chapter|p\.|pp\.|table|figure|theorem|def\.|appendix) [\dA-Z(]")
+PLACE = re.compile(r"^spec\b|\b(?:Sect\.|[Ss]ection|ch\.|chapter|p\.|pp\.|table|figure|theorem|def\.|appendix) [\dA-Z(]|^[A-Z][a-z]+\b.*, \(?\d+\.\d")
 DOCUMENT = re.compile(r"(?<![\w*/.-])(?:\.\./)*((?:[\w-]+/)*[\w-]+\.md)\b")
 PATTERNS = ("*.md", "docs/*.md", "bench/*.md", "tests/**/*.md", "tools/*", "tests/**/*.py", "examples/*.toml", "dev",
             "CMakeLists.txt", "*/CMakeLists.txt", "*/*/CMakeLists.txt", "cmake/*")

@@ -53,7 +53,7 @@ class Citations(SmallTree):
 
     def test_a_place_in_a_work_without_a_key(self):
         for text in ("// [Golub and Van Loan, Sect. 3.4]", "// [spec: methods]", "// [the thesis,\n// p. 12]",
-                     "// [HLW2006, Sect. VI.2; Arnold, Sect. 42]"):
+                     "// [HLW2006, Sect. VI.2; Arnold, Sect. 42]", "// [Abramowitz, Stegun, 26.7.3]"):
             with self.subTest(text):
                 self.wrong(text, "names a place in a work without a key")
 
