@@ -1,4 +1,4 @@
-// Private to hamflow_verify: what the statistics of a run and of an ensemble share.
+// Private to hamflow_verify: what the statistics of a run and those of an ensemble share.
 #pragma once
 
 #include "hamflow/verify/drift.hpp"

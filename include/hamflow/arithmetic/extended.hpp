@@ -1,4 +1,4 @@
-// Number types with more digits than double, under one roof: Extended<T> around QD's dd_real, libquadmath's __float128
+// Number types with more digits than double, in one wrapper: Extended<T> around QD's dd_real, libquadmath's __float128
 // or an MPFR number gives them the same operators, conversions and functions, so that a problem or a method never sees
 // which one it computes in. What differs between them is in ExtendedTraits<T> (double_double.hpp, quad.hpp, mp.hpp).
 #pragma once

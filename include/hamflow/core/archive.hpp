@@ -1,4 +1,4 @@
-// What decides the steps to come, as bytes: checkpoints. A class lists its fields once, for writing and for reading:
+// Checkpoints: what decides the steps to come, as bytes. A class lists its fields once, for writing and for reading:
 //     template <class Archive> void archive(Archive& ar) { ar(kick_, factor_, count_); }
 // Kinds of fields: numbers, enumerations, strings, std::vector, std::array, C arrays, std::optional, Vector of either
 // kind, classes with archive(), and empty classes, which write nothing. All of it is cold: compiled for size.
@@ -26,14 +26,14 @@ namespace hamflow {
 class Writer;
 class Reader;
 
-/// How a type of numbers stands in an archive. Specialise it for types that are no plain bytes:
+/// How a number type is stored in an archive. Specialise it for types that are not plain bytes:
 ///     template <> struct ArchivedNumber<Big> : ArchivedText<Big> {};
 /// or with static void write(Writer&, const T&) and static void read(Reader&, T&) of its own.
 template <class T>
 struct ArchivedNumber;
 
 namespace detail {
-/// Bytes that carry the value: the 80-bit long double has 6 more, which hold anything.
+/// The number of bytes that carry the value: the 80-bit long double has 6 more, of any content.
 template <class T>
 constexpr std::size_t significant_bytes() {
   return std::is_same_v<T, long double> && std::numeric_limits<long double>::digits == 64 ? 10 : sizeof(T);
@@ -137,7 +137,7 @@ class Reader {
     bytes_ = bytes_.subspan(size);
   }
   std::size_t left() const { return bytes_.size(); }
-  /// @throws Error when something is left
+  /// @throws Error when bytes are left over
   void finish() const {
     if (!bytes_.empty()) throw Error("saved bytes are longer than expected");
   }

@@ -1,5 +1,5 @@
-// What a method claims about itself. The claims are not documentation: tests/conformance tries to refute each of them,
-// and `hamflow verify` prints them beside what was measured.
+// What a method claims about itself. The claims are tested: tests/conformance tries to refute each of them, and
+// `hamflow verify` prints them beside what was measured.
 #pragma once
 
 #include <limits>
@@ -37,7 +37,7 @@ struct MethodInfo {
   int forces_per_step = 0;  // -dV/dq per step when none is computed twice; 0: depends on the iteration
 };
 
-/// Of an implicit step, on request: how well conditioned its Newton was.   [Gross1999, figures 3.27, 3.28]
+/// How well conditioned Newton's method was in an implicit step; computed on request.   [Gross1999, figures 3.27, 3.28]
 struct StepDiagnostics {
   struct Extremes {
     double least = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ struct StepDiagnostics {
   }
 };
 
-/// What a method has done since it was made.
+/// What a method has computed since it was constructed.
 struct Effort {
   long long force = 0;          // evaluations of -dV/dq
   long long gradient = 0;       // evaluations of the whole gradient of H

@@ -20,7 +20,7 @@ enum class ParameterKind { number, list, number_or_list };
 
 struct ParameterInfo {
   std::string name;
-  std::string default_value;  // a number expression, or "[...]"; empty: it need not be given, and has no default
+  std::string default_value;  // a number expression, or "[...]"; empty: optional, without default
   std::string meaning;
   Range range = Range::any;  // of each number
   ParameterKind kind = ParameterKind::number;
@@ -83,7 +83,7 @@ inline std::vector<std::string> list_parts(const std::string& text) {
   return parts;
 }
 
-/// Values by name, read in R from the text that was given, so that every arithmetic reads its own digits.
+/// Values by name, read in R from the given text, so that every arithmetic reads its own digits.
 template <class R>
 class Parameters {
  public:
@@ -129,7 +129,7 @@ using OrbitFacts = std::vector<std::pair<std::string, std::variant<double, std::
 
 /// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
 struct Condition {
-  std::string key;        // the scenario key to blame
+  std::string key;        // the scenario key at fault
   std::string statement;  // e.g. "r_per <= r_aph"
   double left = 0;
   double right = 0;

@@ -186,7 +186,7 @@ Trace<R> value_of(const Trace<R>& x) {
   return x;
 }
 
-/// Takes the operations down, with the values at one state.
+/// Records the operations, with the values at one state.
 template <class R>
 class Recorder {
  public:
@@ -258,7 +258,7 @@ class Recorder {
   }
   int constant(const R& value) {
     const std::size_t count = tape_.constants.size();
-    // Few constants are many times the same; of a long list (n masses) only the last ones are looked at.
+    // Few constants occur many times; in a long list (n masses) only the last ones are compared.
     for (std::size_t i = count; i > 0 && i + 64 > count; --i) {
       if (detail::identical(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
     }

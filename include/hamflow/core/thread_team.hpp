@@ -1,6 +1,6 @@
-// Threads that wait for work that comes in pieces of some microseconds: the forces of one step. They look for it a
-// while before they sleep, and no piece of work allocates. A piece goes to whichever thread is free: what is computed
-// must not depend on who computes it, as sums of integers do not.
+// Threads for work in pieces of some microseconds: the forces of one step. An idle thread looks for work for a while
+// before it sleeps, and no piece of work allocates. A piece goes to whichever thread is free: the result must not
+// depend on which thread computes it, as sums of integers do not.
 #pragma once
 
 #include <atomic>

@@ -10,9 +10,9 @@ namespace hamflow {
 
 struct AdaptiveOptions {
   double tolerance = 1e-12;      // on the error of a sub-step, relative to the size of q and of p, each by itself
-  bool tolerance_given = false;  // else the catalogue takes that which fits the arithmetic of a run
+  bool tolerance_given = false;  // else the catalogue chooses one that fits the arithmetic of a run
   int order = 0;                 // of taylor; 0: the cheapest for the tolerance
-  bool fixed = false;            // one sub-step a step, whatever its error: what orders are measured on
+  bool fixed = false;            // one sub-step per step, whatever its error: orders are measured on this
   int max_substeps = 100000;
 };
 

@@ -4,7 +4,7 @@
 //     h v/2
 // omega = charge field/mass. |v|, hence the energy, is conserved to rounding. In general the map preserves
 // volume and is not symplectic [QinEtAl2013]; in a uniform field, the only one here, it is symplectic, as measured.
-// Order 2, symmetric. Reversing the canonical momenta does not bring it back, and neither the motion itself: the field
+// Order 2, symmetric. Reversing the canonical momenta reverses neither the method nor the motion itself: the field
 // would have to be reversed too [Sonnleitner2010, footnote 21].
 #pragma once
 

@@ -73,7 +73,7 @@ class DormandPrince853 {
 
   MethodInfo info() const { return describe_dop853(options_); }
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
-  /// Sub-steps taken, and tried in vain, since the method was made.
+  /// Sub-steps taken, and sub-steps rejected, since the method was constructed.
   long long substeps() const { return substeps_; }
   long long rejected() const { return rejected_; }
 
@@ -246,7 +246,7 @@ class DormandPrince853 {
              "= " +
              shortest(options_.tolerance) + " below the rounding of the arithmetic?";
     }
-    return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, all that it may, for " +
+    return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
            shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";
   }
 

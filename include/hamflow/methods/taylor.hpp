@@ -8,7 +8,7 @@
 //     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the least rho_j, j = p - 1, p, of both blocks,
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
 // For the cheapest order, p = ceil(1 - ln(tolerance)/2), that is rho/e^2 and their safety factor. What is left of h is
-// divided into equal parts that are no longer. No sub-step knows of the one before it: there is no memory.
+// divided into equal parts that are no longer. No sub-step depends on the one before it: there is no memory.
 #pragma once
 
 #include <cmath>
@@ -229,7 +229,7 @@ class TaylorMethod {
       return "taylor would need a sub-step of " + shortest(allowed) + " after " + shortest(substeps.done()) +
              " of the step, too short to add up: is the motion near a collision or another singularity?";
     }
-    return "taylor took " + std::to_string(options_.max_substeps) + " sub-steps, all that it may, for " +
+    return "taylor took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
            shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";
   }
 

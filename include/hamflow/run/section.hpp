@@ -29,13 +29,13 @@ struct SectionPoint {
 /// crossings within one step is not seen.
 class SectionFinder final : public Observer {
  public:
-  /// @param simulation that runs
+  /// @param simulation the simulation that is observed
   SectionFinder(const Simulation& simulation, const Section& section, std::function<void(const SectionPoint&)> found);
   std::int64_t next_due(std::int64_t step) const override { return failed_ ? never : step; }
   Verdict observe(const Frame& frame) override;
   std::int64_t points() const { return points_; }
   double max_residual() const { return max_residual_; }
-  /// Whether a partial step failed: no points are sought after it.
+  /// Whether a partial step failed: no points are sought after that.
   bool failed() const { return failed_; }
 
  private:

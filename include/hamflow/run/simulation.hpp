@@ -35,14 +35,14 @@ struct Frame {
   FrameDigits digits;
 };
 
-/// How far a conserved quantity was seen to go, over every step.
+/// How far a conserved quantity deviated, over every step.
 struct Excursion {
   double initial = 0;
   double final = 0;
   double max_error = 0;
 };
 
-/// The same of an invariant, with as many numbers as it has components. max_error is the length of the deviation.
+/// The same for an invariant, with as many numbers as it has components. max_error is the length of the deviation.
 struct InvariantExcursion {
   std::vector<double> initial;
   std::vector<double> final;
@@ -76,10 +76,10 @@ class Simulation {
   /// After a failure: what went wrong in the step after the present one, in a sentence.
   virtual std::string failure() const = 0;
 
-  /// Everything that decides the bits of the steps to come and of the summary: state, clock, what the method and the
-  /// probe remember. Equal simulations give equal bytes.
+  /// Everything that decides the bits of the steps to come and of the summary: state, clock, and the memory of the
+  /// method and of the probe. Equal simulations give equal bytes.
   virtual std::vector<std::byte> save() const = 0;
-  /// Goes on where save() was called, bit for bit.
+  /// Continues from the state of save(), bit for bit.
   /// @throws Error when the bytes belong to another kind of simulation, or are damaged; then nothing has changed
   virtual void restore(std::span<const std::byte> saved) = 0;
   virtual std::unique_ptr<Simulation> clone() const = 0;

@@ -197,7 +197,7 @@ class SimulationOf final : public Simulation {
       return detail::kind_of("a problem", {}, method_.info().name, arithmetic);
     }
   }
-  /// A method without archive() remembers nothing.
+  /// A method without archive() has no memory.
   template <class Archive, class Self>
   [[gnu::cold]] static void archive(Archive& ar, Self& self) {
     ar(self.z_, self.clock_, self.probe_, self.initial_energy_, self.scale_);

@@ -22,7 +22,7 @@ struct ComparisonRequest {
   std::vector<std::int64_t> steps;  // to t_end, one for each dt
 };
 
-/// The end state that is taken to be right.
+/// The end state that errors are measured against.
 struct ReferenceSolution {
   std::string kind;  // "closed form", "extrapolation"
   std::string description;
