@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-from sources import ROOT, cpp_sources
+from sources import FOLDERS, ROOT, cpp_sources
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<(hamflow/[^>]+)>)', re.M)
 GENERATED = re.compile(r'OUTPUT\s+"[^"]*/(\w+\.hpp)"')  # headers that CMake writes into the build folder
@@ -51,8 +51,9 @@ class Tree:
         for path in self.sources:
             if path.parts[0] != "include":
                 self.by_name[path.name].append(path)
-        cmake = [root / "CMakeLists.txt", *(root / "cmake").glob("*.cmake"), *root.glob("tests/**/CMakeLists.txt")]
-        self.generated = {name for file in cmake if file.exists() for name in GENERATED.findall(file.read_text())}
+        cmake = [*root.glob("CMakeLists.txt"), *root.glob("cmake/*.cmake"),
+                 *(file for folder in FOLDERS for file in (root / folder).rglob("CMakeLists.txt"))]
+        self.generated = {name for file in cmake for name in GENERATED.findall(file.read_text())}
 
     def resolve(self, source: pathlib.Path, name: str) -> list[pathlib.Path]:
         """The headers that name may stand for: below include/, beside the source, or in an include directory of its target."""

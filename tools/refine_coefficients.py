@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Refines the published coefficients of splitting methods to 40 digits and checks the tables in the tree.
 
-    tools/refine_coefficients.py              prints what belongs into the tables
+    tools/refine_coefficients.py              prints the digits for the tables
     tools/refine_coefficients.py --check      compares it with include/hamflow/methods
 
 Published digits come from tests/data/coefficients.json; PEFRL's, which has no row there, stand below. What is refined

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The coefficients of DOP853 to 70 digits: refines the published ones and writes methods/dop853_tableau.hpp.
 
-Hairer, Norsett and Wanner [HNW1993, II.5] print the coefficients of their code DOP853 to
-about 30 places. Here they are the start of a Newton iteration on everything that a coefficient has to satisfy:
+Hairer, Norsett and Wanner [HNW1993, II.5] print the coefficients of their code DOP853 to about 30 places. Here they are the
+start of a Newton iteration on everything that a coefficient has to satisfy:
   - the nodes, closed in sqrt(6):  c_i = sum_j a_ij;
   - the simplifying assumptions  sum_j a_ij c_j^(m-1) = c_i^m/m  (m = 2, 3 from stage 3 and 4 on, m = 4 from stage 6 on)
     and  sum_i b_i a_ij = b_j (1 - c_j);

@@ -81,6 +81,9 @@ class Layers(SmallTree):
         self.wrong('"list.hpp" names nothing')
         self.write("cmake/list.cmake", 'file(CONFIGURE OUTPUT "${generated}/list.hpp" CONTENT "")\n')
         self.assertEqual(check_layers.violations(self.root), [])
+        self.write("src/io/summary.cpp", '#include "more.hpp"\n')
+        self.write("src/io/CMakeLists.txt", 'file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/more.hpp" CONTENT "")\n')
+        self.assertEqual(check_layers.violations(self.root), [])
 
     def test_a_layer_without_a_line(self):
         self.write("src/extra/extra.cpp")
