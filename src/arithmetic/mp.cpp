@@ -149,7 +149,7 @@ MpNumber Traits::nan() {
 std::string exact_text(const Mp& x) {
   char* text = nullptr;
   const int length = mpfr_asprintf(&text, "%Ra", x.value.raw());
-  if (length < 0) throw Error("a number cannot be written");
+  if (length < 0) throw Error("MPFR cannot write a number as text");
   std::string out = std::to_string(mpfr_get_prec(x.value.raw())) + " " + text;
   mpfr_free_str(text);
   return out;

@@ -3,7 +3,7 @@
 // Kinds of fields: numbers, enumerations, strings, std::vector, std::array, C arrays, std::optional, Vector of either
 // kind, classes with archive(), and empty classes, which write nothing. All of it is cold: compiled for size.
 // What follows from a field, e.g. a pointer into a table, is set again where `Archive::reading` is true. Bytes are the
-// machine's own: a checkpoint is no exchange format. Equal values give equal bytes.
+// machine's own: a checkpoint is not an exchange format. Equal values give equal bytes.
 #pragma once
 
 #include <array>

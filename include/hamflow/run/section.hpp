@@ -25,7 +25,7 @@ struct SectionPoint {
 };
 
 /// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
-/// blocks of one, some hundred nanoseconds a step. A start on the section is no point of it; an even number of
+/// blocks of one, some hundred nanoseconds a step. A start on the section is not counted as a point; an even number of
 /// crossings within one step is not seen.
 class SectionFinder final : public Observer {
  public:

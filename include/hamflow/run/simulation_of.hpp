@@ -53,7 +53,7 @@ concept Method = Problem<P> && Arithmetic<A> &&
 template <class P, class M, Arithmetic A, class Probe = ConservationProbe<P, typename A::Real>>
 class SimulationOf final : public Simulation {
  public:
-  static_assert(Method<M, P, A>, "hamflow: this type is no Method for this problem and arithmetic");
+  static_assert(Method<M, P, A>, "hamflow: this type is not a Method for this problem and arithmetic");
   using Real = typename A::Real;
   static constexpr std::size_t n = P::dimension;
 
