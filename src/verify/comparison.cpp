@@ -26,7 +26,7 @@ State<double> joined(const Frame& frame) {
   return z;
 }
 
-/// Angles that the closed form knows up to whole turns: the nearest is meant.
+/// Angles that the closed form gives up to whole turns are moved to the nearest.
 double largest_difference(const ProblemInfo& info, const State<double>& a, const State<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -248,7 +248,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       const Timing timing = timed(request, point.steps, pulse);
       if (timing.outcome == Outcome::stopped) return found;
       point.wall_seconds = timing.wall;
-      // Other programs that take the processor away are not the method's doing; a clock of the processor, though, is
+      // Time that other programs take from the processor is not the method's; a clock of the processor, though, is
       // slow to read.
       point.seconds = std::min(timing.wall, timing.processor);
       found.points.push_back(point);

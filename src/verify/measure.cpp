@@ -11,8 +11,8 @@ namespace hamflow {
 namespace {
 constexpr std::uint64_t seed = 20100617;  // any number: fixed, so that a measurement can be repeated
 
-/// Regions by hand, where the dynamics is bounded and regular, and, where the problem is, nonlinear: no turning point,
-/// no apsis but that of the ellipses, where the defects are largest.
+/// Regions chosen by hand, where the dynamics is bounded and regular, and, where the problem is, nonlinear: no turning
+/// point, no apsis but that of the ellipses, where the defects are largest.
 const std::vector<Region>& known_regions() {
   static const std::vector<Region> all{
       {.problem = "pendulum", .centre = {2.0, 0.5}, .spread = 0.15, .time = 2.5},

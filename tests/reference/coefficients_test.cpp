@@ -15,7 +15,7 @@
 namespace hamflow::test {
 namespace {
 
-/// The row of coefficients.json of each composition and splitting of the closed list of names.   [spec: methods]
+/// The row of coefficients.json of each composition and splitting of the closed list of names.
 const std::map<std::string, std::string>& rows() {
   static const std::map<std::string, std::string> all{
       {"stv4", "StV4_triple_jump (Forest-Ruth/Candy-Rozmus/Yoshida4)"},
@@ -183,7 +183,7 @@ TEST(Coefficients, OfSplittingsAreThoseOfThePublishedSets) {
       found.emplace_back(table->coefficient(i));
     }
     // Of srkn14a the coefficients with 15 decimals meet the conditions to 4 units only.
-    expect_digits(found, published, false, entry.name == "srkn14a" ? 4 : 1);
+    expect_digits(found, published, false, name == "srkn14a" ? 4 : 1);
   }
 }
 

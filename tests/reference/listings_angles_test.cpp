@@ -1,4 +1,4 @@
-// The first thesis' programs in polar coordinates (a line through the centre) and for the double pendulum, at each step
+// The programs of Gross1999 in polar coordinates (a line through the centre) and for the double pendulum, at each step
 // that the reference lists; the linear pendulum's modal solution, and condition numbers along the nonlinear one.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Kepler orbits by the programs printed in the first thesis, at each step that the reference lists.
+// Kepler orbits by the programs printed in Gross1999, at each step that the reference lists.
 #include <gtest/gtest.h>
 
 #include <cmath>

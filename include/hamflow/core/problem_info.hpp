@@ -28,7 +28,7 @@ struct InvariantInfo {
 };
 
 /// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them. An
-/// empty kind: the keys alone tell it.
+/// empty kind: it is recognised by its keys alone.
 struct StartInfo {
   std::string kind;
   std::vector<std::string> keys;
@@ -73,7 +73,7 @@ inline std::vector<std::string> list_parts(const std::string& text) {
   return parts;
 }
 
-/// Values by name, read in R from the text that was given, so that every arithmetic reads its own digits.
+/// Values by name, read in R from the given text, so that every arithmetic reads its own digits.
 template <class R>
 class Parameters {
  public:
@@ -119,7 +119,7 @@ using OrbitFacts = std::vector<std::pair<std::string, std::variant<double, std::
 
 /// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
 struct Condition {
-  std::string key;        // the scenario key to blame
+  std::string key;        // the scenario key at fault
   std::string statement;  // e.g. "r_per <= r_aph"
   double left = 0;
   double right = 0;
@@ -127,7 +127,7 @@ struct Condition {
   bool holds() const { return strict ? left < right : left <= right; }
 };
 
-/// The conditions of one start, in the order in which they were asked.
+/// The conditions of one start, in the order in which they were stated.
 class Conditions {
  public:
   template <class R>

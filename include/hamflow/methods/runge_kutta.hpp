@@ -95,7 +95,7 @@ class RungeKutta {
       z.move(sum_q);
       z.push(sum_p);
     }
-    // The last stage by itself: the next step waits for it, and for nothing else.
+    // The last stage is added by itself: the next step waits for it, and for nothing else.
     const Base weight = h * Tableau.b[stages - 1].template as<Base>();
     z.move(weight, dq[stages - 1]);
     z.push(weight, dp[stages - 1]);

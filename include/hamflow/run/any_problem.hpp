@@ -306,7 +306,7 @@ class AnyProblem {
   }
   std::size_t size_;
   std::tuple<std::shared_ptr<const Functions<R>>, std::shared_ptr<const Functions<Others>>...> functions_;
-  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // asked for at every step
+  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // needed at every step
 };
 
 }  // namespace hamflow

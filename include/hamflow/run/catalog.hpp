@@ -50,9 +50,9 @@ struct Request {
 struct ProblemEntry {
   ProblemInfo info;
   std::size_t dimension = 0;  // degrees of freedom; 0: as many as the start has coordinates
-  /// What q and p have to be where `size` numbers cannot be one of them; empty where they can.
+  /// What q and p have to be where they cannot have `size` numbers; empty where they can.
   std::function<std::string(const Texts& parameters, std::size_t size)> refused_size;
-  /// The key to blame and what is wrong with parameters that do not go together.
+  /// The key at fault, and what is wrong with parameters that contradict each other.
   std::function<std::pair<std::string, std::string>(const Texts& parameters)> refused_parameters;
   /// What is wrong with a start; empty if nothing is.
   std::function<std::string(const Texts& parameters, const std::vector<double>& q)> refused_start;
@@ -61,7 +61,7 @@ struct ProblemEntry {
   bool has_fast_kernel = false;
   bool has_pairwise_forces = false;  // on the lattice several threads may compute them
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
-  /// The same behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
+  /// The same problem behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
   /// Null where the method is not accepted.
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
@@ -84,7 +84,7 @@ struct ProblemEntry {
   std::function<std::optional<Frame>(const Texts&, const std::vector<double>& q, const std::vector<double>& p,
                                      double t)>
       exact;
-  /// What the effective potential says of the orbit through (q, p); empty where there is none.
+  /// What follows from the effective potential for the orbit through (q, p); empty where there is none.
   std::function<OrbitFacts(const Texts&, const std::vector<double>& q, const std::vector<double>& p)> describe_orbit;
 };
 
@@ -95,14 +95,14 @@ inline const std::vector<std::string>& arithmetics() {
   static const std::vector<std::string> names{"double", "compensated", "double-double", "quad", "mp(d)", "lattice"};
   return names;
 }
-/// d of "mp(d)"; 0 where the name is another. @throws Error when d is no number of digits
+/// d of "mp(d)"; 0 for any other name. @throws Error when d is not a number of digits
 int mp_digits(const std::string& arithmetic);
 /// Decimal digits of an arithmetic beyond double: 31, 33, d; else 0.
 int digits_beyond_double(const std::string& arithmetic);
 /// @throws Error naming what is allowed when there is no such arithmetic
 void check_arithmetic(const std::string& arithmetic);
 
-/// @throws Error naming the nearest name when there is none such
+/// @throws Error with the nearest name when there is no such name
 const MethodEntry& find_method(const std::string& name);
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant);
 /// The parameters of a problem with defaults for those not given.

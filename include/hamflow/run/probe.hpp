@@ -42,7 +42,7 @@ struct InvariantsOf<P, R> {
                                       std::declval<const VectorOf<P, R>&>(), R{}));
 };
 
-/// How many numbers each invariant has: ones unless the problem says otherwise.
+/// How many numbers each invariant has: 1 each unless the problem declares more.
 template <class P>
 std::vector<std::size_t> invariant_sizes(const P& problem, std::size_t numbers) {
   if constexpr (requires { problem.invariant_sizes(); }) {
@@ -80,8 +80,8 @@ class ConservationProbe {
       worst_ = zeros_like(initial_);
     }
   }
-  /// False where the energy is not finite. With all it calls it belongs into the loop over steps, where its square
-  /// roots and divisions hide behind those of the step.
+  /// False where the energy is not finite. It is inlined with all that it calls into the loop over steps, where its
+  /// square roots and divisions overlap with those of the step.
   template <std::size_t N>
   [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
                              [[maybe_unused]] const R& t) {

@@ -18,7 +18,7 @@
 namespace hamflow {
 
 namespace detail {
-// What saving and restoring say, compiled once and not in every simulation.
+// The messages of saving and restoring, compiled once and not in every simulation.
 inline std::string arithmetic_kind(std::string_view name, int digits) {
   return std::string(name) + " in " + std::to_string(digits) + " bits";
 }
@@ -54,7 +54,7 @@ concept Method = Problem<P> && Arithmetic<A> &&
 template <class P, class M, Arithmetic A, class Probe = ConservationProbe<P, typename A::Real>>
 class SimulationOf final : public Simulation {
  public:
-  static_assert(Method<M, P, A>, "hamflow: this type is no Method for this problem and arithmetic");
+  static_assert(Method<M, P, A>, "hamflow: this type is not a Method for this problem and arithmetic");
   using Real = typename A::Real;
   static constexpr std::size_t n = P::dimension;
 
@@ -198,7 +198,7 @@ class SimulationOf final : public Simulation {
       return detail::kind_of("a problem", {}, method_.info().name, arithmetic);
     }
   }
-  /// A method without archive() remembers nothing.
+  /// A method without archive() has no memory.
   template <class Archive, class Self>
   [[gnu::cold]] static void archive(Archive& ar, Self& self) {
     ar(self.z_, self.clock_, self.probe_, self.initial_energy_, self.scale_);
