@@ -25,6 +25,15 @@ Start<R, 2> pericentre_start(const R& r_per, const R& l) {
   return {{r_per, R(0)}, {R(0), l / r_per}};
 }
 
+/// The start that every potential has: a potential lists it last, with an energy and an angular momentum that suit the
+/// parameters of its example.
+inline StartInfo start_by_energy(Texts example) {
+  return {.kind = "",
+          .keys = {"energy", "angular_momentum"},
+          .meaning = "any orbit, at pericentre on the x-axis (circles on the y-axis)",
+          .example = std::move(example)};
+}
+
 /// What a potential says of its two derivatives at u = r^2. Its slope(u, factor) is factor times the first: there the
 /// factor meets the constants of the potential, not what has just been computed from u.
 template <class S>
@@ -50,14 +59,19 @@ class CentralForce {
     ProblemInfo of_potential = Potential<R>::info();
     ProblemInfo all{.name = "central-force",
                     .variant = {{"potential", of_potential.name}, {"coordinates", "cartesian"}},
+                    .default_choices = {"coordinates"},
+                    .example_choices = of_potential.example_choices,
+                    .chart_key = "coordinates",
                     .formula = "H = |p|^2/(2 mu) + V(r), " + of_potential.formula,
                     .reference = "Gross1999, (2.45)-(2.60); " + of_potential.reference,
                     .coordinates = {"x", "y"},
                     .parameters = {{"mass", "1", "reduced mass mu", Range::positive}},
-                    .invariants = {{"angular_momentum", "q1 p2 - q2 p1"}},
-                    .starts = of_potential.starts};
-    all.starts.push_back(
-        {"", {"energy", "angular_momentum"}, "any orbit, at pericentre on the x-axis (circles on the y-axis)"});
+                    .invariants = {{"angular_momentum", "q1 p2 - q2 p1", Components::one, Terms::moments}},
+                    .starts = of_potential.starts,
+                    .two_bodies = true,
+                    .region = of_potential.region,
+                    .example = of_potential.example};
+    if (all.starts.empty() || !all.starts.back().kind.empty()) all.starts.push_back(start_by_energy({}));
     all.parameters.insert(all.parameters.end(), of_potential.parameters.begin(), of_potential.parameters.end());
     return all;
   }
@@ -109,7 +123,7 @@ class CentralForce {
     hessian[1][1] = d.slope + d.curvature * (q[1] * q[1]);
   }
   template <class S>
-  Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p) const {
+  Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p, const S& /*t*/) const {
     return {q[0] * p[1] - q[1] * p[0]};
   }
 
