@@ -8,7 +8,6 @@
 
 #include "certificate_json.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
-#include "hamflow/problems/support/polar.hpp"
 
 namespace hamflow {
 
@@ -49,9 +48,9 @@ Json diagnostics_of(const StepDiagnostics& d, double dt) {
 
 /// The two bodies in space, from the planar state.
 Json bodies_of(const Scenario& scenario, const Frame& frame) {
-  Start<double, 2> planar{{frame.q[0], frame.q[1]}, {frame.p[0], frame.p[1]}};
-  if (scenario.request.variant.at("coordinates") == "polar") planar = to_cartesian(planar);
-  const auto [first, second] = scenario.bodies->at(frame.time, planar.q, planar.p);
+  const auto& to_plane = scenario.problem->to_reference;
+  const Frame planar = to_plane ? to_plane(frame.q, frame.p) : frame;
+  const auto [first, second] = scenario.bodies->at(frame.time, {planar.q[0], planar.q[1]}, {planar.p[0], planar.p[1]});
   Json all = Json::array();
   for (const Body& body : {first, second}) {
     all.push_back({{"mass", body.mass},

@@ -62,7 +62,9 @@ constexpr bool has_weight(std::size_t stage) {
 template <class P, Arithmetic A>
 class DormandPrince853 {
  public:
-  static_assert(Differentiable<P>, "hamflow: dop853 needs a Differentiable problem");
+  static_assert(Differentiable<P>,
+                "hamflow: dop853 needs a Differentiable problem; one of dynamic size gives "
+                "velocity and force, or gradient, by hand");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = dop853::stages;
   using Real = typename A::Real;

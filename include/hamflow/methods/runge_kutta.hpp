@@ -48,7 +48,9 @@ MethodInfo describe(const ButcherTableau<S>& tableau) {
 template <class P, Arithmetic A, const auto& Tableau>
 class RungeKutta {
  public:
-  static_assert(Differentiable<P>, "hamflow: a Runge-Kutta method needs a Differentiable problem");
+  static_assert(Differentiable<P>,
+                "hamflow: a Runge-Kutta method needs a Differentiable problem; one of dynamic size gives "
+                "velocity and force, or gradient, by hand");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = std::remove_cvref_t<decltype(Tableau)>::stages;
   using Real = typename A::Real;

@@ -30,16 +30,10 @@ namespace hamflow {
 
 /// **Traceable**: the derivatives of H as templates that a recording can be passed through.
 template <class P, class R>
-concept Traceable = Differentiable<P> &&(
-    requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
-      problem.velocity(x, out);
-      problem.force(x, out);
-    } ||
-    requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
-      problem.gradient(x, x, out, out);
-    } ||
-    (P::dimension != dynamic &&
-     (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
+concept Traceable = Differentiable<P> &&
+    ((HasVelocity<P, Trace<R>> && HasForce<P, Trace<R>>) || HasGradient<P, Trace<R>> ||
+     (P::dimension != dynamic &&
+      (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
 
 /// q' = dH/dp, p' = -dH/dq on a tape, recorded at (q, p).
 template <class R, class P, std::size_t N>

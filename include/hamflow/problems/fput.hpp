@@ -26,7 +26,11 @@ class Fput {
         .coordinates = {"q1", "...", "qn"},
         .parameters = {{.name = "n", .meaning = "moving masses", .range = Range::count, .required = true},
                        {"alpha", "0", "cubic strength of a link"},
-                       {"beta", "0", "quartic strength of a link"}}};
+                       {"beta", "0", "quartic strength of a link"}},
+        .region = {.parameters = {{"n", "4"}, {"alpha", "0.25"}, {"beta", "0.5"}},
+                   .centre = {0.3, 0.4, -0.2, 0.2, 0.1, -0.2, 0.2, 0.1},
+                   .spread = 0.05,
+                   .step = 0.05}};
   }
   static std::string refused_size(const Parameters<R>& given, std::size_t size) {
     const double n = static_cast<double>(given["n"]);
@@ -79,11 +83,6 @@ class Fput {
         hessian[i][i - 1] -= stiffness;
       }
     }
-  }
-  template <class S>
-  void potential_hessian(const Vector<S, dynamic>& q, Matrix<S, dynamic>& hessian) const {
-    Vector<S, dynamic> f = zeros_like(q);
-    force_and_hessian(q, f, hessian);
   }
 
  private:

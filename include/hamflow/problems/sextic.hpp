@@ -23,7 +23,8 @@ class Sextic {
     return {.name = "sextic",
             .formula = "H = p^3/3 - p/2 + q^6/30 + q^4/4 - q^3/3 + 1/6",
             .reference = "FaouHairerPham2004",
-            .coordinates = {"q"}};
+            .coordinates = {"q"},
+            .region = {.centre = {0.6, 0.9}, .spread = 0.2, .step = 0.023}};
   }
 
   template <class S>

@@ -71,12 +71,22 @@ struct ProblemEntry {
   std::function<std::vector<Condition>(const Texts& parameters, const StartSpec&)> conditions;
   /// H(q, p).
   std::function<double(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> energy;
+  /// dH/dp, the rates of change of the coordinates.
+  std::function<std::vector<double>(const Texts& parameters, const std::vector<double>& q,
+                                    const std::vector<double>& p)>
+      rates;
   /// Whether H and its derivatives are finite there.
   std::function<bool(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> regular;
   /// How many numbers each invariant has.
   std::function<std::vector<std::size_t>(const Texts& parameters, std::size_t size)> invariant_sizes;
   /// The canonical start of a request in double.
   std::function<Frame(const Request&)> start;
+  /// The total mass, for the centre of mass of `size` coordinates; empty where the problem has none.
+  std::function<double(const Texts& parameters, std::size_t size)> total_mass;
+  /// The canonical change of coordinates to the reference chart of the problem and back; empty in that chart itself.
+  /// They throw an Error where a chart does not reach.
+  std::function<Frame(const std::vector<double>& q, const std::vector<double>& p)> to_reference;
+  std::function<Frame(const std::vector<double>& q, const std::vector<double>& p)> from_reference;
   /// r(phi) of the exact orbit through (q, p); empty where there is no closed form.
   std::function<std::function<double(double)>(const Texts&, const std::vector<double>& q, const std::vector<double>& p)>
       exact_radius;
@@ -105,6 +115,9 @@ void check_arithmetic(const std::string& arithmetic);
 /// @throws Error with the nearest name when there is no such name
 const MethodEntry& find_method(const std::string& name);
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant);
+/// The entry with these choices; what they leave open is chosen as a scenario would by default, or, where a scenario
+/// has to choose, as `new` does (ProblemInfo::default_choices, example_choices). @throws Error as find_problem does
+const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant = {});
 /// The parameters of a problem with defaults for those not given.
 Texts complete(const ProblemInfo& info, const Texts& given);
 MethodInfo describe(const MethodSpec& spec);

@@ -130,10 +130,10 @@ class SimulationOf final : public Simulation {
   double energy_scale() const override { return static_cast<double>(scale_); }
   std::vector<InvariantExcursion> invariants() const override {
     std::vector<InvariantExcursion> all;
-    if constexpr (detail::HasInvariants<P, Real> && requires { probe_.worst(0); }) {
-      const auto now = detail::invariants_of(problem_, z_.positions(), z_.momenta(), clock_.time());
+    if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
+      const auto now = problem_.invariants(z_.positions(), z_.momenta(), clock_.time());
       std::size_t i = 0;
-      for (const std::size_t size : detail::invariant_sizes(problem_, now.size())) {
+      for (const std::size_t size : detail::invariant_sizes(problem_)) {
         InvariantExcursion e{{}, {}, static_cast<double>(probe_.worst(all.size()))};
         for (const std::size_t end = i + size; i < end; ++i) {
           e.initial.push_back(static_cast<double>(probe_.initial()[i]));
@@ -231,9 +231,8 @@ class SimulationOf final : public Simulation {
     }
     frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
     frame.invariants.clear();
-    if constexpr (detail::HasInvariants<P, Real>) {
-      for (const Real& value : detail::invariants_of(problem_, q, p, time))
-        frame.invariants.push_back(static_cast<double>(value));
+    if constexpr (HasInvariants<P, Real>) {
+      for (const Real& value : problem_.invariants(q, p, time)) frame.invariants.push_back(static_cast<double>(value));
     }
     frame.effort = method_.effort();
     frame.diagnostics = diagnostics();

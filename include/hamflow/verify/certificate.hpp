@@ -79,8 +79,9 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
 std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps);
 
 /// The invariants of a run beside what rounding explains.
-/// @param infos in their order   @param magnitudes see EnergyBlockState   @param request for the units of a lattice
-std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const std::vector<InvariantInfo>& infos,
+/// Each is judged by the terms that the problem declares of it (InvariantInfo::terms).
+/// @param magnitudes see EnergyBlockState   @param request for its parameters and the units of a lattice
+std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request);
 
 /// What is reported of a run.
