@@ -79,8 +79,7 @@ int convert_given_state(const ConvertOptions& options) {
 
 /// The text of a scenario with its coordinates changed. An orbit or two bodies mean the same in both.
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
-  const std::string key = coordinate_key(to);
-  std::vector<ScenarioEdit> edits{{"problem." + key, "\"" + to + "\""}};
+  std::vector<ScenarioEdit> edits{{"problem." + scenario.problem->info.chart_key, "\"" + to + "\""}};
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
   }
@@ -97,16 +96,15 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
 
 /// Why the scenario's method cannot run in the new coordinates; empty if it can.
 std::string refused_method(const Scenario& scenario, const std::string& to) {
-  auto variant = scenario.request.variant;
-  variant[coordinate_key(to)] = to;
-  return refusal(scenario.request.method, find_problem(scenario.request.problem, variant));
+  return refusal(scenario.request.method, in_coordinates(*scenario.problem, to));
 }
 
 int convert_scenario(const ConvertOptions& options) {
   const Reading reading = read_scenario(options.input, options.sets);
   const Scenario& scenario = accepted(reading);
-  const std::string from = present_system(scenario.request.problem, scenario.request.variant, options.to);
-  const CanonicalState start = StateConverter(from, options.to)({scenario.start_q, scenario.start_p});
+  const ProblemEntry& target = in_coordinates(*scenario.problem, options.to);
+  const std::string from = coordinates_of(*scenario.problem);
+  const CanonicalState start = StateConverter(*scenario.problem, target)({scenario.start_q, scenario.start_p});
   if (options.json) {
     print(json_text(state_json(options.to, start)), options.output);
     return exit_done;
@@ -133,8 +131,9 @@ class ConvertedRun {
     if (!reading_.scenario) {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
-    from_ = present_system(scenario().request.problem, scenario().request.variant, to);
-    StateConverter convert(from_, to);
+    target_ = &in_coordinates(*scenario().problem, to);
+    from_ = coordinates_of(*scenario().problem);
+    StateConverter convert(*scenario().problem, *target_);
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       try {
         const CanonicalState state = convert(state_at(k));
@@ -146,15 +145,24 @@ class ConvertedRun {
         throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
       }
     }
-    turn_ = std::max(convert.largest_turn(), fastest_turn());
+    turn_ = std::max(convert.largest_turn(), fastest_turn(convert.turning()));
+    for (const std::size_t i : convert.turning()) {
+      turning_ += (turning_.empty() ? "" : ", ") + target_->info.coordinates[i];
+    }
   }
 
   std::string csv() const {
-    std::string text = "t,q1,q2,p1,p2,energy\n";
+    std::string text = "t";
+    for (const char* name : {"q", "p"}) {
+      for (std::size_t i = 1; i <= samples_.q.size(); ++i) text += fmt::format(",{}{}", name, i);
+    }
+    text += ",energy\n";
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       const CanonicalState s = state_at(k);
-      text += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", samples_.t[k], s.q[0], s.q[1], s.p[0],
-                          s.p[1], samples_.energy[k]);
+      text += fmt::format("{:.17g}", samples_.t[k]);
+      for (const double x : s.q) text += fmt::format(",{:.17g}", x);
+      for (const double x : s.p) text += fmt::format(",{:.17g}", x);
+      text += fmt::format(",{:.17g}\n", samples_.energy[k]);
     }
     return text;
   }
@@ -168,7 +176,8 @@ class ConvertedRun {
     return json_text(all);
   }
   void write_h5(const fs::path& target) const {
-    const CanonicalState start = StateConverter(from_, to_)({scenario().start_q, scenario().start_p});
+    const CanonicalState start =
+        StateConverter(*scenario().problem, *target_)({scenario().start_q, scenario().start_p});
     std::string text =
         "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
     const std::string same_settings = converted_text(scenario(), to_, start);
@@ -188,19 +197,21 @@ class ConvertedRun {
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
     copy_run_file(file_, target, text, samples_.q, samples_.p);
   }
-  /// The largest change of phi between two samples.
+  /// The largest change between two samples of an angle whose whole turns they do not show.
   double turn() const { return turn_; }
+  const std::string& turning() const { return turning_; }
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
-  /// |phi'| times the time to the next sample, at most: it shows whole turns, which the states do not.
-  double fastest_turn() const {
-    if (to_ != "polar") return 0;
-    const double mass = Parameters<double>(scenario().request.parameters)["mass"];
+  /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
+  double fastest_turn(const std::vector<std::size_t>& angles) const {
     double most = 0;
-    for (std::size_t k = 0; k + 1 < samples_.t.size(); ++k) {
-      const double r = samples_.q[0][k];
-      most = std::max(most, std::abs(samples_.p[1][k] / (mass * r * r) * (samples_.t[k + 1] - samples_.t[k])));
+    for (std::size_t k = 0; k + 1 < samples_.t.size() && !angles.empty(); ++k) {
+      const CanonicalState s = state_at(k);
+      const std::vector<double> rates = target_->rates(scenario().request.parameters, s.q, s.p);
+      for (const std::size_t i : angles) {
+        most = std::max(most, std::abs(rates[i] * (samples_.t[k + 1] - samples_.t[k])));
+      }
     }
     return most;
   }
@@ -216,9 +227,11 @@ class ConvertedRun {
   fs::path file_;
   std::string to_;
   std::string from_;
+  const ProblemEntry* target_ = nullptr;  // the problem in the coordinates `to`
   RunSamples samples_;
   Reading reading_;
   double turn_ = 0;
+  std::string turning_;
 };
 
 int convert_run(const ConvertOptions& options) {
@@ -233,9 +246,9 @@ int convert_run(const ConvertOptions& options) {
   const ConvertedRun run(file, options.to);
   if (run.turn() > 2) {
     std::cerr << fmt::format(
-        "note: phi changes by up to {:.3g} from one sample to the next; where that is more than half a turn, "
+        "note: {} changes by up to {:.3g} from one sample to the next; where that is more than half a turn, "
         "turns are missing\n",
-        run.turn());
+        run.turning(), run.turn());
   }
   if (extension == ".h5") {
     run.write_h5(options.output);
@@ -267,7 +280,7 @@ int failed(const ConvertOptions& options, int status, const std::string& message
 
 int convert_coordinates(const ConvertOptions& options) {
   try {
-    (void)coordinate_key(options.to);
+    check_coordinates(options.to);
     if (options.input.empty() || !options.from.empty()) return convert_given_state(options);
     if (!options.q.empty() || !options.p.empty()) throw Error("found --q or --p beside INPUT; allowed with --from");
     std::error_code none;

@@ -56,7 +56,7 @@ void show_problem(const ProblemEntry& entry) {
     std::cout << fmt::format("    {:<18} {}  {}\n", s.kind.empty() ? "(without kind)" : s.kind, fmt::join(s.keys, ", "),
                              s.meaning);
   }
-  if (info.name == "central-force") {
+  if (info.two_bodies) {
     std::cout << "  bodies = [{ mass, position = [3], velocity = [3] }, { ... }]: two bodies in space, reduced\n";
   }
   std::cout << fmt::format(

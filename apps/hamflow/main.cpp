@@ -6,6 +6,7 @@
 
 #include "command_verify.hpp"
 #include "commands.hpp"
+#include "coordinates.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "summary.hpp"
 
@@ -193,8 +194,7 @@ int main(int argc, char** argv) {
       "  hamflow convert --from cartesian --to polar --q 1,0 --p 0,1\n");
   convert_command->add_option("input", convert.input, "a scenario, the folder of a run, or its run.h5")
       ->type_name("INPUT");
-  convert_command
-      ->add_option("--to", convert.to, "cartesian, polar (central-force); absolute, relative (double-pendulum)")
+  convert_command->add_option("--to", convert.to, hamflow::what_charts_there_are())
       ->required()
       ->type_name("COORDINATES");
   convert_command->add_option("--from", convert.from, "the coordinates of --q and --p")->type_name("COORDINATES");

@@ -36,6 +36,26 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
   throw Error("problem '" + name + "' has no variant with " + wanted + " (hamflow show " + name + ")");
 }
 
+const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  const ProblemEntry& any = find_problem(name, variant);
+  const auto usual = [](const ProblemInfo& info, const std::string& key) {
+    const auto listed = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+    return listed(info.default_choices) || listed(info.example_choices);
+  };
+  const auto matches = [&](const auto& choice, const ProblemInfo& info) {
+    const auto given = variant.find(choice.first);
+    return given != variant.end() ? given->second == choice.second : usual(info, choice.first);
+  };
+  for (const ProblemEntry& entry : problems()) {
+    const ProblemInfo& info = entry.info;
+    if (info.name == name && std::all_of(info.variant.begin(), info.variant.end(),
+                                         [&](const auto& choice) { return matches(choice, info); })) {
+      return entry;
+    }
+  }
+  return any;  // no entry is declared to be the usual one
+}
+
 Texts complete(const ProblemInfo& info, const Texts& given) {
   Texts all;
   for (const ParameterInfo& parameter : info.parameters) all[parameter.name] = parameter.default_value;

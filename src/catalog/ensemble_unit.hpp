@@ -32,7 +32,7 @@ class EnsembleUnit {
   }
 
  private:
-  static constexpr bool has_fast_kernel = requires(const P& problem, VectorOf<P>& x) { problem.fast_force(x, x); };
+  static constexpr bool has_fast_kernel = HasFastForce<P>;
 
   template <template <class> class F, class Set>
   static std::unique_ptr<EnsembleBlock> block(const AnySplitting& method) {

@@ -55,6 +55,11 @@ MethodInfo describe(const MethodSpec& spec) {
   return entry.family->describe(entry.index, spec.options);
 }
 
+std::string hint_after_divergence(const MethodSpec& spec) {
+  const MethodFamily& family = *find_method(spec.name).family;
+  return family.hint ? family.hint(spec.options) : "try a smaller dt";
+}
+
 std::optional<AnySplitting> splitting_named(const std::string& name) {
   return visit_method(MethodSpec{.name = name}, [](const auto& recipe) -> std::optional<AnySplitting> {
     if constexpr (requires { AnySplitting(recipe.method); }) {

@@ -32,6 +32,7 @@ std::string list_text(const OptionInfo& option) {
 
 std::string number_text(const OptionInfo& option) {
   const std::string range = range_text(option.range);
+  if (option.range.least == option.range.most) return range;
   if (option.range.whole) return "a whole number" + (range.empty() ? "" : " " + range);
   if (range == "positive") return "a positive number";
   return "a number" + (range.empty() ? "" : (range.starts_with("not") ? ", " : " ") + range);
@@ -62,6 +63,7 @@ std::string range_text(const Range& range) {
   const auto text = [&](double x) {
     return range.whole && std::abs(x) < 0x1p63 ? std::to_string(static_cast<long long>(x)) : shortest(x);
   };
+  if (from && to && range.least == range.most) return text(range.least);
   if (from && to)
     return (range.open ? "between " : "from ") + text(range.least) + (range.open ? " and " : " to ") + text(range.most);
   if (from && range.least == 0 && !range.whole) return range.open ? "positive" : "not negative";

@@ -6,7 +6,7 @@
 namespace hamflow {
 
 namespace {
-/// The least number of characters to insert, delete or replace (Wagner and Fischer 1974, one row of their matrix).
+/// The least number of characters to insert, delete or replace (one row of the matrix of [WagnerFischer1974]).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hamflow/problems/support/polar.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
@@ -28,9 +27,6 @@ OptionInfo kind_key(const std::vector<std::string>& kinds) {
 OptionInfo list_key(const std::string& name, std::size_t length) {
   return {.name = name, .type = OptionType::list, .length = length, .required = true};
 }
-/// What a selecting key is when it is not given.
-const std::map<std::string, std::string> default_choices{
-    {"coordinates", "cartesian"}, {"model", "nonlinear"}, {"angles", "absolute"}};
 }  // namespace
 
 void ScenarioReader::read_problem(TomlTable& table) {
@@ -59,7 +55,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   } else if (!info.starts.empty()) {
     read_orbit(table);
   }
-  if (*name == "central-force") read_bodies(table);
+  if (info.two_bodies) read_bodies(table);
   read_initial(table);
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
@@ -121,8 +117,10 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   // The choices of each selecting key, from the entries that carry the name.
   std::vector<std::string> keys;
   std::map<std::string, std::vector<std::string>> choices;
+  std::map<std::string, std::string> defaults;
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name) continue;
+    for (const std::string& key : entry.info.default_choices) defaults[key] = choice_of(entry.info, key);
     for (const auto& [key, value] : entry.info.variant) {
       if (!choices.contains(key)) keys.push_back(key);
       auto& list = choices[key];
@@ -133,8 +131,8 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   for (const std::string& key : keys) {
     if (!table.has(key)) {
       table.know(key);
-      const auto usual = default_choices.find(key);
-      if (usual != default_choices.end()) {
+      const auto usual = defaults.find(key);
+      if (usual != defaults.end()) {
         scenario_.request.variant[key] = usual->second;
       } else {
         table.missing(key, joined(choices[key]));
@@ -290,17 +288,20 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   scenario_.bodies = TwoBodies(bodies[0], bodies[1]);
   Request& request = scenario_.request;
   request.parameters["mass"] = "(" + masses[0] + ")*(" + masses[1] + ")/((" + masses[0] + ")+(" + masses[1] + "))";
-  Start<double, 2> start = scenario_.bodies->start();
+  const Start<double, 2>& plane = scenario_.bodies->start();
   const double mu = scenario_.bodies->reduced_mass();
-  const double sum = mu + start.q[0] + start.p[0] + start.p[1];
-  if (!std::isfinite(sum) || !(mu > 0) || !(start.q[0] > 0)) {
+  const double sum = mu + plane.q[0] + plane.p[0] + plane.p[1];
+  if (!std::isfinite(sum) || !(mu > 0) || !(plane.q[0] > 0)) {
     table.complain("bodies",
                    "found masses, positions or velocities whose products overflow; allowed numbers between "
                    "about 1e-100 and 1e100");
     scenario_.bodies.reset();
     return;
   }
-  if (scenario_.request.variant["coordinates"] == "polar") start = to_polar(start);
+  Frame start;
+  start.q.assign(plane.q.begin(), plane.q.end());
+  start.p.assign(plane.p.begin(), plane.p.end());
+  if (const auto& from_plane = scenario_.problem->from_reference) start = from_plane(start.q, start.p);
   request.start.q = {shortest(start.q[0]), shortest(start.q[1])};
   request.start.p = {shortest(start.p[0]), shortest(start.p[1])};
 }

@@ -101,76 +101,17 @@ class Page {
   std::vector<std::pair<std::string, std::string>> block_;
 };
 
-/// A geometric start with numbers that meet its conditions, and the parameters that it needs.
+/// A geometric start with the example values of its keys, and the parameters that go with them.
 struct StartExample {
   const StartInfo* info;
   Texts orbit;
   Texts parameters;
 };
 
-bool can_start(const ProblemEntry& problem, const Texts& parameters, const StartSpec& start) {
-  try {
-    const Texts derived = problem.derived(parameters, start);
-    if (!problem.refused_parameters(derived).second.empty()) return false;
-    const std::vector<Condition> conditions = problem.conditions(derived, start);
-    if (!std::all_of(conditions.begin(), conditions.end(), [](const Condition& c) { return c.holds(); })) return false;
-    Request request;
-    request.problem = problem.info.name;
-    request.parameters = derived;
-    request.start = start;
-    const Frame state = problem.start(request);
-    return problem.refused_start(derived, state.q).empty() && problem.regular(derived, state.q, state.p);
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-/// Round numbers to try for the keys of a start.
-const std::vector<std::string>& candidates(const std::string& key) {
-  static const std::map<std::string, std::vector<std::string>> known{
-      {"r0", {"1", "2"}},
-      {"r_per", {"1", "0.5"}},
-      {"r_aph", {"3", "2"}},
-      {"energy", {"-0.3", "0.5", "1", "2", "3", "5", "-1"}},
-      {"angular_momentum", {"1", "2", "3", "0.5"}},
-      {"speed", {"0.25", "0.5", "1"}}};
-  static const std::vector<std::string> unknown{"1", "2", "0.5", "-1", "-0.5"};
-  const auto found = known.find(key);
-  return found == known.end() ? unknown : found->second;
-}
-
-std::optional<StartExample> example_with(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
-  std::size_t combinations = 1;
-  for (const std::string& key : info.keys) combinations *= candidates(key).size();
-  for (std::size_t c = 0; c < combinations; ++c) {
-    StartSpec start{.kind = info.kind};
-    std::size_t rest = c;
-    for (const std::string& key : info.keys) {
-      const std::vector<std::string>& values = candidates(key);
-      start.orbit[key] = values[rest % values.size()];
-      rest /= values.size();
-    }
-    if (can_start(problem, parameters, start)) return StartExample{&info, start.orbit, parameters};
-  }
-  return std::nullopt;
-}
-
-/// With the parameters as they stand; else with a strength of the other sign; else with the defaults and a strength.
-std::optional<StartExample> example_of(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
-  std::vector<Texts> tries{parameters};
-  if (parameters.contains("k")) {
-    for (const char* k : {"1", "-1"}) {
-      Texts other = parameters;
-      other["k"] = k;
-      tries.push_back(other);
-      other = complete(problem.info, {{"k", k}});
-      tries.push_back(other);
-    }
-  }
-  for (const Texts& some : tries) {
-    if (auto example = example_with(problem, some, info)) return example;
-  }
-  return std::nullopt;
+/// What the problem declares, with the parameters that go with it.
+StartExample example_of(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
+  const bool own = !info.example_parameters.empty();
+  return {&info, info.example, own ? complete(problem.info, info.example_parameters) : parameters};
 }
 
 std::string orbit_table(const StartInfo& info, const Texts& values) {
@@ -213,7 +154,7 @@ const char* words(Range range) {
 
 class TemplateWriter {
  public:
-  TemplateWriter(const ProblemEntry& problem, const ScenarioExample& example)
+  TemplateWriter(const ProblemEntry& problem, const ExampleInfo& example)
       : problem_(problem),
         info_(problem.info),
         example_(example),
@@ -257,13 +198,10 @@ class TemplateWriter {
 
   void find_starts() {
     for (const StartInfo& info : info_.starts) {
-      if (auto example = example_of(problem_, parameters_, info)) starts_.push_back(*example);
+      if (!info.example.empty()) starts_.push_back(example_of(problem_, parameters_, info));
     }
-    if (!info_.start_key.empty()) return;
-    for (const char* kind : {"ellipse", "bounded", "circle"}) {
-      for (const StartExample& start : starts_) {
-        if (start.info->kind == kind && start.parameters == parameters_ && active_ == nullptr) active_ = &start;
-      }
+    for (const StartExample& start : starts_) {
+      if (!example_.start.empty() && start.info->kind == example_.start) active_ = &start;
     }
   }
 
@@ -335,7 +273,7 @@ class TemplateWriter {
       }
     }
     write_state();
-    if (info_.name == "central-force") {
+    if (info_.two_bodies) {
       page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
       page_.line("# bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },");
       page_.line("#           { mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]");
@@ -420,7 +358,7 @@ class TemplateWriter {
 
   const ProblemEntry& problem_;
   const ProblemInfo& info_;
-  const ScenarioExample& example_;
+  const ExampleInfo& example_;
   Texts parameters_;
   MethodSpec method_;
   std::vector<StartExample> starts_;
@@ -430,7 +368,7 @@ class TemplateWriter {
 
 }  // namespace
 
-std::string scenario_template(const ProblemEntry& problem, const ScenarioExample& example) {
+std::string scenario_template(const ProblemEntry& problem, const ExampleInfo& example) {
   return TemplateWriter(problem, example).write();
 }
 

@@ -37,7 +37,7 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
                                      .kernel = scenario.request.kernel,
                                      .dimension = scenario.start_q.size(),
                                      .invariants = invariants,
-                                     .diagnostics = scenario.request.method.cg.diagnostics,
+                                     .diagnostics = describe(scenario.request.method).diagnostics,
                                      .section = scenario.section.has_value(),
                                      .samples = static_cast<std::size_t>(sample_count(scenario))};
     const std::filesystem::path file = folder / "run.h5";

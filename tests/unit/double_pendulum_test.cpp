@@ -523,10 +523,10 @@ TEST(DoublePendulum, DeclaresItself) {
   const Pair p{1, -2};
   EXPECT_EQ(DoublePendulumNonlinearRelative<Long>(given).energy(q, p),
             DoublePendulumNonlinearRelative<Long>().energy(q, p));
-  EXPECT_EQ(DoublePendulumNonlinearRelative<Long>::problem_with(given), "");
+  EXPECT_EQ(DoublePendulumNonlinearRelative<Long>::refused_parameters(given).second, "");
   defaults["masses"] = "[1e-200, 1]";
   defaults["half_lengths"] = "[1e-100, 1]";
-  EXPECT_NE(DoublePendulumLinearAbsolute<double>::problem_with(Parameters<double>(defaults)), "");
+  EXPECT_NE(DoublePendulumLinearAbsolute<double>::refused_parameters(Parameters<double>(defaults)).second, "");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // The Boris step for a charge in a uniform magnetic field: half a flight, a rotation of the velocity about the field,
-// half a flight.   [Boris 1970; Birdsall and Langdon 1985, Sect. 4-4]
+// half a flight.   [Boris1970; BirdsallLangdon1985, Sect. 4-4]
 //     x <- x + h v/2,   v <- rotated by v' = v + v x t, v <- v + v' x s, t = (h/2) omega, s = 2 t/(1 + t^2),   x <- x +
 //     h v/2
 // omega = charge field/mass. |v|, hence the energy, is conserved to rounding. In general the map preserves
-// volume and is not symplectic [Qin et al. 2013]; in a uniform field, the only one here, it is symplectic, as measured.
-// Order 2, symmetric. Reversing the canonical momenta does not bring it back, and neither the motion itself: the field
+// volume and is not symplectic [QinEtAl2013]; in a uniform field, the only one here, it is symplectic, as measured.
+// Order 2, symmetric. Reversing the canonical momenta reverses neither the method nor the motion itself: the field
 // would have to be reversed too [Sonnleitner2010, footnote 21].
 #pragma once
 
@@ -19,7 +19,7 @@ namespace hamflow {
 inline MethodInfo describe_boris() {
   return {.name = "boris",
           .summary = "Boris push: half a flight, a rotation about the magnetic field, half a flight",
-          .reference = "Boris 1970",
+          .reference = "Boris1970",
           .order = 2,
           .symplectic = true,
           .symmetric = true,

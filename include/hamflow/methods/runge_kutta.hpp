@@ -48,7 +48,9 @@ MethodInfo describe(const ButcherTableau<S>& tableau) {
 template <class P, Arithmetic A, const auto& Tableau>
 class RungeKutta {
  public:
-  static_assert(Differentiable<P>, "hamflow: a Runge-Kutta method needs a Differentiable problem");
+  static_assert(Differentiable<P>,
+                "hamflow: a Runge-Kutta method needs a Differentiable problem; one of dynamic size gives "
+                "velocity and force, or gradient, by hand");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = std::remove_cvref_t<decltype(Tableau)>::stages;
   using Real = typename A::Real;
@@ -95,7 +97,7 @@ class RungeKutta {
       z.move(sum_q);
       z.push(sum_p);
     }
-    // The last stage by itself: the next step waits for it, and for nothing else.
+    // The last stage is added by itself: the next step waits for it, and for nothing else.
     const Base weight = h * Tableau.b[stages - 1].template as<Base>();
     z.move(weight, dq[stages - 1]);
     z.push(weight, dp[stages - 1]);

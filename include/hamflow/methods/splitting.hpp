@@ -146,8 +146,9 @@ class Splitting {
  public:
   static_assert(
       Separable<P>,
-      "hamflow: a splitting method needs a Separable problem, H = T(p) + V(q): give kinetic(p) and potential(q). "
-      "Methods that accept any differentiable H: euler, rk4");
+      "hamflow: a splitting method needs a Separable problem, H = T(p) + V(q): give kinetic(p) and potential(q), "
+      "and for dynamic size velocity(p, v) and force(q, f) by hand. Methods that accept any differentiable H: euler, "
+      "rk4");
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
@@ -237,7 +238,7 @@ class Splitting {
   constexpr bool factor_within() const {
     if constexpr (sums_integers) {
       return true;
-    } else if constexpr (!detail::HasScaledForce<P, Base, Vector<Real, n>>) {
+    } else if constexpr (!HasScaledForce<P, Base, Real>) {
       return false;
     } else if constexpr (shape == Shape::any) {
       return ends_alike_;
@@ -294,7 +295,7 @@ class Splitting {
   [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z,
                                            [[maybe_unused]] auto& late) {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
-    constexpr bool scaled = detail::HasScaledVelocity<P, Base, Vector<Real, n>>;
+    constexpr bool scaled = HasScaledVelocity<P, Base, Real>;
     if constexpr (scaled) {
       scaled_velocity(problem, factor, z.momenta(), v);
     } else {

@@ -127,8 +127,8 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   V invariants(const V& q, const V& p, const S& t) const override {
-    if constexpr (detail::HasInvariants<P, S>) {
-      const auto values = detail::invariants_of(problem_, in(q), in(p), t);
+    if constexpr (HasInvariants<P, S>) {
+      const auto values = problem_.invariants(in(q), in(p), t);
       V all = zeros<S, dynamic>(values.size());
       for (std::size_t i = 0; i < values.size(); ++i) all[i] = values[i];
       return all;
@@ -136,13 +136,7 @@ class FunctionsOf final : public Functions<S> {
       return {};
     }
   }
-  std::vector<std::size_t> invariant_sizes() const override {
-    if constexpr (requires { P::info(); }) {
-      return detail::invariant_sizes(problem_, P::info().invariants.size());
-    } else {
-      return {};
-    }
-  }
+  std::vector<std::size_t> invariant_sizes() const override { return detail::invariant_sizes(problem_); }
   std::shared_ptr<const Functions<S>> reduced(const S& momentum) const override {
     if constexpr (cyclic && std::is_same_v<S, RealOf<P>>) {
       return std::make_shared<FunctionsOf<typename P::Reduced, S>>(problem_.reduced(momentum));
@@ -306,7 +300,7 @@ class AnyProblem {
   }
   std::size_t size_;
   std::tuple<std::shared_ptr<const Functions<R>>, std::shared_ptr<const Functions<Others>>...> functions_;
-  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // asked for at every step
+  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // needed at every step
 };
 
 }  // namespace hamflow

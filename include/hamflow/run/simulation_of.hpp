@@ -18,7 +18,7 @@
 namespace hamflow {
 
 namespace detail {
-// What saving and restoring say, compiled once and not in every simulation.
+// The messages of saving and restoring, compiled once and not in every simulation.
 inline std::string arithmetic_kind(std::string_view name, int digits) {
   return std::string(name) + " in " + std::to_string(digits) + " bits";
 }
@@ -54,7 +54,7 @@ concept Method = Problem<P> && Arithmetic<A> &&
 template <class P, class M, Arithmetic A, class Probe = ConservationProbe<P, typename A::Real>>
 class SimulationOf final : public Simulation {
  public:
-  static_assert(Method<M, P, A>, "hamflow: this type is no Method for this problem and arithmetic");
+  static_assert(Method<M, P, A>, "hamflow: this type is not a Method for this problem and arithmetic");
   using Real = typename A::Real;
   static constexpr std::size_t n = P::dimension;
 
@@ -130,10 +130,10 @@ class SimulationOf final : public Simulation {
   double energy_scale() const override { return static_cast<double>(scale_); }
   std::vector<InvariantExcursion> invariants() const override {
     std::vector<InvariantExcursion> all;
-    if constexpr (detail::HasInvariants<P, Real> && requires { probe_.worst(0); }) {
-      const auto now = detail::invariants_of(problem_, z_.positions(), z_.momenta(), clock_.time());
+    if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
+      const auto now = problem_.invariants(z_.positions(), z_.momenta(), clock_.time());
       std::size_t i = 0;
-      for (const std::size_t size : detail::invariant_sizes(problem_, now.size())) {
+      for (const std::size_t size : detail::invariant_sizes(problem_)) {
         InvariantExcursion e{{}, {}, static_cast<double>(probe_.worst(all.size()))};
         for (const std::size_t end = i + size; i < end; ++i) {
           e.initial.push_back(static_cast<double>(probe_.initial()[i]));
@@ -198,7 +198,7 @@ class SimulationOf final : public Simulation {
       return detail::kind_of("a problem", {}, method_.info().name, arithmetic);
     }
   }
-  /// A method without archive() remembers nothing.
+  /// A method without archive() has no memory.
   template <class Archive, class Self>
   [[gnu::cold]] static void archive(Archive& ar, Self& self) {
     ar(self.z_, self.clock_, self.probe_, self.initial_energy_, self.scale_);
@@ -231,9 +231,8 @@ class SimulationOf final : public Simulation {
     }
     frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
     frame.invariants.clear();
-    if constexpr (detail::HasInvariants<P, Real>) {
-      for (const Real& value : detail::invariants_of(problem_, q, p, time))
-        frame.invariants.push_back(static_cast<double>(value));
+    if constexpr (HasInvariants<P, Real>) {
+      for (const Real& value : problem_.invariants(q, p, time)) frame.invariants.push_back(static_cast<double>(value));
     }
     frame.effort = method_.effort();
     frame.diagnostics = diagnostics();

@@ -67,7 +67,6 @@ struct Cg {
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an energy-conserving element needs the exact force",
             .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"},
-            .converges = true,
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
             .needs = [](std::size_t) { return "a twice differentiable H"; },
             .refused = refused,

@@ -43,7 +43,7 @@ struct DoublePendulumBody {
 
   /// What is allowed, if M is singular; else empty. det M > 0 for all positive masses and lengths, unless their
   /// products leave the range of R.
-  std::string problem_with() const {
+  std::string allowed_instead() const {
     if (least_determinant > R(0) && isfinite(least_determinant)) return {};
     return "masses, half_lengths and inertias whose mass matrix is regular to rounding";
   }
