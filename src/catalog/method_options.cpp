@@ -40,8 +40,8 @@ class OptionReader {
     const OptionInfo& option = equals == std::string::npos ? next() : named(trimmed(part.substr(0, equals)));
     const std::string text = unquoted(trimmed(equals == std::string::npos ? part : part.substr(equals + 1)));
     if (into.contains(option.name)) throw Error(method_ + ": " + option.name + ": found it twice; allowed once");
-    if (const std::string wrong = wrong_value(option, text); !wrong.empty()) {
-      throw Error(method_ + ": " + option.name + ": found '" + text + "'" + wrong);
+    if (const std::string refused = refused_value(option, text); !refused.empty()) {
+      throw Error(method_ + ": " + option.name + ": " + refused);
     }
     into[option.name] = text;
   }
@@ -96,8 +96,8 @@ std::optional<RefusedOption> refused_option(const MethodSpec& spec) {
       return RefusedOption{name, "found an unknown option; allowed " + (names.empty() ? "none" : joined(names)) +
                                      suggestion(name, names)};
     }
-    if (const std::string wrong = wrong_value(*option, text); !wrong.empty()) {
-      return RefusedOption{name, "found '" + text + "'" + wrong};
+    if (std::string refused = refused_value(*option, text); !refused.empty()) {
+      return RefusedOption{name, std::move(refused)};
     }
   }
   if (!family.refused) return std::nullopt;

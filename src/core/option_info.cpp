@@ -11,16 +11,14 @@ namespace hamflow {
 
 namespace {
 
+bool is_yes_no(const std::string& word) { return word == "true" || word == "false"; }
+
 bool is_word(const OptionInfo& option, const std::string& text) {
   return std::find(option.words.begin(), option.words.end(), text) != option.words.end();
 }
 
-/// The words as they have to be written beside numbers.
-std::string quoted(const std::vector<std::string>& words) {
-  std::vector<std::string> all;
-  for (const std::string& word : words) all.push_back("\"" + word + "\"");
-  return joined(all);
-}
+/// A word as it has to be written beside numbers.
+std::string quoted(const std::string& word) { return is_yes_no(word) ? word : "\"" + word + "\""; }
 
 std::string list_text(const OptionInfo& option) {
   const std::string of_each = option.range.whole ? "whole " : "";
@@ -38,22 +36,25 @@ std::string number_text(const OptionInfo& option) {
   return "a number" + (range.empty() ? "" : (range.starts_with("not") ? ", " : " ") + range);
 }
 
-/// What is wrong with one number, beginning with "; " or ": ".
-std::string wrong_number(const OptionInfo& option, const std::string& text) {
-  const std::string allowed = "; allowed " + allowed_text(option);
+std::string found(const OptionInfo& option, const std::string& text) {
+  return "found '" + text + "'; allowed " + allowed_text(option);
+}
+
+std::string refused_number(const OptionInfo& option, const std::string& text, const std::string& whole_text) {
+  // A word, where words are allowed, was meant to be one of them.
+  const bool meant_as_word = !option.words.empty() && text.find_first_of("0123456789(") == std::string::npos;
+  if (meant_as_word) return found(option, whole_text) + suggestion(text, option.words);
   try {
-    if (option.range.contains(evaluate_number<double>(text))) return {};
-    return allowed;
+    return option.range.contains(evaluate_number<double>(text)) ? "" : found(option, whole_text);
   } catch (const Error& error) {
-    if (text.find_first_of("0123456789(") == std::string::npos) return allowed + suggestion(text, option.words);
-    return std::string(", ") + error.what() + allowed;
+    return error.what();
   }
 }
 
 }  // namespace
 
 bool Range::contains(double x) const {
-  if (!std::isfinite(x) || (whole && x != std::floor(x))) return false;
+  if (!std::isfinite(x) || (whole && x != std::floor(x)) || (not_zero && x == 0)) return false;
   return open ? least < x && x < most : least <= x && x <= most;
 }
 
@@ -69,11 +70,11 @@ std::string range_text(const Range& range) {
   if (from && range.least == 0 && !range.whole) return range.open ? "positive" : "not negative";
   if (from) return (range.open ? "above " : "from ") + text(range.least);
   if (to) return (range.open ? "below " : "up to ") + text(range.most);
-  return {};
+  return range.not_zero ? "other than 0" : "";
 }
 
 std::string allowed_text(const OptionInfo& option) {
-  const std::string or_words = option.words.empty() ? "" : ", or " + quoted(option.words);
+  const std::string or_words = option.words.empty() ? "" : ", or " + joined(option.words, quoted);
   switch (option.type) {
     case OptionType::number:
       return number_text(option) + or_words;
@@ -95,30 +96,29 @@ std::string allowed_text(const OptionInfo& option) {
   return {};
 }
 
-std::string wrong_value(const OptionInfo& option, const std::string& text) {
+std::string refused_value(const OptionInfo& option, const std::string& text) {
   if (is_word(option, text)) return {};
-  const std::string allowed = "; allowed " + allowed_text(option);
   switch (option.type) {
     case OptionType::number:
-      return wrong_number(option, text);
+      return refused_number(option, text, text);
     case OptionType::list:
     case OptionType::number_or_list: {
-      if (option.type == OptionType::list && !text.starts_with("[")) return allowed;
+      if (option.type == OptionType::list && !text.starts_with("[")) return found(option, text);
       const std::vector<std::string> parts = list_parts(text);
-      if (parts.empty() || (option.length > 0 && parts.size() != option.length)) return allowed;
+      if (parts.empty() || (option.length > 0 && parts.size() != option.length)) return found(option, text);
       for (const std::string& part : parts) {
-        if (const std::string wrong = wrong_number(option, part); !wrong.empty()) return wrong;
+        if (std::string refused = refused_number(option, part, text); !refused.empty()) return refused;
       }
       return {};
     }
     case OptionType::yes_no:
       if (text == "true" || text == "false") return {};
-      return allowed + suggestion(text, std::vector<std::string>{"true", "false"});
+      return found(option, text) + suggestion(text, std::vector<std::string>{"true", "false"});
     case OptionType::text:
-      return text.empty() ? allowed : "";
+      return text.empty() ? found(option, text) : "";
     case OptionType::word_list:
     case OptionType::word:
-      return allowed + suggestion(text, option.words);
+      return found(option, text) + suggestion(text, option.words);
     case OptionType::table:
       break;
   }
@@ -138,7 +138,8 @@ std::string toml_text(const OptionInfo& option, const std::string& text) {
                        part.back() != '.';
     return plain ? part : "\"" + part + "\"";
   };
-  if (option.type == OptionType::yes_no && (text == "true" || text == "false")) return text;
+  const bool bare = option.type == OptionType::yes_no || is_word(option, text);
+  if (bare && is_yes_no(text)) return text;
   if (is_word(option, text) || option.type == OptionType::word || option.type == OptionType::text) {
     return "\"" + text + "\"";
   }

@@ -39,7 +39,8 @@ const SectionKeys& section_keys() {
 const RunKeys& run_keys() {
   static const RunKeys keys{
       .dt = {.name = "dt",
-             .meaning = "step length, not 0; negative: backwards in time",
+             .meaning = "step length; negative: backwards in time",
+             .range = {.not_zero = true},
              .required = true,
              .unit = "time",
              .example = "0.1"},

@@ -12,9 +12,6 @@ void ScenarioReader::read_run(TomlTable& table) {
   if (const auto dt = table.text(keys.dt)) {
     scenario_.dt = number_value(*dt);
     scenario_.request.dt = *dt;
-    if (scenario_.dt == 0) {
-      table.complain(keys.dt.name, table.found(keys.dt.name) + "; allowed a number other than 0");
-    }
   }
   read_length(table);
   if (!std::isfinite(scenario_.dt * static_cast<double>(scenario_.steps))) {

@@ -160,7 +160,7 @@ std::optional<std::string> TomlTable::number_text(const toml::node& node, const 
     if (std::find(option.words.begin(), option.words.end(), word) != option.words.end()) return word;
   }
   if (const auto* word = node.as_string()) {
-    if (wrong_value(option, word->get()).empty()) return word->get();
+    if (refused_value(option, word->get()).empty()) return word->get();
     // What is no formula has an error of its own, which says where the text goes wrong.
     const bool meant_as_word = !option.words.empty() && word->get().find_first_of("0123456789") == std::string::npos;
     if (meant_as_word) return refuse(found() + allowed + suggestion(word->get(), option.words));
@@ -217,7 +217,7 @@ std::optional<std::string> TomlTable::word_text(const toml::node& node, const Op
     complain(option.name, "found " + shown(node) + allowed);
     return std::nullopt;
   }
-  if (wrong_value(option, word->get()).empty()) return word->get();
+  if (refused_value(option, word->get()).empty()) return word->get();
   complain(option.name, "found \"" + word->get() + "\"" + allowed + suggestion(word->get(), option.words));
   return std::nullopt;
 }

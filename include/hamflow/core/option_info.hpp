@@ -22,6 +22,7 @@ struct Range {
   double most = std::numeric_limits<double>::infinity();
   bool open = false;   // least and most themselves are excluded
   bool whole = false;  // whole numbers only; 1e6 is one
+  bool not_zero = false;
 
   static const Range any, positive, not_negative;
   static const Range count;  // a whole number from 1 to 10^6
@@ -68,11 +69,11 @@ struct OptionInfo {
 
 /// What is allowed, for messages: "a whole number from 1 to 1000", "a positive number, or \"auto\"", "error, halve".
 std::string allowed_text(const OptionInfo& option);
-/// The range alone: "positive", "from 1 to 64", "between 0 and 1"; empty where every number is allowed.
+/// The range alone: "positive", "from 1 to 64", "between 0 and 1", "other than 0"; empty where all numbers are allowed.
 std::string range_text(const Range& range);
-/// What is wrong with a text given for an option, to be written behind "found ...": "; allowed ...; did you mean ...?".
-/// Empty if nothing is. Words stand without quotation marks.
-std::string wrong_value(const OptionInfo& option, const std::string& text);
+/// What is wrong with a text given for an option: "found '...'; allowed ...; did you mean ...?". Empty if nothing is.
+/// What is no number has the message of the formula reader, which says where the text goes wrong.
+std::string refused_value(const OptionInfo& option, const std::string& text);
 /// The default, or what holds without the option, in square brackets as in tables: "[newton]", "[unset: ...]".
 std::string default_text(const OptionInfo& option);
 /// The text as a TOML value: quoted where it is neither a number nor true or false.
@@ -82,10 +83,10 @@ std::string toml_text(const OptionInfo& option, const std::string& text);
 const OptionInfo* find_option(const std::vector<OptionInfo>& options, const std::string& name);
 std::vector<std::string> option_names(const std::vector<OptionInfo>& options);
 
-/// The value of a text that wrong_value() has nothing against.
+/// The value of a text that refused_value() has nothing against.
 double number_value(const std::string& text);
 
-/// An option that sets members of a struct of options. The text is one that wrong_value() has nothing against.
+/// An option that sets members of a struct of options. The text is one that refused_value() has nothing against.
 template <class Owner>
 struct BoundOption {
   OptionInfo info;
