@@ -40,6 +40,31 @@ std::string found(const OptionInfo& option, const std::string& text) {
   return "found '" + text + "'; allowed " + allowed_text(option);
 }
 
+/// "12", "-0.5", "1e6": what TOML takes for a number; formulas such as "1-2" are texts there.
+bool is_toml_number(const std::string& text) {
+  std::size_t at = 0;
+  const auto digits = [&] {
+    const std::size_t begin = at;
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+    return at - begin;
+  };
+  const auto take = [&](const char* any_of) {
+    const bool there = at < text.size() && std::string(any_of).find(text[at]) != std::string::npos;
+    at += there ? 1 : 0;
+    return there;
+  };
+  (void)take("+-");
+  const bool leading_zero = at < text.size() && text[at] == '0';
+  const std::size_t before_point = digits();
+  if (before_point == 0 || (leading_zero && before_point > 1)) return false;
+  if (take(".") && digits() == 0) return false;
+  if (take("eE")) {
+    (void)take("+-");
+    if (digits() == 0) return false;
+  }
+  return at == text.size();
+}
+
 std::string refused_number(const OptionInfo& option, const std::string& text, const std::string& whole_text) {
   // A word, where words are allowed, was meant to be one of them.
   const bool meant_as_word = !option.words.empty() && text.find_first_of("0123456789(") == std::string::npos;
@@ -132,12 +157,7 @@ std::string default_text(const OptionInfo& option) {
 }
 
 std::string toml_text(const OptionInfo& option, const std::string& text) {
-  const auto number = [](const std::string& part) {
-    const bool plain = !part.empty() && part.find_first_not_of("+-.0123456789eE") == std::string::npos &&
-                       part.find_first_of("0123456789") != std::string::npos && part.front() != '.' &&
-                       part.back() != '.';
-    return plain ? part : "\"" + part + "\"";
-  };
+  const auto number = [](const std::string& part) { return is_toml_number(part) ? part : "\"" + part + "\""; };
   const bool bare = option.type == OptionType::yes_no || is_word(option, text);
   if (bare && is_yes_no(text)) return text;
   if (is_word(option, text) || option.type == OptionType::word || option.type == OptionType::text) {

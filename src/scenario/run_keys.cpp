@@ -147,12 +147,17 @@ const std::vector<DeclaredTable>& declared_tables() {
     const RunKeys& r = run_keys();
     const OutputKeys& o = output_keys();
     return std::vector<DeclaredTable>{
-        {"run",
+        {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.checkpoint_every,
           r.arithmetic, r.lattice, r.threads, r.kernel}},
-        {"output", {o.folder, o.formats, o.figures}}};
+        {output_table, {o.folder, o.formats, o.figures}}};
   }();
   return tables;
+}
+
+const DeclaredTable& declared_table(const std::string& name) {
+  return *std::find_if(declared_tables().begin(), declared_tables().end(),
+                       [&](const DeclaredTable& table) { return table.name == name; });
 }
 
 bool is_free_on_resume(const std::string& path) {

@@ -32,13 +32,19 @@ const SectionKeys& section_keys();
 const RunKeys& run_keys();
 const OutputKeys& output_keys();
 
-/// A table of a scenario whose keys are declared as a whole.
+inline constexpr const char* run_table = "run";
+inline constexpr const char* output_table = "output";
+
+/// A table of a scenario with all its keys, in the order in which they are shown.
 struct DeclaredTable {
   std::string name;
   std::vector<OptionInfo> keys;
 };
 /// [run] and [output].
 const std::vector<DeclaredTable>& declared_tables();
+const DeclaredTable& declared_table(const std::string& name);
+/// "run.dt": the dotted path of a key of [run].
+inline std::string run_path(const OptionInfo& key) { return std::string(run_table) + "." + key.name; }
 /// Whether --resume takes another value of a key, e.g. "run.steps".
 bool is_free_on_resume(const std::string& path);
 

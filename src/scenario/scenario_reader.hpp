@@ -1,6 +1,7 @@
 // The walk through a parsed document, table by table.
 #pragma once
 
+#include "run_keys.hpp"
 #include "toml_table.hpp"
 
 namespace hamflow {
@@ -16,8 +17,8 @@ class ScenarioReader {
   Scenario read() {
     TomlTable problem = root_.table("problem");
     TomlTable method = root_.table("method");
-    TomlTable run = root_.table("run");
-    TomlTable output = root_.table("output");
+    TomlTable run = root_.table(run_table);
+    TomlTable output = root_.table(output_table);
     read_problem(problem);
     read_method(method);
     read_run(run);

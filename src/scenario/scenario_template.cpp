@@ -1,34 +1,19 @@
 #include "scenario_template.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "scenario_edit.hpp"
-#include "toml_table.hpp"
+#include "hamflow/core/text.hpp"
+#include "option_text.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// A number expression as a TOML value: itself where it is one, else a string.
-std::string toml_number(const std::string& text) {
-  try {
-    const toml::table parsed = toml::parse("value = " + text);
-    if (parsed.size() == 1 && parsed.get("value")->is_number()) return text;
-  } catch (const toml::parse_error&) {  // NOLINT: then it is an expression
-  }
-  return "\"" + text + "\"";
-}
 std::string toml_numbers(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + toml_number(text);
-  return "[" + all + "]";
-}
-std::string toml_value(const std::string& text) {
-  return text.starts_with("[") ? toml_numbers(list_parts(text)) : toml_number(text);
+  return toml_text({.name = "", .type = OptionType::list}, "[" + joined(texts) + "]");
 }
 
 /// Few digits: the states of an example are arbitrary.
@@ -138,20 +123,6 @@ std::string difference(const StartExample& start, const Texts& active) {
   return with + (with.empty() || without.empty() ? "" : ", ") + without;
 }
 
-const char* words(Range range) {
-  switch (range) {
-    case Range::positive:
-      return "positive";
-    case Range::not_negative:
-      return "not negative";
-    case Range::count:
-      return "a whole number from 1";
-    case Range::any:
-      break;
-  }
-  return "any number";
-}
-
 class TemplateWriter {
  public:
   TemplateWriter(const ProblemEntry& problem, const ExampleInfo& example)
@@ -171,26 +142,22 @@ class TemplateWriter {
     write_problem();
     write_method();
     write_run();
-    page_.section("output");
-    page_.off("folder = \"my.run\"", "default: the name of this file with .run");
-    page_.line("formats = [\"h5\"]", "h5, csv; default [\"h5\"]");
-    page_.off("figures = [\"energy-error\"]",
-              std::string(problem_.dimension == 1 ? "" : "orbit, ") + "phase, energy, energy-error; default none");
+    write_output();
     return page_.text();
   }
 
  private:
   void choose_method() {
-    const bool charged = problem_.accepts(MethodSpec{"boris", {}});
+    const bool charged = problem_.accepts(MethodSpec{.name = "boris"});
     for (const char* name : {"boris", "stv4", "cg"}) {
-      if (!problem_.accepts(MethodSpec{name, {}})) continue;
+      if (!problem_.accepts(MethodSpec{.name = name})) continue;
       if (!charged || std::string(name) == "boris") {
         method_.name = name;
         return;
       }
     }
     for (const MethodEntry& entry : methods()) {
-      if (!problem_.accepts(MethodSpec{entry.name, {}})) continue;
+      if (!problem_.accepts(MethodSpec{.name = entry.name})) continue;
       method_.name = entry.name;
       return;
     }
@@ -225,22 +192,14 @@ class TemplateWriter {
   }
 
   void write_parameter(const ParameterInfo& parameter) {
-    std::string comment = parameter.meaning + "; ";
-    comment += parameter.kind == ParameterKind::number
-                   ? ""
-                   : "a list" + (parameter.length > 0 ? " of " + std::to_string(parameter.length) : std::string());
-    if (parameter.kind == ParameterKind::number_or_list) comment += " or a number";
-    comment += std::string(parameter.kind == ParameterKind::number ? "" : ", each ") + words(parameter.range);
-    comment += parameter.required                ? "; required"
-               : parameter.default_value.empty() ? "; not given by default"
-                                                 : "; default " + parameter.default_value;
+    const std::string comment = explained_with_default(parameter);
     const std::string value = parameters_.at(parameter.name);
     if (active_ != nullptr && derives(*active_, parameter.name)) {
-      page_.off(parameter.name + " = " + toml_value(value), comment + "; here it follows from the orbit");
+      page_.off(parameter.name + " = " + toml_text(parameter, value), comment + "; here it follows from the orbit");
     } else if (value.empty()) {
-      page_.off(parameter.name + " = " + (parameter.kind == ParameterKind::list ? "[1]" : "1"), comment);
+      page_.off(parameter.name + " = " + example_text(parameter), comment);
     } else {
-      page_.line(parameter.name + " = " + toml_value(value), comment);
+      page_.line(parameter.name + " = " + toml_text(parameter, value), comment);
     }
   }
 
@@ -308,52 +267,75 @@ class TemplateWriter {
     page_.section("method");
     std::vector<std::string> names;
     for (const MethodEntry& entry : methods()) {
-      if (problem_.accepts(MethodSpec{entry.name, {}})) names.push_back(entry.name);
+      if (problem_.accepts(MethodSpec{.name = entry.name})) names.push_back(entry.name);
     }
     page_.prose("Allowed here: " + joined(names) + ". More about one: hamflow show NAME");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);
-    if (std::find(names.begin(), names.end(), "cg") == names.end()) return;
-    if (method_.name != "cg") page_.prose("Options of cg:");
-    const auto option = [&](const char* code, const char* comment) {
-      method_.name == "cg" ? page_.line(code, comment) : page_.off(code, comment);
-    };
-    option("degree = 1", "polynomial degree in time; default 1");
-    option("quadrature = \"auto\"",
-           "Gauss points, from the degree to 64, or \"auto\": as many as keep H; default \"auto\"");
-    page_.off("tolerance = 1e-13", "on the residual's 2-norm, positive; default: its rounding level");
-    page_.off("criterion = \"stagnation\"",
-              "stagnation, seed: stagnation above the tolerance is an error; default stagnation");
-    page_.off("max_iterations = 15", "1 to 1000; default 15");
-    page_.off("on_divergence = \"error\"", "error, halve: two half steps instead; default error");
-    page_.off("diagnostics = false", "condition of each step's equations; default false");
+    for (const MethodFamily& family : method_families()) write_method_options(family, names);
   }
 
+  /// Those of the method chosen that may be given by position are set, all others stand as comments.
+  void write_method_options(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
+    const bool chosen = find_method(method_.name).family == &family;
+    const bool allowed = std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) !=
+                         allowed_here.end();
+    if (family.options.empty() || !allowed) return;
+    if (!chosen) page_.prose("Options of " + joined(family.methods) + ":");
+    for (const OptionInfo& option : family.options) {
+      write_option(option, chosen && option.position > 0 && !option.default_value.empty());
+    }
+  }
+
+  void write_option(const OptionInfo& option, bool set) {
+    const std::string code = option.name + " = " + example_text(option);
+    set ? page_.line(code, explained_with_default(option)) : page_.off(code, explained_with_default(option));
+  }
+
+  /// [run] as declared, with the numbers of the example, and without what this problem or its method refuses.
   void write_run() {
     page_.section("run");
-    page_.line("dt = " + shortest(example_.dt), "step length, not 0; negative: backwards in time");
-    page_.line("steps = " + std::to_string(example_.steps),
-               "0 or more; or t_end, which has to be a whole number of dt");
-    page_.off("t_end = " + shortest(example_.dt * static_cast<double>(example_.steps)), "in place of steps");
-    page_.off("record_every = 1", "steps from one sample to the next; default: at most 10000 samples");
-    page_.off("record = [0, " + shortest(example_.dt * 1.5) + "]",
-              "in place of record_every: times, not only of steps");
-    page_.off("lyapunov = true", "true for all exponents, or how many of the largest");
-    page_.off("eigenvalues = true", "of the derivative of all steps");
-    const std::string first = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
-    page_.off("section = { coordinate = \"" + first + "\", value = 0, direction = 1 }",
-              "a Poincare section; direction 1 upwards, -1 downwards, 0 both");
-    page_.off("checkpoint_every = 1000000", "steps from one checkpoint to the next; default: every 10 seconds");
-    std::vector<std::string> allowed;
+    const RunKeys& keys = run_keys();
+    std::vector<std::string> arithmetics_here;
     for (const std::string& arithmetic : arithmetics()) {
-      if (refusal(method_, arithmetic).empty()) allowed.push_back(arithmetic);
+      if (refusal(method_, arithmetic).empty()) arithmetics_here.push_back(arithmetic);
     }
-    page_.line("arithmetic = \"double\"", joined(allowed) + " with this method; default double");
-    if (std::find(allowed.begin(), allowed.end(), "lattice") != allowed.end()) {
-      page_.off("lattice = { position = \"2^-52\", momentum = \"2^-52\" }", "units with arithmetic = \"lattice\"");
-      if (problem_.has_pairwise_forces) page_.off("threads = 2", "with arithmetic = \"lattice\"; default 1");
+    const bool on_lattice = std::find(arithmetics_here.begin(), arithmetics_here.end(), "lattice") !=
+                            arithmetics_here.end();
+    for (OptionInfo key : declared_table(run_table).keys) {
+      bool set = false;
+      if (key.name == keys.dt.name) {
+        key.example = shortest(example_.dt);
+        set = true;
+      } else if (key.name == keys.steps.name) {
+        key.example = std::to_string(example_.steps);
+        set = true;
+      } else if (key.name == keys.t_end.name) {
+        key.example = shortest(example_.dt * static_cast<double>(example_.steps));
+      } else if (key.name == keys.record.name) {
+        key.example = "[0, " + shortest(example_.dt * 1.5) + "]";
+      } else if (key.name == keys.arithmetic.name) {
+        key.words = arithmetics_here;
+        set = true;
+      } else if (key.name == keys.section.name) {
+        key.keys.front().example = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
+      } else if (key.name == keys.kernel.name) {
+        if (!problem_.has_fast_kernel || !find_method(method_.name).family->not_fast.empty()) continue;
+        set = true;
+      } else if (key.name == keys.lattice.name && !on_lattice) {
+        continue;
+      } else if (key.name == keys.threads.name && !(on_lattice && problem_.has_pairwise_forces)) {
+        continue;
+      }
+      write_option(key, set);
     }
-    if (problem_.has_fast_kernel && method_.name != "cg")
-      page_.line("kernel = \"exact\"", "exact, fast; default exact");
+  }
+
+  void write_output() {
+    page_.section("output");
+    for (OptionInfo key : declared_table(output_table).keys) {
+      if (key.name == output_keys().figures.name && problem_.dimension == 1) std::erase(key.words, "orbit");
+      write_option(key, key.name == output_keys().formats.name);
+    }
   }
 
   const ProblemEntry& problem_;

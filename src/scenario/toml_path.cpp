@@ -87,8 +87,8 @@ Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) 
 /// Keys of which a scenario has at most one.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& exclusive_keys() {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> all{
-      {"run", {run_keys().steps.name, run_keys().t_end.name}},
-      {"run", {run_keys().record_every.name, run_keys().record.name}},
+      {run_table, {run_keys().steps.name, run_keys().t_end.name}},
+      {run_table, {run_keys().record_every.name, run_keys().record.name}},
       {"problem", {"orbit", "initial"}}};
   return all;
 }

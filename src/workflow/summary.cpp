@@ -23,9 +23,9 @@ Json parameters_of(const Scenario& scenario) {
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
     if (!values.has(parameter.name)) continue;
     const std::vector<double>& list = values.list(parameter.name);
-    const bool single = parameter.kind == ParameterKind::number ||
-                        (parameter.kind == ParameterKind::number_or_list && list.size() == 1);
-    parameters[parameter.name] = parameter.range == Range::count ? Json(static_cast<std::int64_t>(list[0]))
+    const bool single = parameter.type == OptionType::number ||
+                        (parameter.type == OptionType::number_or_list && list.size() == 1);
+    parameters[parameter.name] = single && parameter.range.whole ? Json(static_cast<std::int64_t>(list[0]))
                                  : single                        ? Json(list[0])
                                                                  : Json(list);
   }
