@@ -1,12 +1,15 @@
 // hamflow list, hamflow show: the catalogue as its own declarations tell it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "commands.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "option_text.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -17,6 +20,23 @@ std::string flags(const MethodInfo& info) {
   if (info.symplectic) text += ", symplectic";
   if (info.symmetric) text += ", symmetric";
   return text;
+}
+
+std::string option_row(const OptionInfo& option, const std::string& indent = "    ") {
+  std::string text = fmt::format("{}{:<18} {:<12} {}\n", indent, option.name, default_text(option), explained(option));
+  for (const OptionInfo& key : option.keys) text += option_row(key, indent + "  ");
+  return text;
+}
+
+/// False where there is no table of that name.
+bool show_table(const std::string& name) {
+  for (const DeclaredTable& table : declared_tables()) {
+    if (table.name != name) continue;
+    std::cout << "keys of [" << name << "]:\n";
+    for (const OptionInfo& key : table.keys) std::cout << option_row(key);
+    return true;
+  }
+  return false;
 }
 
 std::string variant_text(const ProblemInfo& info) {
@@ -32,21 +52,7 @@ void show_problem(const ProblemEntry& entry) {
                            entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
                            info.reference);
   if (!info.parameters.empty()) std::cout << "  keys of [problem]:\n";
-  for (const ParameterInfo& p : info.parameters) {
-    const char* range = p.range == Range::positive       ? ", positive"
-                        : p.range == Range::not_negative ? ", not negative"
-                        : p.range == Range::count        ? ", a whole number from 1"
-                                                         : "";
-    const std::string list = p.kind == ParameterKind::number ? ""
-                             : p.length > 0                  ? fmt::format(", a list of {}", p.length)
-                             : p.kind == ParameterKind::list ? ", a list"
-                                                             : ", a number or a list";
-    std::cout << fmt::format("    {:<18} [{}]{}{}  {}\n", p.name,
-                             p.required                ? "required"
-                             : p.default_value.empty() ? "not given"
-                                                       : p.default_value,
-                             range, list, p.meaning);
-  }
+  for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
   if (!info.start_key.empty()) {
     std::cout << fmt::format("  {} = 1, ..., {}, each with its keys beside it:\n", info.start_key, info.starts.size());
   } else if (!info.starts.empty()) {
@@ -72,21 +78,10 @@ void show_method(const MethodSpec& spec) {
   std::cout << fmt::format("{}\n  {}\n  order {}, {}\n  source: {}\n", info.name, info.summary, info.order, flags(info),
                            info.reference);
   if (info.forces_per_step > 0) std::cout << fmt::format("  force evaluations per step: {}\n", info.forces_per_step);
-  if (spec.name == "cg") {
-    std::cout
-        << "  keys of [method]:\n"
-           "    degree             [1]         polynomial degree in time: 1 in this version\n"
-           "    quadrature         [auto]      Gauss points, degree to 64, or \"auto\": the fewest that keep H at "
-           "rounding\n"
-           "    tolerance          [unset]     on the 2-norm of the residual (2.63); unset: its rounding level\n"
-           "    criterion          [stagnation] \"seed\": stagnation above the tolerance is an error\n"
-           "    max_iterations     [15]\n"
-           "    iteration          [newton]\n"
-           "    on_divergence      [error]     \"halve\": two half steps in place of one that does not converge\n"
-           "    diagnostics        [false]     condition and determinant of the tangent, condition of M^-1, each "
-           "step\n";
-  }
-  std::cout << "  measured properties: hamflow verify " << (spec.name == "cg" ? "'" + info.name + "'" : info.name)
+  const std::vector<OptionInfo>& options = find_method(spec.name).family->options;
+  if (!options.empty()) std::cout << "  keys of [method]:\n";
+  for (const OptionInfo& option : options) std::cout << option_row(option);
+  std::cout << "  measured properties: hamflow verify " << (info.name == spec.name ? info.name : "'" + info.name + "'")
             << "\n";
 }
 
@@ -96,7 +91,7 @@ int list_catalogue(const std::string& what, bool json) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   if (what == "methods") {
     for (const MethodEntry& entry : methods()) {
-      const MethodInfo info = describe(MethodSpec{entry.name, {}});
+      const MethodInfo info = describe(MethodSpec{.name = entry.name});
       if (json) {
         all.push_back({{"name", entry.name},
                        {"order", info.order},
@@ -134,20 +129,20 @@ int show_entry(const std::string& name) {
     show_problem(entry);
     found = true;
   }
-  if (found) return exit_done;
+  if (found || show_table(name)) return exit_done;
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+  for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
+  const std::string method = name.substr(0, name.find('('));
+  if (std::find(names.begin(), names.end(), method) == names.end()) {
+    std::cerr << "error: there is no problem or method '" << name << "'" << suggestion(method, names)
+              << " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)\n";
+    return exit_rejected;
+  }
   try {
     show_method(parse_method(name));
     return exit_done;
   } catch (const Error& error) {
-    const std::string near = nearest(name, names);
-    if (name.find('(') != std::string::npos) {
-      std::cerr << "error: " << error.what() << '\n';
-    } else {
-      std::cerr << "error: there is no problem or method '" << name << "'"
-                << (near.empty() ? "" : "; did you mean " + near + "?")
-                << " (hamflow list problems, hamflow list methods)\n";
-    }
+    std::cerr << "error: " << error.what() << '\n';
     return exit_rejected;
   }
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "hamflow/core/text.hpp"
 #include "measures.hpp"
 #include "parameter_map.hpp"
 #include "progress.hpp"
@@ -45,9 +46,11 @@ LaneSet lanes_named(const std::string& name) {
     if (name == hamflow::name(set) && set <= widest_lanes()) return set;
   }
   if (name.empty() || name == "auto") return widest_lanes();
-  throw Error("--lanes: found \"" + name + "\"; allowed on this machine: auto, none, generic" +
-              (widest_lanes() >= LaneSet::avx2 ? ", avx2" : "") +
-              (widest_lanes() >= LaneSet::avx512 ? ", avx512" : ""));
+  std::vector<std::string> allowed{"auto", "none", "generic"};
+  if (widest_lanes() >= LaneSet::avx2) allowed.emplace_back("avx2");
+  if (widest_lanes() >= LaneSet::avx512) allowed.emplace_back("avx512");
+  throw Error("--lanes: found \"" + name + "\"; allowed on this machine: " + joined(allowed) +
+              suggestion(name, allowed));
 }
 
 std::size_t count(const Sweep& sweep, MemberStatus status) {
@@ -200,9 +203,8 @@ std::string refused_figure(const Sweep& sweep, const SweepCommandOptions& option
            " varied keys; allowed one or two, all numbers";
   }
   if (std::find(columns.begin(), columns.end(), options.colour) == columns.end()) {
-    std::string all;
-    for (const std::string& name : columns) all += (all.empty() ? "" : ", ") + name;
-    return "--colour: error: found " + options.colour + "; allowed " + all;
+    return "--colour: error: found " + options.colour + "; allowed " + joined(columns) +
+           suggestion(options.colour, columns);
   }
   return {};
 }
@@ -294,9 +296,6 @@ int run_sweep(const SweepCommandOptions& options) {
     std::vector<Vary> varied;
     std::vector<std::string> wrong;
     if (options.varied.empty()) wrong.emplace_back("--vary: error: found none; allowed PATH=a:b:n or PATH=v1,v2,...");
-    if (options.threads < 0 || options.threads > 1024) {
-      wrong.push_back("--threads: error: found " + std::to_string(options.threads) + "; allowed 1 to 1024, 0 for all");
-    }
     SweepOptions how{.threads = options.threads};
     const auto try_to = [&](const char* prefix, const auto& action) {
       try {

@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 
+#include "command_line.hpp"
 #include "command_verify.hpp"
 #include "commands.hpp"
 #include "coordinates.hpp"
@@ -18,19 +19,6 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
   CLI::App* sub = app.add_subcommand(name, what);
   sub->footer(std::string("Examples:\n") + examples);
   return sub;
-}
-
-/// CLI11 would only say that a sub-command is required.
-void reject_unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(sub->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  const std::string near = hamflow::nearest(argv[1], names);
-  throw CLI::ValidationError(
-      std::string("there is no command '") + argv[1] + "'" + (near.empty() ? "" : "; did you mean " + near + "?"),
-      CLI::ExitCodes::InvalidError);
 }
 
 }  // namespace
@@ -99,7 +87,9 @@ int main(int argc, char** argv) {
   sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")
       ->type_name("DIR")
       ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
-  sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")->type_name("N");
+  sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")
+      ->type_name("N")
+      ->transform(whole_number(0, 1024));
   sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
       ->type_name("SET");
   sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
@@ -213,7 +203,7 @@ int main(int argc, char** argv) {
   CLI::App* list_command = add(app, "list", "List the catalogue", "  hamflow list methods\n  hamflow list problems\n");
   list_command->add_option("what", what, "methods or problems")
       ->required()
-      ->check(CLI::IsMember({"methods", "problems"}));
+      ->check(one_of({"methods", "problems"}));
   list_command->add_flag("--json", list_json, "print JSON");
   list_command->callback([&] { status = list_catalogue(what, list_json); });
 
@@ -228,10 +218,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11's own statuses start at 100: help is 0, everything else a wrong request.
-    status = app.exit(error) == 0 ? exit_done : exit_rejected;
+    const std::string message = message_of(app, error);
+    const bool wrong = app.exit(message == error.what() ? error : CLI::ParseError(message, error.get_exit_code())) != 0;
+    status = wrong ? exit_rejected : exit_done;
     const std::vector<std::string> words(argv, argv + argc);
     if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
-      std::cout << hamflow::json_text({{"status", "rejected"}, {"errors", {{{"key", ""}, {"message", error.what()}}}}});
+      std::cout << hamflow::json_text({{"status", "rejected"}, {"errors", {{{"key", ""}, {"message", message}}}}});
     }
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';

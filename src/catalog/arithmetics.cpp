@@ -1,6 +1,5 @@
 // The arithmetics by name, and which method cannot run in which.
 #include <algorithm>
-#include <charconv>
 
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/core/text.hpp"
@@ -12,14 +11,11 @@ int mp_digits(const std::string& arithmetic) {
   if (!arithmetic.starts_with("mp(") || !arithmetic.ends_with(")")) return 0;
   const std::string inside = arithmetic.substr(3, arithmetic.size() - 4);
   if (inside == "d") return 0;  // the name in lists
-  int digits = 0;
-  const auto [end, error] = std::from_chars(inside.data(), inside.data() + inside.size(), digits);
-  if (error != std::errc() || end != inside.data() + inside.size() || digits < MpDigits::fewest ||
-      digits > MpDigits::most) {
-    throw Error("mp(d) takes a number of decimal digits from " + std::to_string(MpDigits::fewest) + " to " +
-                std::to_string(MpDigits::most) + ", not '" + inside + "'");
+  const OptionInfo digits{.name = "d", .range = Range::whole_from(MpDigits::fewest, MpDigits::most)};
+  if (!refused_value(digits, inside).empty()) {
+    throw Error("found '" + arithmetic + "'; allowed mp(d) with d, its decimal digits, " + allowed_text(digits));
   }
-  return digits;
+  return static_cast<int>(number_value(inside));
 }
 
 int digits_beyond_double(const std::string& arithmetic) {

@@ -70,11 +70,7 @@ void check_coordinates(const std::string& name) {
     }
   }
   if (std::find(all.begin(), all.end(), name) != all.end()) return;
-  std::string allowed;
-  for (const std::string& system : all) allowed += (allowed.empty() ? "" : ", ") + system;
-  const std::string near = nearest(name, all);
-  throw Error("found coordinates '" + name + "'; allowed " + allowed +
-              (near.empty() ? "" : "; did you mean " + near + "?"));
+  throw Error("found coordinates '" + name + "'; allowed " + joined(all) + suggestion(name, all));
 }
 
 const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to) {
