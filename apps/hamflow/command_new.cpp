@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "coordinates.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "scenario_template.hpp"
 
@@ -16,16 +17,6 @@ namespace {
 
 /// What a selecting key is when it is not given.
 const std::set<std::string> usual_choices{"kepler", "cartesian", "nonlinear", "absolute"};
-
-std::string list_of(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-std::string meant(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(name, candidates);
-  return near.empty() ? "" : "; did you mean " + near + "?";
-}
 
 void add_once(std::vector<std::string>& list, const std::string& word) {
   if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
@@ -41,8 +32,8 @@ const ProblemEntry& chosen(const NewOptions& options) {
     for (const auto& [key, value] : entry.info.variant) add_once(choices[key], value);
   }
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
-    throw Error("there is no problem '" + options.problem + "'; allowed " + list_of(names) +
-                meant(options.problem, names));
+    throw Error("there is no problem '" + options.problem + "'; allowed " + joined(names) +
+                suggestion(options.problem, names));
   }
   std::map<std::string, std::string> variant;
   for (const auto& [key, value] : options.variant) {
@@ -55,7 +46,7 @@ const ProblemEntry& chosen(const NewOptions& options) {
     }
     const std::vector<std::string>& all = choices[key];
     if (std::find(all.begin(), all.end(), value) == all.end()) {
-      throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, list_of(all), meant(value, all)));
+      throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, joined(all), suggestion(value, all)));
     }
     variant[key] = value;
   }
