@@ -1,4 +1,4 @@
-// hamflow list, hamflow show: the catalogue as its own declarations tell it.
+// hamflow list, hamflow show: the catalogue as it is declared.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -6,6 +6,8 @@
 #include <set>
 
 #include "commands.hpp"
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow::app {
@@ -20,9 +22,7 @@ std::string flags(const MethodInfo& info) {
 }
 
 std::string variant_text(const ProblemInfo& info) {
-  std::string text;
-  for (const auto& [key, value] : info.variant) text += (text.empty() ? "" : ", ") + key + " = \"" + value + "\"";
-  return text;
+  return joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
 }
 
 void show_problem(const ProblemEntry& entry) {
@@ -135,17 +135,22 @@ int show_entry(const std::string& name) {
     found = true;
   }
   if (found) return exit_done;
+  for (const FigureKindInfo& kind : figure_kinds()) {
+    names.push_back(kind.name);
+    if (kind.name != name) continue;
+    std::cout << fmt::format("{}\n  a figure: {}\n  hamflow plot RUN --kind {}; output.figures of a scenario\n", name,
+                             kind.meaning, name);
+    return exit_done;
+  }
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   try {
     show_method(parse_method(name));
     return exit_done;
   } catch (const Error& error) {
-    const std::string near = nearest(name, names);
     if (name.find('(') != std::string::npos) {
       std::cerr << "error: " << error.what() << '\n';
     } else {
-      std::cerr << "error: there is no problem or method '" << name << "'"
-                << (near.empty() ? "" : "; did you mean " + near + "?")
+      std::cerr << "error: there is no problem, method or figure '" << name << "'" << suggestion(name, names)
                 << " (hamflow list problems, hamflow list methods)\n";
     }
     return exit_rejected;

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "scenario_template.hpp"
 
@@ -12,15 +13,6 @@ namespace hamflow::app {
 
 namespace {
 
-std::string list_of(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-std::string meant(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(name, candidates);
-  return near.empty() ? "" : "; did you mean " + near + "?";
-}
 
 void add_once(std::vector<std::string>& list, const std::string& word) {
   if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
@@ -36,8 +28,8 @@ const ProblemEntry& chosen(const NewOptions& options) {
     for (const auto& [key, value] : entry.info.variant) add_once(choices[key], value);
   }
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
-    throw Error("there is no problem '" + options.problem + "'; allowed " + list_of(names) +
-                meant(options.problem, names));
+    throw Error("there is no problem '" + options.problem + "'; allowed " + joined(names) +
+                suggestion(options.problem, names));
   }
   std::map<std::string, std::string> variant;
   for (const auto& [key, value] : options.variant) {
@@ -50,7 +42,7 @@ const ProblemEntry& chosen(const NewOptions& options) {
     }
     const std::vector<std::string>& all = choices[key];
     if (std::find(all.begin(), all.end(), value) == all.end()) {
-      throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, list_of(all), meant(value, all)));
+      throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, joined(all), suggestion(value, all)));
     }
     variant[key] = value;
   }

@@ -7,13 +7,14 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "hamflow/core/text.hpp"
 #include "measures.hpp"
 #include "parameter_map.hpp"
 #include "progress.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
 #include "sweep_table.hpp"
-#include "work_precision.hpp"
+#include "terminal.hpp"
 
 namespace hamflow::app {
 
@@ -184,7 +185,7 @@ void save(const Sweep& sweep, const fs::path& folder, const Json& summary) {
 }
 
 /// Empty if the figure can be drawn, else what is wrong with the request for it.
-std::string refused_figure(const Sweep& sweep, const SweepCommandOptions& options) {
+std::string refused_map(const Sweep& sweep, const SweepCommandOptions& options) {
   if (options.figure.empty()) return {};
   const std::string wrong = refused_figure_file(options.figure);
   if (!wrong.empty()) return "--figure: error: " + wrong;
@@ -200,9 +201,8 @@ std::string refused_figure(const Sweep& sweep, const SweepCommandOptions& option
            " varied keys; allowed one or two, all numbers";
   }
   if (std::find(columns.begin(), columns.end(), options.colour) == columns.end()) {
-    std::string all;
-    for (const std::string& name : columns) all += (all.empty() ? "" : ", ") + name;
-    return "--colour: error: found " + options.colour + "; allowed " + all;
+    return "--colour: error: found " + options.colour + "; allowed " + joined(columns) +
+           suggestion(options.colour, columns);
   }
   return {};
 }
@@ -321,7 +321,7 @@ int run_sweep(const SweepCommandOptions& options) {
     how.observables = exponents_asked_for(text, options, varied);
     Sweep sweep(text, options.scenario, options.sets, varied, how);
     if (!sweep.complaints().empty()) return rejected(options, sweep.complaints());
-    const std::string figure = refused_figure(sweep, options);
+    const std::string figure = refused_map(sweep, options);
     if (!figure.empty()) return rejected(options, {figure});
     return carry_out(sweep, options);
   } catch (const FileError& error) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figure_kinds.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
@@ -12,7 +13,6 @@ std::vector<std::string> method_names() {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   return names;
 }
-const std::vector<std::string> figure_names{"orbit", "energy", "energy-error", "phase", "condition", "section"};
 const std::vector<std::string> cg_keys{"degree",         "quadrature", "tolerance",     "criterion",
                                        "max_iterations", "iteration",  "on_divergence", "diagnostics"};
 }  // namespace
@@ -310,7 +310,7 @@ void ScenarioReader::read_output(TomlTable& table) {
     scenario_.folder = *folder;
   }
   if (const auto formats = table.choices("formats", {"h5", "csv"})) scenario_.formats = *formats;
-  if (const auto figures = table.choices("figures", figure_names)) scenario_.figures = *figures;
+  if (const auto figures = table.choices("figures", figure_names())) scenario_.figures = *figures;
   const auto wants = [&](const std::vector<std::string>& list, const char* word) {
     return std::find(list.begin(), list.end(), word) != list.end();
   };
@@ -319,29 +319,19 @@ void ScenarioReader::read_output(TomlTable& table) {
                    "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
   }
   const std::size_t dimension = scenario_.start_q.size();
-  if (scenario_.problem != nullptr && dimension > 0) {
+  FigureFacts facts{.degrees_of_freedom = dimension,
+                    .diagnostics = scenario_.request.method.cg.diagnostics,
+                    .section = scenario_.section.has_value()};
+  if (scenario_.problem != nullptr) {
     const auto& invariants = scenario_.problem->info.invariants;
-    const bool in_space = scenario_.problem->dimension == 0 &&
-                          std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
-                            return invariant.components == Components::space;
-                          });
-    const std::string degrees = std::to_string(dimension) + (dimension == 1 ? " degree" : " degrees") + " of freedom";
-    if (wants(scenario_.figures, "orbit") && dimension != 2 && !in_space) {
-      table.complain("figures", "found \"orbit\" for a problem with " + degrees + "; allowed energy, energy-error" +
-                                    (dimension <= 12 ? ", phase" : ""));
-    }
-    if (wants(scenario_.figures, "phase") && dimension > 12) {
-      table.complain("figures", "found \"phase\" for a problem with " + degrees + "; allowed at most 12, or energy, " +
-                                    "energy-error" + (in_space ? ", orbit" : ""));
-    }
+    facts.bodies_in_space = scenario_.problem->dimension == 0 &&
+                            std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
+                              return invariant.components == Components::space;
+                            });
   }
-  if (wants(scenario_.figures, "condition") && !scenario_.request.method.cg.diagnostics) {
-    table.complain("figures", "found \"condition\", which needs method.diagnostics = true of an implicit method");
-  }
-  if (wants(scenario_.figures, "section") && dimension == 1) {
-    table.complain("figures", "found \"section\" for a problem with 1 degree of freedom; allowed with 2 and more");
-  } else if (wants(scenario_.figures, "section") && !scenario_.section) {
-    table.complain("figures", "found \"section\", which needs run.section, e.g. { coordinate = \"q1\" }");
+  for (const std::string& kind : scenario_.figures) {
+    const std::string why_not = refused_figure(kind, facts);
+    if (!why_not.empty()) table.complain("figures", why_not);
   }
   table.finish();
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "figure_kinds.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "scenario_edit.hpp"
@@ -175,7 +176,7 @@ class TemplateWriter {
     page_.off("folder = \"my.run\"", "default: the name of this file with .run");
     page_.line("formats = [\"h5\"]", "h5, csv; default [\"h5\"]");
     page_.off("figures = [\"energy-error\"]",
-              std::string(problem_.dimension == 1 ? "" : "orbit, ") + "phase, energy, energy-error; default none");
+              joined(drawable_figures({.degrees_of_freedom = problem_.dimension})) + "; default none");
     return page_.text();
   }
 

@@ -3,15 +3,10 @@
 #include <cmath>
 
 #include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/core/hash.hpp"
 #include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
-
-std::uint64_t hash_of(const std::vector<std::byte>& bits) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::byte b : bits) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
-  return hash;
-}
 
 namespace {
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
@@ -38,7 +33,7 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   found.steps = steps;
   simulation.look(found.start);
   const std::vector<std::byte> bits = simulation.bits();
-  found.start_hash = hash_of(bits);
+  found.start_hash = fnv1a(bits);
   const std::int64_t first = simulation.step();
   const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
   const auto go = [&](std::int64_t to) {
@@ -48,13 +43,13 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   };
   const bool there = go(first + steps);
   simulation.look(found.turn);
-  found.turn_hash = hash_of(simulation.bits());
+  found.turn_hash = fnv1a(simulation.bits());
   if (!there) return found;
   simulation.negate_momenta();
   const bool back = go(first + 2 * steps);
   simulation.negate_momenta();
   simulation.look(found.end);
-  found.end_hash = hash_of(simulation.bits());
+  found.end_hash = fnv1a(simulation.bits());
   if (!back) return found;
   const FrameDigits& to = found.end.digits;
   const FrameDigits& from = found.start.digits;
