@@ -51,29 +51,6 @@ std::span<const MethodEntry> methods() {
   return all;
 }
 
-std::string nearest(const std::string& name, std::span<const std::string> candidates) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(name.size() / 2, 2) + 1;  // more than half wrong is no likeness
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);
-    for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= name.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t change = diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-      }
-    }
-    if (row.back() < least) {
-      least = row.back();
-      best = candidate;
-    }
-  }
-  return best;
-}
-
 namespace {
 [[noreturn]] void unknown(const std::string& what, const std::string& name,
                           const std::vector<std::string>& candidates) {

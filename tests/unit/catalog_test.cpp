@@ -77,15 +77,6 @@ TEST(Catalog, EveryEntryIsComplete) {
   }
 }
 
-TEST(Catalog, NearestNameIsTheOneWithFewestEdits) {
-  const std::vector<std::string> names{"verlet", "stv4", "suzuki4", "yoshida6"};
-  EXPECT_EQ(nearest("verlett", names), "verlet");
-  EXPECT_EQ(nearest("stv", names), "stv4");
-  EXPECT_EQ(nearest("yosida6", names), "yoshida6");
-  EXPECT_EQ(nearest("completely-different", names), "");
-  EXPECT_EQ(nearest("x", std::vector<std::string>{}), "");
-}
-
 TEST(Catalog, ParsesMethodsWithTheirOptions) {
   EXPECT_EQ(parse_method("stv4").name, "stv4");
   EXPECT_EQ(parse_method(" stv4 ").name, "stv4");

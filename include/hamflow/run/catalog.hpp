@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/cg_options.hpp"
 #include "hamflow/methods/tables.hpp"
@@ -146,8 +147,6 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
 /// Why a request cannot have several threads; empty if it can.
 std::string refused_threads(const Request& request, const ProblemEntry& problem);
 inline constexpr int most_threads = 256;
-/// The name nearest to `name` by edit distance, empty if none is near.
-std::string nearest(const std::string& name, std::span<const std::string> candidates);
 
 /// @throws Error when the request is wrong
 std::unique_ptr<Simulation> make_simulation(const Request& request);
