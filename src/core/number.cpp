@@ -18,19 +18,19 @@ constexpr std::size_t most_operations = 10'000;  //
 constexpr int deepest = 200;                     // each level is a few frames of the stack
 
 constexpr std::array<std::pair<std::string_view, NumberAction>, 14> functions{{{"sqrt", NumberAction::sqrt},
-                                                                              {"exp", NumberAction::exp},
-                                                                              {"log", NumberAction::log},
-                                                                              {"sin", NumberAction::sin},
-                                                                              {"cos", NumberAction::cos},
-                                                                              {"tan", NumberAction::tan},
-                                                                              {"asin", NumberAction::asin},
-                                                                              {"acos", NumberAction::acos},
-                                                                              {"atan", NumberAction::atan},
-                                                                              {"atan2", NumberAction::atan2},
-                                                                              {"sinh", NumberAction::sinh},
-                                                                              {"cosh", NumberAction::cosh},
-                                                                              {"tanh", NumberAction::tanh},
-                                                                              {"abs", NumberAction::abs}}};
+                                                                               {"exp", NumberAction::exp},
+                                                                               {"log", NumberAction::log},
+                                                                               {"sin", NumberAction::sin},
+                                                                               {"cos", NumberAction::cos},
+                                                                               {"tan", NumberAction::tan},
+                                                                               {"asin", NumberAction::asin},
+                                                                               {"acos", NumberAction::acos},
+                                                                               {"atan", NumberAction::atan},
+                                                                               {"atan2", NumberAction::atan2},
+                                                                               {"sinh", NumberAction::sinh},
+                                                                               {"cosh", NumberAction::cosh},
+                                                                               {"tanh", NumberAction::tanh},
+                                                                               {"abs", NumberAction::abs}}};
 constexpr const char* operators = "an operator (+ - * / ^)";
 constexpr const char* operands = "a number, pi, a function such as sqrt(2), or '('";
 
@@ -68,8 +68,8 @@ std::string_view trimmed(std::string_view text) {
                          const std::string& meant = "") {
   const auto before = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
   const auto column = 1 + std::count_if(text.begin(), before, [](char c) { return !continues_character(c); });
-  throw Error("found \"" + shown(text, at) + "\", column " + std::to_string(column) + ": " + what + "; allowed " + allowed +
-              (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  throw Error("found \"" + shown(text, at) + "\", column " + std::to_string(column) + ": " + what + "; allowed " +
+              allowed + (meant.empty() ? "" : "; did you mean " + meant + "?"));
 }
 
 const NumberAction* find_function(std::string_view word) {
@@ -338,8 +338,9 @@ std::int64_t evaluate_whole(std::string_view text) {
   const auto value = evaluate_number<long double>(text);  // beyond 2^53 a double would hide what is not whole
   if (std::abs(value) <= most && value == std::nearbyint(value)) return static_cast<std::int64_t>(value);
   const bool large = std::abs(value) > most;
-  detail::refuse(text, 0, (large ? std::string("a number") : shortest(static_cast<double>(value))) +
-                              (large ? " beyond 2^53" : ", which is not whole"),
+  detail::refuse(text, 0,
+                 (large ? std::string("a number") : shortest(static_cast<double>(value))) +
+                     (large ? " beyond 2^53" : ", which is not whole"),
                  "whole numbers from -2^53 to 2^53, such as 1000, 1e6 or 10^6");
 }
 

@@ -128,9 +128,7 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
 }
 }  // namespace
 
-std::string status_of(Outcome outcome) {
-  return is_failure(outcome) ? "failed" : std::string(name(outcome));
-}
+std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
 
 Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                 const RunCertificate* certificate) {

@@ -110,8 +110,9 @@ TEST(Number, EveryErrorNamesItsColumnWhatIsWrongAndWhatIsAllowed) {
       {"sin(1", 6, "the end before the ')' of (1", "')'"},
       {"atan2(1", 8, "the end before the ')' of (1", "')'"},
       // names
-      {"foo(3)", 1, "the unknown function foo", functions},
+      {"foo(3)", 1, "the unknown function foo", functions, "log"},  // two of three letters: the nearest there is
       {"1 + sinus(2)", 5, "the unknown function sinus", functions, "sin"},
+      {"integral(3)", 1, "the unknown function integral", functions},
       {"Sqrt(2)", 1, "the unknown function Sqrt", functions, "sqrt"},
       {"foo", 1, "the unknown symbol foo", symbols},
       {"2*x_1 + 1", 3, "the unknown symbol x_1", symbols},
@@ -171,8 +172,9 @@ TEST(Number, LengthNestingAndOperationsAreLimited) {
   EXPECT_EQ(number((repeated("1+", 5'000 - 1) + "1").c_str()), 5'000);
   EXPECT_NE(complaint(repeated("1+", 10'000) + "1").find(": more than 10^4 operations; allowed at most 10^4"),
             std::string::npos);
-  EXPECT_NE(complaint(repeated("1", 1'000'001)).find(", column 1000001: more than 10^6 characters; allowed at most 10^6"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint(repeated("1", 1'000'001)).find(", column 1000001: more than 10^6 characters; allowed at most 10^6"),
+      std::string::npos);
   // A long text is shown around the place that is meant, and no more of it.
   const std::string message = complaint(repeated("1+", 500) + "foo" + repeated("+1", 500));
   EXPECT_NE(message.find("1+foo+1"), std::string::npos) << message;
@@ -220,17 +222,16 @@ TEST(Number, WholeNumbersMayBeFormulas) {
   }
   for (int k = 0; k <= 53; ++k) EXPECT_EQ(evaluate_whole("2^" + std::to_string(k)), std::int64_t{1} << k);
   EXPECT_EQ(evaluate_whole("-9007199254740992"), -(std::int64_t{1} << 53));
-  const auto message = [](const char* text) {
-    return test::message_of<Error>([&] { (void)evaluate_whole(text); });
-  };
+  const auto message = [](const char* text) { return test::message_of<Error>([&] { (void)evaluate_whole(text); }); };
   const std::string allowed = "; allowed whole numbers from -2^53 to 2^53, such as 1000, 1e6 or 10^6";
   EXPECT_EQ(message("1/2"), "found \"1/2\", column 1: 0.5, which is not whole" + allowed);
   EXPECT_EQ(message("1000.5"), "found \"1000.5\", column 1: 1000.5, which is not whole" + allowed);
   EXPECT_EQ(message("2^53 + 1"), "found \"2^53 + 1\", column 1: a number beyond 2^53" + allowed);
   EXPECT_EQ(message("9007199254740993"), "found \"9007199254740993\", column 1: a number beyond 2^53" + allowed);
   EXPECT_EQ(message("1/0"), "found \"1/0\", column 2: 1 divided by 0; allowed a divisor other than 0");
-  EXPECT_EQ(message("many"), "found \"many\", column 1: the unknown symbol many; allowed numbers, pi, functions such as "
-                             "sqrt(2)");
+  EXPECT_EQ(message("many"),
+            "found \"many\", column 1: the unknown symbol many; allowed numbers, pi, functions such as "
+            "sqrt(2)");
 }
 
 TEST(Number, ShortestDecimalReadsBackAsTheSameDouble) {

@@ -156,8 +156,8 @@ void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Ve
   }
 }
 
-/// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Inlined by force, as it belongs into loops over steps, where
-/// the state would otherwise go through memory.
+/// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Inlined by force, as it belongs into loops over steps,
+/// where the state would otherwise go through memory.
 template <class P, class S, std::size_t N>
 [[gnu::always_inline]] inline void motion(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p,
                                           Vector<S, N>& dq, Vector<S, N>& dp) {
