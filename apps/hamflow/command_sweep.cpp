@@ -51,7 +51,7 @@ LaneSet lanes_named(const std::string& name) {
               (widest_lanes() >= LaneSet::avx512 ? ", avx512" : ""));
 }
 
-std::size_t count(const Sweep& sweep, MemberStatus status) {
+std::size_t count(const Sweep& sweep, Outcome status) {
   return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(),
                                                 [&](const MemberRow& row) { return row.status == status; }));
 }
@@ -82,7 +82,7 @@ Json row_of(const Sweep& sweep, std::size_t member) {
   }
   json["status"] = std::string(name(row.status));
   json["steps"] = row.steps;
-  if (row.status == MemberStatus::not_run) return json;
+  if (row.status == Outcome::not_run) return json;
   json["final"] = {{"t", row.t}, {"q", row.q}, {"p", row.p}};
   json["energy"] = {{"initial", row.energy.initial},
                     {"final", row.energy.final},
@@ -103,8 +103,8 @@ Json row_of(const Sweep& sweep, std::size_t member) {
 }
 
 Json summary_of(const Sweep& sweep, double seconds, bool interrupted) {
-  const std::size_t done = count(sweep, MemberStatus::done);
-  const std::size_t unfinished = count(sweep, MemberStatus::interrupted) + count(sweep, MemberStatus::not_run);
+  const std::size_t done = count(sweep, Outcome::done);
+  const std::size_t unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
   const std::size_t failed = sweep.members() - done - unfinished;
   std::int64_t steps = 0;
   for (const MemberRow& row : sweep.rows()) steps += row.steps;

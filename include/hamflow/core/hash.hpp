@@ -7,7 +7,7 @@
 
 namespace hamflow {
 
-/// FNV-1a, 64 bits: finds damage, not malice.   [RFC 9923]
+/// FNV-1a, 64 bits: finds damage, not malice.   [RFC9923]
 constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
