@@ -8,10 +8,11 @@
 #include <ctime>
 #include <limits>
 
+#include "rounding.hpp"
+
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 using Long = long double;
 
 Frame start_of(const ComparisonRequest& asked, const ProblemEntry& problem) {

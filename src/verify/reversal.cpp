@@ -9,13 +9,13 @@
 namespace hamflow {
 
 namespace {
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
   return most;
 }
 /// The same of numbers with all their digits.
-double distance(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+double largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   std::size_t longest = 0;
   for (const std::string& text : a) longest = std::max(longest, text.size());
   const MpDigits scope(static_cast<int>(longest) + 10);
@@ -25,7 +25,7 @@ double distance(const std::vector<std::string>& a, const std::vector<std::string
   }
   return most;
 }
-double size_of(const std::vector<double>& a) { return distance(a, std::vector<double>(a.size())); }
+double largest_entry(const std::vector<double>& a) { return largest_difference(a, std::vector<double>(a.size())); }
 }  // namespace
 
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse) {
@@ -53,9 +53,10 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   if (!back) return found;
   const FrameDigits& to = found.end.digits;
   const FrameDigits& from = found.start.digits;
-  found.distance = from.q.empty() ? std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p))
-                                  : std::max(distance(to.q, from.q), distance(to.p, from.p));
-  const double size = std::max(size_of(found.start.q), size_of(found.start.p));
+  found.distance = from.q.empty() ? std::max(largest_difference(found.end.q, found.start.q),
+                                             largest_difference(found.end.p, found.start.p))
+                                  : std::max(largest_difference(to.q, from.q), largest_difference(to.p, from.p));
+  const double size = std::max(largest_entry(found.start.q), largest_entry(found.start.p));
   found.relative_distance = size > 0 ? found.distance / size : found.distance;
   found.bit_exact = simulation.bits() == bits;
   return found;

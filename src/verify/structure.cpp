@@ -5,12 +5,12 @@
 
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "rounding.hpp"
 #include "symplectic.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t states = 8;
 
 using Rows = std::vector<std::vector<double>>;
