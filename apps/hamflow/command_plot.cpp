@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "figures_of_run.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/workflow/figures_of_run.hpp"
 
 namespace hamflow::app {
 

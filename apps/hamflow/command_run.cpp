@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "figures_of_run.hpp"
+#include "hamflow/workflow/figures_of_run.hpp"
 #include "measures.hpp"
 #include "progress.hpp"
 #include "resume.hpp"

@@ -12,10 +12,10 @@
 
 #include "commands.hpp"
 #include "csv_file.hpp"
+#include "hamflow/workflow/session.hpp"
 #include "progress.hpp"
 #include "run_file.hpp"
 #include "run_folder.hpp"
-#include "session.hpp"
 #include "summary.hpp"
 
 namespace hamflow::app {

@@ -17,9 +17,9 @@ std::vector<hamflow::MethodSpec> methods_of(const VerifyOptions& options) {
   for (const std::string& text : options.methods) specs.push_back(hamflow::parse_method(text));
   if (!options.all) return specs;
   for (const hamflow::MethodEntry& entry : hamflow::methods()) {
-    if (entry.kind != hamflow::MethodKind::cg) specs.push_back(hamflow::parse_method(entry.name));
+    if (entry.family->representatives.empty()) specs.push_back(hamflow::parse_method(entry.name));
+    for (const std::string& text : entry.family->representatives) specs.push_back(hamflow::parse_method(text));
   }
-  for (const char* text : {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) specs.push_back(hamflow::parse_method(text));
   return specs;
 }
 

@@ -41,7 +41,7 @@ class ErasedUnit : ProblemStart<Family> {
 
   template <class R>
   static ErasedFunctions<R> functions_of(const Family<R>& problem) {
-    ErasedFunctions<R> all{capability_of<Family<R>>(), degrees_of_freedom(problem),
+    ErasedFunctions<R> all{capabilities_of<Family<R>>(), degrees_of_freedom(problem),
                            std::make_shared<FunctionsOf<Family<R>, R>>(problem),
                            std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr};
     if constexpr (std::is_same_v<R, double>) {

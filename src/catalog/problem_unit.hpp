@@ -151,36 +151,38 @@ class ProblemUnit : ProblemStart<Family> {
     return arithmetic;
   }
 
-  template <class A, template <class> class Problems = Family, class Recipe>
-  static std::unique_ptr<Simulation> build(const Request& request, const Recipe& recipe) {
+  template <class A, template <class> class Problems = Family, class M>
+  static std::unique_ptr<Simulation> build(const Request& request, const M& recipe) {
     using R = typename A::Real;
     const auto s = In::template start<R>(request);
     const Problems<R> problem{In::template make<R>(In::template parameters_of<R>(request), s.q.size())};
     const R h = evaluate_number<R>(request.dt);
     auto method = recipe.template bind<Problems<R>, A>(problem);
-    using M = decltype(method);
+    using Stepper = decltype(method);
     if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
     // Without a probe where the benchmark looks at the step alone, and where the step runs on several threads and the
     // probe would run on one; elsewhere it is not worth the compiler's time.
-    if constexpr ((std::is_same_v<A, Plain<double>> && !std::is_same_v<Recipe, TableRecipe<Shape::any>> &&
+    if constexpr ((std::is_same_v<A, Plain<double>> && !std::is_same_v<M, TableRecipe<Shape::any>> &&
                    has_fast_kernel) ||
                   (A::exact_undo && n == dynamic)) {
       if (!request.watch) {
-        return std::make_unique<SimulationOf<Problems<R>, M, A, NoProbe>>(problem, method, s.q, s.p, h,
-                                                                          arithmetic_of<A>(request));
+        return std::make_unique<SimulationOf<Problems<R>, Stepper, A, NoProbe>>(problem, method, s.q, s.p, h,
+                                                                                arithmetic_of<A>(request));
       }
     }
-    return std::make_unique<SimulationOf<Problems<R>, M, A>>(problem, method, s.q, s.p, h, arithmetic_of<A>(request));
+    return std::make_unique<SimulationOf<Problems<R>, Stepper, A>>(problem, method, s.q, s.p, h,
+                                                                   arithmetic_of<A>(request));
   }
 
   template <class R>
   using Fast = FastKernel<Family<R>>;
 
+  /// Null where the request has no typed kernel: it then runs behind virtual calls.
   static std::unique_ptr<Simulation> simulate(const Request& request) {
-    return visit_method(request.method, [&]<class Recipe>(const Recipe& recipe) -> std::unique_ptr<Simulation> {
-      if constexpr (!Recipe::template accepts<P> || !has_typed_kernel<Recipe>) {
-        return nullptr;  // make_simulation has said why
-      } else if constexpr (always_compensated<Recipe>()) {
+    return visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
+      if constexpr (!M::template accepts<P> || !has_typed_kernel<M>()) {
+        return nullptr;
+      } else if constexpr (always_compensated<M>()) {
         return build<Compensated<double>>(request, recipe);
       } else {
         if constexpr (has_fast_kernel) {
@@ -191,13 +193,13 @@ class ProblemUnit : ProblemStart<Family> {
             return build<Plain<double>, Fast>(request, recipe);
           }
         }
-        if constexpr (Recipe::bijective) {  // others compensate behind virtual calls
+        if constexpr (M::bijective) {
           if (request.arithmetic == "compensated") {
             return build<Compensated<double>>(request, with_few_shapes(recipe));
           }
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }
-        return build<Plain<double>>(request, recipe);
+        return request.arithmetic == "double" ? build<Plain<double>>(request, recipe) : nullptr;
       }
     });
   }

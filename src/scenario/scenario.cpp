@@ -1,4 +1,4 @@
-#include "scenario.hpp"
+#include "hamflow/scenario/scenario.hpp"
 
 #include <algorithm>
 #include <fstream>

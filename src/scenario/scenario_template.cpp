@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "hamflow/core/error.hpp"
-#include "scenario.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "scenario_edit.hpp"
 #include "toml_table.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario.hpp"
+#include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
 

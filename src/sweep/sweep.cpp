@@ -52,7 +52,7 @@ std::string message_of(Outcome outcome, const Simulation& simulation) {
   return outcome == Outcome::not_converged ? simulation.failure() : "";
 }
 
-/// Each thread with a copy of the scenario of its own. An exception of a thread is that of the caller.
+/// Each thread has its own copy of the scenario. An exception of a thread is passed on to the caller.
 template <class Work>
 void on_threads(int threads, const Work& work) {
   std::exception_ptr trouble;
@@ -210,7 +210,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   }
 }
 
-/// What one thread has of its own.
+/// The resources of one thread.
 class Sweep::Worker {
  public:
   explicit Worker(Sweep& sweep) : sweep_(sweep) {}
@@ -251,7 +251,7 @@ class Sweep::Worker {
     for (std::size_t lane = 0; lane < task.count; ++lane) {
       MemberEnd end = block->look(lane);
       MemberRow& row = sweep_.rows_[members[lane]];
-      if (!end.regular) {  // the run alone tells what happened, and when
+      if (!end.regular) {  // the single run shows what happened, and when
         if (complete) run_alone(members[lane]);
         continue;
       }
@@ -308,7 +308,7 @@ class Sweep::Worker {
       values[k] = numbers_[key];
     }
     Reading reading = family_->read(paths_, values);
-    if (!reading.scenario) throw Error("a member that could be read before cannot be read now");
+    if (!reading.scenario) throw Error("a member of the sweep can no longer be read");
     return *std::move(reading.scenario);
   }
 

@@ -81,7 +81,7 @@ void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memo
   const Hdf5Handle space(rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, size, nullptr), H5Sclose,
                          "make a data space");
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_create_intermediate_group(links, 1), "ask for groups on the way");
+  check_hdf5(H5Pset_create_intermediate_group(links, 1), "request intermediate groups");
   const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
                            "create dataset " + name);
   check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
@@ -148,7 +148,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
 }
 
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages say what failed
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own messages name what failed
   const Hdf5Handle id(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
                       "create " + file.string());
   const Request& request = sweep.common().request;

@@ -26,7 +26,7 @@ State<double> joined(const Frame& frame) {
   return z;
 }
 
-/// Angles that the closed form knows up to whole turns: the nearest is meant.
+/// Angles that the closed form gives up to whole turns are moved to the nearest.
 double largest_difference(const ProblemInfo& info, const State<double>& a, const State<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -81,9 +81,8 @@ double usual_tolerance(std::size_t k, std::size_t count) {
 
 /// Whether a method chooses its sub-steps itself: then it has a tolerance to vary, and steps that do not matter.
 bool set_tolerance(MethodSpec& method, double tolerance) {
-  const MethodKind kind = find_method(method.name).kind;
-  if ((kind != MethodKind::dop853 && kind != MethodKind::taylor) || method.adaptive.fixed) return false;
-  method.adaptive.tolerance = tolerance;
+  if (!describe(method).own_substeps) return false;
+  method.options[tolerance_option] = shortest(tolerance);
   return true;
 }
 constexpr std::int64_t adaptive_steps = 32;  // few, as each cuts a sub-step short
@@ -222,7 +221,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       point.dt = asked.t_end / static_cast<double>(point.steps);
       request.dt = shortest(point.dt);
       const MethodInfo info = describe(request.method);
-      point.method = info.name;
+      point.method = describe(method).name;  // as requested: the tolerance varies like a step
       point.order = info.order;
       point.explicit_step = info.explicit_step;
 
@@ -249,7 +248,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       const Timing timing = timed(request, point.steps, pulse);
       if (timing.outcome == Outcome::stopped) return found;
       point.wall_seconds = timing.wall;
-      // Other programs that take the processor away are not the method's doing; a clock of the processor, though, is
+      // Time that other programs take from the processor is not the method's; a clock of the processor, though, is
       // slow to read.
       point.seconds = std::min(timing.wall, timing.processor);
       found.points.push_back(point);
@@ -297,8 +296,7 @@ std::vector<ComparisonWinner> winners(const Comparison& comparison) {
     for (int level = highest; level >= lowest; --level) {
       std::vector<std::pair<double, std::string>> ranking;
       for (const auto& [name, points] : methods) {
-        // A sweep over a tape of series is no evaluation of a force.
-        if (!by_time && name == "taylor") continue;
+        if (!by_time && !find_method(parse_method(name).name).family->counts_forces) continue;
         if (const auto work = work_for(points, level, by_time, floor)) ranking.emplace_back(*work, name);
       }
       if (ranking.empty()) continue;

@@ -101,7 +101,7 @@ Conservation EnergyMeasurement::conserving(int order, bool even_in_momenta) cons
   }
   // A method of order r without any conservation has level ~ h^r; with s > k quadrature points cg(k) has h^(2 s),
   // 2 s >= r + 2. What a quadrature leaves has no direction where H is even in p: forth and back it cancels. Whether it
-  // grows with time is not asked: near a resonance, and in chaos, it does.
+  // grows with time is not judged: near a resonance, and in chaos, it does.
   if (even_in_momenta && drift.p_value < DriftStatistics::level) return Conservation::no;
   return step_exponent >= order + 1.5 ? Conservation::up_to_quadrature : Conservation::no;
 }

@@ -29,7 +29,7 @@ PropertyCell cell(std::string property, bool claimed, Finding found, std::size_t
   return {std::move(property), text(claimed), std::string(name(found)), agrees};
 }
 
-/// Of a motion that is not reversed with its momenta nothing can be asked.
+/// Of a motion that is not reversed with its momenta nothing can be judged.
 PropertyCell reversal_cell(std::string property, bool claimed, std::span<const Measurement> on,
                            DefectMeasurement Measurement::*which) {
   std::vector<Measurement> even;

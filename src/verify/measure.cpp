@@ -35,13 +35,10 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
 }
 
 namespace {
-/// With sub-steps of its own a step has no order; and of a series of order 15, the default, the error cannot be halved
-/// four times in any arithmetic at hand.
+/// With sub-steps of its own a step has no order.
 MethodSpec measurable(const MethodSpec& method) {
-  MethodSpec fixed = method;
-  fixed.adaptive.fixed = true;
-  if (fixed.adaptive.order == 0) fixed.adaptive.order = 8;
-  return fixed;
+  const MethodFamily& family = *find_method(method.name).family;
+  return {method.name, family.measurable ? family.measurable(method.options) : method.options};
 }
 }  // namespace
 
@@ -54,8 +51,14 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
 }
 
 std::vector<Region> default_regions(const MethodSpec& method) {
-  if (find_method(method.name).kind == MethodKind::boris) return {region_of("magnetic")};
-  return {region_of("pendulum"), region_of("henon-heiles")};
+  std::vector<Region> usual{region_of("pendulum"), region_of("henon-heiles")};
+  std::erase_if(usual, [&](const Region& r) { return !find_problem(r.problem, r.variant).accepts(method); });
+  if (!usual.empty()) return usual;
+  for (const ProblemEntry& entry : problems()) {
+    if (!entry.accepts(method)) continue;
+    return {region_of(entry.info.name, {entry.info.variant.begin(), entry.info.variant.end()})};
+  }
+  throw Error("no problem of the catalogue has what " + method.name + " needs");
 }
 
 Measurement measure(const StepMap& map, const Region& region) {

@@ -54,7 +54,8 @@ SymplecticEigenvalues symplectic_eigenvalues(const std::vector<std::vector<doubl
   }
   found.symplectic_defect = symplectic_defect_of(rows);
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(m, false);
-  if (solver.info() != Eigen::Success) throw Error("the eigenvalues of the steps' derivative were not found");
+  if (solver.info() != Eigen::Success)
+    throw Error("the eigenvalues of the derivative of the steps could not be computed");
   std::vector<std::complex<double>> left(solver.eigenvalues().data(), solver.eigenvalues().data() + size);
   while (!left.empty()) {  // the largest that is left, and what comes nearest to its inverse
     const auto larger = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) {

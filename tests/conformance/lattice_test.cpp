@@ -1,5 +1,4 @@
 // Bit-exact return on the lattice: forward, momenta reversed, forward again, and every bit is back.
-// [spec: methods, section 7]
 #include <gtest/gtest.h>
 
 #include <cmath>

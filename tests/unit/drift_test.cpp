@@ -27,7 +27,7 @@ Ensemble ensemble(F&& error) {
 double noise(std::size_t s, std::size_t b) { return counter_uniform(31, s * 1000 + b); }
 
 TEST(Drift, StudentTMatchesTheTables) {
-  // Two-sided 5 % and 1 % points; t has three decimals there, the density is below 0.06.   [Abramowitz, Stegun, 26.10]
+  // Two-sided 5 % and 1 % points; t has three decimals there, the density is below 0.06. [AbramowitzStegun1964, 26.10]
   const double bound = 0.0005 * 0.06;
   EXPECT_NEAR(student_p_value(2.228, 10), 0.05, bound);
   EXPECT_NEAR(student_p_value(2.042, 30), 0.05, bound);

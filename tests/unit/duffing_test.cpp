@@ -1,4 +1,4 @@
-// The Duffing oscillator: cases of the thesis, phase curve, periods, exact solution in time.
+// The Duffing oscillator: cases of Gross1999, phase curve, periods, exact solution in time.
 #include "hamflow/problems/duffing.hpp"
 
 #include "../support/exact_motion.hpp"

@@ -171,7 +171,7 @@ TEST(EnergyBlocks, TheStateIsAllThereIs) {
 }
 
 TEST(Hash, IsFnv1a) {
-  // The published test vectors of "" and "a".   [RFC 9923, appendix C]
+  // The published test vectors of "" and "a".   [RFC9923, appendix C]
   EXPECT_EQ(hash_of({}), 0xcbf29ce484222325u);
   EXPECT_EQ(hash_of({std::byte{'a'}}), 0xaf63dc4c8601ec8cu);
 }

@@ -1,7 +1,7 @@
 // Multiple precision with a number of digits chosen at run time, by MPFR.
-// The digits are a property of the thread: what computes in Mp stands inside an MpDigits scope, and every number made
-// there, results included, has those digits. Operations are compiled once (src/arithmetic/mp.cpp): a call is nothing
-// beside them, and problems compile faster for it.
+// The digits are a property of the thread: code that computes in Mp runs inside an MpDigits scope, and every number
+// made there, results included, has those digits. Operations are compiled once (src/arithmetic/mp.cpp): a call is
+// nothing beside them, and problems compile faster for it.
 #pragma once
 
 #include <mpfr.h>

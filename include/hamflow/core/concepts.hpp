@@ -1,4 +1,4 @@
-// What a problem can offer, and what a method may ask for. A method that asks for more than a problem offers does not
+// What a problem can offer, and what a method may require. A method that requires more than a problem offers does not
 // compile, and the message names the missing capability (tests/compile_fail).
 #pragma once
 
@@ -23,7 +23,7 @@ concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real 
   { A::exact_undo } -> std::convertible_to<bool>;  // add(s, r); add(s, -r); restores every bit of s
 };
 
-/// **IntegerSums**: stored are integers, so that contributions, each rounded, can be summed without rounding: the sum
+/// **IntegerSums**: integers are stored, so that contributions, each rounded, are summed without rounding, and the sum
 /// does not depend on their order.
 template <class A>
 concept IntegerSums = Arithmetic<A> && std::integral<typename A::Stored> &&
@@ -82,7 +82,7 @@ template <class P>
 concept Differentiable = Problem<P> &&
     (Separable<P> || HasGradient<P> || (detail::OfFixedSize<P> && detail::HasEnergy<P, detail::EnergyDual<P>>));
 
-/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M. The problem declares it: `quadratic_kinetic = true`.
+/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M, declared by `quadratic_kinetic = true`.
 template <class P>
 concept QuadraticKinetic = Separable<P> && requires {
   requires P::quadratic_kinetic;
@@ -103,7 +103,7 @@ concept Smooth = Differentiable<P> &&
       (HasGradient<P, detail::EnergyDual<P>> || detail::HasParts<P, Dual<GradientDual<P>, P::dimension>> ||
        detail::HasEnergy<P, Dual<detail::EnergyDual<P>, 2 * P::dimension>>)));
 
-/// **PairwiseForces**: V is a sum over pairs, and a kick can be had pair by pair, as a function of differences of
+/// **PairwiseForces**: V is a sum over pairs, and a kick is computed pair by pair, as a function of differences of
 /// coordinates. pair_kicks(factor, difference, first, last, sink) visits the pairs of the rows first .. last - 1 and
 /// calls sink(a, b, r) where factor times the pair's force adds r to p_a and subtracts it from p_b.
 template <class P>
@@ -115,7 +115,7 @@ concept PairwiseForces = Separable<P> && requires(const P& problem, const typena
   problem.pair_kicks(factor, difference, row, row, sink);
 };
 
-/// **PairwiseGradients**: the same of V'' v, for kicks with force gradient.
+/// **PairwiseGradients**: the same for V'' v, in kicks with force gradient.
 template <class P>
 concept PairwiseGradients = PairwiseForces<P> &&
     requires(const P& problem, const typename P::Real& factor,

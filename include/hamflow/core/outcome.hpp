@@ -1,4 +1,4 @@
-// What a step, a block of steps or a whole run came to. Numerical trouble is a value, never an exception in a loop.
+// How a step, a block of steps or a whole run ended. Numerical trouble is a value, never an exception in a loop.
 #pragma once
 
 #include <string_view>
@@ -6,8 +6,8 @@
 namespace hamflow {
 
 enum class [[nodiscard]] Outcome{
-    done,             // every step asked for was taken
-    stopped,          // an observer asked to stop, at a step boundary
+    done,             // every requested step was taken
+    stopped,          // an observer requested a stop, at a step boundary
     not_converged,    // an implicit step found no solution; the state is that before the step
     non_finite,       // energy or state became infinite or NaN; the state is the last finite one
     lattice_overflow  // the lattice lost its range; the state is the last one inside

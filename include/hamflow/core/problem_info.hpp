@@ -11,26 +11,13 @@
 #include <vector>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/vector.hpp"
 
 namespace hamflow {
 
-enum class Range { any, positive, not_negative, count };  // count: a whole number from 1
-
-enum class ParameterKind { number, list, number_or_list };
-
-struct ParameterInfo {
-  std::string name;
-  std::string default_value;  // a number expression, or "[...]"; empty: it need not be given, and has no default
-  std::string meaning;
-  Range range = Range::any;  // of each number
-  ParameterKind kind = ParameterKind::number;
-  std::size_t length = 0;  // of a list; 0: any from 1
-  bool required = false;
-};
-
-/// Values by name, as texts: every arithmetic reads its own digits.
-using Texts = std::map<std::string, std::string>;
+/// A parameter of a problem is an option like any other; its default is a formula of numbers or "[...]".
+using ParameterInfo = OptionInfo;
 
 /// How many numbers an invariant has: one, one for each dimension of space, or as many as space has rotations.
 enum class Components { one, space, rotations };
@@ -139,7 +126,7 @@ inline std::vector<std::string> list_parts(const std::string& text) {
   return parts;
 }
 
-/// Values by name, read in R from the text that was given, so that every arithmetic reads its own digits.
+/// Values by name, read in R from the given text, so that every arithmetic reads its own digits.
 template <class R>
 class Parameters {
  public:
@@ -185,7 +172,7 @@ using OrbitFacts = std::vector<std::pair<std::string, std::variant<double, std::
 
 /// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
 struct Condition {
-  std::string key;        // the scenario key to blame
+  std::string key;        // the scenario key at fault
   std::string statement;  // e.g. "r_per <= r_aph"
   double left = 0;
   double right = 0;
@@ -193,7 +180,7 @@ struct Condition {
   bool holds() const { return strict ? left < right : left <= right; }
 };
 
-/// The conditions of one start, in the order in which they were asked.
+/// The conditions of one start, in the order in which they were stated.
 class Conditions {
  public:
   template <class R>

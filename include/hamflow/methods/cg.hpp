@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "hamflow/core/capability.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/methods/element/cyclic.hpp"
 #include "hamflow/methods/element/general.hpp"
@@ -184,6 +185,9 @@ class ContinuousGalerkin {
 struct Cg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
+  static constexpr bool typed = true;
+  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic, Capability::cyclic,
+                                         Capability::smooth};
   template <class P>
   static constexpr bool accepts = Smooth<P>;
   CgOptions options{};

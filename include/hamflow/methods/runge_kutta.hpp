@@ -97,7 +97,7 @@ class RungeKutta {
       z.move(sum_q);
       z.push(sum_p);
     }
-    // The last stage by itself: the next step waits for it, and for nothing else.
+    // The last stage is added by itself: the next step waits for it, and for nothing else.
     const Base weight = h * Tableau.b[stages - 1].template as<Base>();
     z.move(weight, dq[stages - 1]);
     z.push(weight, dp[stages - 1]);
@@ -141,6 +141,7 @@ struct RungeKuttaBy {
   static constexpr bool accepts = Differentiable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = false;
+  static constexpr bool typed = true;
   template <class P, class A>
   using Stepper = RungeKutta<P, A, Tableau>;
   template <class P, class A>

@@ -14,7 +14,7 @@ namespace detail {
 template <class R>
 inline constexpr bool is_hardware = std::is_floating_point_v<R>;
 
-/// b <- m^-1 b for a matrix of `size` rows and a right side of so many columns, both row after row. LU with partial
+/// b <- m^-1 b for a matrix of `size` rows and a right side of `columns` columns, both row by row. LU with partial
 /// pivoting, compiled once (src/numerics/dense.cpp). A singular m shows as entries that are not finite.
 void solve_large(const double* m, double* b, std::size_t size, std::size_t columns);
 void solve_large(const long double* m, long double* b, std::size_t size, std::size_t columns);

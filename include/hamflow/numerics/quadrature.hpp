@@ -1,5 +1,5 @@
 // Double exponential quadrature to rounding, for integrands that are analytic inside the interval; at its ends they may
-// be singular as long as they are integrable.   [Takahasi, Mori 1974]   With x = L/(1 + exp(-pi sinh t)) the
+// be singular as long as they are integrable.   [TakahasiMori1974]   With x = L/(1 + exp(-pi sinh t)) the
 // trapezoidal rule in t converges exponentially, its error is squared when the step is halved.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2.   [spec: product, section 3]
+// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2.
 // Every symmetric method gains an order here or there: never measure an order on it. The orbit is exact:
 // q(t) = q0 cos(omega t) + p0/(m omega) sin(omega t).
 #pragma once

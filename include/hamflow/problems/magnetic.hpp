@@ -40,7 +40,7 @@ class Magnetic {
                            {.name = "field",
                             .default_value = "[0, 0, 1]",
                             .meaning = "B, uniform",
-                            .kind = ParameterKind::list,
+                            .type = OptionType::list,
                             .length = 3}},
             .invariants = {{"angular_momentum", "e B.(x x p)/(e |B|): the component along the field", Components::one,
                             Terms::moments},

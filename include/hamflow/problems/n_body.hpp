@@ -21,7 +21,7 @@ class NBody : public Gravity<R> {
             .parameters = {{.name = "masses",
                             .meaning = "one for each body",
                             .range = Range::positive,
-                            .kind = ParameterKind::list,
+                            .type = OptionType::list,
                             .required = true},
                            {"gravitational_constant", "1", "G"},
                            {"softening", "0", "length", Range::not_negative}},

@@ -15,8 +15,8 @@
 
 namespace hamflow {
 
-/// A problem that lanes can take: separable, of fixed size, and nothing but numbers. One that asks how large a number
-/// of the state is (lanes would answer differently) says `static constexpr bool lanes = false`.
+/// A problem that lanes can take: separable, of fixed size, and nothing but numbers. One that compares a number
+/// of the state (lanes would answer differently) declares `static constexpr bool lanes = false`.
 template <class P>
 concept LaneProblem =
     Separable<P> && P::dimension != dynamic&& std::is_trivially_copyable_v<P> && !(requires { requires !P::lanes; });
@@ -167,7 +167,7 @@ class EnsembleBlockOf final : public EnsembleBlock {
     w.regular.keep_where_finite(error);
     if constexpr (has_invariants) {
       static_assert(!HasInvariantSizes<P>,
-                    "hamflow: lanes know invariants of one component each; say static constexpr bool lanes = false");
+                    "hamflow: lanes know invariants of one component each; declare static constexpr bool lanes = false");
       const Invariants values = invariants_of(problem, z);
       for (std::size_t k = 0; k < values.size(); ++k) {
         w.worst[k] = larger(w.worst[k], abs(values[k] - w.initial[k]));

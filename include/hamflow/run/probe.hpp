@@ -65,8 +65,8 @@ class ConservationProbe {
       worst_ = zeros_like(initial_);
     }
   }
-  /// False where the energy is not finite. With all it calls it belongs into the loop over steps, where its square
-  /// roots and divisions hide behind those of the step.
+  /// False where the energy is not finite. It is inlined with all that it calls into the loop over steps, where its
+  /// square roots and divisions overlap with those of the step.
   template <std::size_t N>
   [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
                              [[maybe_unused]] const R& t) {

@@ -11,13 +11,14 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/step_clock.hpp"
+#include "hamflow/methods/recipe.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/simulation.hpp"
 
 namespace hamflow {
 
 namespace detail {
-// What saving and restoring say, compiled once and not in every simulation.
+// The messages of saving and restoring, compiled once and not in every simulation.
 inline std::string arithmetic_kind(std::string_view name, int digits) {
   return std::string(name) + " in " + std::to_string(digits) + " bits";
 }
@@ -53,7 +54,7 @@ concept Method = Problem<P> && Arithmetic<A> &&
 template <class P, class M, Arithmetic A, class Probe = ConservationProbe<P, typename A::Real>>
 class SimulationOf final : public Simulation {
  public:
-  static_assert(Method<M, P, A>, "hamflow: this type is no Method for this problem and arithmetic");
+  static_assert(Method<M, P, A>, "hamflow: this type is not a Method for this problem and arithmetic");
   using Real = typename A::Real;
   static constexpr std::size_t n = P::dimension;
 
@@ -197,7 +198,7 @@ class SimulationOf final : public Simulation {
       return detail::kind_of("a problem", {}, method_.info().name, arithmetic);
     }
   }
-  /// A method without archive() remembers nothing.
+  /// A method without archive() has no memory.
   template <class Archive, class Self>
   [[gnu::cold]] static void archive(Archive& ar, Self& self) {
     ar(self.z_, self.clock_, self.probe_, self.initial_energy_, self.scale_);
@@ -311,27 +312,17 @@ class SimulationOf final : public Simulation {
   Real scale_{};
 };
 
-/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
-/// the plain type of the problem unless asked.
-template <class Recipe>
-constexpr bool always_compensated() {
-  if constexpr (requires { Recipe::compensated; }) {
-    return Recipe::compensated;
-  } else {
-    return Recipe::implicit;
-  }
-}
-template <class P, class Recipe>
-using DefaultArithmetic = std::conditional_t<always_compensated<Recipe>(), Compensated<RealOf<P>>, Plain<RealOf<P>>>;
+template <class P, class M>
+using DefaultArithmetic = std::conditional_t<always_compensated<M>(), Compensated<RealOf<P>>, Plain<RealOf<P>>>;
 
 /// A simulation whose method is a type: everything is inlined into one loop.
 ///     auto orbit = hamflow::simulate(problem, Composition<compositions::stv4>{}, {0.4, 0}, {0, 2}, 0.1);
 /// @param q, p canonical start   @param h step length
 /// @tparam Watch false drops the probe that looks at energy and invariants in every step
-template <bool Watch = true, class P, class Recipe, class A = DefaultArithmetic<P, Recipe>>
-auto simulate(const P& problem, const Recipe& recipe, const Vector<typename A::Real, P::dimension>& q,
+template <bool Watch = true, class P, MethodRecipe Method, class A = DefaultArithmetic<P, Method>>
+auto simulate(const P& problem, const Method& recipe, const Vector<typename A::Real, P::dimension>& q,
               const Vector<typename A::Real, P::dimension>& p, typename A::Real h, A arithmetic = {}) {
-  using M = typename Recipe::template Stepper<P, A>;
+  using M = typename Method::template Stepper<P, A>;
   using Probe = std::conditional_t<Watch, ConservationProbe<P, typename A::Real>, NoProbe>;
   return SimulationOf<P, M, A, Probe>(problem, recipe.template bind<P, A>(problem), q, p, h, arithmetic);
 }

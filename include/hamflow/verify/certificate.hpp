@@ -1,5 +1,5 @@
 // **Certificate**: what a run, or a method, was seen to keep: the class of its energy drift, its momentum maps, and how
-// far it comes back when time is reversed.   [spec: methods, section 1]
+// far it comes back when time is reversed.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +69,7 @@ struct Reversal {
   std::uint64_t start_hash = 0, turn_hash = 0, end_hash = 0;  // of the stored bits
 };
 
-/// FNV-1a, 64 bits.   [Fowler, Noll, Vo, RFC 9923]
+/// FNV-1a, 64 bits.   [RFC9923]
 std::uint64_t hash_of(const std::vector<std::byte>& bits);
 
 /// @param pulse called between blocks with the steps taken both ways; returns false to stop
@@ -84,7 +84,7 @@ std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps);
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request);
 
-/// What is told of a run.
+/// What is reported of a run.
 struct RunCertificate {
   RunDrift drift;
   double energy_level = 0;  // max |H - H0|/scale over every step

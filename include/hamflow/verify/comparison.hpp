@@ -1,4 +1,4 @@
-// **Comparison** of methods on one run: what accuracy costs.   [spec: product, section 2, hamflow compare]
+// **Comparison** of methods on one run: what accuracy costs.
 // Each method goes the same way with several steps; the error at the end is measured against the closed form where
 // there is one, else against a method of another family.
 #pragma once
@@ -22,7 +22,7 @@ struct ComparisonRequest {
   std::vector<std::int64_t> steps;  // to t_end, one for each dt
 };
 
-/// The end state that is taken to be right.
+/// The end state that errors are measured against.
 struct ReferenceSolution {
   std::string kind;  // "closed form", "extrapolation"
   std::string description;

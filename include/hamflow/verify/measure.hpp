@@ -1,4 +1,4 @@
-// The property table, measured: what a method claims of itself beside what its step does.   [spec: methods, section 1]
+// The property table, measured: what a method claims beside what its step was measured to do.
 //     order                     slope of the global error against a reference of another family, in long double
 //     symplectic                |Psi'^T J Psi' - J|, Psi' exact
 //     weakly time-reversible    |S Psi_-h S z - Psi_h z|
@@ -75,7 +75,7 @@ struct CostMeasurement {
 struct Measurement {
   std::string problem;
   OrderMeasurement order;
-  DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step: does it belong to it?
+  DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step
   DefectMeasurement symplectic, weakly_reversible, symmetric, reversible;
   bool even_in_momenta = true;  // H(q, -p) = H(q, p): else the motion itself is not reversed with the momenta
   EnergyMeasurement energy;

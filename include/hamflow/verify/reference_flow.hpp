@@ -1,6 +1,6 @@
 // The exact flow to rounding, by a family of its own: Gragg's modified midpoint rule extrapolated in h^2
-// (Aitken-Neville), with step control. Slow and accurate; it knows nothing of the methods it judges.   [Hairer,
-// Norsett, Wanner 1993, II.9]   What is extrapolated is the increment of a step, not the state: its rounding is then
+// (Aitken-Neville), with step control. Slow and accurate; it knows nothing of the methods it judges.   [HNW1993,
+// II.9]   What is extrapolated is the increment of a step, not the state: its rounding is then
 // relative to the increment, and the state takes it with compensation.
 #pragma once
 

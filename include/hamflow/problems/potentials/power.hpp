@@ -1,4 +1,4 @@
-// Sum of powers V(r) = sum_i a_i r^(n_i + 1), the force -(n_i + 1) a_i r^n_i.   [Gross1999, Sect. 2.5; spec: product]
+// Sum of powers V(r) = sum_i a_i r^(n_i + 1), the force -(n_i + 1) a_i r^n_i.   [Gross1999, Sect. 2.5]
 // n real, not -1. As a function of u = r^2: W(u) = sum a u^e with e = (n + 1)/2; whole and half exponents are products
 // and square roots, the others powers.
 #pragma once
@@ -25,11 +25,11 @@ class Power {
         .reference = "Gross1999, Sect. 2.5",
         .parameters = {{.name = "a",
                         .meaning = "strengths, a number or a list as long as n",
-                        .kind = ParameterKind::number_or_list,
+                        .type = OptionType::number_or_list,
                         .required = true},
                        {.name = "n",
                         .meaning = "exponents of the force, real, not -1",
-                        .kind = ParameterKind::number_or_list,
+                        .type = OptionType::number_or_list,
                         .required = true}},
         .starts = {start_by_energy({{"energy", "0.5"}, {"angular_momentum", "1"}})},
         .region = {

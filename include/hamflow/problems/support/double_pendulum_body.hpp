@@ -34,10 +34,10 @@ struct DoublePendulumBody {
                            given["gravity"]) {}
 
   static std::vector<ParameterInfo> parameters() {
-    return {{"masses", "[1, 1]", "m1, m2, in the middles of the rods", Range::positive, ParameterKind::list, 2},
-            {"half_lengths", "[1, 1]", "l1, l2: the rods have lengths 2 l", Range::positive, ParameterKind::list, 2},
+    return {{"masses", "[1, 1]", "m1, m2, in the middles of the rods", Range::positive, OptionType::list, 2},
+            {"half_lengths", "[1, 1]", "l1, l2: the rods have lengths 2 l", Range::positive, OptionType::list, 2},
             {"inertias", "[0, 0]", "theta1, theta2, of the rods about their middles", Range::not_negative,
-             ParameterKind::list, 2},
+             OptionType::list, 2},
             {"gravity", "9.81", "g"}};
   }
 

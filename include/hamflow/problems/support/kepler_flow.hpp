@@ -1,7 +1,7 @@
 // Exact motion in the potential V(r) = -k/r on every conic, by universal variables: with dt = r ds, kappa = k/mu,
 // beta = 2 kappa/r0 - v0^2 and eta = q0 . v0
 //     r(s) = r0 G0 + eta G1 + kappa G2,   t(s) = r0 G1 + eta G2 + kappa G3,   G_n = s^n c_n(beta s^2),
-// where c_n are Stumpff's functions.   [Danby 1988, Sect. 6.9; Rein, Tamayo 2015]   Nothing distinguishes ellipse,
+// where c_n are Stumpff's functions.   [Danby1988, Sect. 6.9; ReinTamayo2015]   Nothing distinguishes ellipse,
 // parabola and hyperbola; k < 0 repels. On a line (l = 0) the motion continues after the collision as the limit of
 // narrow ellipses does: it returns.
 #pragma once

@@ -7,7 +7,7 @@
 #include "hamflow/verify/monodromy.hpp"
 #include "recorder.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 class Measures {
  public:
@@ -29,4 +29,4 @@ std::vector<Complaint> refused_resumption(const Scenario& scenario);
 /// The Lyapunov exponents of a scenario without a run of its own, for the members of a sweep; NaN when a step fails.
 std::vector<double> exponents_of(const Scenario& scenario);
 
-}  // namespace hamflow::app
+}  // namespace hamflow

@@ -6,7 +6,7 @@
 
 #include "hamflow/numerics/inverse_cube.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 namespace {
 
@@ -119,4 +119,4 @@ void CheckpointWriter::write() {
   last_ = Clock::now();
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow

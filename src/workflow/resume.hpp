@@ -6,7 +6,7 @@
 
 #include "recorder.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 /// What differs between the scenario and the run that left the checkpoint. More steps may be asked for, fewer not; the
 /// folder, threads, figures and spacing of checkpoints change nothing in the run.
@@ -40,4 +40,4 @@ class CheckpointWriter final : public Observer {
   Clock::time_point last_ = begin_;
 };
 
-}  // namespace hamflow::app
+}  // namespace hamflow

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "hamflow/run/observer.hpp"
-#include "scenario.hpp"
+#include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
 

@@ -1,4 +1,4 @@
-#include "session.hpp"
+#include "hamflow/workflow/session.hpp"
 
 #include <algorithm>
 #include <cmath>

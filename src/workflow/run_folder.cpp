@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <fstream>
 
-namespace hamflow::app {
+namespace hamflow {
 
 namespace fs = std::filesystem;
 
@@ -53,4 +53,4 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!out) throw FileError("cannot write " + file.string());
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow

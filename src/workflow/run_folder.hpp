@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "scenario.hpp"
+#include "hamflow/scenario/scenario.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 /// `<scenario stem>.run` in the working directory, unless the scenario or the command line names another.
 std::filesystem::path folder_of(const Scenario& scenario, const std::string& out);
@@ -27,4 +27,4 @@ class FolderLock {
 /// Writes a text file. @throws FileError
 void write_text(const std::filesystem::path& file, const std::string& text);
 
-}  // namespace hamflow::app
+}  // namespace hamflow

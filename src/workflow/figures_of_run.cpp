@@ -1,14 +1,14 @@
-#include "figures_of_run.hpp"
+#include "hamflow/workflow/figures_of_run.hpp"
 
 #include <fmt/format.h>
 
 #include <sstream>
 
 #include "figure.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
-#include "scenario.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 namespace {
 
@@ -74,4 +74,4 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
   write_figure(data, !kind.empty() ? kind : usual, file);
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace hamflow::app {
+namespace hamflow {
 
 Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder, const Checkpoint* from)
     : scenario_(scenario), folder_(folder) {
@@ -37,7 +37,7 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
                                      .kernel = scenario.request.kernel,
                                      .dimension = scenario.start_q.size(),
                                      .invariants = invariants,
-                                     .diagnostics = scenario.request.method.cg.diagnostics,
+                                     .diagnostics = describe(scenario.request.method).diagnostics,
                                      .section = scenario.section.has_value(),
                                      .samples = static_cast<std::size_t>(sample_count(scenario))};
     const std::filesystem::path file = folder / "run.h5";
@@ -115,4 +115,4 @@ std::optional<std::string> Recorder::failed_at(std::int64_t step) const {
   return scenario_.record[written_];
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow

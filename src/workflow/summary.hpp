@@ -1,11 +1,11 @@
-// The summary of a run: what --json prints and summary.json holds.   [spec: product, section 4]
+// The summary of a run: what --json prints and summary.json holds.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
 #include "hamflow/run/simulation.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
-#include "scenario.hpp"
 
 namespace hamflow {
 

@@ -88,12 +88,7 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
 std::string hint_for(const Request& request, Outcome outcome) {
   switch (outcome) {
     case Outcome::not_converged:
-      if (request.method.name == "dop853" || request.method.name == "taylor") {
-        return "try a smaller dt, a larger method.tolerance" +
-               std::string(request.method.name == "taylor" ? " or another method.order" : "");
-      }
-      return std::string("try a smaller dt, ") + (request.method.cg.halve ? "" : "method.on_divergence = \"halve\", ") +
-             "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
+      return hint_after_divergence(request.method);
     case Outcome::non_finite:
       return "try a smaller dt: the energy in the samples before shows where it went wrong";
     case Outcome::lattice_overflow:
@@ -179,7 +174,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
                                   {"final", one ? Json(invariants[i].final[0]) : Json(invariants[i].final)},
                                   {"max_error", invariants[i].max_error}};
   }
-  if (scenario.request.method.cg.diagnostics && scenario.request.method.name == "cg") {
+  if (describe(scenario.request.method).diagnostics) {
     s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);
   }
   if (scenario.bodies) s["bodies"] = bodies_of(scenario, frame);

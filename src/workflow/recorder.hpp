@@ -8,10 +8,10 @@
 #include "checkpoint.hpp"
 #include "csv_file.hpp"
 #include "hamflow/run/observer.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
-#include "scenario.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 class Recorder final : public Observer {
  public:
@@ -50,4 +50,4 @@ class Recorder final : public Observer {
   std::optional<Sizes> before_the_end_;  // where the last sample is there only because the run ended
 };
 
-}  // namespace hamflow::app
+}  // namespace hamflow

@@ -1,10 +1,10 @@
 #include "measures.hpp"
 
-#include "hamflow/methods/splitting.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
+#include "hamflow/run/splitting_named.hpp"
 #include "hamflow/verify/lyapunov_of.hpp"
 
-namespace hamflow::app {
+namespace hamflow {
 
 namespace {
 
@@ -14,28 +14,16 @@ std::shared_ptr<const StepMap> step_map_of(const Scenario& scenario) {
   return scenario.problem->step_map(scenario.request.parameters, scenario.request.method, scenario.start_q.size());
 }
 
-/// Any composition or splitting, its table known at run time.
-struct TableOf {
-  static constexpr bool implicit = false;
-  const MethodEntry& entry;
-  template <class P, class A>
-  Splitting<P, A, Shape::any> bind(const P&) const {
-    if (entry.splitting != nullptr) {
-      return {sequence_of<double>(*entry.splitting), detail::describe_splitting, entry.splitting};
-    }
-    return {sequence_of<double>(*entry.composition, entry.starts_with), detail::describe_kick_first, entry.composition};
-  }
-};
-
 /// The problem whose chaos is mapped most, by a kernel of its own: a quarter of the time that a StepMap takes.
 std::optional<double> exponent_of_henon_heiles(const Scenario& scenario) {
-  const MethodEntry& method = find_method(scenario.request.method.name);
   if (scenario.request.problem != "henon-heiles") return std::nullopt;
-  if (method.composition == nullptr && method.splitting == nullptr) return std::nullopt;
+  const std::optional<AnySplitting> method = splitting_named(scenario.request.method.name);
+  if (!method) return std::nullopt;
   const HenonHeiles<double> problem{Parameters<double>(scenario.request.parameters)};
   const std::vector<double>& q = scenario.start_q;
   const std::vector<double>& p = scenario.start_p;
-  return largest_lyapunov(problem, TableOf{method}, {q[0], q[1]}, {p[0], p[1]}, scenario.dt, scenario.steps);
+  return largest_lyapunov(problem, TableRecipe<Shape::any>{*method}, {q[0], q[1]}, {p[0], p[1]}, scenario.dt,
+                          scenario.steps);
 }
 
 Json as_json(const LyapunovWatch& watch) {
@@ -129,4 +117,4 @@ std::vector<double> exponents_of(const Scenario& scenario) {
   }
 }
 
-}  // namespace hamflow::app
+}  // namespace hamflow
