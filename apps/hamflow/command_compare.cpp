@@ -11,6 +11,7 @@
 #include "progress.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
+#include "terminal.hpp"
 #include "work_precision.hpp"
 
 namespace hamflow::app {

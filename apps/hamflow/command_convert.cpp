@@ -8,6 +8,8 @@
 
 #include "commands.hpp"
 #include "coordinates.hpp"
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
 #include "run_copy.hpp"
 #include "run_file.hpp"
 #include "run_folder.hpp"
@@ -46,9 +48,7 @@ Json state_json(const std::string& system, const CanonicalState& state) {
 }
 
 std::string row(const std::vector<double>& numbers) {
-  std::string text;
-  for (const double x : numbers) text += fmt::format("{}{:.17g}", text.empty() ? "" : ", ", x);
-  return "[" + text + "]";
+  return "[" + joined(numbers, [](double x) { return fmt::format("{:.17g}", x); }) + "]";
 }
 
 std::vector<double> numbers_of(const std::string& option, const std::string& text) {
@@ -85,11 +85,11 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
   }
   if (scenario.section) {  // of a coordinate that is there no more
     edits.push_back({"run.section", {}});
-    std::string others;
-    for (const std::string& figure : scenario.figures) {
-      if (figure != "section") others += (others.empty() ? "\"" : ", \"") + figure + "\"";
-    }
-    if (!scenario.figures.empty()) edits.push_back({"output.figures", "[" + others + "]"});
+    std::vector<std::string> others = scenario.figures;
+    const FigureFacts without_section{.diagnostics = true, .section = false};
+    std::erase_if(others, [&](const std::string& kind) { return !refused_figure(kind, without_section).empty(); });
+    const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
+    if (!scenario.figures.empty()) edits.push_back({"output.figures", "[" + list + "]"});
   }
   return edited_scenario(scenario.text, edits);
 }

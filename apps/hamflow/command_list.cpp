@@ -1,4 +1,4 @@
-// hamflow list, hamflow show: the catalogue as its own declarations tell it.
+// hamflow list, hamflow show: the catalogue as it is declared.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "figure_kinds.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "option_text.hpp"
@@ -40,9 +41,7 @@ bool show_table(const std::string& name) {
 }
 
 std::string variant_text(const ProblemInfo& info) {
-  std::string text;
-  for (const auto& [key, value] : info.variant) text += (text.empty() ? "" : ", ") + key + " = \"" + value + "\"";
-  return text;
+  return joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
 }
 
 void show_problem(const ProblemEntry& entry) {
@@ -130,11 +129,18 @@ int show_entry(const std::string& name) {
     found = true;
   }
   if (found || show_table(name)) return exit_done;
+  for (const FigureKindInfo& kind : figure_kinds()) {
+    names.push_back(kind.name);
+    if (kind.name != name) continue;
+    std::cout << fmt::format("{}\n  a figure: {}\n  hamflow plot RUN --kind {}; output.figures of a scenario\n", name,
+                             kind.meaning, name);
+    return exit_done;
+  }
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
   const std::string method = name.substr(0, name.find('('));
   if (std::find(names.begin(), names.end(), method) == names.end()) {
-    std::cerr << "error: there is no problem or method '" << name << "'" << suggestion(method, names)
+    std::cerr << "error: there is no problem, method or figure '" << name << "'" << suggestion(method, names)
               << " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)\n";
     return exit_rejected;
   }

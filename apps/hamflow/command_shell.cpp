@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "csv_file.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "progress.hpp"
 #include "run_file.hpp"
@@ -304,9 +305,7 @@ class Shell {
     if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
     if (value.is_object()) return "step " + text_of(value["step"]) + ": " + text_of(value["what"]);
     if (!value.is_array()) return value.dump();
-    std::string all;
-    for (const Json& each : value) all += (all.empty() ? "" : ", ") + text_of(each);
-    return "[" + all + "]";
+    return "[" + joined(value, text_of) + "]";
   }
 
   void show(const std::string& topic) const {
@@ -318,8 +317,8 @@ class Shell {
       std::cout << all.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
       return;
     }
-    std::string line;
-    for (const auto& [key, value] : all.items()) line += (line.empty() ? "" : "  ") + key + " = " + text_of(value);
+    const auto pair = [](const auto& item) { return item.key() + " = " + text_of(item.value()); };
+    const std::string line = joined(all.items(), pair, "  ");
     std::cout << (line.empty() ? "none" : line) << '\n';
   }
 

@@ -14,7 +14,7 @@
 #include "run_folder.hpp"
 #include "summary.hpp"
 #include "sweep_table.hpp"
-#include "work_precision.hpp"
+#include "terminal.hpp"
 
 namespace hamflow::app {
 
@@ -53,7 +53,7 @@ LaneSet lanes_named(const std::string& name) {
               suggestion(name, allowed));
 }
 
-std::size_t count(const Sweep& sweep, MemberStatus status) {
+std::size_t count(const Sweep& sweep, Outcome status) {
   return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(),
                                                 [&](const MemberRow& row) { return row.status == status; }));
 }
@@ -84,7 +84,7 @@ Json row_of(const Sweep& sweep, std::size_t member) {
   }
   json["status"] = std::string(name(row.status));
   json["steps"] = row.steps;
-  if (row.status == MemberStatus::not_run) return json;
+  if (row.status == Outcome::not_run) return json;
   json["final"] = {{"t", row.t}, {"q", row.q}, {"p", row.p}};
   json["energy"] = {{"initial", row.energy.initial},
                     {"final", row.energy.final},
@@ -105,8 +105,8 @@ Json row_of(const Sweep& sweep, std::size_t member) {
 }
 
 Json summary_of(const Sweep& sweep, double seconds, bool interrupted) {
-  const std::size_t done = count(sweep, MemberStatus::done);
-  const std::size_t unfinished = count(sweep, MemberStatus::interrupted) + count(sweep, MemberStatus::not_run);
+  const std::size_t done = count(sweep, Outcome::done);
+  const std::size_t unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
   const std::size_t failed = sweep.members() - done - unfinished;
   std::int64_t steps = 0;
   for (const MemberRow& row : sweep.rows()) steps += row.steps;
@@ -187,7 +187,7 @@ void save(const Sweep& sweep, const fs::path& folder, const Json& summary) {
 }
 
 /// Empty if the figure can be drawn, else what is wrong with the request for it.
-std::string refused_figure(const Sweep& sweep, const SweepCommandOptions& options) {
+std::string refused_map(const Sweep& sweep, const SweepCommandOptions& options) {
   if (options.figure.empty()) return {};
   const std::string wrong = refused_figure_file(options.figure);
   if (!wrong.empty()) return "--figure: error: " + wrong;
@@ -320,7 +320,7 @@ int run_sweep(const SweepCommandOptions& options) {
     how.observables = exponents_asked_for(text, options, varied);
     Sweep sweep(text, options.scenario, options.sets, varied, how);
     if (!sweep.complaints().empty()) return rejected(options, sweep.complaints());
-    const std::string figure = refused_figure(sweep, options);
+    const std::string figure = refused_map(sweep, options);
     if (!figure.empty()) return rejected(options, {figure});
     return carry_out(sweep, options);
   } catch (const FileError& error) {

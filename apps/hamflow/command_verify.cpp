@@ -23,6 +23,20 @@ std::vector<hamflow::MethodSpec> methods_of(const VerifyOptions& options) {
   return specs;
 }
 
+/// The problem as a scenario means it by default; where a method cannot run there, in the first variant where all can.
+hamflow::Region region_for(const std::string& problem, const std::vector<hamflow::MethodSpec>& specs) {
+  const auto accepted = [&](const hamflow::ProblemEntry& entry) {
+    return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
+  };
+  if (!accepted(hamflow::usual_problem(problem))) {
+    for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
+      if (entry.info.name != problem || !accepted(entry)) continue;
+      return hamflow::region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});
+    }
+  }
+  return hamflow::region_of(problem);
+}
+
 /// The rows in the order of the methods, measured on all cores.
 std::vector<hamflow::PropertyRow> measure_all(const std::vector<hamflow::MethodSpec>& specs,
                                               const std::vector<hamflow::Region>& given) {
@@ -50,7 +64,7 @@ int run_verify(const VerifyOptions& options) {
   try {
     specs = methods_of(options);
     if (specs.empty()) throw hamflow::Error("verify needs at least one METHOD, or --all");
-    if (!options.problem.empty()) regions = {hamflow::region_of(options.problem)};
+    if (!options.problem.empty()) regions = {region_for(options.problem, specs)};
     for (const hamflow::Region& region : regions) {
       for (const hamflow::MethodSpec& spec : specs) (void)hamflow::step_map_on(region, spec);  // throws where refused
     }

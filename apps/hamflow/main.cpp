@@ -8,6 +8,8 @@
 #include "command_verify.hpp"
 #include "commands.hpp"
 #include "coordinates.hpp"
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "summary.hpp"
 
@@ -58,9 +60,9 @@ int main(int argc, char** argv) {
       add(app, "plot", "Draw a figure of a run, also of one that goes on or was cut short",
           "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n");
   plot_command->add_option("run", plot.run, "the folder of a run, or its run.h5")->required()->type_name("RUN");
-  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase, condition, section")
+  plot_command->add_option("--kind", plot.kind, hamflow::joined(hamflow::figure_names()))
       ->type_name("KIND")
-      ->check(CLI::IsMember({"orbit", "energy", "energy-error", "phase", "condition", "section"}));
+      ->check(CLI::Validator(hamflow::unknown_figure, "", ""));
   plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
       ->required()
       ->type_name("FILE");

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <span>
 
+#include "figure_kinds.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "method_keys.hpp"
@@ -113,7 +114,9 @@ int main() {
   text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);
   for (const DeclaredTable& declared : declared_tables()) text += "## [" + declared.name + "]\n\n" + table(declared.keys);
-  text += "## Arithmetics\n\n" + joined(arithmetics()) + ".\n\n";
+  text += "## Figures\n\n| kind | what is drawn |\n|---|---|\n";
+  for (const FigureKindInfo& kind : figure_kinds()) text += "| `" + kind.name + "` | " + cell(kind.meaning) + " |\n";
+  text += "\n## Arithmetics\n\n" + joined(arithmetics()) + ".\n\n";
   text += "## What --resume may change\n\n";
   for (const DeclaredTable& declared : declared_tables()) {
     for (const OptionInfo& key : declared.keys) {

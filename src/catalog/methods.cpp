@@ -57,7 +57,7 @@ MethodInfo describe(const MethodSpec& spec) {
 
 std::string hint_after_divergence(const MethodSpec& spec) {
   const MethodFamily& family = *find_method(spec.name).family;
-  return family.hint ? family.hint(spec.options) : "try a smaller dt";
+  return family.hint ? family.hint(spec.options) : std::string(hint(Outcome::not_converged));
 }
 
 std::optional<AnySplitting> splitting_named(const std::string& name) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "figure_names_tmp.hpp"
+#include "figure_kinds.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "figure_kinds.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/core/text.hpp"
@@ -333,7 +334,9 @@ class TemplateWriter {
   void write_output() {
     page_.section("output");
     for (OptionInfo key : declared_table(output_table).keys) {
-      if (key.name == output_keys().figures.name && problem_.dimension == 1) std::erase(key.words, "orbit");
+      if (key.name == output_keys().figures.name) {
+        key.words = drawable_figures({.degrees_of_freedom = problem_.dimension});
+      }
       write_option(key, key.name == output_keys().formats.name);
     }
   }

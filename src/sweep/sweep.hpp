@@ -16,12 +16,9 @@
 
 namespace hamflow {
 
-enum class MemberStatus { done, interrupted, not_converged, non_finite, lattice_overflow, not_run };
-std::string_view name(MemberStatus status);
-
 /// The result of a member; of one that failed, its last good state.
 struct MemberRow {
-  MemberStatus status = MemberStatus::not_run;
+  Outcome status = Outcome::not_run;
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;

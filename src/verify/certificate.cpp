@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "hamflow/verify/counter_random.hpp"
+#include "rounding.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t seed = 1686;  // any number: the places of the samples are part of the result
 
 /// In the first half of the k-th block, where it still is when two blocks become one.

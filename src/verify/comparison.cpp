@@ -8,10 +8,11 @@
 #include <ctime>
 #include <limits>
 
+#include "rounding.hpp"
+
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 using Long = long double;
 
 Frame start_of(const ComparisonRequest& asked, const ProblemEntry& problem) {
@@ -132,10 +133,7 @@ Timing timed(const Request& request, std::int64_t steps, const std::function<boo
 std::string reason_of(const Simulation& simulation, Outcome outcome) {
   Frame frame;
   simulation.look(frame);
-  const std::string why = outcome == Outcome::not_converged      ? simulation.failure()
-                          : outcome == Outcome::non_finite       ? "the energy or the state became infinite or NaN"
-                          : outcome == Outcome::lattice_overflow ? "a number left the range of the lattice"
-                                                                 : std::string(name(outcome));
+  const std::string why = outcome == Outcome::not_converged ? simulation.failure() : std::string(message(outcome));
   return fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time), why);
 }
 }  // namespace

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
@@ -128,11 +129,11 @@ bool PropertyRow::agrees() const {
 }
 
 std::string PropertyRow::differing() const {
-  std::string all;
+  std::vector<std::string> properties;
   for (const PropertyCell& c : cells) {
-    if (c.agrees != Finding::yes) all += (all.empty() ? "" : ", ") + c.property;
+    if (c.agrees != Finding::yes) properties.push_back(c.property);
   }
-  return all;
+  return joined(properties);
 }
 
 const PropertyCell& PropertyRow::operator[](std::string_view property) const {

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "certificate_json.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 
 namespace hamflow {
@@ -85,25 +86,18 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   return Json{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};
 }
 
+/// The hint of the outcome, and what method and problem add to it.
 std::string hint_for(const Request& request, Outcome outcome) {
-  switch (outcome) {
-    case Outcome::not_converged:
-      return hint_after_divergence(request.method);
-    case Outcome::non_finite:
-      return "try a smaller dt: the energy in the samples before shows where it went wrong";
-    case Outcome::lattice_overflow:
-      return fmt::format(
-          "a position or momentum left the range of 2^62 lattice units: give larger powers of two in run.lattice, e.g. "
-          "{{ position = \"2^{}\", momentum = \"2^{}\" }}{}",
-          std::ilogb(request.position_unit) + 8, std::ilogb(request.momentum_unit) + 8,
-          find_problem(request.problem, request.variant).has_pairwise_forces
-              ? "; if two bodies met, a smaller dt or a softening"
-              : "");
-    case Outcome::done:
-    case Outcome::stopped:
-      break;
+  if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
+  std::string text(hint(outcome));
+  if (outcome == Outcome::lattice_overflow) {
+    text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
+                        std::ilogb(request.momentum_unit) + 8);
+    if (find_problem(request.problem, request.variant).has_pairwise_forces) {
+      text += "; if two bodies met, a smaller dt or a softening";
+    }
   }
-  return {};
+  return text;
 }
 
 /// What was computed is kept; here is how to look at it and how to go on.
@@ -117,23 +111,19 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
             {"message", result.file_trouble},
             {"hint", "make room, or write elsewhere with --out; the samples up to the last flush are kept"}};
   }
-  std::string message = result.failure;
-  if (result.outcome == Outcome::non_finite) message = "the energy or the state became infinite or NaN";
-  if (result.outcome == Outcome::lattice_overflow) message = "a number left the range of the lattice";
+  const bool own_words = result.outcome == Outcome::not_converged && !result.failure.empty();
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
-  message = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time), message);
+  const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
+                                       own_words ? result.failure : std::string(message(result.outcome)));
   return {{"kind", std::string(name(result.outcome))},
           {"step", step},
           {"t", frame.time},
-          {"message", message},
+          {"message", text},
           {"hint", hint_for(request, result.outcome)}};
 }
 }  // namespace
 
-std::string status_of(Outcome outcome) {
-  if (outcome == Outcome::done) return "done";
-  return outcome == Outcome::stopped ? "interrupted" : "failed";
-}
+std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
 
 Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                 const RunCertificate* certificate) {
@@ -273,11 +263,7 @@ std::string readable(const Json& s) {
     if (x.is_string()) return x.get<std::string>();
     return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
   };
-  const auto list = [&](const Json& xs) {
-    std::string all;
-    for (const Json& x : xs) all += (all.empty() ? "" : ", ") + number(x);
-    return all;
-  };
+  const auto list = [&](const Json& xs) { return joined(xs, number); };
   const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
   const auto watched = [&](const Json& x) {
     return fmt::format("{} -> {}, at most {:.3g} off", shown(x["initial"]), shown(x["final"]),

@@ -367,7 +367,7 @@ TEST(Archive, EveryKindOfFieldComesBack) {
   EXPECT_TRUE(std::isnan(in.x));
   EXPECT_EQ(in.y, out.y);
   EXPECT_TRUE(in.flag);
-  EXPECT_EQ(name(in.outcome), "stopped");
+  EXPECT_EQ(in.outcome, out.outcome);
   EXPECT_EQ(in.text, out.text);
   EXPECT_EQ(in.lists, out.lists);
   EXPECT_EQ(in.pair, out.pair);

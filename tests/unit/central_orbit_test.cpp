@@ -5,6 +5,9 @@
 #include <string>
 
 #include "../support/near.hpp"
+#include "hamflow/arithmetic/double_double.hpp"
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/problems/potentials/binomial.hpp"
 #include "hamflow/problems/potentials/hooke.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
@@ -116,7 +119,7 @@ L condition(const Flow& flow, const Start<R, 2>& z, L t) {
 // ---- quadrature and roots ----
 
 TEST(Quadrature, IsExactToRoundingWithSingularEndsToo) {
-  const auto expect = [](const Integral<L>& found, L exact, L roundings) {
+  const auto expect = [](const Integral& found, L exact, L roundings) {
     EXPECT_TRUE(within(found.value, exact, roundings * long_epsilon * abs(exact)));
     EXPECT_LE(found.error, 1e3L * long_epsilon * abs(exact));
   };
@@ -138,16 +141,30 @@ TEST(Quadrature, ReportsWhatItCannotReach) {
 }
 
 TEST(BracketedRoot, FindsRootsToRoundingInWideBrackets) {
-  const auto root = [](auto f, auto slope, L a, L b) {
-    return bracketed_root([&](L x) { return ValueAndSlope<L>{f(x), slope(x)}; }, a, b, f(a) > 0);
+  const auto infinity = std::numeric_limits<L>::infinity();
+  // The values at the ends known, and only their signs: f is then evaluated strictly between them.
+  const auto expect_root = [&](auto f, L a, L b, L exact, L bound) {
+    EXPECT_TRUE(within(bracketed_root(f, a, b, f(a), f(b)), exact, bound));
+    EXPECT_TRUE(within(bracketed_root(f, b, a, f(b), f(a)), exact, bound));
+    const auto inside = [&](L x) {
+      EXPECT_TRUE(a < x && x < b);
+      return f(x);
+    };
+    const L sign = f(a) < 0 ? -1 : 1;
+    EXPECT_TRUE(within(bracketed_root(inside, a, b, sign * infinity, -sign * infinity), exact, bound));
   };
-  EXPECT_TRUE(
-      within(root([](L x) { return x * x - 2; }, [](L x) { return 2 * x; }, 0, 1e30L), sqrt(L(2)), 2 * long_epsilon));
-  EXPECT_TRUE(
-      within(root([](L x) { return x * x - 2; }, [](L) { return L(0); }, 1e-30L, 1e30L), sqrt(L(2)), 4 * long_epsilon));
-  EXPECT_TRUE(within(root([](L x) { return atan(x); }, [](L x) { return 1 / (1 + x * x); }, -3, 100), 0, long_epsilon));
-  EXPECT_TRUE(within(root([](L x) { return 1 / x - 1e-12L; }, [](L x) { return -1 / (x * x); }, 1e-3L, 1e20L), 1e12L,
-                     2e12L * long_epsilon));
+  const auto square = [](L x) { return x * x - 2; };
+  expect_root(square, 0, 1e30L, sqrt(L(2)), 2 * long_epsilon);
+  expect_root(square, 1e-30L, 1e30L, sqrt(L(2)), 2 * long_epsilon);
+  expect_root([](L x) { return atan(x); }, -3, 100, 0, long_epsilon);
+  expect_root([](L x) { return 1 / x - 1e-12L; }, 1e-3L, 1e20L, 1e12L, 2e12L * long_epsilon);
+  expect_root([](L x) { return std::cbrt(x - 1); }, 0, 4, 1, 2 * long_epsilon);  // a vertical tangent
+  // A zero at an end is that end; a zero that is only rounding is passed over when its sign is given.
+  const auto two = [](L x) { return x * (1 - x); };
+  EXPECT_EQ(bracketed_root(two, L(0), L(3), two(0), two(3)), 0);
+  EXPECT_TRUE(within(bracketed_root(two, L(0), L(3), infinity, -infinity), 1, 2 * long_epsilon));
+  EXPECT_TRUE(within(bracketed_root([](double x) { return std::exp(x) - 2; }, 0.0, 1.0, -1.0, std::exp(1.0) - 2),
+                     std::log(2.0), 2 * test::epsilon));
 }
 
 // ---- the exact Kepler flow ----
@@ -162,6 +179,40 @@ TEST(Stumpff, SatisfiesItsIdentitiesOnBothSidesOfTheSeries) {
     EXPECT_TRUE(within(c.c1, 1 - z * c.c3, 8 * size * long_epsilon)) << "z = " << k << "/20";
     const L x = sqrt(abs(z));
     EXPECT_TRUE(within(c.c0, z < 0 ? cosh(x) : cos(x), 8 * size * long_epsilon));
+  }
+}
+
+/// The search for the universal variable is done in long double; what it lacks would show as 1e-19 here.
+template <class R>
+void expect_flow_in_all_digits(const char* speed, const char* before, const char* after) {
+  const R k = evaluate_number<R>("0.75");
+  const R mass = evaluate_number<R>("1.25");
+  const Vector<R, 2> q{R(1), R(0)};
+  const Vector<R, 2> p{mass * evaluate_number<R>("0.1"), mass * evaluate_number<R>(speed)};
+  const R s = evaluate_number<R>(before);
+  const R t = evaluate_number<R>(after);
+  const Start<R, 2> half = kepler_flow(k, mass, q, p, s);
+  const Start<R, 2> parts = kepler_flow(k, mass, half.q, half.p, t);
+  const Start<R, 2> whole = kepler_flow(k, mass, q, p, R(s + t));
+  R largest(0);
+  R size(1);
+  for (std::size_t i = 0; i < 2; ++i) {
+    largest = larger(largest, larger(R(abs(parts.q[i] - whole.q[i])), R(abs(parts.p[i] - whole.p[i]))));
+    size = larger(size, larger(R(abs(whole.q[i])), R(abs(whole.p[i]))));
+  }
+  // Some 20 roundings of each flow, which the flow enlarges by up to t |v|/r at pericentre, below 100 here.
+  EXPECT_TRUE(largest <= R(4096) * std::numeric_limits<R>::epsilon() * size)
+      << speed << ' ' << static_cast<double>(largest / std::numeric_limits<R>::epsilon());
+}
+TEST(KeplerFlow, HasAllDigitsOfItsArithmetic) {
+  const MpDigits digits(60);
+  for (const char* speed :
+       {"0.5", "0.77", "1.1", "1.0908712114635714", "2"}) {  // ellipses, a near-parabola, a hyperbola
+    for (const auto& [before, after] : {std::pair{"1/3", "1.7"}, {"-2.5", "0.9"}, {"4", "-1/7"}}) {
+      expect_flow_in_all_digits<Quad>(speed, before, after);
+      expect_flow_in_all_digits<DoubleDouble>(speed, before, after);
+      expect_flow_in_all_digits<Mp>(speed, before, after);
+    }
   }
 }
 

@@ -39,6 +39,10 @@ TEST(Drift, StudentTMatchesTheTables) {
     EXPECT_TRUE(test::within(student_p_value(t, 2), 1 - t / std::sqrt(2 + t * t), 4 * test::epsilon));
   }
   EXPECT_EQ(student_p_value(0, 7), 1);
+  // Far out, where 1 - P has no digits left: with two degrees of freedom 2/t^2 (1 - 3/t^2 + ...)/(1 + ...), here from
+  // 1 - x = (1 - x^2)/(1 + x) with x = t/sqrt(2 + t^2).
+  const double t = 1e12;
+  EXPECT_TRUE(test::same_to_rounding(student_p_value(t, 2), 2 / (2 + t * t) / (1 + t / std::sqrt(2 + t * t)), 16.0));
 }
 
 TEST(Drift, AnOscillationIsBounded) {

@@ -68,5 +68,6 @@ template <>
 inline DoubleDouble parse_decimal<DoubleDouble>(std::string_view text) {
   return DoubleDouble(ExtendedTraits<dd_real>::read(text));
 }
+extern template DoubleDouble evaluate_number<DoubleDouble>(std::string_view);  // in src/arithmetic/numbers.cpp
 
 }  // namespace hamflow

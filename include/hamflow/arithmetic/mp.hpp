@@ -132,5 +132,6 @@ template <>
 inline Mp parse_decimal<Mp>(std::string_view text) {
   return Mp(ExtendedTraits<MpNumber>::read(text));
 }
+extern template Mp evaluate_number<Mp>(std::string_view);  // in src/arithmetic/numbers.cpp
 
 }  // namespace hamflow

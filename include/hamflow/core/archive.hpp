@@ -211,11 +211,4 @@ struct ArchivedText {
   }
 };
 
-/// FNV-1a, 64 bits: detects damage, not malice.   [RFC9923]
-inline std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (const std::byte b : bytes) sum = (sum ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
-  return sum;
-}
-
 }  // namespace hamflow

@@ -151,6 +151,20 @@ void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Ve
   }
 }
 
+/// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Inlined by force, as it belongs into loops over steps,
+/// where the state would otherwise go through memory.
+template <class P, class S, std::size_t N>
+[[gnu::always_inline]] inline void motion(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p,
+                                          Vector<S, N>& dq, Vector<S, N>& dp) {
+  if constexpr (Separable<P>) {
+    velocity(problem, p, dq);
+    force(problem, q, dp);
+  } else {
+    gradient(problem, q, p, dp, dq);
+    for (std::size_t i = 0; i < dp.size(); ++i) dp[i] = -dp[i];
+  }
+}
+
 /// M^-1, the constant Hessian of T, column by column: velocity is linear in p.
 template <class P>
 Matrix<RealOf<P>, P::dimension> inverse_mass_matrix(const P& problem) {

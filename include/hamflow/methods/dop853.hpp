@@ -254,13 +254,7 @@ class DormandPrince853 {
 
   void derivative(const P& problem, const V& q, const V& p, V& dq, V& dp) {
     ++evaluations_;
-    if constexpr (Separable<P>) {
-      velocity(problem, p, dq);
-      force(problem, q, dp);
-    } else {
-      gradient(problem, q, p, dp, dq);
-      for (std::size_t k = 0; k < dp.size(); ++k) dp[k] = -dp[k];
-    }
+    motion(problem, q, p, dq, dp);
   }
 
   AdaptiveOptions options_;

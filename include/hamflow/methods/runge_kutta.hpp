@@ -80,7 +80,8 @@ class RungeKutta {
           }
         }
       });
-      derivative(problem, q, p, dq[i], dp[i]);
+      ++evaluations_;
+      motion(problem, q, p, dq[i], dp[i]);
     });
     Vector<Real, n> sum_q = zeros_like(q0);
     Vector<Real, n> sum_p = zeros_like(q0);
@@ -118,17 +119,6 @@ class RungeKutta {
       (f.template operator()<i>(), ...);
     }
     (std::make_index_sequence<stages>{});
-  }
-  [[gnu::always_inline]] void derivative(const P& problem, const Vector<Real, n>& q, const Vector<Real, n>& p,
-                                         Vector<Real, n>& dq, Vector<Real, n>& dp) {
-    ++evaluations_;
-    if constexpr (Separable<P>) {
-      velocity(problem, p, dq);
-      force(problem, q, dp);
-    } else {
-      gradient(problem, q, p, dp, dq);
-      for (std::size_t k = 0; k < dp.size(); ++k) dp[k] = -dp[k];
-    }
   }
 
   long long evaluations_ = 0;

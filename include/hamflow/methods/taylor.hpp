@@ -45,13 +45,7 @@ Tape<R> tape_of_motion(const P& problem, const Vector<R, N>& q, const Vector<R, 
   Vector<Trace<R>, N> dp = zeros_like(x);
   for (std::size_t i = 0; i < q.size(); ++i) x[i] = recorder.input(q[i]);
   for (std::size_t i = 0; i < q.size(); ++i) y[i] = recorder.input(p[i]);
-  if constexpr (Separable<P>) {
-    velocity(problem, y, dq);
-    force(problem, x, dp);
-  } else {
-    gradient(problem, x, y, dp, dq);
-    for (Trace<R>& rate : dp) rate = -rate;
-  }
+  motion(problem, x, y, dq, dp);
   std::vector<Trace<R>> outputs(dq.begin(), dq.end());
   outputs.insert(outputs.end(), dp.begin(), dp.end());
   return recorder.finish(outputs);

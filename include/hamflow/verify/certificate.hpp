@@ -69,9 +69,6 @@ struct Reversal {
   std::uint64_t start_hash = 0, turn_hash = 0, end_hash = 0;  // of the stored bits
 };
 
-/// FNV-1a, 64 bits.   [RFC9923]
-std::uint64_t hash_of(const std::vector<std::byte>& bits);
-
 /// @param pulse called between blocks with the steps taken both ways; returns false to stop
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse = {});
 

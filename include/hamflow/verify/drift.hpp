@@ -49,7 +49,7 @@ struct RunDrift {
   double mean_increment_error = 0;  // its standard error
 };
 
-/// P(|T| >= |t|) for Student's t with a whole number of degrees of freedom.   [AbramowitzStegun1964, 26.7.3, 26.7.4]
+/// P(|T| >= |t|) for Student's t with a whole number of degrees of freedom, from 1.   [AbramowitzStegun1964, 26.7]
 double student_p_value(double t, int degrees_of_freedom);
 
 /// The slope of a straight line through (x_i, y_i), least squares.

@@ -65,11 +65,11 @@ class ExtrapolatedFlow {
       q[i] = z[i] + increment[i];
       p[i] = z[size_ + i] + increment[size_ + i];
     }
-    gradient(problem_, q, p, dq, dp);
+    motion(problem_, q, p, dq, dp);
     Z out = zeros_like(z);
     for (std::size_t i = 0; i < size_; ++i) {
-      out[i] = dp[i];
-      out[size_ + i] = -dq[i];
+      out[i] = dq[i];
+      out[size_ + i] = dp[i];
     }
     return out;
   }

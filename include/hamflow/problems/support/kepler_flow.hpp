@@ -45,6 +45,58 @@ Stumpff<R> stumpff(R z) {
 }
 
 namespace detail {
+/// The motion as a function of the universal variable s.
+template <class R>
+struct UniversalMotion {
+  R r0, eta, kappa, beta;
+
+  R radius(R s) const {
+    const Stumpff<R> c = stumpff(beta * s * s);
+    return r0 * c.c0 + s * (eta * c.c1 + s * kappa * c.c2);
+  }
+  R time(R s) const {
+    const Stumpff<R> c = stumpff(beta * s * s);
+    return s * (r0 * c.c1 + s * (eta * c.c2 + s * kappa * c.c3));
+  }
+};
+
+/// s at time t, at most half a period from 0. t(s) is monotone.
+inline long double universal_variable(const UniversalMotion<long double>& motion, long double t) {
+  using L = long double;
+  // The bracket: a whole period of s, or doubling, beginning where no exponential has grown yet.
+  const L sign = t < 0 ? -1 : 1;
+  L low = 0;
+  L high = sign * 2 * pi_value<L>() / sqrt(motion.beta);
+  if (!(motion.beta > 0)) {
+    high = t / motion.r0;
+    if (motion.beta < 0 && abs(high) * sqrt(-motion.beta) > 1) high = sign / sqrt(-motion.beta);
+    while (abs(motion.time(high)) < abs(t)) {
+      low = high;
+      high = 2 * high;
+    }
+  }
+  return bracketed_root([&](L s) { return motion.time(s) - t; }, low, high, motion.time(low) - t,
+                        motion.time(high) - t);
+}
+
+/// The same in all the digits of R: the search is done in long double, Newton's iteration adds the rest. Boost.Math
+/// cannot search in our extended numbers, which are none of its types.
+template <class R>
+R universal_variable(const UniversalMotion<R>& motion, R t) {
+  using L = long double;
+  R s(universal_variable(UniversalMotion<L>{static_cast<L>(motion.r0), static_cast<L>(motion.eta),
+                                            static_cast<L>(motion.kappa), static_cast<L>(motion.beta)},
+                         static_cast<L>(t)));
+  R previous = std::numeric_limits<R>::max();
+  for (int pass = 0; pass < 400; ++pass) {  // some ten, but for a collision, where t' = r vanishes
+    const R change = (motion.time(s) - t) / motion.radius(s);
+    if (!(abs(change) < previous)) break;  // rounding
+    s = s - change;
+    previous = abs(change);
+  }
+  return s;
+}
+
 template <class R>
 Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vector<R, 2>& p0, R t) {
   const R kappa = k / mass;
@@ -57,28 +109,7 @@ Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vec
     t -= period * nearbyint(t / period);
   }
   if (t == R(0)) return {q0, p0};
-
-  const R sign = t < R(0) ? R(-1) : R(1);
-  const auto radius = [&](R s) {
-    const Stumpff<R> c = stumpff(beta * s * s);
-    return r0 * c.c0 + s * (eta * c.c1 + s * kappa * c.c2);
-  };
-  const auto time = [&](R s) {
-    const Stumpff<R> c = stumpff(beta * s * s);
-    return s * (r0 * c.c1 + s * (eta * c.c2 + s * kappa * c.c3));
-  };
-  // t(s) is monotone. The bracket: a whole period of s, or doubling, beginning where no exponential has grown yet.
-  R low(0);
-  R high = sign * R(2) * pi_value<R>() / sqrt(beta);
-  if (!(beta > R(0))) {
-    high = t / r0;
-    if (beta < R(0) && abs(high) * sqrt(-beta) > R(1)) high = sign / sqrt(-beta);
-    while (abs(time(high)) < abs(t)) {
-      low = high;
-      high = R(2) * high;
-    }
-  }
-  const R s = bracketed_root([&](R x) { return ValueAndSlope<R>{time(x) - t, radius(x)}; }, low, high, sign < R(0));
+  const R s = universal_variable(UniversalMotion<R>{r0, eta, kappa, beta}, t);
 
   const Stumpff<R> c = stumpff(beta * s * s);
   const R g1 = s * c.c1;
