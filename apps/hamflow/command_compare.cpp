@@ -10,6 +10,7 @@
 #include "hamflow/verify/comparison.hpp"
 #include "progress.hpp"
 #include "run_folder.hpp"
+#include "run_keys.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
 #include "work_precision.hpp"
@@ -50,7 +51,7 @@ class Wishes {
 
   void read_methods(const std::string& text) {
     if (digits_beyond_double(scenario_.request.arithmetic) > 0) {
-      complain("run.arithmetic", "found \"" + scenario_.request.arithmetic +
+      complain(run_path(run_keys().arithmetic), "found \"" + scenario_.request.arithmetic +
                                      "\", whose errors are below those of the reference here; allowed double, " +
                                      "compensated, lattice");
     }

@@ -13,6 +13,7 @@
 #include "run_copy.hpp"
 #include "run_file.hpp"
 #include "run_folder.hpp"
+#include "run_keys.hpp"
 #include "scenario_edit.hpp"
 #include "summary.hpp"
 
@@ -84,12 +85,12 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
     edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
   }
   if (scenario.section) {  // of a coordinate that is there no more
-    edits.push_back({"run.section", {}});
+    edits.push_back({run_path(run_keys().section), {}});
     std::vector<std::string> others = scenario.figures;
     const FigureFacts without_section{.diagnostics = true, .section = false};
     std::erase_if(others, [&](const std::string& kind) { return !refused_figure(kind, without_section).empty(); });
     const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
-    if (!scenario.figures.empty()) edits.push_back({"output.figures", "[" + list + "]"});
+    if (!scenario.figures.empty()) edits.push_back({output_path(output_keys().figures), "[" + list + "]"});
   }
   return edited_scenario(scenario.text, edits);
 }
@@ -191,7 +192,10 @@ class ConvertedRun {
       Scenario changed = scenario();
       changed.text = edited_scenario(
           changed.text,
-          {{"method", "{ name = \"cg\" }"}, {"run.arithmetic", {}}, {"run.lattice", {}}, {"run.kernel", {}}});
+          {{"method", "{ name = \"cg\" }"},
+           {run_path(run_keys().arithmetic), {}},
+           {run_path(run_keys().lattice), {}},
+           {run_path(run_keys().kernel), {}}});
       text += converted_text(changed, to_, start);
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));

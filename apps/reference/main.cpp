@@ -104,9 +104,17 @@ std::string methods_of(const MethodFamily& family) {
   return text;
 }
 
-}  // namespace
+/// "run.dt" and so on, a line each: what tools/check_options.py looks for.
+std::string keys() {
+  std::string text;
+  for (const std::string& name : all_method_keys()) text += "method." + name + "\n";
+  for (const DeclaredTable& declared : declared_tables()) {
+    for (const OptionInfo& key : declared.keys) text += declared.name + "." + key.name + "\n";
+  }
+  return text;
+}
 
-int main() {
+std::string page() {
   std::string text =
       "# Reference\n\nMade by `./dev docs` from the declarations in the code; a test compares the two. Keys stand in "
       "the tables of a\nscenario; numbers may be given as texts such as \"1/3\" or \"2*pi/100\".\n\n## [problem]\n\n";
@@ -123,6 +131,12 @@ int main() {
       if (key.free_on_resume) text += "- `" + declared.name + "." + key.name + "`\n";
     }
   }
-  std::cout << text;
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::cout << (argc > 1 && std::string(argv[1]) == "--keys" ? keys() : page());
   return 0;
 }

@@ -43,8 +43,9 @@ struct DeclaredTable {
 /// [run] and [output].
 const std::vector<DeclaredTable>& declared_tables();
 const DeclaredTable& declared_table(const std::string& name);
-/// "run.dt": the dotted path of a key of [run].
+/// The dotted path of a key of [run], or of [output], as --set has it.
 inline std::string run_path(const OptionInfo& key) { return std::string(run_table) + "." + key.name; }
+inline std::string output_path(const OptionInfo& key) { return std::string(output_table) + "." + key.name; }
 /// Whether --resume takes another value of a key, e.g. "run.steps".
 bool is_free_on_resume(const std::string& path);
 

@@ -3,6 +3,7 @@
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/run/splitting_named.hpp"
 #include "hamflow/verify/lyapunov_of.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
@@ -96,9 +97,9 @@ std::vector<Complaint> refused_resumption(const Scenario& scenario) {
                    "found with --resume; allowed in a run from its start: what it has seen is not in the checkpoint; "
                    "give --out another folder, or --force to begin anew"});
   };
-  if (scenario.lyapunov > 0) complain("run.lyapunov");
-  if (scenario.eigenvalues) complain("run.eigenvalues");
-  if (scenario.section) complain("run.section");
+  if (scenario.lyapunov > 0) complain(run_path(run_keys().lyapunov));
+  if (scenario.eigenvalues) complain(run_path(run_keys().eigenvalues));
+  if (scenario.section) complain(run_path(run_keys().section));
   return all;
 }
 
