@@ -1,11 +1,13 @@
 // hamflow list, hamflow show: the catalogue as its own declarations tell it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "commands.hpp"
+#include "guarded.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow::app {
@@ -92,64 +94,63 @@ void show_method(const MethodSpec& spec) {
 
 }  // namespace
 
-int list_catalogue(const std::string& what, bool json) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  if (what == "methods") {
-    for (const MethodEntry& entry : methods()) {
-      const MethodInfo info = describe(MethodSpec{entry.name, {}});
-      if (json) {
-        all.push_back({{"name", entry.name},
-                       {"order", info.order},
-                       {"explicit", info.explicit_step},
-                       {"symplectic", info.symplectic},
-                       {"symmetric", info.symmetric},
-                       {"summary", info.summary}});
-      } else {
-        std::cout << fmt::format("{:<14} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
+int list_command(const std::string& what, bool json) {
+  return guarded(json, [&] {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    if (what == "methods") {
+      for (const MethodEntry& entry : methods()) {
+        const MethodInfo info = describe(MethodSpec{entry.name, {}});
+        if (json) {
+          all.push_back({{"name", entry.name},
+                         {"order", info.order},
+                         {"explicit", info.explicit_step},
+                         {"symplectic", info.symplectic},
+                         {"symmetric", info.symmetric},
+                         {"summary", info.summary}});
+        } else {
+          std::cout << fmt::format("{:<14} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
+        }
+      }
+    } else {
+      for (const ProblemEntry& entry : problems()) {
+        if (json) {
+          all.push_back({{"name", entry.info.name},
+                         {"variant", entry.info.variant},
+                         {"formula", entry.info.formula},
+                         {"degrees_of_freedom", entry.dimension}});
+        } else {
+          std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
+                                   entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
+        }
       }
     }
-  } else {
-    for (const ProblemEntry& entry : problems()) {
-      if (json) {
-        all.push_back({{"name", entry.info.name},
-                       {"variant", entry.info.variant},
-                       {"formula", entry.info.formula},
-                       {"degrees_of_freedom", entry.dimension}});
-      } else {
-        std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
-                                 entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
-      }
-    }
-  }
-  if (json) std::cout << all.dump(2) << '\n';
-  return exit_done;
+    if (json) std::cout << all.dump(2) << '\n';
+    return exit_done;
+  });
 }
 
-int show_entry(const std::string& name) {
-  bool found = false;
-  std::vector<std::string> names;
-  for (const ProblemEntry& entry : problems()) {
-    names.push_back(entry.info.name);
-    if (entry.info.name != name) continue;
-    show_problem(entry);
-    found = true;
-  }
-  if (found) return exit_done;
-  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
-  try {
+int show_command(const std::string& name) {
+  return guarded(false, [&] {
+    bool found = false;
+    std::vector<std::string> names;
+    for (const ProblemEntry& entry : problems()) {
+      names.push_back(entry.info.name);
+      if (entry.info.name != name) continue;
+      show_problem(entry);
+      found = true;
+    }
+    if (found) return exit_done;
+    for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+    const bool known = std::find(names.begin(), names.end(), name) != names.end();
+    if (!known && name.find('(') == std::string::npos) {
+      const std::string near = nearest(name, names);
+      throw Error("there is no problem or method '" + name + "'" +
+                  (near.empty() ? "" : "; did you mean " + near + "?") +
+                  " (hamflow list problems, hamflow list methods)");
+    }
     show_method(parse_method(name));
     return exit_done;
-  } catch (const Error& error) {
-    const std::string near = nearest(name, names);
-    if (name.find('(') != std::string::npos) {
-      std::cerr << "error: " << error.what() << '\n';
-    } else {
-      std::cerr << "error: there is no problem or method '" << name << "'"
-                << (near.empty() ? "" : "; did you mean " + near + "?")
-                << " (hamflow list problems, hamflow list methods)\n";
-    }
-    return exit_rejected;
-  }
+  });
 }
 
 }  // namespace hamflow::app

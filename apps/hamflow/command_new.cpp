@@ -6,7 +6,8 @@
 #include <set>
 
 #include "commands.hpp"
-#include "coordinates.hpp"
+#include "guarded.hpp"
+#include "hamflow/scenario/coordinates.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "scenario_template.hpp"
 
@@ -104,15 +105,12 @@ ScenarioExample example_for(const ProblemEntry& problem) {
 
 }  // namespace
 
-int new_scenario(const NewOptions& options) {
-  try {
+int new_command(const NewOptions& options) {
+  return guarded(false, [&] {
     const ProblemEntry& problem = chosen(options);
     std::cout << scenario_template(problem, example_for(problem));
     return exit_done;
-  } catch (const Error& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return exit_rejected;
-  }
+  });
 }
 
 }  // namespace hamflow::app
