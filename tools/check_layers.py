@@ -15,6 +15,8 @@ ALLOWED = {
     "methods": {"core", "arithmetic", "numerics"},
     "run": {"core", "arithmetic", "numerics", "methods"},
     "verify": {"core", "arithmetic", "numerics", "methods", "run"},
+    "scenario": {"core", "arithmetic", "numerics", "problems", "methods", "run"},  # problems: two bodies in space
+    "workflow": {"core", "arithmetic", "numerics", "methods", "run", "verify", "scenario"},
 }
 
 
