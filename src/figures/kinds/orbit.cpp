@@ -9,7 +9,7 @@ namespace hamflow::figures {
 namespace {
 std::string refused(const FigureFacts& facts) {
   const bool drawn = facts.degrees_of_freedom == 0 || facts.degrees_of_freedom == 2 || facts.bodies_in_space;
-  return drawn ? "" : for_degrees(facts) + ", neither 2 nor those of bodies in space";
+  return drawn ? "" : for_degrees(facts) + ", where an orbit needs 2, or bodies in space";
 }
 
 std::string obstacle(const FigureData& data) {

@@ -13,7 +13,7 @@ constexpr std::size_t most_planes = 12;  // on one page
 
 std::string refused(const FigureFacts& facts) {
   if (facts.degrees_of_freedom <= most_planes) return "";
-  return for_degrees(facts) + ", more than the " + std::to_string(most_planes) + " that fit on a page";
+  return for_degrees(facts) + ", of which at most " + std::to_string(most_planes) + " fit on a page";
 }
 
 std::string obstacle(const FigureData& data) {

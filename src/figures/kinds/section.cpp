@@ -8,7 +8,7 @@ namespace hamflow::figures {
 
 namespace {
 std::string refused(const FigureFacts& facts) {
-  if (facts.degrees_of_freedom == 1) return for_degrees(facts) + ", fewer than the 2 degrees of freedom of a section";
+  if (facts.degrees_of_freedom == 1) return for_degrees(facts) + ", where a section needs 2 or more";
   return facts.section ? "" : ", which needs run.section, e.g. { coordinate = \"q1\" }";
 }
 
