@@ -252,7 +252,7 @@ TEST_F(Figures, SectionsNeedARunThatRecordedThem) {
   FigureData data = ellipse();
   data.section_coordinate.clear();
   EXPECT_NE(why_not(data, "section").find("run.section"), std::string::npos);
-  EXPECT_NE(why_not(oscillator(), "section").find("2 degrees of freedom"), std::string::npos);
+  EXPECT_NE(why_not(oscillator(), "section").find("1 degree of freedom"), std::string::npos);
 }
 
 TEST_F(Figures, ConditionsNeedARunThatRecordedThem) {
