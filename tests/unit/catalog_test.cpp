@@ -105,7 +105,8 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
   EXPECT_EQ(message("cg(tolerance=0)"), "cg: tolerance has to be positive, not 0");
   EXPECT_EQ(message("cg(tolerance=-1)"), "cg: tolerance has to be positive, not -1");
   EXPECT_EQ(message("cg(stages=3)"), "cg: option 'stages' is unknown; allowed: degree, quadrature, tolerance");
-  EXPECT_NE(message("cg(tolerance=x)").find("found \"x\", column 1: the unknown symbol x; allowed numbers"), std::string::npos);
+  EXPECT_NE(message("cg(tolerance=x)").find("found \"x\", column 1: the unknown symbol x; allowed numbers"),
+            std::string::npos);
   EXPECT_NE(message("cg(1,)").find("cg: quadrature has to be a whole number"), std::string::npos);
 }
 
