@@ -5,8 +5,7 @@ PROGRAM --keys prints the declared keys, one "table.name" a line. A place is a s
 
 - `.name = "steps"`, the declaration, has to stand exactly once (a name that several families of methods share is
   declared as a constant);
-- where options are read, set or described (src/scenario, src/catalog, src/core, src/sweep/sweep.cpp, the session and
-  --resume) the literal "steps" stands nowhere else: code takes the name from the declaration;
+- where options are read, set or described (src/scenario, src/catalog, src/core, src/sweep/sweep.cpp, the session) the literal "steps" stands nowhere else: code takes the name from the declaration;
 - a path such as "run.steps" stands nowhere as a literal of its own. Examples within a longer text are allowed.
 
 Elsewhere the same word may be the name of a result (a key of --json, a data set of HDF5)."""
@@ -19,7 +18,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 READERS = ("src/scenario", "src/catalog", "src/core", "src/sweep/sweep.cpp", "src/workflow/session.cpp",
-           "src/workflow/resume.cpp", "include/hamflow/core", "include/hamflow/run", "include/hamflow/scenario",
+           "include/hamflow/core", "include/hamflow/run", "include/hamflow/scenario",
            "include/hamflow/methods")
 # Words that are also the names of something else, which has a declaration of its own.
 ALSO = {"lattice": "an arithmetic"}

@@ -20,21 +20,8 @@ struct ScenarioFamily::Impl {
 ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name, const std::vector<std::string>& sets)
     : impl_(std::make_unique<Impl>()) {
   impl_->name = name;
-  impl_->text = text;
-  try {
-    impl_->root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    impl_->complaints.push_back({name, static_cast<int>(error.source().begin.line),
-                                 static_cast<int>(error.source().begin.column), "syntax",
-                                 "found no valid TOML: " + std::string(error.description())});
-    return;
-  }
-  for (const std::string& set : sets) {
-    impl_->text += "# --set " + set + "\n";
-    const auto [path, wrong] = apply_set(impl_->root, set);
-    if (!wrong.empty()) impl_->complaints.push_back({name, 0, 0, path, wrong});
-  }
-  drop_excluded(impl_->root);
+  impl_->text = with_sets(text, sets);
+  if (auto root = parsed_document(text, name, sets, impl_->complaints)) impl_->root = std::move(*root);
 }
 
 ScenarioFamily::~ScenarioFamily() = default;
