@@ -129,7 +129,6 @@ int show_entry(const std::string& name) {
     found = true;
   }
   if (found || show_table(name)) return exit_done;
-  if (found || show_table(name)) return exit_done;
   for (const FigureKindInfo& kind : figure_kinds()) {
     names.push_back(kind.name);
     if (kind.name != name) continue;
