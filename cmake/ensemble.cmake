@@ -46,7 +46,7 @@ add_library(hamflow_ensemble STATIC src/catalog/ensemble_catalog.cpp ${ensemble_
 set_target_properties(hamflow_ensemble PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
 set_source_files_properties(src/catalog/ensemble_catalog.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_include_directories(hamflow_ensemble PRIVATE "${PROJECT_SOURCE_DIR}/src/catalog" "${generated}")
-target_link_libraries(hamflow_ensemble PUBLIC hamflow PRIVATE hamflow_warnings)
+target_link_libraries(hamflow_ensemble PUBLIC hamflow PRIVATE $<BUILD_INTERFACE:hamflow_warnings>)
 # -Wno-psabi: packs go by value through functions that are inlined in the end; GCC 4.6 passed them otherwise. clang
 # inlines into a function for another target only what it finds small.
 target_compile_options(hamflow_ensemble PRIVATE -Wno-psabi

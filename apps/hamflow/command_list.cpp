@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "figure_kinds.hpp"
+#include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "option_text.hpp"
@@ -86,71 +87,69 @@ void show_method(const MethodSpec& spec) {
 
 }  // namespace
 
-int list_catalogue(const std::string& what, bool json) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  if (what == "methods") {
-    for (const MethodEntry& entry : methods()) {
-      const MethodInfo info = describe(MethodSpec{.name = entry.name});
-      if (json) {
-        all.push_back({{"name", entry.name},
-                       {"order", info.order},
-                       {"explicit", info.explicit_step},
-                       {"symplectic", info.symplectic},
-                       {"symmetric", info.symmetric},
-                       {"summary", info.summary}});
-      } else {
-        std::cout << fmt::format("{:<14} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
+int list_command(const std::string& what, bool json) {
+  return guarded(json, [&] {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    if (what == "methods") {
+      for (const MethodEntry& entry : methods()) {
+        const MethodInfo info = describe(MethodSpec{.name = entry.name});
+        if (json) {
+          all.push_back({{"name", entry.name},
+                         {"order", info.order},
+                         {"explicit", info.explicit_step},
+                         {"symplectic", info.symplectic},
+                         {"symmetric", info.symmetric},
+                         {"summary", info.summary}});
+        } else {
+          std::cout << fmt::format("{:<14} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
+        }
+      }
+    } else {
+      for (const ProblemEntry& entry : problems()) {
+        if (json) {
+          all.push_back({{"name", entry.info.name},
+                         {"variant", entry.info.variant},
+                         {"formula", entry.info.formula},
+                         {"degrees_of_freedom", entry.dimension}});
+        } else {
+          std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
+                                   entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
+        }
       }
     }
-  } else {
-    for (const ProblemEntry& entry : problems()) {
-      if (json) {
-        all.push_back({{"name", entry.info.name},
-                       {"variant", entry.info.variant},
-                       {"formula", entry.info.formula},
-                       {"degrees_of_freedom", entry.dimension}});
-      } else {
-        std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
-                                 entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
-      }
-    }
-  }
-  if (json) std::cout << all.dump(2) << '\n';
-  return exit_done;
+    if (json) std::cout << all.dump(2) << '\n';
+    return exit_done;
+  });
 }
 
-int show_entry(const std::string& name) {
-  bool found = false;
-  std::vector<std::string> names;
-  for (const ProblemEntry& entry : problems()) {
-    names.push_back(entry.info.name);
-    if (entry.info.name != name) continue;
-    show_problem(entry);
-    found = true;
-  }
-  if (found || show_table(name)) return exit_done;
-  for (const FigureKindInfo& kind : figure_kinds()) {
-    names.push_back(kind.name);
-    if (kind.name != name) continue;
-    std::cout << fmt::format("{}\n  a figure: {}\n  hamflow plot RUN --kind {}; output.figures of a scenario\n", name,
-                             kind.meaning, name);
-    return exit_done;
-  }
-  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
-  for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
-  const std::string method = name.substr(0, name.find('('));
-  if (std::find(names.begin(), names.end(), method) == names.end()) {
-    std::cerr << "error: there is no problem, method or figure '" << name << "'" << suggestion(method, names)
-              << " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)\n";
-    return exit_rejected;
-  }
-  try {
+int show_command(const std::string& name) {
+  return guarded(false, [&] {
+    bool found = false;
+    std::vector<std::string> names;
+    for (const ProblemEntry& entry : problems()) {
+      names.push_back(entry.info.name);
+      if (entry.info.name != name) continue;
+      show_problem(entry);
+      found = true;
+    }
+    if (found || show_table(name)) return exit_done;
+    for (const FigureKindInfo& kind : figure_kinds()) {
+      names.push_back(kind.name);
+      if (kind.name != name) continue;
+      std::cout << fmt::format("{}\n  a figure: {}\n  hamflow plot RUN --kind {}; output.figures of a scenario\n", name,
+                               kind.meaning, name);
+      return exit_done;
+    }
+    for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+    for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
+    const std::string method = name.substr(0, name.find('('));
+    if (std::find(names.begin(), names.end(), method) == names.end()) {
+      throw Error("there is no problem, method or figure '" + name + "'" + suggestion(method, names) +
+                  " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)");
+    }
     show_method(parse_method(name));
     return exit_done;
-  } catch (const Error& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return exit_rejected;
-  }
+  });
 }
 
 }  // namespace hamflow::app

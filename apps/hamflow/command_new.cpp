@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "scenario_template.hpp"
@@ -64,15 +65,12 @@ ExampleInfo example_for(const ProblemEntry& problem) {
 
 }  // namespace
 
-int new_scenario(const NewOptions& options) {
-  try {
+int new_command(const NewOptions& options) {
+  return guarded(false, [&] {
     const ProblemEntry& problem = chosen(options);
     std::cout << scenario_template(problem, example_for(problem));
     return exit_done;
-  } catch (const Error& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return exit_rejected;
-  }
+  });
 }
 
 }  // namespace hamflow::app

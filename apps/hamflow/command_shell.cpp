@@ -8,16 +8,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "csv_file.hpp"
+#include "guarded.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "progress.hpp"
-#include "run_file.hpp"
-#include "run_folder.hpp"
 #include "run_keys.hpp"
-#include "summary.hpp"
 
 namespace hamflow::app {
 
@@ -42,9 +41,6 @@ const std::vector<std::string> words{"step",  "dt",      "tol",   "method", "sho
 const std::vector<std::string> topics{"step",       "t",      "q",        "p",       "energy", "error",
                                       "invariants", "solver", "settings", "changes", "all"};
 
-/// Why the shell cannot go on with its input.
-enum class Trouble { none, wrong_command, failed_run, file, interrupted };
-
 class Shell {
  public:
   Shell(const Scenario& scenario, const ShellOptions& options)
@@ -60,13 +56,13 @@ class Shell {
     std::string line;
     for (std::int64_t number = 1; next_line(line); ++number) {
       if (interrupted() && !interactive_) return exit_interrupted;
-      const Trouble trouble = obey(line);
+      const int status = obey(line);
       std::cout.flush();
       if (quit_) return exit_done;
-      if (trouble == Trouble::none || interactive_) continue;
-      if (trouble == Trouble::interrupted) return exit_interrupted;
+      if (status == exit_done || interactive_) continue;
+      if (status == exit_interrupted) return status;
       std::cerr << fmt::format("error: stopped at line {}: {}\n", number, line);
-      return trouble == Trouble::wrong_command ? exit_rejected : trouble == Trouble::file ? exit_file : exit_failed;
+      return status;
     }
     if (prompts_) std::cout << '\n';
     return interrupted() && !interactive_ ? exit_interrupted : exit_done;
@@ -101,32 +97,22 @@ class Shell {
     }
   }
 
-  Trouble obey(const std::string& line) {
+  /// The exit status that a line would have as a command.
+  int obey(const std::string& line) {
     // The commands of the thesis are written step,,10.
     std::string text = line;
     for (auto at = text.find(",,"); at != std::string::npos; at = text.find(",,")) text.replace(at, 2, " ");
     const auto begin = text.find_first_not_of(" \t");
-    if (begin == std::string::npos || text[begin] == '#') return Trouble::none;
+    if (begin == std::string::npos || text[begin] == '#') return exit_done;
     const auto end = std::min(text.find_first_of(" \t", begin), text.size());
     const std::string word = text.substr(begin, end - begin);
     const auto rest_begin = text.find_first_not_of(" \t", end);
     std::string rest = rest_begin == std::string::npos ? "" : text.substr(rest_begin);
     while (!rest.empty() && (rest.back() == ' ' || rest.back() == '\t')) rest.pop_back();
-    try {
-      return carry_out(word, rest);
-    } catch (const FileError& error) {
-      std::cerr << "error: " << error.what() << '\n';
-      return Trouble::file;
-    } catch (const std::filesystem::filesystem_error& error) {
-      std::cerr << "error: " << error.what() << '\n';
-      return Trouble::file;
-    } catch (const Error& error) {
-      std::cerr << "error: " << error.what() << '\n';
-      return Trouble::wrong_command;
-    }
+    return guarded(false, [&] { return carry_out(word, rest); });
   }
 
-  Trouble carry_out(const std::string& word, const std::string& rest) {
+  int carry_out(const std::string& word, const std::string& rest) {
     const auto alone = [&] {
       if (!rest.empty()) throw Error(word + ": found '" + rest + "' behind it; allowed nothing");
     };
@@ -137,15 +123,15 @@ class Shell {
     if (word == "dt") {
       with("a number other than 0");
       session_.set_step_length(rest);
-      result_ = {};
+      outcome_ = Outcome::done;
     } else if (word == "tol") {
       with("a positive number, or off");
       session_.set_tolerance(rest);
-      result_ = {};
+      outcome_ = Outcome::done;
     } else if (word == "method") {
       with("a method, e.g. stv4, cg(1,5)");
       session_.set_method(parse_method(rest));
-      result_ = {};
+      outcome_ = Outcome::done;
     } else if (word == "show") {
       show(rest);
     } else if (word == "save" || word == "save!") {
@@ -155,12 +141,12 @@ class Shell {
       alone();
       session_.restart();
       samples_.clear();
-      result_ = {};
+      outcome_ = Outcome::done;
       seconds_ = 0;
     } else if (word == "reverse") {
       alone();
       session_.negate_momenta();
-      result_ = {};
+      outcome_ = Outcome::done;
     } else if (word == "help") {
       std::cout << help_text;
     } else if (word == "quit") {
@@ -169,7 +155,7 @@ class Shell {
     } else {
       unknown("command", word, words);
     }
-    return Trouble::none;
+    return exit_done;
   }
 
   [[noreturn]] static void unknown(const std::string& what, const std::string& word,
@@ -177,7 +163,7 @@ class Shell {
     throw Error("found " + what + " '" + word + "'; allowed " + joined(allowed) + suggestion(word, allowed));
   }
 
-  Trouble step(const std::string& text) {
+  int step(const std::string& text) {
     std::int64_t count = 1;
     if (!text.empty()) {
       const auto left = static_cast<double>(most_steps - session_.step());
@@ -202,42 +188,20 @@ class Shell {
     if (samples_.every() != spacing && !options_.quiet) {
       std::cerr << "note: so many samples do not fit; from now on every " << samples_.every() << "th step is kept\n";
     }
-    result_ = {};
-    if (outcome == Outcome::done) return Trouble::none;
+    outcome_ = Outcome::done;
+    if (outcome == Outcome::done) return exit_done;
     if (outcome == Outcome::stopped) {
       std::cerr << fmt::format("stopped by Ctrl-C at step {}\n", session_.step());
       catch_interrupts();
-      return Trouble::interrupted;
+      return exit_interrupted;
     }
-    result_.outcome = outcome;
-    if (outcome == Outcome::not_converged) result_.failure = session_.failure();
-    const Json error = summary()["error"];
-    std::cerr << "error: " << error["message"].get<std::string>() << "\nhint: " << error["hint"].get<std::string>()
-              << '\n';
-    return Trouble::failed_run;
+    outcome_ = outcome;
+    const auto [message, hint] = session_failure(session_, last());
+    print_error(message, hint);
+    return exit_failed;
   }
 
-  Json summary() const {
-    RunResult result = result_;
-    result.wall_seconds = seconds_;
-    result.steps_taken = session_.step();
-    const Scenario present = session_.present();
-    Json all = summary_of(present, session_, result);
-    if (session_.changes().empty()) return all;
-    all["changes"] = changes();
-    all.erase("diagnostics");  // they count steps of the last part
-    if (session_.reversed()) {
-      for (const char* of_the_start : {"exact", "bodies"}) all.erase(of_the_start);
-    }
-    return all;
-  }
-
-  Json changes() const {
-    Json all = Json::array();
-    for (const SessionChange& c : session_.changes())
-      all.push_back({{"step", c.step}, {"t", c.time}, {"what", c.what}});
-    return all;
-  }
+  SessionOutcome last() const { return {outcome_, seconds_}; }
 
   Json shown(const std::string& topic) const {
     Frame now;
@@ -259,15 +223,22 @@ class Shell {
     if (wants("invariants")) show_invariants(all);
     if (wants("solver")) show_solver(now.effort, all);
     if (wants("settings")) show_settings(all);
-    if (wants("changes")) all["changes"] = changes();
+    if (wants("changes")) show_changes(all);
     return all;
   }
 
   void show_invariants(Json& all) const {
-    const Json values = summary()["invariants"];
+    const Json values = Json::parse(session_summary(session_, last()))["invariants"];
     for (const auto& [name, value] : values.items()) {
       all[name] = value["final"];
       all["max_error_" + name] = value["max_error"];
+    }
+  }
+
+  void show_changes(Json& all) const {
+    all["changes"] = Json::array();
+    for (const SessionChange& c : session_.changes()) {
+      all["changes"].push_back({{"step", c.step}, {"t", c.time}, {"what", c.what}});
     }
   }
 
@@ -327,44 +298,8 @@ class Shell {
     if (std::filesystem::exists(folder) && !replace) {
       throw FileError("the folder " + name + " exists; save! " + name + " replaces the run in it");
     }
-    make_folder(folder, replace);
-    const Scenario present = session_.present();
-    const std::vector<Frame> samples = samples_.with_present(session_);
-    RunFile h5(folder / "run.h5", description(present, samples.size()));
-    for (const Frame& sample : samples) h5.append(sample);
-    h5.flush();
-    if (std::find(present.formats.begin(), present.formats.end(), "csv") != present.formats.end()) {
-      CsvFile csv(folder / "trajectory.csv", present.start_q.size(), invariants());
-      for (const Frame& sample : samples) csv.append(sample);
-      csv.flush();
-    }
-    write_text(folder / "summary.json", json_text(summary()));
+    save_session(session_, samples_, last(), folder, replace);
     if (prompts_ && !options_.quiet) std::cout << "written to " << name << '\n';
-  }
-
-  std::vector<std::pair<std::string, std::size_t>> invariants() const {
-    const Scenario present = session_.present();
-    const std::vector<InvariantInfo>& declared = present.problem->info.invariants;
-    const auto sizes = present.problem->invariant_sizes(present.request.parameters, present.start_q.size());
-    std::vector<std::pair<std::string, std::size_t>> all;
-    for (std::size_t i = 0; i < declared.size(); ++i) all.emplace_back(declared[i].name, sizes[i]);
-    return all;
-  }
-
-  RunDescription description(const Scenario& scenario, std::size_t count) const {
-    char host[256] = "";
-    (void)gethostname(host, sizeof host - 1);
-    return {.scenario = scenario.text,
-            .version = HAMFLOW_VERSION,
-            .host = host,
-            .problem = scenario.request.problem,
-            .method = describe(scenario.request.method).name,
-            .arithmetic = scenario.request.arithmetic,
-            .kernel = scenario.request.kernel,
-            .dimension = scenario.start_q.size(),
-            .invariants = invariants(),
-            .diagnostics = describe(scenario.request.method).diagnostics,
-            .samples = count};
   }
 
   Session session_;
@@ -373,31 +308,18 @@ class Shell {
   bool interactive_;  // somebody can correct an error
   bool prompts_;
   bool quit_ = false;
-  RunResult result_;  // of the last step command
+  Outcome outcome_ = Outcome::done;  // of the last step command
   double seconds_ = 0;
 };
 
 }  // namespace
 
-int run_shell(const ShellOptions& options) {
-  try {
-    const Reading reading = read_scenario(options.scenario, options.sets);
-    for (const Complaint& complaint : reading.complaints) std::cerr << complaint.text() << '\n';
-    if (!reading.scenario) {
-      if (options.json) std::cout << json_text(rejection_of(reading.complaints));
-      return exit_rejected;
-    }
-    if (!options.quiet) {
-      for (const std::string& note : reading.scenario->notes) std::cerr << "note: " << note << '\n';
-    }
-    return Shell(*reading.scenario, options).read_commands();
-  } catch (const FileError& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return exit_file;
-  } catch (const Error& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return exit_rejected;
-  }
+int shell_command(const ShellOptions& options) {
+  return guarded(options.json, [&] {
+    const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
+    print_notes(scenario.notes, options.quiet);
+    return Shell(scenario, options).read_commands();
+  });
 }
 
 }  // namespace hamflow::app

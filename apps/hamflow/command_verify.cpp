@@ -1,50 +1,49 @@
-#include "command_verify.hpp"
-
-#include <fmt/format.h>
-
+// hamflow verify METHOD...|--all [--problem P] [--json]: the property table, measured.
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
+#include <iostream>
 #include <optional>
 #include <thread>
 
+#include "commands.hpp"
+#include "guarded.hpp"
 #include "hamflow/verify/measure.hpp"
-#include "summary.hpp"
+
+namespace hamflow::app {
 
 namespace {
-std::vector<hamflow::MethodSpec> methods_of(const VerifyOptions& options) {
-  std::vector<hamflow::MethodSpec> specs;
-  for (const std::string& text : options.methods) specs.push_back(hamflow::parse_method(text));
+std::vector<MethodSpec> methods_of(const VerifyOptions& options) {
+  std::vector<MethodSpec> specs;
+  for (const std::string& text : options.methods) specs.push_back(parse_method(text));
   if (!options.all) return specs;
-  for (const hamflow::MethodEntry& entry : hamflow::methods()) {
-    if (entry.family->representatives.empty()) specs.push_back(hamflow::parse_method(entry.name));
-    for (const std::string& text : entry.family->representatives) specs.push_back(hamflow::parse_method(text));
+  for (const MethodEntry& entry : methods()) {
+    if (entry.family->representatives.empty()) specs.push_back(parse_method(entry.name));
+    for (const std::string& text : entry.family->representatives) specs.push_back(parse_method(text));
   }
   return specs;
 }
 
 /// The problem as a scenario means it by default; where a method cannot run there, in the first variant where all can.
-hamflow::Region region_for(const std::string& problem, const std::vector<hamflow::MethodSpec>& specs) {
-  const auto accepted = [&](const hamflow::ProblemEntry& entry) {
+Region region_for(const std::string& problem, const std::vector<MethodSpec>& specs) {
+  const auto accepted = [&](const ProblemEntry& entry) {
     return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
   };
-  if (!accepted(hamflow::usual_problem(problem))) {
-    for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
+  if (!accepted(usual_problem(problem))) {
+    for (const ProblemEntry& entry : problems()) {
       if (entry.info.name != problem || !accepted(entry)) continue;
-      return hamflow::region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});
+      return region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});
     }
   }
-  return hamflow::region_of(problem);
+  return region_of(problem);
 }
 
 /// The rows in the order of the methods, measured on all cores.
-std::vector<hamflow::PropertyRow> measure_all(const std::vector<hamflow::MethodSpec>& specs,
-                                              const std::vector<hamflow::Region>& given) {
-  std::vector<std::optional<hamflow::PropertyRow>> measured(specs.size());
+std::vector<PropertyRow> measure_all(const std::vector<MethodSpec>& specs, const std::vector<Region>& given) {
+  std::vector<std::optional<PropertyRow>> measured(specs.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < specs.size(); i = next++)
-      measured[i] = hamflow::measure_method(specs[i], given.empty() ? hamflow::default_regions(specs[i]) : given);
+      measured[i] = measure_method(specs[i], given.empty() ? default_regions(specs[i]) : given);
   };
   {
     std::vector<std::jthread> helpers;
@@ -52,31 +51,26 @@ std::vector<hamflow::PropertyRow> measure_all(const std::vector<hamflow::MethodS
     for (std::size_t k = 1; k < std::min(cores, specs.size()); ++k) helpers.emplace_back(work);
     work();
   }
-  std::vector<hamflow::PropertyRow> rows;
+  std::vector<PropertyRow> rows;
   for (auto& row : measured) rows.push_back(std::move(*row));
   return rows;
 }
 }  // namespace
 
-int run_verify(const VerifyOptions& options) {
-  std::vector<hamflow::MethodSpec> specs;
-  std::vector<hamflow::Region> regions;
-  try {
-    specs = methods_of(options);
-    if (specs.empty()) throw hamflow::Error("verify needs at least one METHOD, or --all");
+int verify_command(const VerifyOptions& options) {
+  return guarded(options.json, [&] {
+    const std::vector<MethodSpec> specs = methods_of(options);
+    if (specs.empty()) throw Error("verify needs at least one METHOD, or --all");
+    std::vector<Region> regions;
     if (!options.problem.empty()) regions = {region_for(options.problem, specs)};
-    for (const hamflow::Region& region : regions) {
-      for (const hamflow::MethodSpec& spec : specs) (void)hamflow::step_map_on(region, spec);  // throws where refused
+    for (const Region& region : regions) {
+      for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
     }
-  } catch (const hamflow::Error& error) {
-    fmt::print(stderr, "hamflow verify: error: {}\n", error.what());
-    if (options.json) {
-      const nlohmann::ordered_json errors{{{"key", "verify"}, {"message", error.what()}}};
-      std::fputs(hamflow::json_text({{"status", "rejected"}, {"errors", errors}}).c_str(), stdout);
-    }
-    return 2;
-  }
-  const std::vector<hamflow::PropertyRow> rows = measure_all(specs, regions);
-  std::fputs((options.json ? hamflow::property_json(rows) : hamflow::property_table(rows)).c_str(), stdout);
-  return std::all_of(rows.begin(), rows.end(), [](const hamflow::PropertyRow& row) { return row.agrees(); }) ? 0 : 1;
+    const std::vector<PropertyRow> rows = measure_all(specs, regions);
+    std::cout << (options.json ? property_json(rows) : property_table(rows));
+    const bool all_agree = std::all_of(rows.begin(), rows.end(), [](const PropertyRow& row) { return row.agrees(); });
+    return all_agree ? exit_done : exit_failed;
+  });
 }
+
+}  // namespace hamflow::app

@@ -19,7 +19,7 @@ struct RunOptions {
   bool json = false;
   bool quiet = false;
 };
-int run_scenario(const RunOptions& options);
+int run_command(const RunOptions& options);
 
 struct SweepCommandOptions {
   std::string scenario;
@@ -34,20 +34,29 @@ struct SweepCommandOptions {
   std::string figure;  // a file; empty: none
   std::string colour = "energy/max_error";
 };
-int run_sweep(const SweepCommandOptions& options);
+int sweep_command(const SweepCommandOptions& options);
 
 struct PlotOptions {
   std::string run;   // a folder or its run.h5
   std::string kind;  // empty: orbit where there is one, else phase
   std::string file;
 };
-int plot_run(const PlotOptions& options);
+int plot_command(const PlotOptions& options);
+
+struct VerifyOptions {
+  std::vector<std::string> methods;  // as on the command line, e.g. "stv4", "cg(1,5)"
+  bool all = false;                  // every method of the catalogue instead
+  std::string problem;               // empty: the default ones
+  bool json = false;
+};
+/// 1: a claim differs from its measurement
+int verify_command(const VerifyOptions& options);
 
 struct NewOptions {
   std::string problem;
   std::map<std::string, std::string> variant;  // e.g. potential = kepler; empty: not given
 };
-int new_scenario(const NewOptions& options);
+int new_command(const NewOptions& options);
 
 struct ConvertOptions {
   std::string input;  // a scenario, the folder of a run or its run.h5; empty: a state is given
@@ -59,7 +68,7 @@ struct ConvertOptions {
   std::vector<std::string> sets;
   bool json = false;
 };
-int convert_coordinates(const ConvertOptions& options);
+int convert_command(const ConvertOptions& options);
 
 struct ReverseOptions {
   std::string scenario;
@@ -67,7 +76,7 @@ struct ReverseOptions {
   bool json = false;
   bool quiet = false;
 };
-int reverse_scenario(const ReverseOptions& options);
+int reverse_command(const ReverseOptions& options);
 
 struct CompareOptions {
   std::string scenario;
@@ -81,7 +90,7 @@ struct CompareOptions {
   bool json = false;
   bool quiet = false;
 };
-int compare_methods(const CompareOptions& options);
+int compare_command(const CompareOptions& options);
 
 struct ShellOptions {
   std::string scenario;
@@ -89,9 +98,9 @@ struct ShellOptions {
   bool json = false;
   bool quiet = false;
 };
-int run_shell(const ShellOptions& options);
+int shell_command(const ShellOptions& options);
 
-int list_catalogue(const std::string& what, bool json);
-int show_entry(const std::string& name);
+int list_command(const std::string& what, bool json);
+int show_command(const std::string& name);
 
 }  // namespace hamflow::app

@@ -1,17 +1,16 @@
 // The command line: parse, call, print. No numerics.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
 #include <iostream>
 
 #include "command_line.hpp"
-#include "command_verify.hpp"
 #include "commands.hpp"
-#include "coordinates.hpp"
 #include "figure_kinds.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
-#include "summary.hpp"
+#include "hamflow/scenario/coordinates.hpp"
+#include "hamflow/workflow/rejection_json.hpp"
+#include "hamflow/workflow/sweep.hpp"
 
 namespace {
 
@@ -53,7 +52,7 @@ int main(int argc, char** argv) {
   run_command->add_flag("--resume", run.resume, "go on from the last checkpoint, or take more steps after the end");
   run_command->add_flag("--json", run.json, "print the summary as JSON, and nothing else, on stdout");
   run_command->add_flag("--quiet", run.quiet, "no progress, no notes");
-  run_command->callback([&] { status = run_scenario(run); });
+  run_command->callback([&] { status = hamflow::app::run_command(run); });
 
   PlotOptions plot;
   CLI::App* plot_command =
@@ -66,7 +65,7 @@ int main(int argc, char** argv) {
   plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
       ->required()
       ->type_name("FILE");
-  plot_command->callback([&] { status = plot_run(plot); });
+  plot_command->callback([&] { status = hamflow::app::plot_command(plot); });
 
   SweepCommandOptions sweep;
   CLI::App* sweep_command = add(
@@ -91,7 +90,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
   sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")
       ->type_name("N")
-      ->transform(whole_number(0, 1024));
+      ->transform(whole_number(0, hamflow::most_sweep_threads));
   sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
       ->type_name("SET");
   sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
@@ -104,7 +103,7 @@ int main(int argc, char** argv) {
                           "print the summary as JSON, and nothing else, on stdout; with --out none and at most 10^4 "
                           "members their rows too");
   sweep_command->add_flag("--quiet", sweep.quiet, "no progress, no notes");
-  sweep_command->callback([&] { status = run_sweep(sweep); });
+  sweep_command->callback([&] { status = hamflow::app::sweep_command(sweep); });
 
   VerifyOptions verify;
   CLI::App* verify_command =
@@ -114,7 +113,7 @@ int main(int argc, char** argv) {
   verify_command->add_flag("--all", verify.all, "every method of the catalogue");
   verify_command->add_option("--problem", verify.problem, "measure on this problem alone")->type_name("PROBLEM");
   verify_command->add_flag("--json", verify.json, "print JSON");
-  verify_command->callback([&] { status = run_verify(verify); });
+  verify_command->callback([&] { status = hamflow::app::verify_command(verify); });
 
   ReverseOptions reverse;
   CLI::App* reverse_command =
@@ -127,7 +126,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
   reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
-  reverse_command->callback([&] { status = reverse_scenario(reverse); });
+  reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });
 
   CompareOptions compare;
   CLI::App* compare_command =
@@ -151,7 +150,7 @@ int main(int argc, char** argv) {
   compare_command->add_option("--figure", compare.figure, "draw it: .svg, .pdf or .png")->type_name("FILE");
   compare_command->add_flag("--json", compare.json, "print JSON, and nothing else, on stdout");
   compare_command->add_flag("--quiet", compare.quiet, "no progress, no notes");
-  compare_command->callback([&] { status = compare_methods(compare); });
+  compare_command->callback([&] { status = hamflow::app::compare_command(compare); });
 
   ShellOptions shell;
   CLI::App* shell_command = add(
@@ -164,7 +163,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   shell_command->add_flag("--json", shell.json, "show prints one JSON object per line");
   shell_command->add_flag("--quiet", shell.quiet, "no progress, no notes");
-  shell_command->callback([&] { status = run_shell(shell); });
+  shell_command->callback([&] { status = hamflow::app::shell_command(shell); });
 
   NewOptions fresh;
   CLI::App* new_command = add(app, "new", "Print a scenario for a problem, every key of it explained",
@@ -177,7 +176,7 @@ int main(int argc, char** argv) {
         new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
     }
   }
-  new_command->callback([&] { status = new_scenario(fresh); });
+  new_command->callback([&] { status = hamflow::app::new_command(fresh); });
 
   ConvertOptions convert;
   CLI::App* convert_command = add(
@@ -198,22 +197,20 @@ int main(int argc, char** argv) {
   convert_command->add_option("-o,--output", convert.output, "write to a file; of a run .h5 or .csv")
       ->type_name("FILE");
   convert_command->add_flag("--json", convert.json, "print the state, or those of a run, as JSON");
-  convert_command->callback([&] { status = convert_coordinates(convert); });
+  convert_command->callback([&] { status = hamflow::app::convert_command(convert); });
 
   std::string what;
   bool list_json = false;
   CLI::App* list_command = add(app, "list", "List the catalogue", "  hamflow list methods\n  hamflow list problems\n");
-  list_command->add_option("what", what, "methods or problems")
-      ->required()
-      ->check(one_of({"methods", "problems"}));
+  list_command->add_option("what", what, "methods or problems")->required()->check(one_of({"methods", "problems"}));
   list_command->add_flag("--json", list_json, "print JSON");
-  list_command->callback([&] { status = list_catalogue(what, list_json); });
+  list_command->callback([&] { status = hamflow::app::list_command(what, list_json); });
 
   std::string name;
   CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",
                                "  hamflow show central-force\n  hamflow show cg\n");
   show_command->add_option("name", name, "a problem or a method")->required()->type_name("NAME");
-  show_command->callback([&] { status = show_entry(name); });
+  show_command->callback([&] { status = hamflow::app::show_command(name); });
 
   try {
     reject_unknown_command(app, argc, argv);
@@ -225,11 +222,8 @@ int main(int argc, char** argv) {
     status = wrong ? exit_rejected : exit_done;
     const std::vector<std::string> words(argv, argv + argc);
     if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
-      std::cout << hamflow::json_text({{"status", "rejected"}, {"errors", {{{"key", ""}, {"message", message}}}}});
+      std::cout << hamflow::rejection_json(std::vector<std::string>{message});
     }
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-    return exit_failed;
   }
   std::cout.flush();
   if (!std::cout) {

@@ -66,26 +66,7 @@ class OptionReader {
   std::size_t at_ = 0;
 };
 
-/// The parts between commas that stand outside of parentheses and brackets.
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '(' || c == '[') ++depth;
-    if (c == ')' || c == ']') --depth;
-    if (c == ',' && depth == 0) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  for (std::string& part : parts) part = trimmed(part);
-  return parts;
-}
-
 }  // namespace
-
-std::vector<std::string> method_texts(const std::string& list) { return split(list); }
 
 std::optional<RefusedOption> refused_option(const MethodSpec& spec) {
   const MethodFamily& family = *find_method(spec.name).family;
@@ -117,7 +98,7 @@ MethodSpec parse_method(const std::string& text) {
   if (options.empty()) throw Error("method '" + spec.name + "' takes no options");
   if (inside.empty()) return spec;
   OptionReader reader(spec.name, options);
-  for (const std::string& part : split(inside)) reader.read(part, spec.options);
+  for (const std::string& part : split_list(inside)) reader.read(part, spec.options);
   if (const auto refused = refused_option(spec))
     throw Error(spec.name + ": " + refused->name + ": " + refused->message);
   return spec;

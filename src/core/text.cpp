@@ -28,6 +28,25 @@ std::string joined(std::span<const std::string> words, std::string_view separato
       words, [](const std::string& word) -> const std::string& { return word; }, separator);
 }
 
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (c == ',' && depth == 0) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  for (std::string& part : parts) {
+    const auto first = part.find_first_not_of(" \t");
+    part = first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(" \t") - first + 1);
+  }
+  return parts;
+}
+
 std::string nearest(const std::string& name, std::span<const std::string> candidates) {
   std::string best;
   std::size_t least = std::max<std::size_t>(name.size() / 2, 2) + 1;

@@ -1,4 +1,5 @@
-// One kind of figure. A file in kinds/, say energy_error.cpp, defines `energy_error_figure`.
+// One kind of figure. A file in kinds/, say energy_error.cpp, defines `energy_error_figure`; its functions stand in the
+// namespace `energy_error`, since several files may be compiled as one.
 #pragma once
 
 #include <string>

@@ -9,9 +9,19 @@
 #include <vector>
 
 #include "hamflow/core/archive.hpp"
-#include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
+
+/// What one observer of the run has seen.
+struct ObserverRecord {
+  std::string name;
+  std::vector<std::byte> bytes;  // Observer::archive()
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(name, bytes);
+  }
+};
 
 struct Checkpoint {
   std::string version;            // of hamflow
@@ -21,16 +31,17 @@ struct Checkpoint {
   std::int64_t steps = 0;  // to be taken
   std::int64_t step = 0;   // taken
   std::int64_t record_every = 0;
-  std::uint64_t rows = 0;       // of run.h5
-  std::uint64_t csv_bytes = 0;  // of trajectory.csv
+  std::uint64_t rows = 0;          // of run.h5
+  std::uint64_t section_rows = 0;  // of its section
+  std::uint64_t csv_bytes = 0;     // of trajectory.csv
   double wall_seconds = 0;
-  std::vector<std::byte> simulation;  // Simulation::save()
-  EnergyBlockState energy_blocks;     // of the certificate
+  std::vector<std::byte> simulation;      // Simulation::save()
+  std::vector<ObserverRecord> observers;  // of what is measured on the way
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(version, instruction_set, keys, values, steps, step, record_every, rows, csv_bytes, wall_seconds, simulation,
-       energy_blocks);
+    ar(version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, csv_bytes, wall_seconds,
+       simulation, observers);
   }
 };
 

@@ -113,6 +113,7 @@ struct RunFile::Impl {
   std::size_t waiting = 0;
   std::size_t most_waiting = batch_rows;
   std::uint64_t rows = 0;
+  std::uint64_t section_rows = 0;
   Clock::time_point flushed = Clock::now();
 
   template <class F>
@@ -167,7 +168,8 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
 }
 
-RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows) {
+RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
+                 std::uint64_t section_rows) {
   silence_hdf5();
   std::filesystem::path fresh = file;
   fresh += ".new";
@@ -177,7 +179,9 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     same.created = read_attribute(old, "created");
     RunFile copy(fresh, same);
     copy.impl_->for_each_column([&](auto& column) { column.copy_from(old, rows, copy.impl_->most_waiting); });
+    for (auto& column : copy.impl_->section) column.copy_from(old, section_rows, copy.impl_->most_waiting);
     copy.impl_->rows = rows;
+    copy.impl_->section_rows = section_rows;
     force_to_disk(fresh);
     std::filesystem::rename(fresh, file);  // the open file keeps its identity
     impl_ = std::move(copy.impl_);
@@ -189,6 +193,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
 }
 
 std::uint64_t RunFile::rows() const { return impl_->rows; }
+std::uint64_t RunFile::section_rows() const { return impl_->section_rows; }
 
 RunFile::~RunFile() {
   if (!impl_) return;
@@ -222,6 +227,7 @@ void RunFile::append(const SectionPoint& point) {
   for (const double x : point.q) impl_->section.at(0).add(x);
   for (const double x : point.p) impl_->section[1].add(x);
   impl_->section[2].add(point.time);
+  ++impl_->section_rows;
   if (++impl_->section_waiting == impl_->most_waiting) flush();
 }
 

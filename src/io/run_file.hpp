@@ -43,14 +43,16 @@ class RunFile {
  public:
   /// @throws FileError
   RunFile(const std::filesystem::path& file, const RunDescription& description);
-  /// Goes on after the first `rows` rows of a file that is there, however it was left. @throws FileError; the file is
-  /// then as it was
-  RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows);
+  /// Goes on after the first `rows` rows, and `section_rows` points of the section, of a file that is there, however it
+  /// was left. @throws FileError; the file is then as it was
+  RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
+          std::uint64_t section_rows = 0);
   ~RunFile();
   void append(const Frame& frame);
   void append(const SectionPoint& point);
   /// Appended so far, written or not.
   std::uint64_t rows() const;
+  std::uint64_t section_rows() const;
   /// Writes and flushes what has gathered. @throws FileError, e.g. when the disk is full
   void flush();
   /// Flushes if some time has passed since the last flush: bounds what a crash can lose.

@@ -31,6 +31,12 @@ Verdict SectionFinder::observe(const Frame& frame) {
   return Verdict::go_on;
 }
 
+/// A copy of the simulation is a copy of its bits, wherever it was taken.
+void SectionFinder::archive(Reader& ar) {
+  fields(ar);
+  copy_ = begun_ ? simulation_.clone() : nullptr;
+}
+
 /// At theta = 1 the run's own next state is meant, which has the other sign.
 bool SectionFinder::locate(std::int64_t step, double before, double after) {
   if (copy_->advance(step - copy_->step()) != Outcome::done) return false;

@@ -1,4 +1,4 @@
-#include "coordinates.hpp"
+#include "hamflow/scenario/coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -32,7 +32,4 @@ class ScenarioFamily {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The text of a scenario file. @throws FileError
-std::string scenario_text(const std::string& file);
-
 }  // namespace hamflow

@@ -138,21 +138,6 @@ std::string reason_of(const Simulation& simulation, Outcome outcome) {
 }
 }  // namespace
 
-std::vector<std::string> split_list(const std::string& text) {
-  std::vector<std::string> parts{""};
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '(') ++depth;
-    if (c == ')') --depth;
-    if (c == ',' && depth == 0) {
-      parts.emplace_back();
-    } else if (c != ' ' && c != '\t') {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
 std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count) {
   std::vector<std::int64_t> all;
   for (int k = 0; k < count; ++k) {

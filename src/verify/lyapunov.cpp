@@ -154,6 +154,11 @@ Verdict TangentWatch::observe(const Frame& frame) {
   State<double> now = frame.q;
   now.insert(now.end(), frame.p.begin(), frame.p.end());
   std::int64_t next = 1;
+  if (at_ >= 0 && frame.step < due_) {  // a longer run would not have looked here
+    Writer ar;
+    fields(ar);
+    before_the_end_ = ar.take();
+  }
   if (at_ >= 0 && frame.step > at_) {
     const std::int64_t steps = frame.step - at_;
     followed_ = map_->advance_with_tangents(z_, tangents(), h_, steps);
@@ -164,6 +169,26 @@ Verdict TangentWatch::observe(const Frame& frame) {
   at_ = frame.step;
   due_ = at_ + next;
   return Verdict::go_on;
+}
+
+void TangentWatch::archive(Writer& ar) {
+  if (before_the_end_.empty()) {
+    fields(ar);
+  } else {
+    ar.raw(before_the_end_.data(), before_the_end_.size());
+  }
+}
+
+void TangentWatch::archive(Reader& ar) {
+  const std::size_t count = tangents().size();
+  fields(ar);
+  before_the_end_.clear();
+  const auto is_whole = [&](const State<double>& v) { return v.size() == 2 * map_->dimension(); };
+  const bool begun = at_ >= 0;
+  if (tangents().size() != count || !std::all_of(tangents().begin(), tangents().end(), is_whole) ||
+      (begun && !is_whole(z_))) {
+    throw Error("saved bytes hold the tangent vectors of another run");
+  }
 }
 
 LyapunovWatch::LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count)

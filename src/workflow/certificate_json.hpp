@@ -1,7 +1,7 @@
 // Certificates and reversals as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "hamflow/verify/certificate.hpp"
 

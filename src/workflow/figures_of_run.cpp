@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
-
 #include "figure.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
+#include "scenario_edit.hpp"
 
 namespace hamflow {
 
@@ -14,13 +13,8 @@ namespace {
 
 /// The scenario that a run.h5 carries; what --set changed stands behind its text as comments.
 Scenario scenario_of(const RunSamples& samples, const std::filesystem::path& file) {
-  std::vector<std::string> sets;
-  std::istringstream lines(samples.description.scenario);
-  const std::string mark = "# --set ";
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(mark)) sets.push_back(line.substr(mark.size()));
-  }
-  const Reading reading = read_scenario_text(samples.description.scenario, file.string(), sets);
+  const std::string& text = samples.description.scenario;
+  const Reading reading = read_scenario_text(text, file.string(), sets_of(text));
   if (!reading.scenario)
     throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
   return *reading.scenario;
@@ -69,6 +63,14 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
     data.section_coordinate = data.coordinates.size() == data.q.size() ? data.coordinates[shown] : "q";
   }
   write_figure(data, !kind.empty() ? kind : usual_figure(facts_of(data)), file);
+}
+
+void draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
+  if (scenario.figures.empty()) return;
+  std::filesystem::create_directories(folder / "figures");
+  for (const std::string& kind : scenario.figures) {
+    for (const char* format : {".svg", ".pdf", ".png"}) draw_figure(folder, kind, folder / "figures" / (kind + format));
+  }
 }
 
 }  // namespace hamflow

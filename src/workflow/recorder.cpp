@@ -1,8 +1,8 @@
 #include "recorder.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
+
+#include "run_description.hpp"
 
 namespace hamflow {
 
@@ -11,11 +11,6 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
   const auto wants = [&](const char* format) {
     return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
   };
-  const std::vector<InvariantInfo>& declared = scenario.problem->info.invariants;
-  const std::vector<std::size_t> sizes =
-      scenario.problem->invariant_sizes(scenario.request.parameters, scenario.start_q.size());
-  std::vector<std::pair<std::string, std::size_t>> invariants;
-  for (std::size_t i = 0; i < declared.size(); ++i) invariants.emplace_back(declared[i].name, sizes[i]);
   if (from != nullptr) {
     // A checkpoint is written after the samples of its step, but without one that is there only for the end.
     const bool step_is_written = by_times() || from->step % scenario.record_every == 0;
@@ -26,27 +21,14 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
         scenario.record_steps.begin());
   }
   if (wants("h5")) {
-    char host[256] = "";
-    (void)gethostname(host, sizeof host - 1);
-    const RunDescription description{.scenario = scenario.text,
-                                     .version = HAMFLOW_VERSION,
-                                     .host = host,
-                                     .problem = scenario.request.problem,
-                                     .method = describe(scenario.request.method).name,
-                                     .arithmetic = scenario.request.arithmetic,
-                                     .kernel = scenario.request.kernel,
-                                     .dimension = scenario.start_q.size(),
-                                     .invariants = invariants,
-                                     .diagnostics = describe(scenario.request.method).diagnostics,
-                                     .section = scenario.section.has_value(),
-                                     .samples = static_cast<std::size_t>(sample_count(scenario))};
+    const RunDescription description = description_of(scenario, static_cast<std::size_t>(sample_count(scenario)));
     const std::filesystem::path file = folder / "run.h5";
     h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
-                          : std::make_unique<RunFile>(file, description, from->rows);
+                          : std::make_unique<RunFile>(file, description, from->rows, from->section_rows);
   }
   if (wants("csv")) {
     const std::filesystem::path file = folder / "trajectory.csv";
-    csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), invariants)
+    csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), invariant_columns(scenario))
                            : std::make_unique<CsvFile>(file, from->csv_bytes);
   }
 }
@@ -107,6 +89,7 @@ void Recorder::mark(Checkpoint& checkpoint) {
   if (csv_) force_to_disk(folder_ / "trajectory.csv");
   const Sizes now = before_the_end_.value_or(sizes());
   checkpoint.rows = now.rows;
+  checkpoint.section_rows = h5_ ? h5_->section_rows() : 0;  // a point of the section is there, however the run goes on
   checkpoint.csv_bytes = now.csv_bytes;
 }
 

@@ -27,7 +27,8 @@ class Recorder final : public Observer {
   void finish(const Simulation& simulation);
   void flush();
   void flush_if_due();
-  /// The files as they would be had the run no end yet, written and forced to the disk, go into the checkpoint.
+  /// The lengths that the files would have if the run had no end yet go into the checkpoint; the files are written and
+  /// forced to the disk. This is the recorder's archive(): it is read before the files are opened.
   void mark(Checkpoint& checkpoint);
   /// The time of the sample at which a run stopped for want of a partial step; else nothing.
   std::optional<std::string> failed_at(std::int64_t step) const;

@@ -53,8 +53,8 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   }
   if (scenario.request.kernel == "fast" && checkpoint.instruction_set != instruction_set()) {
     complain(run_path(run_keys().kernel), "found \"fast\" with the instruction set " + instruction_set() +
-                               "; allowed with --resume the instruction set " + checkpoint.instruction_set +
-                               ", with which the run began");
+                                              "; allowed with --resume the instruction set " +
+                                              checkpoint.instruction_set + ", with which the run began");
   }
   return all;
 }
@@ -70,12 +70,33 @@ std::optional<std::string> finished_summary(const Scenario& scenario, const Chec
   return done ? std::optional(text) : std::nullopt;
 }
 
+void restore_observers(const Checkpoint& checkpoint, const std::vector<NamedObserver>& observers) {
+  const auto unusable = [](const std::string& why) { return FileError("the checkpoint cannot be used: " + why); };
+  if (checkpoint.observers.size() != observers.size()) {
+    throw unusable("found " + std::to_string(observers.size()) + " observers; allowed the " +
+                   std::to_string(checkpoint.observers.size()) + " with which the run began");
+  }
+  for (std::size_t i = 0; i < observers.size(); ++i) {
+    const ObserverRecord& record = checkpoint.observers[i];
+    if (record.name != observers[i].name) {
+      throw unusable("found observer " + observers[i].name + "; allowed " + record.name + ", as when the run began");
+    }
+    try {
+      Reader ar(record.bytes);
+      observers[i].observer->archive(ar);
+      ar.finish();
+    } catch (const Error& error) {
+      throw unusable(record.name + ": " + error.what());
+    }
+  }
+}
+
 CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& simulation, Recorder& recorder,
-                                   const EnergyBlocks& blocks, const std::filesystem::path& folder,
+                                   std::vector<NamedObserver> observers, const std::filesystem::path& folder,
                                    double seconds_before)
     : simulation_(simulation),
       recorder_(recorder),
-      blocks_(blocks),
+      observers_(std::move(observers)),
       file_(folder / "checkpoint.bin"),
       every_(scenario.checkpoint_every),
       seconds_before_(seconds_before) {
@@ -87,6 +108,15 @@ CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& s
   }
   checkpoint_.steps = scenario.steps;
   checkpoint_.record_every = scenario.record_every;
+}
+
+void CheckpointWriter::archive_observers() {
+  checkpoint_.observers.clear();
+  for (const NamedObserver& each : observers_) {
+    Writer ar;
+    each.observer->archive(ar);
+    checkpoint_.observers.push_back({each.name, ar.take()});
+  }
 }
 
 std::int64_t CheckpointWriter::next_due(std::int64_t step) const {
@@ -108,7 +138,7 @@ void CheckpointWriter::write() {
   recorder_.mark(checkpoint_);
   checkpoint_.step = simulation_.step();
   checkpoint_.simulation = simulation_.save();
-  checkpoint_.energy_blocks = blocks_.state();
+  archive_observers();
   checkpoint_.wall_seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
   write_checkpoint(file_, checkpoint_);
   last_ = Clock::now();

@@ -7,15 +7,11 @@
 #include <cerrno>
 #include <fstream>
 
+#include "hamflow/core/error.hpp"
+
 namespace hamflow {
 
 namespace fs = std::filesystem;
-
-fs::path folder_of(const Scenario& scenario, const std::string& out) {
-  if (!out.empty()) return out;
-  if (!scenario.folder.empty()) return scenario.folder;
-  return fs::path(scenario.file).stem().string() + ".run";
-}
 
 void make_folder(const fs::path& folder, bool force) {
   std::error_code error;

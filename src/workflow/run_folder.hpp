@@ -2,13 +2,10 @@
 #pragma once
 
 #include <filesystem>
-
-#include "hamflow/scenario/scenario.hpp"
+#include <string>
 
 namespace hamflow {
 
-/// `<scenario stem>.run` in the working directory, unless the scenario or the command line names another.
-std::filesystem::path folder_of(const Scenario& scenario, const std::string& out);
 /// Makes the folder. With `force` an existing one is used, and what an earlier run left in it is removed, nothing else.
 /// @throws FileError when it exists or cannot be made
 void make_folder(const std::filesystem::path& folder, bool force);

@@ -171,10 +171,9 @@ Scenario Session::present() const {
   for (const SessionChange& c : changes_) {
     now.text += "# after step " + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
   }
-  std::vector<ScenarioEdit> edits{
-      {run_path(run_keys().dt), "\"" + request_.dt + "\""},
-      {run_path(run_keys().t_end), {}},
-      {run_path(run_keys().steps), std::to_string(now.steps)}};
+  std::vector<ScenarioEdit> edits{{run_path(run_keys().dt), "\"" + request_.dt + "\""},
+                                  {run_path(run_keys().t_end), {}},
+                                  {run_path(run_keys().steps), std::to_string(now.steps)}};
   if (!same_method) edits.push_back({"method", method_table(request_.method)});
   now.text += edited_scenario(scenario_.text, edits);
   return now;

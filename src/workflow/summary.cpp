@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <variant>
 
 #include "certificate_json.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
+#include "measures/measures.hpp"
 
 namespace hamflow {
 
@@ -24,8 +26,8 @@ Json parameters_of(const Scenario& scenario) {
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
     if (!values.has(parameter.name)) continue;
     const std::vector<double>& list = values.list(parameter.name);
-    const bool single = parameter.type == OptionType::number ||
-                        (parameter.type == OptionType::number_or_list && list.size() == 1);
+    const bool single =
+        parameter.type == OptionType::number || (parameter.type == OptionType::number_or_list && list.size() == 1);
     parameters[parameter.name] = single && parameter.range.whole ? Json(static_cast<std::int64_t>(list[0]))
                                  : single                        ? Json(list[0])
                                                                  : Json(list);
@@ -126,7 +128,7 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
 std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
 
 Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                const RunCertificate* certificate) {
+                const RunCertificate* certificate, const Measures* measures) {
   Frame frame;
   simulation.look(frame);
   const Effort effort = simulation.effort();
@@ -186,7 +188,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   }
   s["events"] = Json::object();
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
-  for (const auto& [key, value] : result.measures.items()) s[key] = value;
+  if (measures != nullptr) measures->add_to(s);
   s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
@@ -194,135 +196,6 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   return s;
 }
 
-Json rejection_of(const std::vector<Complaint>& complaints) {
-  Json errors = Json::array();
-  for (const Complaint& c : complaints) {
-    errors.push_back({{"file", c.file}, {"line", c.line}, {"column", c.column}, {"key", c.key}, {"message", c.text()}});
-  }
-  return {{"status", "rejected"}, {"errors", errors}};
-}
-
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-namespace {
-std::string orbit_text(const Json& orbit) {
-  std::string text = orbit["type"].get<std::string>();
-  if (orbit.contains("conic")) text += " (" + orbit["conic"].get<std::string>() + ")";
-  text += fmt::format(", r = {:.6g} .. {:.6g}, apsidal angle {:.6g}", orbit["r_min"].get<double>(),
-                      orbit["r_max"].get<double>(), orbit["apsidal_angle"].get<double>());
-  if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
-  return text;
-}
-}  // namespace
-
-namespace {
-std::string shown_number(const Json& x, const char* form) {
-  return x.is_null() || std::isnan(x.get<double>()) ? std::string("nan")
-                                                    : fmt::format(fmt::runtime(form), x.get<double>());
-}
-
-/// The largest of some numbers, without sign.
-double largest_of(const Json& xs) {
-  double largest = 0;
-  for (const Json& x : xs) largest = x.is_null() ? largest : std::max(largest, std::abs(x.get<double>()));
-  return largest;
-}
-
-std::string lyapunov_text(const Json& found) {
-  constexpr std::size_t most_shown = 6;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(found["exponents"].size(), most_shown); ++i) {
-    text += (i > 0 ? ", " : "") + shown_number(found["exponents"][i], "{:.6g}") + " +- " +
-            shown_number(found["standard_errors"][i], "{:.2g}");
-  }
-  if (found["exponents"].size() > most_shown) text += ", ...";
-  if (!found["pair_sums"].empty()) text += fmt::format("; pairs sum to at most {:.2g}", largest_of(found["pair_sums"]));
-  return text;
-}
-
-std::string eigenvalues_text(const Json& found) {
-  if (found["values"].is_null()) return found["message"].get<std::string>();
-  constexpr std::size_t most_shown = 6;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(found["values"].size(), most_shown); ++i) {
-    const double imaginary = found["values"][i][1].get<double>();
-    text += (i > 0 ? ", " : "") + fmt::format("{:.6g}", found["values"][i][0].get<double>()) +
-            (imaginary != 0 ? fmt::format("{:+.6g}i", imaginary) : "");
-  }
-  if (found["values"].size() > most_shown) text += ", ...";
-  return text + fmt::format("; products of pairs {:.2g} off 1, {:.2g} off symplectic",
-                            found["pair_defect"].get<double>(), found["symplectic_defect"].get<double>());
-}
-}  // namespace
-
-std::string readable(const Json& s) {
-  const auto row = [](std::string_view label, const std::string& text) {
-    return fmt::format("{:<20}{}\n", label, text);
-  };
-  const auto number = [](const Json& x) {
-    if (x.is_string()) return x.get<std::string>();
-    return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
-  };
-  const auto list = [&](const Json& xs) { return joined(xs, number); };
-  const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
-  const auto watched = [&](const Json& x) {
-    return fmt::format("{} -> {}, at most {:.3g} off", shown(x["initial"]), shown(x["final"]),
-                       x["max_error"].is_null() ? 0.0 : x["max_error"].get<double>());
-  };
-  std::string text = row("status", s["status"].get<std::string>());
-  text += row("problem", s["problem"].get<std::string>());
-  text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
-                                    s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
-  text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
-  text += row("final q", list(s["final"]["q"]));
-  text += row("final p", list(s["final"]["p"]));
-  text += row("energy", watched(s["energy"]) + fmt::format(" ({:.3g} of its scale)",
-                                                           s["energy"]["max_relative_error"].is_null()
-                                                               ? 0.0
-                                                               : s["energy"]["max_relative_error"].get<double>()));
-  for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
-  if (s.contains("exact")) {
-    text += row("exact", fmt::format("at most {:.3g} off the exact state", s["exact"]["max_difference"].get<double>()));
-  }
-  if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
-  if (s.contains("bodies")) {
-    for (const Json& body : s["bodies"]) {
-      text += row("body", fmt::format("mass {}, at [{}], velocity [{}]", number(body["mass"]), list(body["position"]),
-                                      list(body["velocity"])));
-    }
-  }
-  if (s.contains("diagnostics")) {
-    for (const auto& [key, x] : s["diagnostics"].items()) {
-      if (x.is_null()) continue;
-      text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key,
-                  fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(),
-                              x["t_min"].get<double>(), x["max"].get<double>(), x["t_max"].get<double>()));
-    }
-  }
-  text +=
-      row("evaluations",
-          fmt::format("force {}, gradient {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),
-                      s["evaluations"]["gradient"].get<long long>(), s["evaluations"]["hessian"].get<long long>(),
-                      s["evaluations"]["linear_solves"].get<long long>()));
-  if (!s["newton"].is_null()) {
-    text += row("Newton per step",
-                fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", s["newton"]["min"].get<long long>(),
-                            s["newton"]["mean"].get<double>(), s["newton"]["max"].get<long long>(),
-                            s["newton"]["stagnated"].get<long long>()));
-  }
-  for (const auto& [key, value] : s["events"].items()) text += row("event " + key, value.dump());
-  if (s.contains("lyapunov")) text += row("Lyapunov exponents", lyapunov_text(s["lyapunov"]));
-  if (s.contains("eigenvalues")) text += row("eigenvalues", eigenvalues_text(s["eigenvalues"]));
-  if (s.contains("section")) {
-    text += row("section", fmt::format("{} points, at most {:.2g} off it", s["section"]["points"].get<std::int64_t>(),
-                                       s["section"]["max_residual"].get<double>()));
-  }
-  if (s.contains("certificate") && !s["certificate"].is_null()) {
-    text += row("certificate", certificate_text(s["certificate"]));
-  }
-  text += row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s["wall_seconds"].get<double>(),
-                                       s["steps_per_second"].get<double>()));
-  return text;
-}
 
 }  // namespace hamflow

@@ -1,13 +1,15 @@
 // The summary of a run: what --json prints and summary.json holds.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
+
+class Measures;
 
 /// What the run itself found out.
 struct RunResult {
@@ -16,16 +18,13 @@ struct RunResult {
   std::string file_trouble;  // why the samples could not be written any further
   double wall_seconds = 0;
   std::int64_t steps_taken = 0;
-  nlohmann::ordered_json measures = nlohmann::ordered_json::object();  // further entries of the summary
 };
 
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
-/// @param certificate null where nobody has watched
+/// @param certificate null where nobody has watched   @param measures null where nothing was measured
 nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                                  const RunCertificate* certificate = nullptr);
-/// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}
-nlohmann::ordered_json rejection_of(const std::vector<Complaint>& complaints);
+                                  const RunCertificate* certificate = nullptr, const Measures* measures = nullptr);
 /// The same summary for people.
 std::string readable(const nlohmann::ordered_json& summary);
 /// JSON as text, also of strings that are no UTF-8: names of files may be anything.

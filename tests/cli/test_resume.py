@@ -27,6 +27,8 @@ RUN = """
 formats = ["h5", "csv"]
 """
 KEPLER = 'name = "central-force"\npotential = "kepler"\norbit = { kind = "ellipse", r_per = 1.0, r_aph = 3.0 }'
+CHAOS = 'name = "henon-heiles"\ninitial = { q = [0, -0.15], p = [0.54, 0.1] }'
+MEASURES = "\nlyapunov = true\neigenvalues = true\nsection = { coordinate = 'q1', direction = 0 }"
 MAGNETIC = 'name = "magnetic"\ninitial = { q = [1, 0, 0], p = [0, 1, 0.1] }'
 
 
@@ -55,12 +57,13 @@ class Resume(CommandCase):
             ('name = "verlet-dkd"', "dt = 0.01\nsteps = 300_000\narithmetic = 'compensated'", KEPLER),
             ('name = "yoshida6"', "dt = 0.01\nsteps = 200_000\narithmetic = 'lattice'", KEPLER),
             ('name = "rk4"', "dt = 0.01\nsteps = 200_000\nrecord_every = 7000", KEPLER),
+            ('name = "stv4" # watched', "dt = 0.1\nsteps = 20_000" + MEASURES, CHAOS),
             ('name = "boris"', "dt = 0.01\nsteps = 300_000", MAGNETIC),
             ('name = "cg"\ndiagnostics = true\non_divergence = "halve"', "dt = 0.1\nsteps = 30_000", KEPLER),
         ):
             with self.subTest(method=method, run=run):
                 self.scenario(method, run + "\ncheckpoint_every = 7001", problem)
-                room = self.folder / method.split('"')[1]
+                room = self.folder / method.replace('"', "").replace("\n", " ")
                 room.mkdir()
                 killed, with_checkpoint, compared, wrong = kill_and_resume(
                     HAMFLOW, COMPARE, self.folder / "s.toml", [], 5, 1, room, say=lambda text: None)
@@ -89,6 +92,43 @@ class Resume(CommandCase):
         self.assertEqual(a, b)
         done = self.run_to("part", "--resume", "--set", "run.steps=100", status=2)
         self.assertIn("at least the 2000", done.stderr)
+
+    def test_measures_go_on_to_the_last_bit(self):
+        """Exponents, eigenvalues and the section after ends that fall everywhere within a renormalisation."""
+        self.scenario(run="dt = 0.1\nsteps = 5000" + MEASURES, problem=CHAOS)
+        self.run_to("whole")
+        wanted = json.loads((self.folder / "whole" / "summary.json").read_text())
+        for number, ends in enumerate(([1], [64], [1000], [7, 2113, 4999], [3000, 3001, 3002, 3040])):
+            with self.subTest(ends=ends):
+                for end in ends:
+                    part = json.loads(self.run_to(f"part{number}", "--resume", "--set", f"run.steps={end}").stdout)
+                    self.assertEqual(part["steps"], end)
+                    self.assertEqual(part["eigenvalues"]["steps"], end)
+                found = json.loads(self.run_to(f"part{number}", "--resume").stdout)
+                for key in ("lyapunov", "eigenvalues", "section", "certificate", "energy"):
+                    self.assertEqual(found[key], wanted[key])
+                self.expect_equal("whole", f"part{number}")
+
+    def test_measures_after_an_interruption(self):
+        self.scenario(run="dt = 0.1\nsteps = 100_000\nrecord_every = 1007" + MEASURES, problem=CHAOS)
+        self.run_to("whole")
+        status, summary = self.interrupted("part", after=0.3)
+        self.assertEqual((status, summary["status"]), (130, "interrupted"))
+        self.run_to("part", "--resume")
+        self.expect_equal("whole", "part")
+
+    def test_points_of_the_section_after_the_checkpoint_are_dropped(self):
+        self.scenario(run="dt = 0.1\nsteps = 5000\ncheckpoint_every = 1000" + MEASURES, problem=CHAOS)
+        self.run_to("whole")
+        self.run_to("part", "--set", "run.steps=1000")
+        early = (self.folder / "part" / "checkpoint.bin").read_bytes()
+        self.run_to("part", "--resume", "--set", "run.steps=3000")
+        (self.folder / "part" / "checkpoint.bin").write_bytes(early)  # as if killed before the next one
+        self.run_to("part", "--resume")
+        self.expect_equal("whole", "part")
+        (self.folder / "part" / "checkpoint.bin").write_bytes(early)
+        changed = self.run_to("part", "--resume", "--set", "run.lyapunov=2", status=2)
+        self.assertIn("error: run.lyapunov: found 2; allowed with --resume true", changed.stderr)
 
     def test_more_steps_keep_the_spacing_of_samples(self):
         self.scenario(run="dt = 0.01\nsteps = 25_000")

@@ -252,7 +252,7 @@ TEST_F(Figures, SectionsNeedARunThatRecordedThem) {
   FigureData data = ellipse();
   data.section_coordinate.clear();
   EXPECT_NE(why_not(data, "section").find("run.section"), std::string::npos);
-  EXPECT_NE(why_not(oscillator(), "section").find("2 degrees of freedom"), std::string::npos);
+  EXPECT_NE(why_not(oscillator(), "section").find("1 degree of freedom"), std::string::npos);
 }
 
 TEST_F(Figures, ConditionsNeedARunThatRecordedThem) {
@@ -275,9 +275,10 @@ TEST_F(Figures, BodiesAreDrawnInOnePlane) {
 
 TEST_F(Figures, WrongRequestsNameWhatIsAllowed) {
   EXPECT_EQ(why_not(ellipse(), "orbit"), "");
-  EXPECT_EQ(why_not(oscillator(), "orbit"),
-            "found \"orbit\" for a problem with 1 degree of freedom, neither 2 nor those of bodies in space; allowed "
-            "phase, energy-error, energy");
+  EXPECT_EQ(
+      why_not(oscillator(), "orbit"),
+      "found \"orbit\" for a problem with 1 degree of freedom, where an orbit needs 2, or bodies in space; allowed "
+      "phase, energy-error, energy");
   EXPECT_EQ(why_not(oscillator(), "orbits"),
             "found \"orbits\"; allowed orbit, phase, energy-error, energy, condition, section; did you mean orbit?");
   EXPECT_THROW(write_figure(ellipse(), "spiral", folder_ / "a.svg"), Error);

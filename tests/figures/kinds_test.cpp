@@ -53,11 +53,12 @@ TEST(FigureKinds, TheUsualFigureIsTheOrbitElseThePhasePlaneElseTheEnergyError) {
 
 TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
   EXPECT_EQ(refused_figure("orbit", {.degrees_of_freedom = 2}), "");
-  EXPECT_EQ(refused_figure("orbit", {.degrees_of_freedom = 1}),
-            "found \"orbit\" for a problem with 1 degree of freedom, neither 2 nor those of bodies in space; allowed "
-            "phase, energy-error, energy");
+  EXPECT_EQ(
+      refused_figure("orbit", {.degrees_of_freedom = 1}),
+      "found \"orbit\" for a problem with 1 degree of freedom, where an orbit needs 2, or bodies in space; allowed "
+      "phase, energy-error, energy");
   EXPECT_EQ(refused_figure("phase", {.degrees_of_freedom = 13}),
-            "found \"phase\" for a problem with 13 degrees of freedom, more than the 12 that fit on a page; allowed "
+            "found \"phase\" for a problem with 13 degrees of freedom, of which at most 12 fit on a page; allowed "
             "energy-error, energy");
   EXPECT_EQ(refused_figure("condition", {.degrees_of_freedom = 1}),
             "found \"condition\", which needs method.diagnostics = true of an implicit method; allowed phase, "
@@ -66,8 +67,8 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
             "found \"section\", which needs run.section, e.g. { coordinate = \"q1\" }; allowed orbit, phase, "
             "energy-error, energy");
   EXPECT_EQ(refused_figure("section", with_everything(1)),
-            "found \"section\" for a problem with 1 degree of freedom, fewer than the 2 degrees of freedom of a "
-            "section; allowed phase, energy-error, energy, condition");
+            "found \"section\" for a problem with 1 degree of freedom, where a section needs 2 or more; allowed "
+            "phase, energy-error, energy, condition");
 }
 
 TEST(FigureKinds, WhatIsRefusedIsWhatIsNotDrawable) {

@@ -90,7 +90,7 @@ TEST(Catalog, ParsesMethodsWithTheirOptions) {
   EXPECT_EQ(parse_method("dop853(1e-9)").options, (Texts{{"tolerance", "1e-9"}}));
   EXPECT_EQ(describe(parse_method("taylor(order=3e1)")).order, 30);
   EXPECT_EQ(describe(parse_method("taylor(30,1e-9)")).name, "taylor(order=30,tolerance=1e-09)");
-  EXPECT_EQ(method_texts("verlet, cg(1,5),taylor(order=20)"),
+  EXPECT_EQ(split_list("verlet, cg(1,5),taylor(order=20)"),
             (std::vector<std::string>{"verlet", "cg(1,5)", "taylor(order=20)"}));
   EXPECT_EQ(describe(parse_method("cg(1,5)")).name, "cg(1,5)");
   EXPECT_EQ(describe(parse_method("cg")).name, "cg(1,auto)");

@@ -5,9 +5,6 @@
 #include <string>
 
 #include "../support/near.hpp"
-#include "hamflow/arithmetic/double_double.hpp"
-#include "hamflow/arithmetic/mp.hpp"
-#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/problems/potentials/binomial.hpp"
 #include "hamflow/problems/potentials/hooke.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
@@ -179,40 +176,6 @@ TEST(Stumpff, SatisfiesItsIdentitiesOnBothSidesOfTheSeries) {
     EXPECT_TRUE(within(c.c1, 1 - z * c.c3, 8 * size * long_epsilon)) << "z = " << k << "/20";
     const L x = sqrt(abs(z));
     EXPECT_TRUE(within(c.c0, z < 0 ? cosh(x) : cos(x), 8 * size * long_epsilon));
-  }
-}
-
-/// The search for the universal variable is done in long double; what it lacks would show as 1e-19 here.
-template <class R>
-void expect_flow_in_all_digits(const char* speed, const char* before, const char* after) {
-  const R k = evaluate_number<R>("0.75");
-  const R mass = evaluate_number<R>("1.25");
-  const Vector<R, 2> q{R(1), R(0)};
-  const Vector<R, 2> p{mass * evaluate_number<R>("0.1"), mass * evaluate_number<R>(speed)};
-  const R s = evaluate_number<R>(before);
-  const R t = evaluate_number<R>(after);
-  const Start<R, 2> half = kepler_flow(k, mass, q, p, s);
-  const Start<R, 2> parts = kepler_flow(k, mass, half.q, half.p, t);
-  const Start<R, 2> whole = kepler_flow(k, mass, q, p, R(s + t));
-  R largest(0);
-  R size(1);
-  for (std::size_t i = 0; i < 2; ++i) {
-    largest = larger(largest, larger(R(abs(parts.q[i] - whole.q[i])), R(abs(parts.p[i] - whole.p[i]))));
-    size = larger(size, larger(R(abs(whole.q[i])), R(abs(whole.p[i]))));
-  }
-  // Some 20 roundings of each flow, which the flow enlarges by up to t |v|/r at pericentre, below 100 here.
-  EXPECT_TRUE(largest <= R(4096) * std::numeric_limits<R>::epsilon() * size)
-      << speed << ' ' << static_cast<double>(largest / std::numeric_limits<R>::epsilon());
-}
-TEST(KeplerFlow, HasAllDigitsOfItsArithmetic) {
-  const MpDigits digits(60);
-  for (const char* speed :
-       {"0.5", "0.77", "1.1", "1.0908712114635714", "2"}) {  // ellipses, a near-parabola, a hyperbola
-    for (const auto& [before, after] : {std::pair{"1/3", "1.7"}, {"-2.5", "0.9"}, {"4", "-1/7"}}) {
-      expect_flow_in_all_digits<Quad>(speed, before, after);
-      expect_flow_in_all_digits<DoubleDouble>(speed, before, after);
-      expect_flow_in_all_digits<Mp>(speed, before, after);
-    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hamflow {
 
@@ -24,6 +25,10 @@ std::string joined(const Range& range, const TextOf& text_of, std::string_view s
   }
   return all;
 }
+
+/// The parts of "verlet, cg(1,5), [1, 2]" without the spaces around them: commas within parentheses and brackets do not
+/// split.
+std::vector<std::string> split_list(const std::string& text);
 
 /// The candidate nearest to `name` by edit distance (Levenshtein), the first of several; empty if none is near, that is
 /// if more than half of the name, and more than two characters, would have to change.

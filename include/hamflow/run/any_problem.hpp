@@ -139,7 +139,7 @@ class FunctionsOf final : public Functions<S> {
   std::vector<std::size_t> invariant_sizes() const override { return detail::invariant_sizes(problem_); }
   std::shared_ptr<const Functions<S>> reduced(const S& momentum) const override {
     if constexpr (cyclic && std::is_same_v<S, RealOf<P>>) {
-      return std::make_shared<FunctionsOf<typename P::Reduced, S>>(problem_.reduced(momentum));
+      return std::unique_ptr<const Functions<S>>(new FunctionsOf<typename P::Reduced, S>(problem_.reduced(momentum)));
     } else {
       absent();
     }
@@ -206,6 +206,13 @@ class FunctionsOf final : public Functions<S> {
   P problem_;
 };
 
+/// The functions of a problem for states of type S. Shared by their base, or the library's counting of references would
+/// be compiled for each of them.
+template <class S, class P>
+std::shared_ptr<const Functions<S>> functions_of(const P& problem) {
+  return std::unique_ptr<const Functions<S>>(new FunctionsOf<P, S>(problem));
+}
+
 /// A problem of dynamic size made of functions; a value like any problem, whose copies share them.
 /// @tparam States the number types of states, R the first   @tparam capability what the problem behind it offers
 template <class R, Capability capability, class... Others>
@@ -225,8 +232,7 @@ class AnyProblem {
         invariant_sizes_(std::make_shared<const std::vector<std::size_t>>(on<R>().invariant_sizes())) {}
   template <class P>
   static AnyProblem of(const P& problem) {
-    return {degrees_of_freedom(problem), std::make_shared<FunctionsOf<P, R>>(problem),
-            std::make_shared<FunctionsOf<P, Others>>(problem)...};
+    return {degrees_of_freedom(problem), functions_of<R>(problem), functions_of<Others>(problem)...};
   }
 
   std::size_t size() const { return size_; }

@@ -124,8 +124,6 @@ MethodInfo describe(const MethodSpec& spec);
 /// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)".
 /// @throws Error naming the option, what was found and what is allowed
 MethodSpec parse_method(const std::string& text);
-/// The parts of "verlet, cg(1,5), taylor(order=20)": commas within parentheses do not split.
-std::vector<std::string> method_texts(const std::string& list);
 /// The option to blame, and what is wrong with a text for it or with options that do not go together:
 /// "found ...; allowed ...". Empty if nothing is.
 struct RefusedOption {

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "hamflow/core/archive.hpp"
 #include "hamflow/run/simulation.hpp"
 
 namespace hamflow {
@@ -25,6 +26,21 @@ class Observer {
   /// expressions in the order of the run. observe() is called once for each, with the state that a partial step gives
   /// (Simulation::look_ahead). None: once, with the state of the step.
   virtual std::span<const std::string> times(std::int64_t /*step*/) const { return {}; }
+
+  /// What was seen so far, for a checkpoint, and back: everything that decides what the rest of the run makes of it.
+  /// One list of fields serves both directions (core/archive.hpp):
+  ///     void archive(Writer& ar) override { fields(ar); }
+  ///     void archive(Reader& ar) override { fields(ar); }
+  /// An observation that is due only because the run ends is left out, so that a longer run can go on from there. The
+  /// Reader is called on a fresh observer, when the simulation stands where the run goes on.
+  /// @throws Error unless overridden: an observer without it cannot be part of a run with checkpoints
+  virtual void archive(Writer& /*ar*/) { refuse_archive(); }
+  virtual void archive(Reader& /*ar*/) { refuse_archive(); }
+
+ private:
+  [[noreturn]] static void refuse_archive() {
+    throw Error("found an observer without archive(); allowed in a run with checkpoints: observers that override both");
+  }
 };
 
 /// Advances to `last_step`, calling each observer when it is due, the start included. A partial step that fails ends

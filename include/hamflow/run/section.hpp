@@ -33,12 +33,18 @@ class SectionFinder final : public Observer {
   SectionFinder(const Simulation& simulation, const Section& section, std::function<void(const SectionPoint&)> found);
   std::int64_t next_due(std::int64_t step) const override { return failed_ ? never : step; }
   Verdict observe(const Frame& frame) override;
+  void archive(Writer& ar) override { fields(ar); }
+  void archive(Reader& ar) override;
   std::int64_t points() const { return points_; }
   double max_residual() const { return max_residual_; }
   /// Whether a partial step failed: no points are sought after that.
   bool failed() const { return failed_; }
 
  private:
+  template <class Archive>
+  void fields(Archive& ar) {
+    ar(before_, begun_, failed_, points_, max_residual_);
+  }
   double distance(const Frame& frame) const;
   bool locate(std::int64_t step, double before, double after);
 

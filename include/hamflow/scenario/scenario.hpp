@@ -67,6 +67,9 @@ Reading read_scenario(const std::filesystem::path& file, const std::vector<std::
 /// The same for a text that was read already; `name` stands in messages.
 Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets);
 
+/// The text of a scenario file.   @throws FileError
+std::string scenario_text(const std::string& file);
+
 /// The smallest spacing of samples, start and end included, that keeps at most 10^4 of them.
 std::int64_t default_record_every(std::int64_t steps);
 /// Samples kept: the start, every `record_every`-th step, and the last.

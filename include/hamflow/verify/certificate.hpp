@@ -39,8 +39,9 @@ class EnergyBlocks final : public Observer {
   Verdict observe(const Frame& frame) override;
 
   RunDrift drift() const { return classify_run(state_.energies); }
-  EnergyBlockState& state() { return state_; }
   const EnergyBlockState& state() const { return state_; }
+  void archive(Writer& ar) override { ar(state_); }
+  void archive(Reader& ar) override { ar(state_); }
 
  private:
   EnergyBlockState state_;

@@ -69,9 +69,6 @@ struct Comparison {
   bool stopped = false;
 };
 
-/// "verlet, cg(1,5)": commas in parentheses do not split.
-std::vector<std::string> split_list(const std::string& text);
-
 /// Numbers of steps for twice, once, a half, ... of the given dt: `count` of them, without those that fall together.
 std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count = 6);
 

@@ -30,6 +30,10 @@ class TangentFrame {
   /// Makes the vectors orthonormal again, in their order, by modified Gram-Schmidt, twice; `logs` are the log R_ii.
   /// False where one of them vanished or is not finite.
   bool orthonormalise(std::span<double> logs);
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(vectors_);
+  }
 
  private:
   std::vector<State<double>> vectors_;
@@ -54,11 +58,19 @@ class LyapunovSums {
   void add(std::span<const double> logs, std::int64_t steps);
   /// @param dimension n   @param h the length of a step
   LyapunovSpectrum spectrum(std::size_t dimension, double h) const;
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(total_, steps_, renormalisations_, block_, block_steps_, wanted_steps_, blocks_);
+  }
 
  private:
   struct Block {
     std::vector<double> logs;
     std::int64_t steps = 0;
+    template <class Archive>
+    void archive(Archive& ar) {
+      ar(logs, steps);
+    }
   };
   std::vector<double> total_;
   std::int64_t steps_ = 0;
@@ -80,6 +92,8 @@ class TangentWatch : public Observer {
   TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
+  void archive(Writer& ar) final;
+  void archive(Reader& ar) final;
   /// Whether every step could be followed.
   bool followed() const { return followed_; }
   /// The step that the vectors have reached, -1 before the first.
@@ -89,10 +103,19 @@ class TangentWatch : public Observer {
   virtual std::vector<State<double>>& tangents() = 0;
   /// Called after so many steps. Returns how many to take next; 0: the vectors cannot be followed any further.
   virtual std::int64_t taken(std::int64_t steps) = 0;
+  /// The fields of the class that carries the vectors.
+  virtual void archive_tangents(Writer& ar) = 0;
+  virtual void archive_tangents(Reader& ar) = 0;
   const StepMap& map() const { return *map_; }
   double step_length() const { return h_; }
 
  private:
+  template <class Archive>
+  void fields(Archive& ar) {
+    ar(due_, at_, z_, followed_);
+    archive_tangents(ar);
+  }
+
   std::shared_ptr<const StepMap> map_;
   double h_;
   std::int64_t last_step_;
@@ -100,6 +123,7 @@ class TangentWatch : public Observer {
   std::int64_t at_ = -1;  // the step to which the vectors belong
   State<double> z_;
   bool followed_ = true;
+  std::vector<std::byte> before_the_end_;  // what archive() writes after an observation that only the end made due
 };
 
 /// Lyapunov exponents beside a run. Costs, for each exponent, about three times the steps behind virtual calls.
@@ -112,6 +136,8 @@ class LyapunovWatch final : public TangentWatch {
  protected:
   std::vector<State<double>>& tangents() override { return frame_.vectors(); }
   std::int64_t taken(std::int64_t steps) override;
+  void archive_tangents(Writer& ar) override { ar(frame_, sums_, block_); }
+  void archive_tangents(Reader& ar) override { ar(frame_, sums_, block_); }
 
  private:
   TangentFrame frame_;

@@ -32,6 +32,8 @@ class MonodromyWatch final : public TangentWatch {
  protected:
   std::vector<State<double>>& tangents() override { return columns_; }
   std::int64_t taken(std::int64_t) override { return 64; }
+  void archive_tangents(Writer& ar) override { ar(columns_); }
+  void archive_tangents(Reader& ar) override { ar(columns_); }
 
  private:
   std::vector<State<double>> columns_;

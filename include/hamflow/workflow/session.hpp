@@ -2,6 +2,7 @@
 // observers and summaries a session is one simulation, from its start to its present state.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "hamflow/run/observer.hpp"
@@ -71,7 +72,7 @@ class Session final : public Simulation {
   Scenario scenario_;
   Request request_;  // with the present settings; of a later part, with the state in which it began
   std::unique_ptr<Simulation> simulation_;  // the present part; its steps and times count from where the part began
-  Texts options_;  // of methods, as they were set last
+  Texts options_;                           // of methods, as they were set last
   std::vector<SessionChange> changes_;
   bool reversed_ = false;
 
@@ -109,5 +110,20 @@ class SampleKeeper final : public Observer {
   std::size_t most_;
   std::vector<Frame> samples_;
 };
+
+/// What the last steps of a session came to.
+struct SessionOutcome {
+  Outcome outcome = Outcome::done;
+  double wall_seconds = 0;  // of all steps
+};
+
+/// The summary of a session, as JSON: that of a run, and what was changed on the way.
+std::string session_summary(const Session& session, const SessionOutcome& last);
+/// What went wrong in the last steps, and what can be done; both empty where nothing did.
+std::pair<std::string, std::string> session_failure(const Session& session, const SessionOutcome& last);
+/// Writes what was sampled so far, as a run leaves it.
+/// @param replace an existing folder   @throws FileError when it exists and `replace` is false, or cannot be written
+void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,
+                  const std::filesystem::path& folder, bool replace);
 
 }  // namespace hamflow

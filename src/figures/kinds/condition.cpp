@@ -5,7 +5,7 @@
 
 namespace hamflow::figures {
 
-namespace {
+namespace condition {
 std::string refused(const FigureFacts& facts) {
   return facts.diagnostics ? "" : ", which needs method.diagnostics = true of an implicit method";
 }
@@ -36,11 +36,14 @@ Page page(const FigureData& data) {
   }
   return all;
 }
-}  // namespace
+}  // namespace condition
 
 extern const FigureKind condition_figure{
-    "condition", "condition and iterations of the Newton steps over time, of an implicit method with diagnostics",
-    5,           refused,
-    obstacle,    page};
+    "condition",
+    "condition and iterations of the Newton steps over time, of an implicit method with diagnostics",
+    5,
+    condition::refused,
+    condition::obstacle,
+    condition::page};
 
 }  // namespace hamflow::figures

@@ -10,7 +10,7 @@
 
 namespace hamflow::figures {
 
-namespace {
+namespace energy {
 std::string obstacle(const FigureData& data) {
   return finite_points(data.t, data.energy).x.empty() ? no_samples("energy") : "";
 }
@@ -41,8 +41,8 @@ Page page(const FigureData& data) {
   panel.y_label = energy_name;
   return {data.title, {panel}};
 }
-}  // namespace
+}  // namespace energy
 
-extern const FigureKind energy_figure{"energy", "the energy H over time", 4, never, obstacle, page};
+extern const FigureKind energy_figure{"energy", "the energy H over time", 4, never, energy::obstacle, energy::page};
 
 }  // namespace hamflow::figures

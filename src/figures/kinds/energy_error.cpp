@@ -6,7 +6,7 @@
 
 namespace hamflow::figures {
 
-namespace {
+namespace energy_error {
 std::string obstacle(const FigureData& data) {
   if (finite_points(data.t, data.energy).x.empty()) return no_samples("energy");
   return std::isfinite(data.energy.front()) ? "" : "the energy of the first sample, to compare with, is not finite";
@@ -33,14 +33,14 @@ Page page(const FigureData& data) {
   panel.series.insert(panel.series.begin(), {Ink::zero, "", {{times.low, times.high}, {0, 0}}});
   return {data.title, {panel}};
 }
-}  // namespace
+}  // namespace energy_error
 
 extern const FigureKind energy_error_figure{
     "energy-error",
     "the relative error of the energy over time, (H - H0)/max(|H0|, |T0| + |V0|)",
     3,
     never,
-    obstacle,
-    page};
+    energy_error::obstacle,
+    energy_error::page};
 
 }  // namespace hamflow::figures

@@ -6,10 +6,10 @@
 
 namespace hamflow::figures {
 
-namespace {
+namespace orbit {
 std::string refused(const FigureFacts& facts) {
   const bool drawn = facts.degrees_of_freedom == 0 || facts.degrees_of_freedom == 2 || facts.bodies_in_space;
-  return drawn ? "" : for_degrees(facts) + ", neither 2 nor those of bodies in space";
+  return drawn ? "" : for_degrees(facts) + ", where an orbit needs 2, or bodies in space";
 }
 
 std::string obstacle(const FigureData& data) {
@@ -63,10 +63,13 @@ Page page(const FigureData& data) {
   }
   return {data.title, {panel}};
 }
-}  // namespace
+}  // namespace orbit
 
-extern const FigureKind orbit_figure{
-    "orbit", "the path in the plane of 2 degrees of freedom, or the paths of bodies in space", 1, refused, obstacle,
-    page};
+extern const FigureKind orbit_figure{"orbit",
+                                     "the path in the plane of 2 degrees of freedom, or the paths of bodies in space",
+                                     1,
+                                     orbit::refused,
+                                     orbit::obstacle,
+                                     orbit::page};
 
 }  // namespace hamflow::figures

@@ -8,12 +8,12 @@
 
 namespace hamflow::figures {
 
-namespace {
+namespace phase {
 constexpr std::size_t most_planes = 12;  // on one page
 
 std::string refused(const FigureFacts& facts) {
   if (facts.degrees_of_freedom <= most_planes) return "";
-  return for_degrees(facts) + ", more than the " + std::to_string(most_planes) + " that fit on a page";
+  return for_degrees(facts) + ", of which at most " + std::to_string(most_planes) + " fit on a page";
 }
 
 std::string obstacle(const FigureData& data) {
@@ -60,8 +60,9 @@ Page page(const FigureData& data) {
   for (std::size_t i = 0; i < data.q.size(); ++i) all.panels.push_back(phase_panel(data, i, all.columns));
   return all;
 }
-}  // namespace
+}  // namespace phase
 
-extern const FigureKind phase_figure{"phase", "the phase plane (q, p) of each coordinate", 2, refused, obstacle, page};
+extern const FigureKind phase_figure{
+    "phase", "the phase plane (q, p) of each coordinate", 2, phase::refused, phase::obstacle, phase::page};
 
 }  // namespace hamflow::figures

@@ -6,9 +6,9 @@
 
 namespace hamflow::figures {
 
-namespace {
+namespace section {
 std::string refused(const FigureFacts& facts) {
-  if (facts.degrees_of_freedom == 1) return for_degrees(facts) + ", fewer than the 2 degrees of freedom of a section";
+  if (facts.degrees_of_freedom == 1) return for_degrees(facts) + ", where a section needs 2 or more";
   return facts.section ? "" : ", which needs run.section, e.g. { coordinate = \"q1\" }";
 }
 
@@ -32,11 +32,14 @@ Page page(const FigureData& data) {
   panel.series.push_back({Ink::fine_dots, "", thin_out(points, most_points)});
   return {data.title, {panel}};
 }
-}  // namespace
+}  // namespace section
 
 extern const FigureKind section_figure{
-    "section", "the points of a Poincare section, of a run with run.section and 2 or more degrees of freedom",
-    6,         refused,
-    obstacle,  page};
+    "section",
+    "the points of a Poincare section, of a run with run.section and 2 or more degrees of freedom",
+    6,
+    section::refused,
+    section::obstacle,
+    section::page};
 
 }  // namespace hamflow::figures

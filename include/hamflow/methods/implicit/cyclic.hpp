@@ -46,8 +46,8 @@ class CyclicElement : public SegmentEquations<P, R> {
     return rest_.measure(x, at, correction);
   }
 
-  Increment<Real, n> taken(const Variables& x, const Point& at) const { return closed(rest_.taken(x, at)); }
-  Increment<Real, n> taken(const Variables& x, const Point& at, const Variables& correction) const {
+  Increment<Real, n> taken(Variables& x, const Point& at) const { return closed(rest_.taken(x, at)); }
+  Increment<Real, n> taken(Variables& x, const Point& at, const Variables& correction) const {
     return closed(rest_.taken(x, at, correction));
   }
   Memory memory(const Variables&, const Increment<Real, n>& taken) const { return head(taken.p); }

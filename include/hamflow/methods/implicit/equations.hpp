@@ -27,10 +27,10 @@
 //     tangent(const Point&) const              -dr/dX, a Matrix
 //     Real norm(const Variables&, const Point&) const          of the residual, as option `tolerance` means it
 //     Correction<Real> measure(const Variables& x, const Point&, const Variables& correction) const
-// The end of a step, without a further evaluation:
-//     Increment<Real, n> taken(const Variables& x, const Point&) const                   z1 - z0 at x
-//     Increment<Real, n> taken(const Variables& x, const Point&, const Variables& c) const   at x + c, where c is the
-//                                              last correction, to second order in c
+// The end of a step, without a further evaluation; both leave the solution in x:
+//     Increment<Real, n> taken(Variables& x, const Point&) const                         z1 - z0 at x
+//     Increment<Real, n> taken(Variables& x, const Point&, const Variables& c) const     at x + c, where c is the last
+//                                              correction, to second order in c
 //     Memory memory(const Variables& x, const Increment<Real, n>& taken) const
 //     Unknowns unknowns(const Variables& x, const Increment<Real, n>& taken) const
 // Verification, for numbers S of any type (dual numbers above all), with Vectors of as many entries:
@@ -107,9 +107,8 @@ concept SolvableByNewton = HasStepTypes<E> &&
   { step.measure(x, at, x) } -> std::same_as<Correction<typename E::Real>>;
 };
 template <class E>
-concept EndsStep = HasStepTypes<E> &&
-    requires(const E& step, const typename E::Variables& x, const typename E::Point& at,
-             const Increment<typename E::Real, E::n>& taken) {
+concept EndsStep = HasStepTypes<E> && requires(const E& step, typename E::Variables& x, const typename E::Point& at,
+                                               const Increment<typename E::Real, E::n>& taken) {
   { step.taken(x, at) } -> std::same_as<Increment<typename E::Real, E::n>>;
   { step.taken(x, at, x) } -> std::same_as<Increment<typename E::Real, E::n>>;
   { step.memory(x, taken) } -> std::same_as<typename E::Memory>;

@@ -58,24 +58,29 @@ class GeneralElement : public SegmentEquations<P, R> {
   Correction<Real> measure(const Z& x, const Point& at, const Z& correction) const {
     Real distance(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Real unit = epsilon * (at.noise[i] + abs(x[i]));
-      const Real here = abs(correction[i]) / larger(unit, std::numeric_limits<Real>::min());
+      const Real size = abs(correction[i]);
+      Real unit = epsilon * (at.noise[i] + abs(x[i]));
+      if (!(unit > epsilon * (epsilon * size))) unit = epsilon * size;  // at 0 so far, without noise of its own
+      const Real here = size / larger(unit, std::numeric_limits<Real>::min());
       distance = here <= distance ? distance : here;
     }
     return {distance, Real(1)};
   }
 
-  Increment<Real, n> taken(const Z&, const Point& at) const { return detail::halves<n>(at.target); }
+  Increment<Real, n> taken(Z& x, const Point& at) const {
+    x = at.target;
+    return detail::halves<n>(x);
+  }
   /// The target at u + correction to second order: correction - K correction is what it changes by. u + correction
   /// itself would be rounded with the sign of the correction.
-  Increment<Real, n> taken(const Z&, const Point& at, const Z& correction) const {
-    Z target = at.target;
-    for (std::size_t i = 0; i < target.size(); ++i) {
+  Increment<Real, n> taken(Z& x, const Point& at, const Z& correction) const {
+    x = at.target;
+    for (std::size_t i = 0; i < x.size(); ++i) {
       Real change = correction[i];
-      for (std::size_t j = 0; j < target.size(); ++j) change -= at.tangent[i][j] * correction[j];
-      target[i] += change;
+      for (std::size_t j = 0; j < x.size(); ++j) change -= at.tangent[i][j] * correction[j];
+      x[i] += change;
     }
-    return detail::halves<n>(target);
+    return detail::halves<n>(x);
   }
   Z memory(const Z&, const Increment<Real, n>& taken) const { return detail::stacked(taken.q, taken.p); }
 

@@ -87,17 +87,18 @@ class NaturalElement : public SegmentEquations<P, R> {
     return {max_norm(correction), epsilon * (larger(flight_, max_norm(at.target)) + max_norm(next))};
   }
 
-  Increment<Real, n> taken(const V& d, const Point& at) const { return {d, at.impulse}; }
+  Increment<Real, n> taken(V& d, const Point& at) const { return {d, at.impulse}; }
   /// d + correction itself has just been rounded, mostly to the target of the *old* impulse: an error with the sign of
   /// the correction, hence a drift (4e-20 a step at H = -0.25, measured). The new impulse gives d afresh.
-  Increment<Real, n> taken(const V& d, const Point& at, const V& correction) const {
+  Increment<Real, n> taken(V& d, const Point& at, const V& correction) const {
     V impulse = at.impulse;
     for (std::size_t i = 0; i < d.size(); ++i) {
       Real change(0);
       for (std::size_t j = 0; j < d.size(); ++j) change += at.stiffness[i][j] * correction[j];
       impulse[i] -= h_ * change;
     }
-    return {displacement(impulse), impulse};
+    d = displacement(impulse);
+    return {d, impulse};
   }
   V memory(const V&, const Increment<Real, n>& taken) const { return taken.p; }
 

@@ -46,22 +46,18 @@ Stumpff<R> stumpff(R z) {
 
 namespace detail {
 /// The motion as a function of the universal variable s.
-template <class R>
 struct UniversalMotion {
-  R r0, eta, kappa, beta;
+  using L = long double;
+  L r0, eta, kappa, beta;
 
-  R radius(R s) const {
-    const Stumpff<R> c = stumpff(beta * s * s);
-    return r0 * c.c0 + s * (eta * c.c1 + s * kappa * c.c2);
-  }
-  R time(R s) const {
-    const Stumpff<R> c = stumpff(beta * s * s);
+  L time(L s) const {
+    const Stumpff<L> c = stumpff(beta * s * s);
     return s * (r0 * c.c1 + s * (eta * c.c2 + s * kappa * c.c3));
   }
 };
 
 /// s at time t, at most half a period from 0. t(s) is monotone.
-inline long double universal_variable(const UniversalMotion<long double>& motion, long double t) {
+inline long double universal_variable(const UniversalMotion& motion, long double t) {
   using L = long double;
   // The bracket: a whole period of s, or doubling, beginning where no exponential has grown yet.
   const L sign = t < 0 ? -1 : 1;
@@ -79,26 +75,9 @@ inline long double universal_variable(const UniversalMotion<long double>& motion
                         motion.time(high) - t);
 }
 
-/// The same in all the digits of R: the search is done in long double, Newton's iteration adds the rest. Boost.Math
-/// cannot search in our extended numbers, which are none of its types.
-template <class R>
-R universal_variable(const UniversalMotion<R>& motion, R t) {
-  using L = long double;
-  R s(universal_variable(UniversalMotion<L>{static_cast<L>(motion.r0), static_cast<L>(motion.eta),
-                                            static_cast<L>(motion.kappa), static_cast<L>(motion.beta)},
-                         static_cast<L>(t)));
-  R previous = std::numeric_limits<R>::max();
-  for (int pass = 0; pass < 400; ++pass) {  // some ten, but for a collision, where t' = r vanishes
-    const R change = (motion.time(s) - t) / motion.radius(s);
-    if (!(abs(change) < previous)) break;  // rounding
-    s = s - change;
-    previous = abs(change);
-  }
-  return s;
-}
-
-template <class R>
-Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vector<R, 2>& p0, R t) {
+inline Start<long double, 2> universal_kepler_flow(long double k, long double mass, const Vector<long double, 2>& q0,
+                                                   const Vector<long double, 2>& p0, long double t) {
+  using R = long double;
   const R kappa = k / mass;
   const Vector<R, 2> v0{p0[0] / mass, p0[1] / mass};
   const R r0 = hypot(q0[0], q0[1]);
@@ -109,7 +88,7 @@ Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vec
     t -= period * nearbyint(t / period);
   }
   if (t == R(0)) return {q0, p0};
-  const R s = universal_variable(UniversalMotion<R>{r0, eta, kappa, beta}, t);
+  const R s = universal_variable(UniversalMotion{r0, eta, kappa, beta}, t);
 
   const Stumpff<R> c = stumpff(beta * s * s);
   const R g1 = s * c.c1;
@@ -128,13 +107,13 @@ Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vec
 }
 }  // namespace detail
 
-/// The state after time t. Computed in long double for the types below it.
+/// The state after time t, computed in long double.
 template <class R>
-Start<R, 2> kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vector<R, 2>& p0, R t) {
-  using Inner =
-      std::conditional_t<(std::numeric_limits<R>::digits < std::numeric_limits<long double>::digits), long double, R>;
-  const Start<Inner, 2> now = detail::universal_kepler_flow<Inner>(
-      static_cast<Inner>(k), static_cast<Inner>(mass), cast<Inner>(q0), cast<Inner>(p0), static_cast<Inner>(t));
+requires std::is_floating_point_v<R> Start<R, 2> kepler_flow(R k, R mass, const Vector<R, 2>& q0,
+                                                             const Vector<R, 2>& p0, R t) {
+  using L = long double;
+  const Start<L, 2> now = detail::universal_kepler_flow(static_cast<L>(k), static_cast<L>(mass), cast<L>(q0),
+                                                        cast<L>(p0), static_cast<L>(t));
   return {cast<R>(now.q), cast<R>(now.p)};
 }
 

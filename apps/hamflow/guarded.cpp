@@ -1,0 +1,76 @@
+#include "guarded.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "hamflow/scenario/rejection.hpp"
+#include "hamflow/workflow/rejection_json.hpp"
+
+namespace hamflow::app {
+
+namespace {
+
+int rejected(bool json, const std::string& lines, const std::string& as_json) {
+  std::cerr << lines << '\n';
+  if (json) std::cout << as_json;
+  return exit_rejected;
+}
+
+int failed(bool json, const std::string& kind, const std::string& message, int status) {
+  print_error(message);
+  if (json) std::cout << failure_json(kind, message);
+  return status;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += (all.empty() ? "" : "\n") + line;
+  return all;
+}
+
+}  // namespace
+
+int guarded(bool json, const std::function<int()>& body, const std::string& failure) {
+  try {
+    return body();
+  } catch (const Rejection& rejection) {
+    return rejected(json, rejection.what(), rejection_json(rejection.complaints));
+  } catch (const RejectedLines& rejection) {
+    return rejected(json, joined(rejection.lines), rejection_json(rejection.lines));
+  } catch (const FileError& error) {
+    return failed(json, "file", error.what(), exit_file);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(json, "file", error.what(), exit_file);
+  } catch (const Error& error) {
+    if (!failure.empty()) return failed(json, failure, error.what(), exit_failed);
+    const std::string line = std::string("error: ") + error.what();
+    return rejected(json, line, rejection_json(std::vector<std::string>{line}));
+  } catch (const std::exception& error) {  // no memory, say
+    return failed(json, "error", error.what(), exit_failed);
+  }
+}
+
+void print_notes(const std::vector<std::string>& notes, bool quiet) {
+  if (quiet) return;
+  for (const std::string& note : notes) std::cerr << "note: " << note << '\n';
+}
+
+void print_error(const std::string& message, const std::string& hint) {
+  std::cerr << "error: " << message << '\n';
+  if (!hint.empty()) std::cerr << "hint: " << hint << '\n';
+}
+
+void write_file(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  out.flush();
+  if (!out) throw FileError("cannot write " + file);
+}
+
+int exit_status(const std::string& status) {
+  if (status == "failed") return exit_failed;
+  return status == "interrupted" ? exit_interrupted : exit_done;
+}
+
+}  // namespace hamflow::app

@@ -1,0 +1,33 @@
+// The one place where what a command came to becomes an exit status, and where `--json` prints something in place of a
+// summary.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+
+namespace hamflow::app {
+
+/// A request that is wrong beside its scenario: a line each, printed as they are.
+struct RejectedLines {
+  std::vector<std::string> lines;
+};
+
+/// Runs the body of a command and returns its status. An exception is printed on stderr, with `json` on stdout too:
+/// Rejection, RejectedLines: 2; FileError and errors of std::filesystem: 3; Error: 2, the request was wrong, unless
+/// `failure` names what fails of requests that were right, e.g. "comparison": then 1; anything else: 1.
+int guarded(bool json, const std::function<int()>& body, const std::string& failure = {});
+
+/// Notes and errors on stderr, a line each.
+void print_notes(const std::vector<std::string>& notes, bool quiet);
+void print_error(const std::string& message, const std::string& hint = {});
+
+/// Writes a text file that an option names.   @throws FileError
+void write_file(const std::string& file, const std::string& text);
+
+/// The status of something that was carried out: "done", "failed" or "interrupted".
+int exit_status(const std::string& status);
+
+}  // namespace hamflow::app

@@ -1,0 +1,33 @@
+// Work and precision: several methods with several steps on one problem, their table, files and figure.
+#pragma once
+
+#include <filesystem>
+
+#include "hamflow/verify/comparison.hpp"
+
+namespace hamflow {
+
+struct ComparisonReport {
+  Comparison comparison;
+  std::string status;   // "done", "interrupted"; "failed": no run came to its end
+  std::string message;  // of a failure, a sentence
+  std::string json;
+  std::string csv;
+  std::string text;  // for people
+};
+
+/// @param progress called with the number of runs that are done; returns false to stop   @throws Error
+ComparisonReport compare_methods(const ComparisonRequest& request,
+                                 const std::function<bool(std::size_t)>& progress = {});
+/// The work-precision figure.   @param file .svg, .pdf or .png   @throws Error, FileError
+void draw_comparison(const Comparison& comparison, const std::filesystem::path& file);
+
+/// Empty if the file's extension is that of a figure, else what is wrong with it.
+std::string refused_comparison_figure(const std::filesystem::path& file);
+
+/// Makes the folder for a comparison.   @throws FileError when it exists and `replace` is false, or cannot be made
+void make_comparison_folder(const std::filesystem::path& folder, bool replace);
+/// Writes compare.json, compare.csv and, where there is something to draw, figures/ into it.   @throws FileError
+void write_comparison(const ComparisonReport& report, const std::filesystem::path& folder);
+
+}  // namespace hamflow

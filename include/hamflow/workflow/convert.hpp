@@ -1,0 +1,51 @@
+// States, scenarios and runs in the other coordinates of their problem.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "hamflow/scenario/coordinates.hpp"
+#include "hamflow/scenario/rejection.hpp"
+
+namespace hamflow {
+
+/// A state for people ("q = [...]\np = [...]\n") and as JSON, {"coordinates", "q", "p"}.
+std::string state_text(const CanonicalState& state);
+std::string state_json(const std::string& system, const CanonicalState& state);
+
+/// The start of a scenario in the coordinates `to`.   @throws Error when its problem has no such coordinates
+CanonicalState converted_start(const Scenario& scenario, const std::string& to);
+/// The text of the scenario in the coordinates `to`; comments are lost.
+/// @throws Error when its problem or its method cannot be used in them   @throws Rejection
+std::string converted_scenario(const Scenario& scenario, const std::string& to);
+
+/// Whether a path names the folder of a run or an HDF5 file, whatever it is called.
+bool is_run(const std::filesystem::path& path);
+
+/// Every sample of a run in the coordinates `to`.
+class ConvertedRun {
+ public:
+  /// @param run its folder or run.h5   @throws Error when a state cannot be converted   @throws FileError
+  ConvertedRun(const std::filesystem::path& run, const std::string& to);
+  ~ConvertedRun();
+  ConvertedRun(const ConvertedRun&) = delete;
+  ConvertedRun& operator=(const ConvertedRun&) = delete;
+
+  std::string csv() const;
+  std::string json() const;
+  /// Writes a run.h5 that has all of the run but its section.   @return what is worth a note, or nothing
+  /// @throws FileError
+  std::string write_h5(const std::filesystem::path& target) const;
+  /// The largest change between two samples, in radians, of an angle whose whole turns the samples do not show: where
+  /// it is more than pi turns may be missing. 0 where `to` has no such angle.
+  double largest_turn() const;
+  /// The names of these angles, with commas between.
+  const std::string& turning() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hamflow

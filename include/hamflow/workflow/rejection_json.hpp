@@ -1,0 +1,18 @@
+// What `--json` prints in place of a summary.   [spec: product, section 3]
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hamflow/scenario/scenario.hpp"
+
+namespace hamflow {
+
+/// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}; the message is the whole line.
+std::string rejection_json(const std::vector<Complaint>& complaints);
+/// The same of lines that belong to no file.
+std::string rejection_json(const std::vector<std::string>& lines);
+/// {"status": "failed", "error": {kind, message}}
+std::string failure_json(const std::string& kind, const std::string& message);
+
+}  // namespace hamflow

@@ -1,0 +1,62 @@
+// A scenario becomes a run: its samples, checkpoints, summary and figures in a folder; or, without a folder, the
+// numbers alone. This is what `hamflow run` calls; nothing here prints, reads the environment or catches signals.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamflow/run/observer.hpp"
+#include "hamflow/scenario/rejection.hpp"
+#include "hamflow/verify/certificate.hpp"
+
+namespace hamflow {
+
+/// What to do with a folder that exists.
+enum class Existing {
+  refuse,   // FileError
+  replace,  // what an earlier run left in it is removed, nothing else
+  resume    // the run in it goes on, bit for bit as if it had never stopped; without a checkpoint it starts anew
+};
+
+/// How a scenario is carried out. None of it changes a bit of the trajectory.
+struct RunSettings {
+  std::filesystem::path folder{};  // empty: nothing is written
+  Existing existing = Existing::refuse;
+  /// Called several times a second with the steps taken; returns false to stop at the step boundary reached.
+  std::function<bool(std::int64_t step)> pulse{};
+  /// Called with what is worth a note, a sentence each.
+  std::function<void(const std::string& note)> note{};
+  /// Woken with the others. In a run with a folder their archive() is part of the checkpoints.
+  std::vector<Observer*> observers{};
+};
+
+/// What a run came to.
+struct RunReport {
+  std::string status;         // "done", "interrupted", "failed"
+  std::string message;        // of a run that failed: what happened, a sentence
+  std::string hint;           // and what can be done
+  std::string file_trouble;   // why not everything could be written; empty: it was. The numbers hold all the same
+  bool was_complete = false;  // resumed, and there was nothing to do
+  Outcome outcome = Outcome::done;
+  Frame final;
+  Excursion energy;
+  double energy_scale = 0;
+  std::vector<InvariantExcursion> invariants;  // in the order of the problem
+  std::optional<RunCertificate> certificate;   // none where the run was complete before
+  double wall_seconds = 0;                     // of all its parts
+  std::string json;                            // the summary, as in summary.json
+  std::string text;                            // the summary for people
+};
+
+/// @throws Rejection when the scenario does not go on with the run in the folder   @throws Error when an observer has
+/// no archive()   @throws FileError when the folder cannot be used
+RunReport run_scenario(const Scenario& scenario, const RunSettings& settings = {});
+
+/// Where `hamflow run` puts a run: `out` if given, else the scenario's folder, else <stem of its file>.run in the
+/// working directory.
+std::filesystem::path folder_of(const Scenario& scenario, const std::string& out = {});
+
+}  // namespace hamflow

@@ -1,0 +1,118 @@
+#include "hamflow/workflow/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "run_folder.hpp"
+#include "summary.hpp"
+#include "work_precision.hpp"
+
+namespace hamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json row_of(const ComparisonPoint& p) {
+  Json row{
+      {"method", p.method},
+      {"order", p.order},
+      {"dt", p.dt},
+      {"steps", p.steps},
+      {"status", status_of(p.outcome)},
+      {"evaluations",
+       {{"force", p.force}, {"gradient", p.gradient}, {"hessian", p.hessian}, {"linear_solves", p.linear_solves}}}};
+  if (p.tolerance) row["tolerance"] = *p.tolerance;
+  const auto measured = [&](double x) { return p.done() ? Json(x) : Json(nullptr); };
+  row["error"] = measured(p.error);
+  row["max_energy_error"] = measured(p.max_energy_error);
+  row["end_energy_error"] = measured(p.end_energy_error);
+  row["seconds"] = measured(p.seconds);
+  row["wall_seconds"] = measured(p.wall_seconds);
+  if (!p.done()) row["reason"] = p.failure;
+  return row;
+}
+
+Json json_of(const Comparison& c, const std::string& status) {
+  const std::size_t n = c.reference.end.size() / 2;
+  const auto middle = c.reference.end.begin() + static_cast<std::ptrdiff_t>(n);
+  Json all{{"status", status},
+           {"problem", c.problem},
+           {"arithmetic", c.arithmetic},
+           {"t_end", c.t_end},
+           {"reference",
+            {{"kind", c.reference.kind},
+             {"description", c.reference.description},
+             {"q", State<double>(c.reference.end.begin(), middle)},
+             {"p", State<double>(middle, c.reference.end.end())},
+             {"uncertainty", c.reference.uncertainty}}},
+           {"rows", Json::array()},
+           {"winners", Json::array()}};
+  for (const ComparisonPoint& p : c.points) all["rows"].push_back(row_of(p));
+  for (const ComparisonWinner& w : winners(c)) {
+    all["winners"].push_back({{"error", w.error}, {"by", w.by}, {"method", w.method}, {"work", w.work}});
+    if (w.second.empty()) continue;
+    all["winners"].back()["second"] = w.second;
+    all["winners"].back()["second_work"] = w.second_work;
+  }
+  return all;
+}
+
+}  // namespace
+
+ComparisonReport compare_methods(const ComparisonRequest& request, const std::function<bool(std::size_t)>& progress) {
+  ComparisonReport report;
+  report.comparison = compare(request, progress);
+  const std::vector<ComparisonPoint>& points = report.comparison.points;
+  const bool any_done = std::any_of(points.begin(), points.end(), [](const ComparisonPoint& p) { return p.done(); });
+  report.status = report.comparison.stopped ? "interrupted" : any_done ? "done" : "failed";
+  if (report.status == "failed") report.message = "every run failed; the first: " + points.at(0).failure;
+  report.json = json_text(json_of(report.comparison, report.status));
+  report.csv = comparison_csv(report.comparison);
+  report.text = comparison_table(report.comparison);
+  return report;
+}
+
+void draw_comparison(const Comparison& c, const fs::path& file) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  WorkPrecision data;
+  data.title = fmt::format("{}, t = {}, {} arithmetic", c.problem, shortest(c.t_end), c.arithmetic);
+  data.floor = c.reference.uncertainty;
+  std::string last;
+  for (const ComparisonPoint& p : c.points) {
+    if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});
+    last = p.method;
+    WorkCurve& curve = data.curves.back();
+    curve.evaluations.push_back(p.evaluations());
+    curve.seconds.push_back(p.done() ? p.seconds : nothing);
+    curve.error.push_back(p.done() ? p.error : nothing);
+    curve.energy_error.push_back(p.done() ? p.max_energy_error : nothing);
+  }
+  write_work_precision(data, file);
+}
+
+std::string refused_comparison_figure(const fs::path& file) { return refused_figure_file(file); }
+
+void make_comparison_folder(const fs::path& folder, bool replace) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !replace) {
+    throw FileError(folder.string() + " exists; give --force to replace the comparison in it, or --out another");
+  }
+  fs::create_directories(folder / "figures", error);
+  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
+void write_comparison(const ComparisonReport& report, const fs::path& folder) {
+  write_text(folder / "compare.json", report.json);
+  write_text(folder / "compare.csv", report.csv);
+  if (report.status != "done") return;
+  for (const char* format : {".svg", ".pdf", ".png"}) {
+    draw_comparison(report.comparison, folder / "figures" / (std::string("work-precision") + format));
+  }
+}
+
+}  // namespace hamflow

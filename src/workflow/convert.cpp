@@ -1,0 +1,78 @@
+#include "hamflow/workflow/convert.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "converted_text.hpp"
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
+#include "run_keys.hpp"
+#include "scenario_edit.hpp"
+#include "summary.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string row(const std::vector<double>& numbers) {
+  return "[" + joined(numbers, [](double x) { return fmt::format("{:.17g}", x); }) + "]";
+}
+
+/// Why the scenario's method cannot run in the new coordinates; empty if it can.
+std::string refused_method(const Scenario& scenario, const std::string& to) {
+  return refusal(scenario.request.method, in_coordinates(*scenario.problem, to));
+}
+
+}  // namespace
+
+std::string state_text(const CanonicalState& state) { return "q = " + row(state.q) + "\np = " + row(state.p) + "\n"; }
+
+std::string state_json(const std::string& system, const CanonicalState& state) {
+  return json_text(Json{{"coordinates", system}, {"q", state.q}, {"p", state.p}});
+}
+
+std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
+  std::vector<ScenarioEdit> edits{{"problem." + scenario.problem->info.chart_key, "\"" + to + "\""}};
+  if (!scenario.request.start.geometric() && !scenario.bodies) {
+    edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
+  }
+  if (scenario.section) {  // of a coordinate that is there no more
+    edits.push_back({run_path(run_keys().section), {}});
+    std::vector<std::string> others = scenario.figures;
+    const FigureFacts without_section{.diagnostics = true, .section = false};
+    std::erase_if(others, [&](const std::string& kind) { return !refused_figure(kind, without_section).empty(); });
+    const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
+    if (!scenario.figures.empty()) edits.push_back({output_path(output_keys().figures), "[" + list + "]"});
+  }
+  return edited_scenario(scenario.text, edits);
+}
+
+CanonicalState converted_start(const Scenario& scenario, const std::string& to) {
+  return StateConverter(*scenario.problem, in_coordinates(*scenario.problem, to))({scenario.start_q, scenario.start_p});
+}
+
+std::string converted_scenario(const Scenario& scenario, const std::string& to) {
+  const std::string from = coordinates_of(*scenario.problem);
+  const CanonicalState start = converted_start(scenario, to);
+  const std::string why_not = refused_method(scenario, to);
+  if (!why_not.empty()) {
+    throw Error("in " + to + " coordinates " + why_not + "; give one of them with --set method.name=...");
+  }
+  const std::string text = converted_text(scenario, to, start);
+  (void)accepted(read_scenario_text(text, "the converted scenario", {}));
+  return "# Converted by hamflow convert from " + from + " to " + to + " coordinates.\n" + text;
+}
+
+bool is_run(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return true;
+  std::ifstream in(path, std::ios::binary);
+  char mark[4] = {};
+  in.read(mark, sizeof mark);
+  return std::string(mark, sizeof mark) == "\x89HDF";
+}
+
+}  // namespace hamflow

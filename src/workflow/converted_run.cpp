@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "converted_text.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/workflow/convert.hpp"
+#include "run_copy.hpp"
+#include "run_file.hpp"
+#include "run_keys.hpp"
+#include "scenario_edit.hpp"
+#include "summary.hpp"
+
+namespace hamflow {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+class ConvertedRun::Impl {
+ public:
+  Impl(const fs::path& file, const std::string& to) : file_(file), to_(to), samples_(read_run_file(file)) {
+    const std::string& text = samples_.description.scenario;
+    reading_ = read_scenario_text(text, file.string(), sets_of(text));
+    if (!reading_.scenario) {
+      throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
+    }
+    target_ = &in_coordinates(*scenario().problem, to);
+    from_ = coordinates_of(*scenario().problem);
+    StateConverter convert(*scenario().problem, *target_);
+    for (std::size_t k = 0; k < samples_.t.size(); ++k) {
+      try {
+        const CanonicalState state = convert(state_at(k));
+        for (std::size_t i = 0; i < state.q.size(); ++i) {
+          samples_.q[i][k] = state.q[i];
+          samples_.p[i][k] = state.p[i];
+        }
+      } catch (const Error& error) {
+        throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
+      }
+    }
+    turn_ = std::max(convert.largest_turn(), fastest_turn(convert.turning()));
+    turning_ = joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; });
+  }
+
+  std::string csv() const {
+    std::string text = "t";
+    for (const char* name : {"q", "p"}) {
+      for (std::size_t i = 1; i <= samples_.q.size(); ++i) text += fmt::format(",{}{}", name, i);
+    }
+    text += ",energy\n";
+    for (std::size_t k = 0; k < samples_.t.size(); ++k) {
+      const CanonicalState s = state_at(k);
+      text += fmt::format("{:.17g}", samples_.t[k]);
+      for (const double x : s.q) text += fmt::format(",{:.17g}", x);
+      for (const double x : s.p) text += fmt::format(",{:.17g}", x);
+      text += fmt::format(",{:.17g}\n", samples_.energy[k]);
+    }
+    return text;
+  }
+  std::string json() const {
+    Json all{{"coordinates", to_}, {"t", samples_.t}, {"q", Json::array()}, {"p", Json::array()}};
+    for (std::size_t k = 0; k < samples_.t.size(); ++k) {
+      all["q"].push_back(state_at(k).q);
+      all["p"].push_back(state_at(k).p);
+    }
+    all["energy"] = samples_.energy;
+    return json_text(all);
+  }
+  std::string write_h5(const fs::path& target) const {
+    const CanonicalState start =
+        StateConverter(*scenario().problem, *target_)({scenario().start_q, scenario().start_p});
+    std::string note;
+    std::string text =
+        "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
+    const std::string same_settings = converted_text(scenario(), to_, start);
+    if (read_scenario_text(same_settings, "the converted scenario", {}).scenario) {
+      text += same_settings;
+    } else {
+      const std::string method = samples_.description.method;
+      text += "# They were computed by " + method + ", with settings that these coordinates do not allow.\n";
+      note = "the samples were computed by " + method + " with settings that " + to_ +
+             " coordinates do not allow; the scenario in " + target.string() + " names cg in double instead";
+      Scenario changed = scenario();
+      changed.text = edited_scenario(changed.text, {{"method", "{ name = \"cg\" }"},
+                                                    {run_path(run_keys().arithmetic), {}},
+                                                    {run_path(run_keys().lattice), {}},
+                                                    {run_path(run_keys().kernel), {}}});
+      text += converted_text(changed, to_, start);
+    }
+    (void)accepted(read_scenario_text(text, "the converted scenario", {}));
+    copy_run_file(file_, target, text, samples_.q, samples_.p);
+    return note;
+  }
+  double turn() const { return turn_; }
+  const std::string& turning() const { return turning_; }
+
+ private:
+  const Scenario& scenario() const { return *reading_.scenario; }
+  /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
+  double fastest_turn(const std::vector<std::size_t>& angles) const {
+    double most = 0;
+    for (std::size_t k = 0; k + 1 < samples_.t.size() && !angles.empty(); ++k) {
+      const CanonicalState s = state_at(k);
+      const std::vector<double> rates = target_->rates(scenario().request.parameters, s.q, s.p);
+      for (const std::size_t i : angles) {
+        most = std::max(most, std::abs(rates[i] * (samples_.t[k + 1] - samples_.t[k])));
+      }
+    }
+    return most;
+  }
+  CanonicalState state_at(std::size_t k) const {
+    CanonicalState state;
+    for (std::size_t i = 0; i < samples_.q.size(); ++i) {
+      state.q.push_back(samples_.q[i][k]);
+      state.p.push_back(samples_.p[i][k]);
+    }
+    return state;
+  }
+
+  fs::path file_;
+  std::string to_;
+  std::string from_;
+  RunSamples samples_;
+  Reading reading_;
+  double turn_ = 0;
+  std::string turning_;
+  const ProblemEntry* target_ = nullptr;  // the problem in the coordinates `to`
+};
+
+ConvertedRun::ConvertedRun(const fs::path& run, const std::string& to)
+    : impl_(std::make_unique<Impl>(fs::is_directory(run) ? run / "run.h5" : run, to)) {}
+ConvertedRun::~ConvertedRun() = default;
+std::string ConvertedRun::csv() const { return impl_->csv(); }
+std::string ConvertedRun::json() const { return impl_->json(); }
+std::string ConvertedRun::write_h5(const fs::path& target) const { return impl_->write_h5(target); }
+double ConvertedRun::largest_turn() const { return impl_->turn(); }
+const std::string& ConvertedRun::turning() const { return impl_->turning(); }
+
+}  // namespace hamflow

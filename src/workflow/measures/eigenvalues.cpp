@@ -1,0 +1,67 @@
+// run.eigenvalues: of the derivative of all steps; on a periodic orbit the Floquet multipliers.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "hamflow/verify/monodromy.hpp"
+#include "measure.hpp"
+#include "measure_list.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class EigenvalueMeasure final : public Measure {
+ public:
+  explicit EigenvalueMeasure(const Scenario& scenario) : watch_(step_map_of(scenario), scenario.dt, scenario.steps) {}
+  Observer& observer() override { return watch_; }
+  Json summary() const override {
+    Json all;
+    try {
+      if (!watch_.followed()) throw Error("a step could not be differentiated");
+      const SymplecticEigenvalues found = symplectic_eigenvalues(watch_.rows());
+      all["values"] = Json::array();
+      for (const auto& value : found.values) all["values"].push_back({value.real(), value.imag()});
+      all["pair_defect"] = found.pair_defect;
+      all["symplectic_defect"] = found.symplectic_defect;
+      all["norm"] = found.norm;
+    } catch (const Error& error) {  // chaos overflows in the end: the run itself is none the worse
+      all = {{"values", nullptr}, {"message", error.what()}};
+    }
+    all["steps"] = watch_.step();
+    return all;
+  }
+
+ private:
+  MonodromyWatch watch_;
+};
+
+std::string text(const Json& found) {
+  if (found["values"].is_null()) return found["message"].get<std::string>();
+  constexpr std::size_t most_shown = 6;
+  std::string line;
+  for (std::size_t i = 0; i < std::min(found["values"].size(), most_shown); ++i) {
+    const double imaginary = found["values"][i][1].get<double>();
+    line += (i > 0 ? ", " : "") + fmt::format("{:.6g}", found["values"][i][0].get<double>()) +
+            (imaginary != 0 ? fmt::format("{:+.6g}i", imaginary) : "");
+  }
+  if (found["values"].size() > most_shown) line += ", ...";
+  return line + fmt::format("; products of pairs {:.2g} off 1, {:.2g} off symplectic",
+                            found["pair_defect"].get<double>(), found["symplectic_defect"].get<double>());
+}
+
+}  // namespace
+
+MeasureKind measure_eigenvalues() {
+  return {.key = "eigenvalues",
+          .label = "eigenvalues",
+          .requested = [](const Scenario& scenario) { return scenario.eigenvalues; },
+          .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+            return std::make_unique<EigenvalueMeasure>(scenario);
+          },
+          .text = text};
+}
+
+}  // namespace hamflow

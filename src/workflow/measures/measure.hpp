@@ -1,0 +1,47 @@
+// A **measured quantity**: what watches a run beside its trajectory, and what the summary and a sweep hold of it. One
+// quantity is one file of this folder: measures/lyapunov.cpp defines measure_lyapunov(), and the build finds it. The
+// run, its checkpoints, the summary and the sweep walk the list and know none by name.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "hamflow/run/observer.hpp"
+#include "hamflow/scenario/scenario.hpp"
+#include "sweep.hpp"
+
+namespace hamflow {
+
+class Recorder;
+
+/// A quantity during one run.
+class Measure {
+ public:
+  virtual ~Measure() = default;
+  /// Woken with the other observers; its archive() stands in the checkpoints.
+  virtual Observer& observer() = 0;
+  /// Its entry in the summary, from what was seen so far.
+  virtual nlohmann::ordered_json summary() const = 0;
+};
+
+struct MeasureKind {
+  std::string key;    // of [run], of the summary, of the checkpoint
+  std::string label;  // of its line in the summary for people
+  bool (*requested)(const Scenario&);
+  /// @param recorder takes what is recorded beside the samples; may be null
+  std::unique_ptr<Measure> (*make)(const Scenario&, const Simulation&, Recorder* recorder);
+  /// Its line for people, from its entry in the summary.
+  std::string (*text)(const nlohmann::ordered_json& entry);
+  /// The columns that it gives a sweep whose first member is this scenario; null: it belongs to single runs.
+  MemberObservables (*columns)(const Scenario&) = nullptr;
+};
+
+/// Every kind, in the alphabetical order of its files.
+std::span<const MeasureKind> measure_kinds();
+
+/// The map of one step that the scenario's method takes.
+std::shared_ptr<const StepMap> step_map_of(const Scenario& scenario);
+
+}  // namespace hamflow

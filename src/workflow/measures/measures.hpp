@@ -1,0 +1,31 @@
+// The quantities that a scenario requests, during one run.
+#pragma once
+
+#include <vector>
+
+#include "measure.hpp"
+
+namespace hamflow {
+
+/// An observer whose archive stands in the checkpoint under its name.
+struct NamedObserver {
+  std::string name;
+  Observer* observer;
+};
+
+class Measures {
+ public:
+  /// @param recorder see MeasureKind
+  Measures(const Scenario& scenario, const Simulation& simulation, Recorder* recorder);
+  std::vector<NamedObserver> observers() const;
+  /// Adds an entry for each to the summary.
+  void add_to(nlohmann::ordered_json& summary) const;
+
+ private:
+  std::vector<std::pair<const MeasureKind*, std::unique_ptr<Measure>>> requested_;
+};
+
+/// The columns of a sweep, of all quantities that its first member requests.
+MemberObservables sweep_columns(const Scenario& first);
+
+}  // namespace hamflow

@@ -1,0 +1,48 @@
+// run.section: the points of a Poincare section, recorded beside the samples.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "measure.hpp"
+#include "measure_list.hpp"
+#include "recorder.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class SectionMeasure final : public Measure {
+ public:
+  SectionMeasure(const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
+      : finder_(simulation, *scenario.section, [recorder](const SectionPoint& point) {
+          if (recorder != nullptr) recorder->append(point);
+        }) {}
+  Observer& observer() override { return finder_; }
+  Json summary() const override {
+    Json all{{"points", finder_.points()}, {"max_residual", finder_.max_residual()}};
+    if (finder_.failed()) all["message"] = "a partial step failed: no points after it were sought";
+    return all;
+  }
+
+ private:
+  SectionFinder finder_;
+};
+
+}  // namespace
+
+MeasureKind measure_section() {
+  return {.key = "section",
+          .label = "section",
+          .requested = [](const Scenario& scenario) { return scenario.section.has_value(); },
+          .make = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
+              -> std::unique_ptr<Measure> { return std::make_unique<SectionMeasure>(scenario, simulation, recorder); },
+          .text =
+              [](const Json& found) {
+                return fmt::format("{} points, at most {:.2g} off it", found["points"].get<std::int64_t>(),
+                                   found["max_residual"].get<double>());
+              }};
+}
+
+}  // namespace hamflow

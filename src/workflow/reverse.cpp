@@ -1,0 +1,137 @@
+#include "hamflow/workflow/reverse.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "summary.hpp"
+
+namespace hamflow {
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+/// H(q, -p) = H(q, p) to rounding, along the way: else the motion itself is not reversed with the momenta.
+bool even_in_momenta(const Scenario& scenario, const Reversal& reversal, double scale) {
+  for (const Frame* frame : {&reversal.start, &reversal.turn}) {
+    std::vector<double> p = frame->p;
+    for (double& x : p) x = -x;
+    const double there = scenario.problem->energy(scenario.request.parameters, frame->q, frame->p);
+    const double back = scenario.problem->energy(scenario.request.parameters, frame->q, p);
+    if (std::abs(there - back) > 64 * 0x1p-52 * scale) return false;
+  }
+  return true;
+}
+
+/// What runs on the lattice is made of kicks and drifts, which are one-to-one there; in a palindrome each is undone by
+/// its mirror image.
+bool palindromic_on_lattice(const Scenario& scenario) {
+  return scenario.request.arithmetic == "lattice" && describe(scenario.request.method).symmetric;
+}
+
+std::string note_of(const MethodInfo& method, const std::string& arithmetic, bool even, bool expected) {
+  if (!even) {
+    return "H(q, -p) differs from H(q, p): the motion itself is not reversed by negating the momenta, so that a "
+           "distance says nothing about the method";
+  }
+  if (expected) return "a palindromic splitting on the lattice returns every bit";
+  if (!method.reversible)
+    return method.name + " is not reversible: the distance is its own, not that of rounding alone";
+  if (arithmetic != "lattice") {
+    return method.name +
+           " is reversible, but rounding is not: with run.arithmetic = \"lattice\" a palindromic splitting "
+           "returns every bit";
+  }
+  return {};
+}
+
+Json state(const Frame& frame) {
+  if (!frame.digits.q.empty()) return {{"q", frame.digits.q}, {"p", frame.digits.p}};
+  return {{"q", frame.q}, {"p", frame.p}};
+}
+std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
+
+Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report) {
+  const Reversal& r = report.reversal;
+  const MethodInfo method = describe(scenario.request.method);
+  const bool done = r.outcome == Outcome::done;
+  Json s{{"status", status_of(r.outcome)},
+         {"problem", scenario.request.problem},
+         {"method", method.name},
+         {"arithmetic", scenario.request.arithmetic},
+         {"dt", scenario.dt},
+         {"steps", r.steps},
+         {"start", state(r.start)},
+         {"returned", done ? state(r.end) : Json(nullptr)},
+         {"distance", done ? Json(r.distance) : Json(nullptr)},
+         {"relative_distance", done ? Json(r.relative_distance) : Json(nullptr)},
+         {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},
+         {"hash",
+          {{"start", hex(r.start_hash)},
+           {"turn", done ? Json(hex(r.turn_hash)) : Json(nullptr)},
+           {"end", done ? Json(hex(r.end_hash)) : Json(nullptr)}}},
+         {"method_reversible", method.reversible},
+         {"expected_bit_exact", report.expected_bit_exact},
+         {"note", report.note}};
+  if (s["status"] == "failed") {
+    RunResult result;
+    result.outcome = r.outcome;
+    result.failure = r.failure;
+    s["error"] = summary_of(scenario, simulation, result)["error"];
+  }
+  return s;
+}
+
+std::string readable_reversal(const Json& s) {
+  const auto row = [](std::string_view label, const std::string& text) {
+    return fmt::format("{:<20}{}\n", label, text);
+  };
+  const auto list = [](const Json& xs) {
+    std::string all;
+    for (const Json& x : xs) {
+      all +=
+          (all.empty() ? "" : ", ") + (x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>()));
+    }
+    return all;
+  };
+  std::string text = row("status", s["status"].get<std::string>()) + row("problem", s["problem"].get<std::string>());
+  text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
+                                    s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
+  text += row("steps", fmt::format("{} there, {} back", s["steps"].get<long long>(), s["steps"].get<long long>()));
+  text += row("start q", list(s["start"]["q"])) + row("start p", list(s["start"]["p"]));
+  if (!s["returned"].is_null()) {
+    text += row("returned q", list(s["returned"]["q"])) + row("returned p", list(s["returned"]["p"]));
+    text += row("distance", fmt::format("{:.3g} ({:.3g} of the start's size)", s["distance"].get<double>(),
+                                        s["relative_distance"].get<double>()));
+    text += row("every bit", s["bit_exact"].get<bool>() ? "yes" : "no");
+    text +=
+        row("hash of the bits", fmt::format("{} -> {} -> {}", s["hash"]["start"].get<std::string>(),
+                                            s["hash"]["turn"].get<std::string>(), s["hash"]["end"].get<std::string>()));
+  }
+  if (!s["note"].get<std::string>().empty()) text += row("note", s["note"].get<std::string>());
+  return text;
+}
+
+}  // namespace
+
+ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t)>& pulse) {
+  const auto simulation = make_simulation(scenario.request);
+  ReversalReport report;
+  report.reversal = reverse(*simulation, scenario.steps, pulse);
+  const bool even = even_in_momenta(scenario, report.reversal, simulation->energy_scale());
+  report.expected_bit_exact = even && palindromic_on_lattice(scenario);
+  report.note =
+      note_of(describe(scenario.request.method), scenario.request.arithmetic, even, report.expected_bit_exact);
+  const Json json = json_of(scenario, *simulation, report);
+  report.status = json["status"].get<std::string>();
+  if (json.contains("error")) {
+    report.message = json["error"]["message"].get<std::string>();
+    report.hint = json["error"]["hint"].get<std::string>();
+  }
+  report.json = json_text(json);
+  report.text = readable_reversal(json);
+  return report;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,199 @@
+#include "hamflow/workflow/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hamflow/workflow/figures_of_run.hpp"
+#include "resume.hpp"
+#include "run_folder.hpp"
+#include "summary.hpp"
+
+namespace hamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void note(const RunSettings& settings, const std::string& text) {
+  if (settings.note) settings.note(text);
+}
+
+/// What the run in the folder left to go on from, if it left anything.
+std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
+  const fs::path& folder = settings.folder;
+  if (folder.empty() || settings.existing != Existing::resume || !fs::exists(folder)) return std::nullopt;
+  if (fs::exists(folder / "checkpoint.bin")) return read_checkpoint(folder / "checkpoint.bin");
+  note(settings, "there is no checkpoint in " + folder.string() + ": the run starts from the beginning");
+  return std::nullopt;
+}
+
+/// The scenario with the samples as they were spaced when the run began.
+Scenario with_spacing_of(const Checkpoint& checkpoint, Scenario scenario, const RunSettings& settings) {
+  if (scenario.record_every != checkpoint.record_every && scenario.record.empty()) {
+    scenario.record_every = checkpoint.record_every;
+    note(settings, fmt::format("samples stay {} steps apart, as when the run began", checkpoint.record_every));
+  }
+  return scenario;
+}
+
+void restore(Simulation& simulation, const Checkpoint& checkpoint) {
+  try {
+    simulation.restore(checkpoint.simulation);
+  } catch (const Error& error) {
+    throw FileError(std::string("the checkpoint cannot be used: ") + error.what());
+  }
+}
+
+/// One run, from where it begins or goes on to where it ends.
+class ScenarioRun {
+ public:
+  ScenarioRun(const Scenario& scenario, const RunSettings& settings, const Checkpoint* from)
+      : scenario_(scenario), settings_(settings), simulation_(make_simulation(scenario.request)) {
+    if (from != nullptr) {
+      restore(*simulation_, *from);
+      seconds_before_ = from->wall_seconds;
+    }
+    if (writes()) {
+      for (Observer* observer : settings.observers) {  // refused now, not when the first checkpoint is due
+        Writer probe;
+        observer->archive(probe);
+      }
+      if (from == nullptr) make_folder(settings.folder, settings.existing != Existing::refuse);
+      lock_.emplace(settings.folder);
+      recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, from);
+    }
+    measures_.emplace(scenario_, *simulation_, recorder_.get());
+    std::vector<NamedObserver> archived = measures_->observers();
+    archived.push_back({"energy_blocks", &blocks_});
+    for (std::size_t i = 0; i < settings.observers.size(); ++i) {
+      archived.push_back({"observer " + std::to_string(i + 1), settings.observers[i]});
+    }
+    if (from != nullptr) restore_observers(*from, archived);
+    for (const NamedObserver& each : archived) observers_.push_back(each.observer);
+    if (!writes()) return;
+    fs::remove(settings.folder / "summary.json");  // of a run that was interrupted
+    checkpoints_ = std::make_unique<CheckpointWriter>(scenario_, *simulation_, *recorder_, std::move(archived),
+                                                      settings.folder, seconds_before_);
+    observers_.push_back(recorder_.get());
+    observers_.push_back(checkpoints_.get());  // the last: what was seen at a step belongs to its checkpoint
+  }
+
+  RunReport carry_out() {
+    const auto begin = std::chrono::steady_clock::now();
+    RunResult result = take_steps();
+    result.wall_seconds =
+        seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.steps_taken = simulation_->step();
+    RunReport report;
+    report.certificate = certify(scenario_.request, *scenario_.problem, *simulation_, blocks_, result.steps_taken);
+    const Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_);
+    report.file_trouble = result.file_trouble;
+    report.outcome = result.outcome;
+    report.wall_seconds = result.wall_seconds;
+    report.json = json_text(summary);
+    describe(summary, report);
+    if (writes()) finish_folder(report);
+    return report;
+  }
+
+  /// Of a run that had come to its end: what the checkpoint holds, and the summary that it left.
+  RunReport complete(const std::string& json) {
+    RunReport report;
+    report.was_complete = true;
+    report.wall_seconds = seconds_before_;
+    report.json = json;
+    describe(Json::parse(json), report);
+    return report;
+  }
+
+ private:
+  bool writes() const { return !settings_.folder.empty(); }
+
+  RunResult take_steps() {
+    RunResult result;
+    try {
+      result.outcome = run(*simulation_, scenario_.steps, observers_, [&](std::int64_t step) {
+        if (recorder_) {
+          recorder_->flush_if_due();
+          checkpoints_->write_if_due();
+        }
+        return !settings_.pulse || settings_.pulse(step);
+      });
+      if (recorder_) {
+        if (const auto time = recorder_->failed_at(simulation_->step());
+            time && status_of(result.outcome) == "failed") {
+          result.failure = "the partial step to the sample at t = " + *time + " failed";
+        }
+        recorder_->finish(*simulation_);
+        if (status_of(result.outcome) != "failed") checkpoints_->write();
+      }
+    } catch (const FileError& error) {  // a full disk, say: what was computed is still reported
+      result.file_trouble = error.what();
+    }
+    if (result.outcome == Outcome::not_converged && result.failure.empty()) result.failure = simulation_->failure();
+    return result;
+  }
+
+  void describe(const Json& summary, RunReport& report) const {
+    report.status = summary["status"].get<std::string>();
+    if (summary.contains("error")) {
+      report.message = summary["error"]["message"].get<std::string>();
+      report.hint = summary["error"]["hint"].get<std::string>();
+    }
+    simulation_->look(report.final);
+    report.energy = simulation_->energy();
+    report.energy_scale = simulation_->energy_scale();
+    report.invariants = simulation_->invariants();
+    report.text = readable(summary);
+  }
+
+  void finish_folder(RunReport& report) {
+    try {
+      write_text(settings_.folder / "summary.json", report.json);
+      checkpoints_.reset();
+      recorder_.reset();  // closes run.h5, from which the figures are drawn
+      if (report.status != "failed") draw_figures(scenario_, settings_.folder);
+    } catch (const std::exception& error) {  // the run itself is done
+      report.file_trouble = error.what();
+    }
+  }
+
+  const Scenario& scenario_;
+  const RunSettings& settings_;
+  std::unique_ptr<Simulation> simulation_;
+  double seconds_before_ = 0;
+  std::optional<FolderLock> lock_;
+  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<CheckpointWriter> checkpoints_;
+  EnergyBlocks blocks_;
+  std::optional<Measures> measures_;
+  std::vector<Observer*> observers_;
+};
+
+}  // namespace
+
+RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
+  const std::optional<Checkpoint> from = checkpoint_in(settings);
+  if (!from) return ScenarioRun(requested, settings, nullptr).carry_out();
+  if (auto complaints = differences(requested, *from); !complaints.empty()) throw Rejection(std::move(complaints));
+  if (const auto summary = finished_summary(requested, *from, settings.folder)) {
+    note(settings, "the run is complete: there is nothing to do");
+    RunSettings to_look = settings;
+    to_look.folder.clear();
+    return ScenarioRun(requested, to_look, &*from).complete(*summary);
+  }
+  const Scenario scenario = with_spacing_of(*from, requested, settings);
+  return ScenarioRun(scenario, settings, &*from).carry_out();
+}
+
+fs::path folder_of(const Scenario& scenario, const std::string& out) {
+  if (!out.empty()) return out;
+  if (!scenario.folder.empty()) return scenario.folder;
+  return fs::path(scenario.file).stem().string() + ".run";
+}
+
+}  // namespace hamflow

@@ -1,0 +1,18 @@
+// What run.h5 holds beside its samples, from the scenario.
+#pragma once
+
+#include "hamflow/scenario/scenario.hpp"
+#include "run_file.hpp"
+
+namespace hamflow {
+
+/// Names of the invariants, in the order of the problem, with the number of components that each has here.
+std::vector<std::pair<std::string, std::size_t>> invariant_columns(const Scenario& scenario);
+
+/// @param samples expected
+RunDescription description_of(const Scenario& scenario, std::size_t samples);
+
+/// The name of this machine.
+std::string host_name();
+
+}  // namespace hamflow

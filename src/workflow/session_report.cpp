@@ -1,0 +1,66 @@
+// The summary and the folder that a session leaves.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "csv_file.hpp"
+#include "hamflow/workflow/session.hpp"
+#include "run_description.hpp"
+#include "run_folder.hpp"
+#include "summary.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json summary(const Session& session, const SessionOutcome& last) {
+  RunResult result;
+  result.outcome = last.outcome;
+  if (last.outcome == Outcome::not_converged) result.failure = session.failure();
+  result.wall_seconds = last.wall_seconds;
+  result.steps_taken = session.step();
+  Json all = summary_of(session.present(), session, result);
+  if (session.changes().empty()) return all;
+  all["changes"] = Json::array();
+  for (const SessionChange& c : session.changes()) {
+    all["changes"].push_back({{"step", c.step}, {"t", c.time}, {"what", c.what}});
+  }
+  all.erase("diagnostics");  // they count steps of the last part
+  if (session.reversed()) {
+    for (const char* of_the_start : {"exact", "bodies"}) all.erase(of_the_start);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string session_summary(const Session& session, const SessionOutcome& last) {
+  return json_text(summary(session, last));
+}
+
+std::pair<std::string, std::string> session_failure(const Session& session, const SessionOutcome& last) {
+  const Json all = summary(session, last);
+  if (!all.contains("error")) return {};
+  return {all["error"]["message"].get<std::string>(), all["error"]["hint"].get<std::string>()};
+}
+
+void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,
+                  const std::filesystem::path& folder, bool replace) {
+  make_folder(folder, replace);
+  const Scenario present = session.present();
+  const std::vector<Frame> kept = samples.with_present(session);
+  RunDescription description = description_of(present, kept.size());
+  description.section = false;  // a session looks for none
+  RunFile h5(folder / "run.h5", description);
+  for (const Frame& sample : kept) h5.append(sample);
+  h5.flush();
+  if (std::find(present.formats.begin(), present.formats.end(), "csv") != present.formats.end()) {
+    CsvFile csv(folder / "trajectory.csv", present.start_q.size(), invariant_columns(present));
+    for (const Frame& sample : kept) csv.append(sample);
+    csv.flush();
+  }
+  write_text(folder / "summary.json", session_summary(session, last));
+}
+
+}  // namespace hamflow

@@ -1,0 +1,103 @@
+// The summary of a run for people: a line for each entry.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "certificate_json.hpp"
+#include "measures/measure.hpp"
+#include "number_text.hpp"
+#include "summary.hpp"
+
+namespace hamflow {
+
+std::string number_text(const nlohmann::ordered_json& x, const char* form) {
+  return x.is_null() || std::isnan(x.get<double>()) ? std::string("nan")
+                                                    : fmt::format(fmt::runtime(form), x.get<double>());
+}
+
+namespace {
+using Json = nlohmann::ordered_json;
+
+std::string orbit_text(const Json& orbit) {
+  std::string text = orbit["type"].get<std::string>();
+  if (orbit.contains("conic")) text += " (" + orbit["conic"].get<std::string>() + ")";
+  text += fmt::format(", r = {:.6g} .. {:.6g}, apsidal angle {:.6g}", orbit["r_min"].get<double>(),
+                      orbit["r_max"].get<double>(), orbit["apsidal_angle"].get<double>());
+  if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
+  return text;
+}
+}  // namespace
+
+std::string readable(const Json& s) {
+  const auto row = [](std::string_view label, const std::string& text) {
+    return fmt::format("{:<20}{}\n", label, text);
+  };
+  const auto number = [](const Json& x) {
+    if (x.is_string()) return x.get<std::string>();
+    return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
+  };
+  const auto list = [&](const Json& xs) {
+    std::string all;
+    for (const Json& x : xs) all += (all.empty() ? "" : ", ") + number(x);
+    return all;
+  };
+  const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
+  const auto watched = [&](const Json& x) {
+    return fmt::format("{} -> {}, at most {:.3g} off", shown(x["initial"]), shown(x["final"]),
+                       x["max_error"].is_null() ? 0.0 : x["max_error"].get<double>());
+  };
+  std::string text = row("status", s["status"].get<std::string>());
+  text += row("problem", s["problem"].get<std::string>());
+  text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
+                                    s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
+  text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
+  text += row("final q", list(s["final"]["q"]));
+  text += row("final p", list(s["final"]["p"]));
+  text += row("energy", watched(s["energy"]) + fmt::format(" ({:.3g} of its scale)",
+                                                           s["energy"]["max_relative_error"].is_null()
+                                                               ? 0.0
+                                                               : s["energy"]["max_relative_error"].get<double>()));
+  for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
+  if (s.contains("exact")) {
+    text += row("exact", fmt::format("at most {:.3g} off the exact state", s["exact"]["max_difference"].get<double>()));
+  }
+  if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
+  if (s.contains("bodies")) {
+    for (const Json& body : s["bodies"]) {
+      text += row("body", fmt::format("mass {}, at [{}], velocity [{}]", number(body["mass"]), list(body["position"]),
+                                      list(body["velocity"])));
+    }
+  }
+  if (s.contains("diagnostics")) {
+    for (const auto& [key, x] : s["diagnostics"].items()) {
+      if (x.is_null()) continue;
+      text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key,
+                  fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(),
+                              x["t_min"].get<double>(), x["max"].get<double>(), x["t_max"].get<double>()));
+    }
+  }
+  text +=
+      row("evaluations",
+          fmt::format("force {}, gradient {}, Hessian {}, linear solves {}", s["evaluations"]["force"].get<long long>(),
+                      s["evaluations"]["gradient"].get<long long>(), s["evaluations"]["hessian"].get<long long>(),
+                      s["evaluations"]["linear_solves"].get<long long>()));
+  if (!s["newton"].is_null()) {
+    text += row("Newton per step",
+                fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", s["newton"]["min"].get<long long>(),
+                            s["newton"]["mean"].get<double>(), s["newton"]["max"].get<long long>(),
+                            s["newton"]["stagnated"].get<long long>()));
+  }
+  for (const auto& [key, value] : s["events"].items()) text += row("event " + key, value.dump());
+  for (const MeasureKind& kind : measure_kinds()) {
+    if (s.contains(kind.key)) text += row(kind.label, kind.text(s[kind.key]));
+  }
+  if (s.contains("certificate") && !s["certificate"].is_null()) {
+    text += row("certificate", certificate_text(s["certificate"]));
+  }
+  text += row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s["wall_seconds"].get<double>(),
+                                       s["steps_per_second"].get<double>()));
+  return text;
+}
+
+}  // namespace hamflow

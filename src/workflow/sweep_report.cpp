@@ -1,0 +1,126 @@
+#include "sweep_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::size_t most_failures = 10;
+
+std::size_t count(const Sweep& sweep, Outcome status) {
+  return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(),
+                                                [&](const MemberRow& row) { return row.status == status; }));
+}
+
+Json varied_of(const Sweep& sweep) {
+  Json varied = Json::object();
+  for (const Vary& vary : sweep.varied()) {
+    Json& entry = varied[vary.path];
+    entry["count"] = vary.texts.size();
+    if (vary.numbers.empty()) {
+      entry["values"] = vary.texts;
+    } else {
+      entry["first"] = vary.numbers.front();
+      entry["last"] = vary.numbers.back();
+    }
+  }
+  return varied;
+}
+
+}  // namespace
+
+Json sweep_row(const Sweep& sweep, std::size_t member) {
+  const MemberRow& row = sweep.rows()[member];
+  Json json = Json::object();
+  const std::vector<std::size_t> values = values_of_member(sweep.varied(), member);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const Vary& vary = sweep.varied()[k];
+    json[vary.path] = vary.numbers.empty() ? Json(vary.texts[values[k]]) : Json(vary.numbers[values[k]]);
+  }
+  json["status"] = std::string(name(row.status));
+  json["steps"] = row.steps;
+  if (row.status == Outcome::not_run) return json;
+  json["final"] = {{"t", row.t}, {"q", row.q}, {"p", row.p}};
+  json["energy"] = {{"initial", row.energy.initial},
+                    {"final", row.energy.final},
+                    {"max_error", row.energy.max_error},
+                    {"scale", row.energy_scale}};
+  json["invariants"] = Json::object();
+  const std::vector<InvariantInfo>& declared = sweep.common().problem->info.invariants;
+  for (std::size_t i = 0; i < row.invariants.size(); ++i) {
+    json["invariants"][declared[i].name] = {{"initial", row.invariants[i].initial},
+                                            {"final", row.invariants[i].final},
+                                            {"max_error", row.invariants[i].max_error}};
+  }
+  for (std::size_t i = 0; i < row.observables.size(); ++i) {
+    json[sweep.observables().names[i]] = row.observables[i];
+  }
+  if (!row.message.empty()) json["message"] = row.message;
+  return json;
+}
+
+Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
+  const std::size_t done = count(sweep, Outcome::done);
+  const std::size_t unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
+  const std::size_t failed = sweep.members() - done - unfinished;
+  std::int64_t steps = 0;
+  for (const MemberRow& row : sweep.rows()) steps += row.steps;
+  Json s;
+  s["status"] = interrupted && unfinished > 0 ? "interrupted" : done == 0 ? "failed" : "done";
+  s["problem"] = sweep.common().request.problem;
+  s["arithmetic"] = sweep.common().request.arithmetic;
+  s["kernel"] = sweep.common().request.kernel;
+  s["members"] = sweep.members();
+  s["done"] = done;
+  s["failed"] = failed;
+  s["unfinished"] = unfinished;
+  s["varied"] = varied_of(sweep);
+  s["wall_seconds"] = seconds;
+  s["member_steps_per_second"] = seconds > 0 ? static_cast<double>(steps) / seconds : 0.0;
+  s["members_per_second"] = seconds > 0 ? static_cast<double>(done + failed) / seconds : 0.0;
+  s["instruction_set"] = std::string(name(sweep.lanes()));
+  s["lanes"] = sweep.members_in_lanes() > 0 ? sweep.lane_count() : 1;
+  s["members_in_lanes"] = sweep.members_in_lanes();
+  s["threads"] = sweep.threads();
+  s["failures"] = Json::array();
+  for (std::size_t member = 0; member < sweep.members() && s["failures"].size() < most_failures; ++member) {
+    const MemberRow& row = sweep.rows()[member];
+    if (row.message.empty()) continue;
+    s["failures"].push_back({{"member", member},
+                             {"kind", std::string(name(row.status))},
+                             {"step", row.steps + 1},
+                             {"t", row.t},
+                             {"message", row.message}});
+  }
+  return s;
+}
+
+std::string readable_sweep(const Json& s) {
+  std::string text;
+  const auto line = [&](std::string_view label, const std::string& what) {
+    text += fmt::format("{:<20}{}\n", label, what);
+  };
+  line("status", s["status"].get<std::string>());
+  line("members",
+       fmt::format("{} ({} done, {} failed, {} unfinished)", s["members"].get<std::size_t>(),
+                   s["done"].get<std::size_t>(), s["failed"].get<std::size_t>(), s["unfinished"].get<std::size_t>()));
+  for (const auto& [path, entry] : s["varied"].items()) {
+    line("varied", entry.contains("first")
+                       ? fmt::format("{}: {} values, {:g} .. {:g}", path, entry["count"].get<std::size_t>(),
+                                     entry["first"].get<double>(), entry["last"].get<double>())
+                       : fmt::format("{}: {} values", path, entry["count"].get<std::size_t>()));
+  }
+  line("lanes", fmt::format("{} ({}), {} members in lanes, threads {}", s["lanes"].get<std::size_t>(),
+                            s["instruction_set"].get<std::string>(), s["members_in_lanes"].get<std::size_t>(),
+                            s["threads"].get<int>()));
+  line("wall time", fmt::format("{:.3g} s, {:.4g} member steps/s, {:.4g} members/s", s["wall_seconds"].get<double>(),
+                                s["member_steps_per_second"].get<double>(), s["members_per_second"].get<double>()));
+  return text;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "hamflow/core/text.hpp"
+#include "hamflow/workflow/sweep.hpp"
+#include "measures/measures.hpp"
+#include "parameter_map.hpp"
+#include "run_description.hpp"
+#include "run_folder.hpp"
+#include "summary.hpp"
+#include "sweep_report.hpp"
+#include "sweep_table.hpp"
+#include "terminal.hpp"
+
+namespace hamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+constexpr std::size_t most_rows_in_summary = 10000;
+
+LaneSet lanes_named(const std::string& name) {
+  for (const LaneSet set : {LaneSet::none, LaneSet::generic, LaneSet::avx2, LaneSet::avx512}) {
+    if (name == hamflow::name(set) && set <= widest_lanes()) return set;
+  }
+  if (name.empty() || name == "auto") return widest_lanes();
+  std::vector<std::string> allowed{"auto", "none", "generic"};
+  if (widest_lanes() >= LaneSet::avx2) allowed.emplace_back("avx2");
+  if (widest_lanes() >= LaneSet::avx512) allowed.emplace_back("avx512");
+  throw Error("--lanes: found \"" + name + "\"; allowed on this machine: " + joined(allowed) +
+              suggestion(name, allowed));
+}
+
+void save(const Sweep& sweep, const fs::path& folder, const std::string& summary) {
+  const std::vector<std::string>& formats = sweep.common().formats;
+  if (std::find(formats.begin(), formats.end(), "h5") != formats.end()) {
+    write_sweep_h5(folder / "sweep.h5", sweep, {HAMFLOW_VERSION, host_name()});
+  }
+  if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder / "sweep.csv", sweep);
+  write_text(folder / "summary.json", summary);
+}
+
+/// Empty if the figure can be drawn, else what is wrong with the request for it.
+std::string refused_map(const Sweep& sweep, const fs::path& file, const std::string& colour) {
+  const std::string wrong = refused_figure_file(file);
+  if (!wrong.empty()) return "--figure: error: " + wrong;
+  std::size_t numeric = 0;
+  std::vector<std::string> columns;
+  for (const SweepColumn& column : columns_of(sweep)) {
+    if (column.numbers.empty() || column.width != 1) continue;
+    if (column.name.starts_with("varied/")) ++numeric;
+    columns.push_back(column.name);
+  }
+  if (sweep.varied().size() > 2 || numeric != sweep.varied().size()) {
+    return "--figure: error: found " + std::to_string(sweep.varied().size()) +
+           " varied keys; allowed one or two, all numbers";
+  }
+  if (std::find(columns.begin(), columns.end(), colour) == columns.end()) {
+    return "--colour: error: found " + colour + "; allowed " + joined(columns) + suggestion(colour, columns);
+  }
+  return {};
+}
+
+void draw(const Sweep& sweep, const fs::path& file, const std::string& colour) {
+  ParameterMap map;
+  map.title = sweep.common().request.problem + ", " + describe(sweep.common().request.method).name;
+  map.value_name = colour;
+  for (const SweepColumn& column : columns_of(sweep)) {
+    if (column.name == colour) map.value = column.numbers;
+    if (!column.name.starts_with("varied/")) continue;
+    const std::string key = column.name.substr(std::string("varied/").size());
+    if (map.x_name.empty()) {
+      map.x_name = key;
+      map.x = column.numbers;
+    } else {
+      map.y_name = key;
+      map.y = column.numbers;
+    }
+  }
+  write_parameter_map(map, file);
+}
+
+/// What is wrong with the request beside its scenario goes into `wrong`, a line each.
+std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
+  std::vector<Vary> varied;
+  if (request.varied.empty()) wrong.emplace_back("--vary: error: found none; allowed PATH=a:b:n or PATH=v1,v2,...");
+  if (request.threads < 0 || request.threads > most_sweep_threads) {
+    wrong.push_back("--threads: error: found " + std::to_string(request.threads) + "; allowed 1 to " +
+                    std::to_string(most_sweep_threads) + ", 0 for all");
+  }
+  const auto try_to = [&](const char* prefix, const auto& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      wrong.push_back(prefix + std::string(error.what()));
+    }
+  };
+  for (const std::string& vary : request.varied) {
+    try_to("--vary: error: ", [&] { varied.push_back(parse_vary(vary)); });
+  }
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (varied[i].path == varied[j].path) wrong.push_back("--vary: error: found " + varied[i].path + " twice");
+    }
+  }
+  try_to("--vary: error: ", [&] { (void)member_count(varied); });
+  try_to("", [&] { how.lanes = lanes_named(request.lanes); });
+  return varied;
+}
+
+}  // namespace
+
+class ScenarioSweep::Impl {
+ public:
+  explicit Impl(const SweepRequest& request) {
+    SweepOptions how{.threads = request.threads};
+    const std::vector<Vary> varied = varied_of(request, how, complaints);
+    if (!complaints.empty()) return;
+    how.observables = columns_of_measures(request, varied);
+    sweep.emplace(request.text, request.name, request.sets, varied, how);
+    complaints = sweep->complaints();
+  }
+
+  std::vector<std::string> complaints;
+  std::vector<std::string> notes;
+  std::optional<Sweep> sweep;
+
+ private:
+  /// Of what the first member requests; what belongs to single runs is left out.
+  MemberObservables columns_of_measures(const SweepRequest& request, const std::vector<Vary>& varied) {
+    std::vector<std::string> sets = request.sets;
+    for (const Vary& vary : varied) sets.push_back(vary.path + "=" + vary.texts.front());
+    const Reading first = read_scenario_text(request.text, request.name, sets);
+    if (!first.scenario) return {};  // the sweep complains
+    for (const MeasureKind& kind : measure_kinds()) {
+      if (kind.columns != nullptr || !kind.requested(*first.scenario)) continue;
+      notes.push_back("run." + kind.key + " belongs to single runs: a sweep leaves it out");
+    }
+    return sweep_columns(*first.scenario);
+  }
+};
+
+ScenarioSweep::ScenarioSweep(const SweepRequest& request) : impl_(std::make_unique<Impl>(request)) {}
+ScenarioSweep::~ScenarioSweep() = default;
+const std::vector<std::string>& ScenarioSweep::complaints() const { return impl_->complaints; }
+const std::vector<std::string>& ScenarioSweep::notes() const { return impl_->notes; }
+std::int64_t ScenarioSweep::total_steps() const { return impl_->sweep->total_steps(); }
+
+std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column) const {
+  return refused_map(*impl_->sweep, file, column);
+}
+
+SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
+  Sweep& sweep = *impl_->sweep;
+  std::atomic<bool> stopped{false};
+  const auto begin = std::chrono::steady_clock::now();
+  sweep.run([&](std::int64_t steps) {
+    if (pulse && !pulse(steps)) stopped = true;
+    return !stopped;
+  });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const Json summary = sweep_summary(sweep, seconds, stopped);
+  SweepReport report;
+  report.status = summary["status"].get<std::string>();
+  report.json = json_text(summary);
+  report.text = readable_sweep(summary);
+  for (const Json& failure : summary["failures"]) {
+    report.failures.push_back(fmt::format("member {}, step {}: {}", failure["member"].get<std::size_t>(),
+                                          failure["step"].get<std::int64_t>(), failure["message"].get<std::string>()));
+  }
+  return report;
+}
+
+std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
+  const Sweep& sweep = *impl_->sweep;
+  if (sweep.members() > most_rows_in_summary) return report.json;
+  Json summary = Json::parse(report.json);
+  summary["rows"] = Json::array();
+  for (std::size_t member = 0; member < sweep.members(); ++member) summary["rows"].push_back(sweep_row(sweep, member));
+  return json_text(summary);
+}
+
+void ScenarioSweep::write(const SweepReport& report, const fs::path& folder) const {
+  save(*impl_->sweep, folder, report.json);
+}
+
+void ScenarioSweep::draw(const fs::path& file, const std::string& column) const {
+  hamflow::draw(*impl_->sweep, file, column);
+}
+
+void make_sweep_folder(const fs::path& folder, bool replace) {
+  make_folder(folder, replace);
+  std::error_code error;
+  for (const char* left : {"sweep.h5", "sweep.csv"}) fs::remove(folder / left, error);
+  if (error) throw FileError("cannot clear " + folder.string() + ": " + error.message());
+}
+
+}  // namespace hamflow

@@ -1,0 +1,208 @@
+// What a program can do with a scenario: run it, stop it, go on with it, watch it; and that nothing is printed.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "hamflow/workflow/compare.hpp"
+#include "hamflow/workflow/figures_of_run.hpp"
+#include "hamflow/workflow/reverse.hpp"
+#include "hamflow/workflow/run.hpp"
+#include "hamflow/workflow/session.hpp"
+#include "hamflow/workflow/sweep.hpp"
+
+namespace hamflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* chaos = R"(
+[problem]
+name = "henon-heiles"
+initial = { q = [0, -0.15], p = [0.54, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 3000
+lyapunov = true
+eigenvalues = true
+section = { coordinate = "q1" }
+[output]
+formats = ["h5", "csv"]
+)";
+
+Scenario scenario(const std::vector<std::string>& sets = {}) {
+  return accepted(read_scenario_text(chaos, "chaos", sets));
+}
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// The summary but for the seconds.
+std::string without_seconds(const std::string& json) {
+  std::string text = json;
+  for (const char* key : {"\"wall_seconds\"", "\"steps_per_second\""}) {
+    const auto begin = text.find(key);
+    text.erase(begin, text.find('\n', begin) - begin);
+  }
+  return text;
+}
+
+class Workflow : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("hamflow_workflow_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+  }
+  /// A library does not print.
+  void TearDown() override {
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    fs::remove_all(folder_);
+  }
+  RunSettings in(const std::string& name, Existing existing = Existing::refuse) const {
+    RunSettings settings;
+    settings.folder = folder_ / name;
+    settings.existing = existing;
+    return settings;
+  }
+  fs::path folder_;
+};
+
+/// Counts what it sees, and asks to stop after some of it.
+class Counter final : public Observer {
+ public:
+  explicit Counter(std::int64_t most = never) : most_(most) {}
+  std::int64_t next_due(std::int64_t step) const override { return std::max(step, seen_to_ + 1); }
+  Verdict observe(const Frame& frame) override {
+    ++count;
+    seen_to_ = frame.step;
+    return count == most_ ? Verdict::stop : Verdict::go_on;
+  }
+  void archive(Writer& ar) override { ar(count, seen_to_); }
+  void archive(Reader& ar) override { ar(count, seen_to_); }
+  std::int64_t count = 0;
+
+ private:
+  std::int64_t most_;
+  std::int64_t seen_to_ = -1;
+};
+
+class Forgetful final : public Observer {
+ public:
+  std::int64_t next_due(std::int64_t step) const override { return step; }
+  Verdict observe(const Frame&) override {
+    ++count;
+    return Verdict::go_on;
+  }
+  std::int64_t count = 0;
+};
+
+TEST_F(Workflow, AReportHoldsTheNumbersOfItsSummary) {
+  const RunReport report = run_scenario(scenario());
+  EXPECT_EQ(report.status, "done");
+  EXPECT_EQ(report.outcome, Outcome::done);
+  EXPECT_EQ(report.final.step, 3000);
+  EXPECT_NE(report.json.find("\"lyapunov\""), std::string::npos);
+  EXPECT_NE(report.json.find(shortest(report.energy.max_error)), std::string::npos);
+  EXPECT_NE(report.text.find("Lyapunov exponents"), std::string::npos);
+  EXPECT_TRUE(report.certificate.has_value());
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(Workflow, StoppedByAnObserverAndResumed) {
+  Counter whole;
+  RunSettings settings = in("whole");
+  settings.observers = {&whole};
+  const RunReport wanted = run_scenario(scenario(), settings);
+  ASSERT_EQ(wanted.status, "done");
+  EXPECT_EQ(whole.count, 3001);
+
+  settings = in("part");
+  Counter first(1234);
+  settings.observers = {&first};
+  EXPECT_EQ(run_scenario(scenario(), settings).status, "interrupted");
+  settings.existing = Existing::resume;
+  Counter second;
+  settings.observers = {&second};
+  const RunReport found = run_scenario(scenario(), settings);
+  EXPECT_EQ(second.count, 3001);
+  EXPECT_EQ(without_seconds(found.json), without_seconds(wanted.json));
+  EXPECT_EQ(content(folder_ / "part" / "trajectory.csv"), content(folder_ / "whole" / "trajectory.csv"));
+  EXPECT_EQ(found.final.q, wanted.final.q);
+  EXPECT_EQ(found.energy.max_error, wanted.energy.max_error);
+
+  Counter third;
+  settings.observers = {&third};
+  const RunReport again = run_scenario(scenario(), settings);
+  EXPECT_TRUE(again.was_complete);
+  EXPECT_EQ(again.json, found.json);
+  EXPECT_EQ(again.final.q, wanted.final.q);
+  EXPECT_EQ(third.count, 3001);
+  settings.observers = {};  // the checkpoint has one more
+  EXPECT_THROW(run_scenario(scenario({"run.steps=4000"}), settings), FileError);
+}
+
+TEST_F(Workflow, AnObserverWithoutArchiveIsRefusedBeforeAnythingIsWritten) {
+  Forgetful observer;
+  RunSettings settings = in("refused");
+  settings.observers = {&observer};
+  EXPECT_THROW(run_scenario(scenario(), settings), Error);
+  EXPECT_EQ(observer.count, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "refused"));
+  settings.folder.clear();  // without checkpoints it may watch
+  EXPECT_EQ(run_scenario(scenario(), settings).status, "done");
+  EXPECT_EQ(observer.count, 3001);
+}
+
+TEST_F(Workflow, RequestsThatAreWrong) {
+  try {
+    (void)scenario({"run.dt=0", "method.name=stv5"});
+    ADD_FAILURE() << "accepted";
+  } catch (const Rejection& rejection) {
+    EXPECT_EQ(rejection.complaints.size(), 2U);
+    EXPECT_NE(std::string(rejection.what()).find("did you mean"), std::string::npos);
+  }
+  (void)run_scenario(scenario(), in("r"));
+  EXPECT_THROW(run_scenario(scenario(), in("r")), FileError);
+  EXPECT_THROW(run_scenario(scenario({"run.dt=0.2"}), in("r", Existing::resume)), Rejection);
+  EXPECT_EQ(run_scenario(scenario({"run.dt=0.2"}), in("r", Existing::replace)).status, "done");
+  EXPECT_THROW(draw_figure(folder_ / "r", "orbits", folder_ / "x.svg"), Error);
+  EXPECT_THROW(draw_figure(folder_ / "none", "orbit", folder_ / "x.svg"), FileError);
+}
+
+TEST_F(Workflow, ReversalComparisonSweepAndSession) {
+  EXPECT_TRUE(reverse_scenario(scenario({"run.lyapunov=false", "run.eigenvalues=false", "run.arithmetic=lattice"}))
+                  .reversal.bit_exact);
+
+  ComparisonRequest two{scenario().request, {parse_method("stv4"), parse_method("yoshida6")}, 10, {100, 200}};
+  const ComparisonReport compared = compare_methods(two);
+  EXPECT_EQ(compared.status, "done");
+  EXPECT_EQ(compared.comparison.points.size(), 4U);
+
+  ScenarioSweep sweep({.text = chaos, .name = "chaos", .varied = {"problem.initial.p[1]=0.1,0.12"}});
+  ASSERT_TRUE(sweep.complaints().empty());
+  EXPECT_EQ(sweep.notes().size(), 2U);  // eigenvalues and section belong to single runs
+  const SweepReport swept = sweep.run();
+  EXPECT_EQ(swept.status, "done");
+  EXPECT_NE(sweep.json_with_rows(swept).find("\"lyapunov4\""), std::string::npos);
+
+  Session session(scenario());
+  ASSERT_EQ(session.advance(10), Outcome::done);
+  session.set_step_length("0.05");
+  ASSERT_EQ(session.advance(10), Outcome::done);
+  const SampleKeeper samples(1, 2);
+  save_session(session, samples, {}, folder_ / "steered", false);
+  EXPECT_NE(content(folder_ / "steered" / "summary.json").find("\"changes\""), std::string::npos);
+  EXPECT_EQ(session_failure(session, {}).first, "");
+}
+
+}  // namespace
+}  // namespace hamflow
