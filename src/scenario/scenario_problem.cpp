@@ -15,8 +15,11 @@ std::vector<std::string> problem_names() {
   return names;
 }
 const OptionInfo& problem_name_key() {
-  static const OptionInfo key{
-      .name = "name", .meaning = "of the problem", .type = OptionType::word, .required = true, .words = problem_names()};
+  static const OptionInfo key{.name = "name",
+                              .meaning = "of the problem",
+                              .type = OptionType::word,
+                              .required = true,
+                              .words = problem_names()};
   return key;
 }
 /// A number of a start, which has no range of its own: its conditions are judged together.
@@ -158,8 +161,8 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
 /// `case = 1`, with the keys of that start beside it.
 void ScenarioReader::read_numbered_start(TomlTable& table) {
   const ProblemInfo& info = scenario_.problem->info;
-  const auto number = table.whole(
-      {.name = info.start_key, .range = Range::whole_from(1, static_cast<double>(info.starts.size()))});
+  const auto number =
+      table.whole({.name = info.start_key, .range = Range::whole_from(1, static_cast<double>(info.starts.size()))});
   std::vector<std::string> of_this;
   if (number) {
     const StartInfo& start = info.starts[static_cast<std::size_t>(*number - 1)];
@@ -243,8 +246,7 @@ void ScenarioReader::read_orbit(TomlTable& table) {
     if (const auto value = orbit.text(number_key(key))) spec.orbit[key] = *value;
   }
   if (const auto direction = orbit.number(number_key("direction"))) {
-    if (*direction != 1 && *direction != -1)
-      orbit.complain("direction", orbit.found("direction") + "; allowed 1, -1");
+    if (*direction != 1 && *direction != -1) orbit.complain("direction", orbit.found("direction") + "; allowed 1, -1");
     spec.direction = *direction < 0 ? -1 : 1;
   }
   orbit.finish();
