@@ -53,8 +53,9 @@ std::string starts(const ProblemInfo& info) {
                                             : "Starts, `" + info.start_key + " = 1, ...` with:\n\n";
   text += "| start | keys | meaning |\n|---|---|---|\n";
   for (const StartInfo& start : info.starts) {
-    text += fmt::format("| {} | {} | {} |\n", start.kind.empty() ? "(without kind)" : "`" + start.kind + "`",
-                        joined(start.keys, [](const std::string& key) { return "`" + key + "`"; }), cell(start.meaning));
+    text +=
+        fmt::format("| {} | {} | {} |\n", start.kind.empty() ? "(without kind)" : "`" + start.kind + "`",
+                    joined(start.keys, [](const std::string& key) { return "`" + key + "`"; }), cell(start.meaning));
   }
   return text + "\n";
 }
@@ -121,7 +122,8 @@ std::string page() {
   for (const ProblemEntry& entry : problems()) text += problem(entry);
   text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);
-  for (const DeclaredTable& declared : declared_tables()) text += "## [" + declared.name + "]\n\n" + table(declared.keys);
+  for (const DeclaredTable& declared : declared_tables())
+    text += "## [" + declared.name + "]\n\n" + table(declared.keys);
   text += "## Figures\n\n| kind | what is drawn |\n|---|---|\n";
   for (const FigureKindInfo& kind : figure_kinds()) text += "| `" + kind.name + "` | " + cell(kind.meaning) + " |\n";
   text += "\n## Arithmetics\n\n" + joined(arithmetics()) + ".\n\n";

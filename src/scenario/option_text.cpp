@@ -20,7 +20,8 @@ std::string explained_with_default(const OptionInfo& option) {
 
 std::string example_text(const OptionInfo& option) {
   if (option.type == OptionType::table) {
-    return "{ " + joined(option.keys, [](const OptionInfo& key) { return key.name + " = " + example_text(key); }) + " }";
+    return "{ " + joined(option.keys, [](const OptionInfo& key) { return key.name + " = " + example_text(key); }) +
+           " }";
   }
   if (!option.example.empty()) return toml_text(option, option.example);
   if (!option.default_value.empty()) return toml_text(option, option.default_value);

@@ -1,5 +1,5 @@
-// The keys of [run] and [output], each declared once. The reader, `new`, `show`, --resume and docs/reference.md are made
-// from these declarations; code that has to name a key takes its name from here.
+// The keys of [run] and [output], each declared once. The reader, `new`, `show`, --resume and docs/reference.md are
+// made from these declarations; code that has to name a key takes its name from here.
 #pragma once
 
 #include <cstdint>

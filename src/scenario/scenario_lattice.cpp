@@ -51,8 +51,8 @@ void ScenarioReader::read_lattice(TomlTable& table) {
       if (!value) return;
       int exponent = 0;
       if (std::frexp(*value, &exponent) != 0.5 || std::abs(exponent) > 1000) {
-        lattice.complain(unit.name, lattice.found(unit.name) +
-                                        "; allowed a power of two from 2^-1000 to 2^999, such as \"2^-52\"");
+        lattice.complain(
+            unit.name, lattice.found(unit.name) + "; allowed a power of two from 2^-1000 to 2^999, such as \"2^-52\"");
         return;
       }
       out = *value;
@@ -62,7 +62,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     lattice.finish();
     if (!on_lattice) {
       table.complain(key, "found units for arithmetic \"" + scenario_.request.arithmetic +
-                                    "\"; allowed with arithmetic = \"lattice\"");
+                              "\"; allowed with arithmetic = \"lattice\"");
     }
   } else {
     table.know(key);
@@ -85,14 +85,13 @@ void ScenarioReader::read_lattice(TomlTable& table) {
   const auto check = [&](const char* what, double largest, double unit) {
     if (largest > 0 && largest < unit) {
       table.complain(key, std::string("found ") + what + " of at most " + shortest(largest) +
-                                    " at the start, with a unit of " + shortest(unit) +
-                                    "; allowed units far below them");
+                              " at the start, with a unit of " + shortest(unit) + "; allowed units far below them");
       return;
     }
     if (largest < unit * 0x1p62) return;
     table.complain(key, std::string("found ") + what + " up to " + shortest(largest) +
-                                  " at the start, with a unit of " + shortest(unit) +
-                                  "; allowed below 2^62 units: choose a larger power of two");
+                            " at the start, with a unit of " + shortest(unit) +
+                            "; allowed below 2^62 units: choose a larger power of two");
   };
   check("positions", reach(scenario_.start_q), scenario_.request.position_unit);
   check("momenta", reach(scenario_.start_p), scenario_.request.momentum_unit);

@@ -76,8 +76,8 @@ void ScenarioReader::read_section(TomlTable& table) {
     const std::size_t dimension = coordinate.words.size();
     for (std::size_t i = 0; i < dimension; ++i) coordinate.words.push_back(momentum_name(coordinate.words[i]));
     if (const auto name = section.text(coordinate)) {
-      const auto at = static_cast<std::size_t>(
-          std::find(coordinate.words.begin(), coordinate.words.end(), *name) - coordinate.words.begin());
+      const auto at = static_cast<std::size_t>(std::find(coordinate.words.begin(), coordinate.words.end(), *name) -
+                                               coordinate.words.begin());
       wanted.coordinate = at % dimension;
       wanted.momentum = at >= dimension;
       scenario_.section = wanted;

@@ -25,8 +25,8 @@ void ScenarioReader::read_method(TomlTable& table) {
     if (std::find(dropped.begin(), dropped.end(), option.name) != dropped.end()) continue;
     const auto text = table.text(option);
     if (table.has(option.name) && in_name.contains(option.name)) {
-      table.complain(option.name, "found it beside the same option in " + table.full(method_name_key().name) +
-                                      "; allowed once");
+      table.complain(option.name,
+                     "found it beside the same option in " + table.full(method_name_key().name) + "; allowed once");
     } else if (text) {
       spec.options[option.name] = *text;
     }

@@ -15,8 +15,8 @@ void ScenarioReader::read_run(TomlTable& table) {
   }
   read_length(table);
   if (!std::isfinite(scenario_.dt * static_cast<double>(scenario_.steps))) {
-    table.complain(keys.dt.name, table.found(keys.dt.name) +
-                                     "; allowed a dt whose product with the number of steps is finite");
+    table.complain(keys.dt.name,
+                   table.found(keys.dt.name) + "; allowed a dt whose product with the number of steps is finite");
   }
   read_samples(table);
   if (const auto every = table.whole(keys.checkpoint_every)) scenario_.checkpoint_every = *every;
@@ -87,10 +87,10 @@ void ScenarioReader::read_length(TomlTable& table) {
       table.complain(end_key, table.found(end_key) + "; allowed at most 2^53 steps of dt");
     } else if (std::abs(ratio - whole) > std::max(1e-9, 4 * whole * 0x1p-52)) {  // the quotient itself rounds
       const double fitting = std::max(whole, 1.0);
-      table.complain(
-          end_key, table.found(end_key) + ", which is " + shortest(ratio) + " steps of dt = " + shortest(scenario_.dt) +
-                       "; allowed a whole number of steps, nearest dt = " + shortest(*t_end / fitting) +
-                       " or " + end_key + " = " + shortest(whole * scenario_.dt));
+      table.complain(end_key, table.found(end_key) + ", which is " + shortest(ratio) +
+                                  " steps of dt = " + shortest(scenario_.dt) +
+                                  "; allowed a whole number of steps, nearest dt = " + shortest(*t_end / fitting) +
+                                  " or " + end_key + " = " + shortest(whole * scenario_.dt));
     } else {
       scenario_.steps = static_cast<std::int64_t>(whole);
     }
@@ -125,9 +125,9 @@ void ScenarioReader::read_samples(TomlTable& table) {
     }
     if (!scenario_.record.empty() && !((t - before) * scenario_.dt > 0)) {
       table.complain(keys.record.name, "found the time " + time + " after " + scenario_.record.back() +
-                                   "; allowed times in the order of the run, " +
-                                   (scenario_.dt > 0 ? "each later" : "with dt < 0 each earlier") +
-                                   " than the one before");
+                                           "; allowed times in the order of the run, " +
+                                           (scenario_.dt > 0 ? "each later" : "with dt < 0 each earlier") +
+                                           " than the one before");
       return;
     }
     before = t;

@@ -4,8 +4,8 @@
 
 #include "figure_kinds.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/scenario/scenario.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "option_text.hpp"
 #include "run_keys.hpp"
 
@@ -278,8 +278,8 @@ class TemplateWriter {
   /// Those of the method chosen that may be given by position are set, all others stand as comments.
   void write_method_options(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
     const bool chosen = find_method(method_.name).family == &family;
-    const bool allowed = std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) !=
-                         allowed_here.end();
+    const bool allowed =
+        std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) != allowed_here.end();
     if (family.options.empty() || !allowed) return;
     if (!chosen) page_.prose("Options of " + joined(family.methods) + ":");
     for (const OptionInfo& option : family.options) {
@@ -300,8 +300,8 @@ class TemplateWriter {
     for (const std::string& arithmetic : arithmetics()) {
       if (refusal(method_, arithmetic).empty()) arithmetics_here.push_back(arithmetic);
     }
-    const bool on_lattice = std::find(arithmetics_here.begin(), arithmetics_here.end(), "lattice") !=
-                            arithmetics_here.end();
+    const bool on_lattice =
+        std::find(arithmetics_here.begin(), arithmetics_here.end(), "lattice") != arithmetics_here.end();
     for (OptionInfo key : declared_table(run_table).keys) {
       bool set = false;
       if (key.name == keys.dt.name) {

@@ -234,8 +234,8 @@ std::optional<std::vector<std::string>> TomlTable::words(const OptionInfo& optio
     }
     all.push_back(word->get());
     if (std::find(option.words.begin(), option.words.end(), word->get()) != option.words.end()) return true;
-    complain(option.name, "found \"" + word->get() + "\"; allowed " + joined(option.words) +
-                              suggestion(word->get(), option.words));
+    complain(option.name,
+             "found \"" + word->get() + "\"; allowed " + joined(option.words) + suggestion(word->get(), option.words));
     return false;
   };
   const auto* array = node->as_array();

@@ -81,7 +81,7 @@ record_every = true
         self.assertIn("initial", self.hamflow("run", "pendulum.toml", status=2).stderr)
 
     def test_steps_and_t_end(self):
-        self.assertIn("together", self.complaint("run.t_end=3"))
+        self.assertIn("together", self.complaint("run.t_end=3", "run.steps=30"))
         self.write("time.toml", '[problem]\nname="pendulum"\ninitial={q=[1],p=[0]}\n[method]\nname="verlet"\n[run]\ndt=0.1\nt_end=3.05\n')
         text = self.hamflow("run", "time.toml", status=2).stderr
         self.assertIn("nearest dt = ", text)

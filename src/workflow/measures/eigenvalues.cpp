@@ -6,6 +6,7 @@
 #include "hamflow/verify/monodromy.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
@@ -55,7 +56,7 @@ std::string eigenvalues_text(const Json& found) {
 }  // namespace
 
 MeasureKind measure_eigenvalues() {
-  return {.key = "eigenvalues",
+  return {.key = run_keys().eigenvalues.name,
           .label = "eigenvalues",
           .requested = [](const Scenario& scenario) { return scenario.eigenvalues; },
           .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {

@@ -11,6 +11,7 @@
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
@@ -95,7 +96,7 @@ MemberObservables columns(const Scenario& first) {
 }  // namespace
 
 MeasureKind measure_lyapunov() {
-  return {.key = "lyapunov",
+  return {.key = run_keys().lyapunov.name,
           .label = "Lyapunov exponents",
           .requested = [](const Scenario& scenario) { return scenario.lyapunov > 0; },
           .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {

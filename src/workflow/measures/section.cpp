@@ -6,6 +6,7 @@
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "recorder.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
@@ -33,7 +34,7 @@ class SectionMeasure final : public Measure {
 }  // namespace
 
 MeasureKind measure_section() {
-  return {.key = "section",
+  return {.key = run_keys().section.name,
           .label = "section",
           .requested = [](const Scenario& scenario) { return scenario.section.has_value(); },
           .make = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)

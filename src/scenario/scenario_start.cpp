@@ -1,0 +1,243 @@
+// [problem]: where it starts, by an orbit, by a numbered case or by a state.
+#include <algorithm>
+#include <cmath>
+
+#include "scenario_reader.hpp"
+#include "start_keys.hpp"
+
+namespace hamflow {
+
+/// `case = 1`, with the keys of that start beside it.
+void ScenarioReader::read_numbered_start(TomlTable& table) {
+  const ProblemInfo& info = scenario_.problem->info;
+  const auto number =
+      table.whole({.name = info.start_key, .range = Range::whole_from(1, static_cast<double>(info.starts.size()))});
+  std::vector<std::string> of_this;
+  if (number) {
+    const StartInfo& start = info.starts[static_cast<std::size_t>(*number - 1)];
+    of_this = start.keys;
+    for (const std::string& key : start.keys) {
+      if (const auto value = table.text(number_key(key))) scenario_.request.start.orbit[key] = *value;
+      if (!table.has(key))
+        table.missing(key, "a number: " + info.start_key + " = " + std::to_string(*number) + " takes exactly " +
+                               joined(start.keys));
+    }
+    refuse_derived(table, start, info.start_key + " = " + std::to_string(*number));
+    scenario_.request.start.kind = start.kind;
+  }
+  for (const StartInfo& start : info.starts) {
+    for (const std::string& key : start.keys) {
+      table.know(key);
+      if (!table.has(key) || std::find(of_this.begin(), of_this.end(), key) != of_this.end()) continue;
+      if (table.has(info.start_key) && !number) continue;  // which case was meant is not known
+      const std::string message = table.found(key) + "; allowed only with " + info.start_key + " = ...";
+      if (!table.has(info.start_key)) table.complain(key, message);
+      if (number) table.complain(key, table.found(key) + "; allowed with this case: " + joined(of_this));
+      of_this.push_back(key);  // said once
+    }
+  }
+}
+
+void ScenarioReader::refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because) {
+  for (const std::string& parameter : start.derives) {
+    if (!table.has(parameter)) continue;
+    table.complain(parameter,
+                   table.found(parameter) + ", but it follows from the orbit; allowed nothing with " + because);
+  }
+}
+
+void ScenarioReader::read_orbit(TomlTable& table) {
+  if (!table.has("orbit")) {
+    table.know("orbit");
+    return;
+  }
+  TomlTable orbit = table.table("orbit");
+  if (!orbit.exists()) return;
+  const ProblemInfo& info = scenario_.problem->info;
+  std::vector<std::string> kinds;
+  const StartInfo* by_keys = nullptr;  // the start that needs no kind
+  for (const StartInfo& start : info.starts) {
+    if (start.kind.empty()) {
+      by_keys = &start;
+    } else {
+      kinds.push_back(start.kind);
+    }
+  }
+  const StartInfo* start = nullptr;
+  const bool has_these = by_keys != nullptr && std::all_of(by_keys->keys.begin(), by_keys->keys.end(),
+                                                           [&](const std::string& key) { return orbit.has(key); });
+  if (!orbit.has("kind")) {
+    if (!has_these) {
+      orbit.missing("kind", joined(kinds) + (by_keys == nullptr ? ""
+                                                                : (kinds.empty() ? "" : "; or, without kind, ") +
+                                                                      joined(by_keys->keys)));
+      for (const StartInfo& any : info.starts) orbit.know_all(any.keys);
+      orbit.know("direction");
+      orbit.finish();
+      return;
+    }
+    orbit.know("kind");
+    start = by_keys;
+  } else {
+    const auto kind = orbit.text(kind_key(kinds));
+    if (!kind) return;
+    start =
+        &*std::find_if(info.starts.begin(), info.starts.end(), [&](const StartInfo& one) { return one.kind == *kind; });
+  }
+  StartSpec& spec = scenario_.request.start;
+  const std::string because = start->kind.empty() ? "energy and angular_momentum" : "kind = \"" + start->kind + "\"";
+  for (const std::string& key : start->keys) {
+    if (!orbit.has(key)) {
+      orbit.know(key);
+      orbit.missing(key, "a number: the start \"" + start->kind + "\" takes exactly " + joined(start->keys));
+      continue;
+    }
+    if (const auto value = orbit.text(number_key(key))) spec.orbit[key] = *value;
+  }
+  if (const auto direction = orbit.number(number_key("direction"))) {
+    if (*direction != 1 && *direction != -1) orbit.complain("direction", orbit.found("direction") + "; allowed 1, -1");
+    spec.direction = *direction < 0 ? -1 : 1;
+  }
+  orbit.finish();
+  refuse_derived(table, *start, because);
+  spec.kind = start->kind;
+}
+
+void ScenarioReader::read_initial(TomlTable& table) {
+  const ProblemEntry& problem = *scenario_.problem;
+  StartSpec& spec = scenario_.request.start;
+  const std::string numbers = problem.dimension == 0   ? "as many numbers as there are coordinates"
+                              : problem.dimension == 1 ? "1 number each"
+                                                       : std::to_string(problem.dimension) + " numbers each";
+  if (!table.has("initial")) {
+    table.know("initial");
+    if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
+    if (!problem.info.start_key.empty() && table.has(problem.info.start_key)) return;
+    if (!problem.info.default_q.empty()) {
+      spec.q = problem.info.default_q;
+      spec.p = problem.info.default_p;
+      return;
+    }
+    table.missing("initial", std::string(problem.info.starts.empty()      ? ""
+                                         : problem.info.start_key.empty() ? "orbit = { kind, ... } or "
+                                                                          : problem.info.start_key + " = 1, ... or ") +
+                                 "initial = { q = [...], p = [...] } with " + numbers +
+                                 ", or { q, v } with velocities");
+    return;
+  }
+  TomlTable initial = table.table("initial");
+  if (!initial.exists()) return;
+  if (initial.has("p") == initial.has("v")) {
+    initial.complain(initial.has("p") ? "v" : "p", initial.has("p") ? "found p and v together; allowed one of them"
+                                                                    : "found neither p nor v; allowed one of them");
+  }
+  const auto texts = [&](const char* key) {
+    OptionInfo list = list_key(key, problem.dimension);
+    list.required = list.name == "q";
+    return initial.numbers(list).value_or(std::vector<std::string>{});
+  };
+  for (const std::string& other : {std::string("orbit"), problem.info.start_key}) {
+    if (other.empty() || !table.has(other)) continue;
+    table.complain("initial", "found it beside " + other + "; allowed one of them");
+    return;
+  }
+  spec.q = texts("q");
+  spec.p = texts("p");
+  spec.v = texts("v");
+  initial.finish();
+}
+
+/// Where the size of the problem follows from the start.
+bool ScenarioReader::check_size(TomlTable& table) {
+  const StartSpec& spec = scenario_.request.start;
+  if (spec.geometric()) return true;
+  const std::size_t before = complaints_.size();
+  TomlTable at = table.has("initial") ? table.table("initial") : table;
+  const auto check = [&](const char* key, std::size_t size) {
+    const std::string why_not = scenario_.problem->refused_size(scenario_.request.parameters, size);
+    if (!why_not.empty()) at.complain(key, "found " + std::to_string(size) + " entries; allowed " + why_not);
+  };
+  check("q", spec.q.size());
+  const char* const other = spec.v.empty() ? "p" : "v";
+  const std::size_t size = spec.v.empty() ? spec.p.size() : spec.v.size();
+  check(other, size);
+  if (complaints_.size() == before && size != spec.q.size()) {
+    at.complain(other, "found " + std::to_string(size) + " entries; allowed " + std::to_string(spec.q.size()) +
+                           ", as many as q has");
+  }
+  return complaints_.size() == before;
+}
+
+void ScenarioReader::check_start(TomlTable& table) {
+  const ProblemEntry& problem = *scenario_.problem;
+  const Request& request = scenario_.request;
+  const bool geometric = request.start.geometric();
+  if (!check_size(table)) return;
+  bool possible = true;
+  if (geometric) {
+    scenario_.request.parameters = problem.derived(request.parameters, request.start);
+    std::vector<Condition> conditions;
+    try {
+      conditions = problem.conditions(request.parameters, request.start);
+    } catch (const Error& error) {
+      table.complain("orbit", error.what());
+      return;
+    }
+    for (const Condition& condition : conditions) {
+      if (condition.holds()) continue;
+      possible = false;
+      // The key to blame is dotted from the root; complain where it stands.
+      const std::string inside = condition.key.substr(std::string("problem.").size());
+      const bool in_orbit = inside.starts_with("orbit.");
+      TomlTable at = in_orbit ? table.table("orbit") : table;
+      const std::string key = in_orbit ? inside.substr(6) : inside;
+      at.complain(key, at.found(key) + "; allowed " + condition.statement + ", but " + shortest(condition.left) +
+                           (condition.strict ? " >= " : " > ") + shortest(condition.right) + ": fails by " +
+                           shortest(condition.left - condition.right));
+    }
+  }
+  if (!possible) return;
+  if (geometric) {
+    const std::size_t before = complaints_.size();
+    for (const StartInfo& start : problem.info.starts) {
+      if (start.kind != request.start.kind) continue;
+      for (const std::string& name : start.derives) {
+        if (!request.parameters.at(name).empty()) continue;
+        table.complain("name", "found a start from which " + name + " follows to be infinite; allowed smaller numbers");
+      }
+    }
+    check_parameters(table, true);
+    if (complaints_.size() != before) return;
+  }
+  Frame start;
+  try {
+    start = problem.start(request);
+  } catch (const Error& error) {
+    table.complain(table.has("initial") ? "initial" : "orbit", error.what());
+    return;
+  }
+  scenario_.start_q = start.q;
+  scenario_.start_p = start.p;
+  if (geometric && request.start.kind.empty() && request.start.orbit.contains("energy")) {
+    const double wanted = evaluate_number<double>(request.start.orbit.at("energy"));
+    const double found = problem.energy(request.parameters, start.q, start.p);
+    double size = std::abs(wanted) + std::abs(found);
+    for (const double p : start.p) size += p * p;
+    if (!(std::abs(found - wanted) <= 1e-8 * size)) {
+      table.complain("orbit", "found no start of that energy that double can hold; allowed initial = { q, p }");
+      return;
+    }
+  }
+  const std::string why_not = problem.refused_start(request.parameters, start.q);
+  if (!why_not.empty()) {
+    table.complain("initial", "found " + why_not);
+    return;
+  }
+  if (!problem.regular(request.parameters, start.q, start.p)) {
+    table.complain(
+        geometric ? "orbit" : "initial",
+        "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
+  }
+}
+
+}  // namespace hamflow
