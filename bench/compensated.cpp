@@ -10,7 +10,7 @@ namespace bench {
 
 namespace {
 
-/// A number as high + low.   [Knuth, TAOCP 2, 4.2.2]
+/// A number as high + low.   [Knuth1997, 4.2.2]
 struct Sum {
   double high, low = 0;
   void add(double r) {

@@ -1,7 +1,7 @@
 // How the energy error of long Kepler runs grows: orbit means of H against the first one, rms over 16 starts, and the
-// exponent c in error ~ t^c. Brouwer's law is c = 1/2.   [spec: methods, section 1; Hairer, McLachlan, Razakarivony
-// 2008]
-//     energy_growth [orbits]      default 100000; the starts differ by a rotation of the plane, which no rounding knows
+// exponent c in error ~ t^c. Brouwer's law is c = 1/2.   [HairerMcLachlanRazakarivony2008]
+//     energy_growth [orbits]      default 100000; the starts differ by a rotation of the plane, which changes every
+//     rounding
 #include <array>
 #include <cmath>
 #include <cstdio>

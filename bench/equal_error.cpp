@@ -96,7 +96,7 @@ Placed place(const Racer& racer, double target) {
     if (!enough && placed.steps != 0 && even >= placed.steps) break;
     steps = even;
   }
-  if (placed.steps == 0) throw std::runtime_error(racer.name + " does not reach the accuracy asked for");
+  if (placed.steps == 0) throw std::runtime_error(racer.name + " does not reach the requested accuracy");
   return placed;
 }
 

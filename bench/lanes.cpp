@@ -1,6 +1,6 @@
 // Ensembles: one trajectory in each SIMD lane, timed per trajectory and step against the hand-written scalar loop. Lane
 // 0 starts like the other contenders and must end in their state; the others start a little faster. The kernels are
-// those of `hamflow sweep` but without the look at the energy in every step, which the scalar loop does not have
+// those of `hamflow sweep` but without the energy computed in every step, which the scalar loop does not have
 // either; "lanes, watched" has it.
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"

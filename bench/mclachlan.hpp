@@ -1,6 +1,6 @@
 // McLachlan's symmetric Runge-Kutta-Nystroem splittings as Boost.Odeint has them, so that hamflow runs the same
 // methods: sb3a_m4 with four forces (Odeint computes a fifth and multiplies it by 0) and sb3a with five (Odeint: six).
-// [McLachlan 1995, SIAM J. Sci. Comput. 16, 151-168]
+// [McLachlan1995]
 #pragma once
 
 #include <array>

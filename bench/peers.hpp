@@ -1,4 +1,4 @@
-// Other libraries on the same orbits. Each is optional: without it (bench/CMakeLists.txt says so) its list is empty.
+// Other libraries on the same orbits. Each is optional: without it (as bench/CMakeLists.txt reports) its list is empty.
 #pragma once
 
 #include "contender.hpp"

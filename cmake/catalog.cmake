@@ -1,7 +1,8 @@
 # The catalogue is the folders: every file of problems/, problems/potentials/, methods/compositions/, methods/splittings/,
-# methods/force_gradient/ and methods/tableaus/ is found here, and gets its line in the generated lists (problems: a translation unit each).
-# Adding one is adding a file. By convention problems/henon_heiles.hpp defines the class template HenonHeiles, and
-# compositions/stv4.hpp the table compositions::stv4.
+# methods/force_gradient/, methods/tableaus/ and src/catalog/families/ is found here, and gets its line in the generated
+# lists (problems: a translation unit each). Adding one is adding a file. By convention problems/henon_heiles.hpp defines
+# the class template HenonHeiles, compositions/stv4.hpp the table compositions::stv4, families/runge_kutta.hpp the class
+# families::RungeKutta.
 
 function(hamflow_names out folder)
   file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/hamflow/${folder}/*.hpp")
@@ -99,28 +100,57 @@ hamflow_table_list(force_gradient force_gradient_list)
 hamflow_table_list(tableaus tableau_addresses)
 hamflow_names(tableau_names methods/tableaus)
 set(tableau_macro "")
-set(tableau_includes "")
-set(tableau_strings "")
-set(tableau_infos "")
 foreach(name IN LISTS tableau_names)
   string(APPEND tableau_macro " X(${name})")
-  string(APPEND tableau_includes "#include \"hamflow/methods/tableaus/${name}.hpp\"\n")
-  string(APPEND tableau_strings "std::string(tableaus::${name}.name), ")
-  string(APPEND tableau_infos "  if (name == tableaus::${name}.name) return describe(tableaus::${name});\n")
 endforeach()
 
-file(CONFIGURE OUTPUT "${generated}/tableau_list.hpp" CONTENT [[
+file(CONFIGURE OUTPUT "${generated}/catalog_tables.hpp" CONTENT [[
 #pragma once
-@tableau_includes@
-#define HAMFLOW_FOR_EACH_TABLEAU(X)@tableau_macro@
-]] @ONLY)
-file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
-#pragma once
-#include <optional>
-#include "erased.hpp"
+#include <vector>
 #include "hamflow/methods/force_gradient.hpp"
 #include "hamflow/methods/splitting.hpp"
 @includes@
+#define HAMFLOW_FOR_EACH_TABLEAU(X)@tableau_macro@
+namespace hamflow {
+inline const std::vector<const CompositionTable*>& composition_tables() {
+  static const std::vector<const CompositionTable*> all{@composition_list@};
+  return all;
+}
+inline const std::vector<const SplittingTable*>& splitting_tables() {
+  static const std::vector<const SplittingTable*> all{@splitting_list@};
+  return all;
+}
+inline const std::vector<const ForceGradientTable*>& force_gradient_tables() {
+  static const std::vector<const ForceGradientTable*> all{@force_gradient_list@};
+  return all;
+}
+}  // namespace hamflow
+]] @ONLY)
+
+file(GLOB family_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/catalog/families/*.hpp")
+list(SORT family_files)
+set(family_includes "")
+set(family_types)
+foreach(file IN LISTS family_files)
+  get_filename_component(name "${file}" NAME_WE)
+  hamflow_pascal_case(type ${name})
+  string(APPEND family_includes "#include \"families/${name}.hpp\"\n")
+  list(APPEND family_types ${type})
+endforeach()
+list(JOIN family_types ", " family_types)
+file(CONFIGURE OUTPUT "${generated}/family_list.hpp" CONTENT [[
+#pragma once
+@family_includes@
+namespace hamflow::families {
+template <class... Families>
+struct List;
+using All = List<@family_types@>;
+}  // namespace hamflow::families
+]] @ONLY)
+
+file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
+#pragma once
+#include "erased.hpp"
 namespace hamflow {
 @declarations@
 inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
@@ -132,12 +162,5 @@ inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
   return entry;
 }
 inline std::vector<ProblemEntry> generated_problems() { return {@problem_calls@}; }
-inline std::vector<const CompositionTable*> generated_compositions() { return {@composition_list@}; }
-inline std::vector<const SplittingTable*> generated_splittings() { return {@splitting_list@}; }
-inline std::vector<const ForceGradientTable*> generated_force_gradients() { return {@force_gradient_list@}; }
-inline std::vector<std::string> generated_tableaus() { return {@tableau_strings@}; }
-inline std::optional<MethodInfo> generated_tableau_info(const std::string& name) {
-@tableau_infos@  return std::nullopt;
-}
 }  // namespace hamflow
 ]] @ONLY)

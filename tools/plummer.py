@@ -3,7 +3,7 @@
     python3 tools/plummer.py 100 --seed 1 > cluster.toml
 
 Positions from the mass within r, M(r) = r^3/(1 + r^2)^(3/2); speeds by rejection from g(x) = x^2 (1 - x^2)^(7/2), x the
-speed in units of the escape speed.   [Aarseth, Henon and Wielen 1974, Astron. Astrophys. 37, 183]
+speed in units of the escape speed.   [AarsethHenonWielen1974]
 Nothing but Python's standard library; the same seed gives the same file.
 """
 

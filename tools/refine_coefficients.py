@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Refines the published coefficients of splitting methods to 40 digits and checks the tables in the tree.
 
-    tools/refine_coefficients.py              prints what belongs into the tables
+    tools/refine_coefficients.py              prints the digits for the tables
     tools/refine_coefficients.py --check      compares it with include/hamflow/methods
 
 Published digits come from tests/data/coefficients.json; PEFRL's, which has no row there, stand below. What is refined
@@ -12,12 +12,12 @@ The conditions are not transcribed from anywhere but generated:
 compositions  a symmetric step of order 2 is exp(h Y1 + h^3 Y3 + h^5 Y5 + ...). The product of the exponentials is
               expanded in words of the letters Y1, Y3, ...; a word with degrees summing to k goes with h^k. A product of
               exponentials is a character of the shuffle algebra, which is the polynomial algebra in the Lyndon words
-              (Radford 1979): it equals exp(h Y1) to order p if and only if its coefficients at the Lyndon words up to
+              [Radford1979]: it equals exp(h Y1) to order p if and only if its coefficients at the Lyndon words up to
               degree p do: 1 at Y1, 0 at all others.
 splittings    likewise in words of A (drift) and B (kick), where exp(h (A + B)) has 1/n! at every word of length n.
 Nystroem      for q'' = F(q) a splitting is a Runge-Kutta-Nystroem method with Q_j = q + c_j h v +
               h^2 sum_(i<j) b_i (c_j - c_i) F(Q_i); the conditions are those of the special Nystroem trees
-              (Hairer, Norsett, Wanner I, II.14). Those of q follow, because the weights there are b_j (1 - c_j).
+              [HNW1993, II.14]. Those of q follow, because the weights there are b_j (1 - c_j).
               Symplecticity makes many of them dependent; Gram-Schmidt leaves those out.
 Palindromic methods have even order: only conditions of odd degree are needed.
 """
@@ -78,7 +78,7 @@ SPLITTINGS = {
     "okunbor-skeel6": "OkunborSkeel94_m13",
     "rkn8-s19": "BlanesCasasEscorihuela22_RKN8_s19",
 }
-# Omelyan, Mryglod, Folk 2002, Comput. Phys. Commun. 146, 188: xi, lambda, chi.
+# OmelyanMryglodFolk2002: xi, lambda, chi.
 PEFRL = ["0.1786178958448091", "-0.2123418310626054", "-0.06626458266981849"]
 # Published as exact numbers, or chosen freely by the authors: by name, expression by position in the table.
 EXACT = {

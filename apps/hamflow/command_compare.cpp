@@ -10,6 +10,7 @@
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "progress.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -44,9 +45,9 @@ class RequestReader {
 
   void read_methods(const std::string& text) {
     if (digits_beyond_double(scenario_.request.arithmetic) > 0) {
-      complain("run.arithmetic", "found \"" + scenario_.request.arithmetic +
-                                     "\", whose errors are below those of the reference here; allowed double, " +
-                                     "compensated, lattice");
+      complain(run_path(run_keys().arithmetic), "found \"" + scenario_.request.arithmetic +
+                                                    "\", whose errors are below those of the reference here; allowed " +
+                                                    "double, compensated, lattice");
     }
     for (const std::string& name : split_list(text)) {
       try {

@@ -68,9 +68,9 @@ void convert_run(const ConvertOptions& options) {
   const ConvertedRun run(options.input, options.to);
   if (run.largest_turn() > 2) {
     const std::string note = fmt::format(
-        "phi changes by up to {:.3g} from one sample to the next; where that is more than half a turn, turns are "
+        "{} changes by up to {:.3g} from one sample to the next; where that is more than half a turn, turns are "
         "missing",
-        run.largest_turn());
+        run.turning(), run.largest_turn());
     print_notes({note}, false);
   }
   if (extension == ".h5") {
@@ -85,7 +85,7 @@ void convert_run(const ConvertOptions& options) {
 
 int convert_command(const ConvertOptions& options) {
   return guarded(options.json, [&] {
-    (void)coordinate_key(options.to);
+    check_coordinates(options.to);
     if (options.input.empty() || !options.from.empty()) {
       convert_given_state(options);
       return exit_done;

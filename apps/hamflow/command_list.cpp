@@ -1,14 +1,17 @@
-// hamflow list, hamflow show: the catalogue as its own declarations tell it.
+// hamflow list, hamflow show: the catalogue as it is declared.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "commands.hpp"
+#include "figure_kinds.hpp"
 #include "guarded.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "option_text.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -21,10 +24,25 @@ std::string flags(const MethodInfo& info) {
   return text;
 }
 
-std::string variant_text(const ProblemInfo& info) {
-  std::string text;
-  for (const auto& [key, value] : info.variant) text += (text.empty() ? "" : ", ") + key + " = \"" + value + "\"";
+std::string option_row(const OptionInfo& option, const std::string& indent = "    ") {
+  std::string text = fmt::format("{}{:<18} {:<12} {}\n", indent, option.name, default_text(option), explained(option));
+  for (const OptionInfo& key : option.keys) text += option_row(key, indent + "  ");
   return text;
+}
+
+/// False where there is no table of that name.
+bool show_table(const std::string& name) {
+  for (const DeclaredTable& table : declared_tables()) {
+    if (table.name != name) continue;
+    std::cout << "keys of [" << name << "]:\n";
+    for (const OptionInfo& key : table.keys) std::cout << option_row(key);
+    return true;
+  }
+  return false;
+}
+
+std::string variant_text(const ProblemInfo& info) {
+  return joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
 }
 
 void show_problem(const ProblemEntry& entry) {
@@ -34,21 +52,7 @@ void show_problem(const ProblemEntry& entry) {
                            entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
                            info.reference);
   if (!info.parameters.empty()) std::cout << "  keys of [problem]:\n";
-  for (const ParameterInfo& p : info.parameters) {
-    const char* range = p.range == Range::positive       ? ", positive"
-                        : p.range == Range::not_negative ? ", not negative"
-                        : p.range == Range::count        ? ", a whole number from 1"
-                                                         : "";
-    const std::string list = p.kind == ParameterKind::number ? ""
-                             : p.length > 0                  ? fmt::format(", a list of {}", p.length)
-                             : p.kind == ParameterKind::list ? ", a list"
-                                                             : ", a number or a list";
-    std::cout << fmt::format("    {:<18} [{}]{}{}  {}\n", p.name,
-                             p.required                ? "required"
-                             : p.default_value.empty() ? "not given"
-                                                       : p.default_value,
-                             range, list, p.meaning);
-  }
+  for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
   if (!info.start_key.empty()) {
     std::cout << fmt::format("  {} = 1, ..., {}, each with its keys beside it:\n", info.start_key, info.starts.size());
   } else if (!info.starts.empty()) {
@@ -58,7 +62,7 @@ void show_problem(const ProblemEntry& entry) {
     std::cout << fmt::format("    {:<18} {}  {}\n", s.kind.empty() ? "(without kind)" : s.kind, fmt::join(s.keys, ", "),
                              s.meaning);
   }
-  if (info.name == "central-force") {
+  if (info.two_bodies) {
     std::cout << "  bodies = [{ mass, position = [3], velocity = [3] }, { ... }]: two bodies in space, reduced\n";
   }
   std::cout << fmt::format(
@@ -74,21 +78,10 @@ void show_method(const MethodSpec& spec) {
   std::cout << fmt::format("{}\n  {}\n  order {}, {}\n  source: {}\n", info.name, info.summary, info.order, flags(info),
                            info.reference);
   if (info.forces_per_step > 0) std::cout << fmt::format("  force evaluations per step: {}\n", info.forces_per_step);
-  if (spec.name == "cg") {
-    std::cout
-        << "  keys of [method]:\n"
-           "    degree             [1]         polynomial degree in time: 1 in this version\n"
-           "    quadrature         [auto]      Gauss points, degree to 64, or \"auto\": the fewest that keep H at "
-           "rounding\n"
-           "    tolerance          [unset]     on the 2-norm of the residual (2.63); unset: its rounding level\n"
-           "    criterion          [stagnation] \"seed\": stagnation above the tolerance is an error\n"
-           "    max_iterations     [15]\n"
-           "    iteration          [newton]\n"
-           "    on_divergence      [error]     \"halve\": two half steps in place of one that does not converge\n"
-           "    diagnostics        [false]     condition and determinant of the tangent, condition of M^-1, each "
-           "step\n";
-  }
-  std::cout << "  measured properties: hamflow verify " << (spec.name == "cg" ? "'" + info.name + "'" : info.name)
+  const std::vector<OptionInfo>& options = find_method(spec.name).family->options;
+  if (!options.empty()) std::cout << "  keys of [method]:\n";
+  for (const OptionInfo& option : options) std::cout << option_row(option);
+  std::cout << "  measured properties: hamflow verify " << (info.name == spec.name ? info.name : "'" + info.name + "'")
             << "\n";
 }
 
@@ -99,7 +92,7 @@ int list_command(const std::string& what, bool json) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     if (what == "methods") {
       for (const MethodEntry& entry : methods()) {
-        const MethodInfo info = describe(MethodSpec{entry.name, {}});
+        const MethodInfo info = describe(MethodSpec{.name = entry.name});
         if (json) {
           all.push_back({{"name", entry.name},
                          {"order", info.order},
@@ -139,14 +132,20 @@ int show_command(const std::string& name) {
       show_problem(entry);
       found = true;
     }
-    if (found) return exit_done;
+    if (found || show_table(name)) return exit_done;
+    for (const FigureKindInfo& kind : figure_kinds()) {
+      names.push_back(kind.name);
+      if (kind.name != name) continue;
+      std::cout << fmt::format("{}\n  a figure: {}\n  hamflow plot RUN --kind {}; output.figures of a scenario\n", name,
+                               kind.meaning, name);
+      return exit_done;
+    }
     for (const MethodEntry& entry : methods()) names.push_back(entry.name);
-    const bool known = std::find(names.begin(), names.end(), name) != names.end();
-    if (!known && name.find('(') == std::string::npos) {
-      const std::string near = nearest(name, names);
-      throw Error("there is no problem or method '" + name + "'" +
-                  (near.empty() ? "" : "; did you mean " + near + "?") +
-                  " (hamflow list problems, hamflow list methods)");
+    for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
+    const std::string method = name.substr(0, name.find('('));
+    if (std::find(names.begin(), names.end(), method) == names.end()) {
+      throw Error("there is no problem, method or figure '" + name + "'" + suggestion(method, names) +
+                  " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)");
     }
     show_method(parse_method(name));
     return exit_done;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -13,9 +12,11 @@
 
 #include "commands.hpp"
 #include "guarded.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "progress.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -26,7 +27,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* help_text =
     "step [n]        takes n steps, 1 without n\n"
     "dt x            another step length; state and time go on\n"
-    "tol x, tol off  the tolerance of an implicit method, or its rounding level\n"
+    "tol x, tol off  the tolerance of a method that has one, or the one that it has by itself\n"
     "method m        another method, e.g. method cg(1,5); state and time go on\n"
     "show [what]     nothing, or one of: step, t, q, p, energy, error (of the energy, since the start), invariants,\n"
     "                solver, settings, changes, all\n"
@@ -125,7 +126,7 @@ class Shell {
       outcome_ = Outcome::done;
     } else if (word == "tol") {
       with("a positive number, or off");
-      session_.set_tolerance(tolerance_of(rest));
+      session_.set_tolerance(rest);
       outcome_ = Outcome::done;
     } else if (word == "method") {
       with("a method, e.g. stv4, cg(1,5)");
@@ -159,30 +160,16 @@ class Shell {
 
   [[noreturn]] static void unknown(const std::string& what, const std::string& word,
                                    const std::vector<std::string>& allowed) {
-    std::string all;
-    for (const std::string& each : allowed) all += (all.empty() ? "" : ", ") + each;
-    const std::string near = nearest(word, allowed);
-    throw Error("found " + what + " '" + word + "'; allowed " + all +
-                (near.empty() ? "" : "; did you mean " + near + "?"));
-  }
-
-  static std::optional<double> tolerance_of(const std::string& text) {
-    if (text == "off") return std::nullopt;
-    try {
-      return evaluate_number<double>(text);
-    } catch (const Error&) {
-      throw Error("tol: found '" + text + "'; allowed a positive number, or off");
-    }
+    throw Error("found " + what + " '" + word + "'; allowed " + joined(allowed) + suggestion(word, allowed));
   }
 
   int step(const std::string& text) {
     std::int64_t count = 1;
     if (!text.empty()) {
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-      constexpr std::int64_t most = std::int64_t{1} << 53;
-      if (error != std::errc() || end != text.data() + text.size() || count < 0 || count > most - session_.step()) {
-        throw Error("step: found '" + text + "'; allowed a whole number from 0, to 2^53 steps in all");
-      }
+      const auto left = static_cast<double>(most_steps - session_.step());
+      const OptionInfo steps{.name = "step", .range = Range::whole_from(0, left)};
+      if (const std::string refused = refused_value(steps, text); !refused.empty()) throw Error("step: " + refused);
+      count = static_cast<std::int64_t>(number_value(text));
     }
     catch_interrupts();
     const std::int64_t first = session_.step();
@@ -272,8 +259,11 @@ class Shell {
     all["problem"] = request.problem;
     all["method"] = session_.method().name;
     all["dt"] = evaluate_number<double>(request.dt);
-    if (!session_.method().explicit_step) {
-      all["tolerance"] = request.method.cg.tolerance ? Json(*request.method.cg.tolerance) : Json("off");
+    const std::vector<OptionInfo>& options = find_method(request.method.name).family->options;
+    if (const OptionInfo* const tolerance = find_option(options, tolerance_option)) {
+      const auto given = request.method.options.find(tolerance->name);
+      const std::string text = given == request.method.options.end() ? tolerance->default_value : given->second;
+      all[tolerance->name] = text.empty() ? Json("off") : Json(number_value(text));
     }
     all["arithmetic"] = request.arithmetic;
     all["kernel"] = request.kernel;
@@ -286,9 +276,7 @@ class Shell {
     if (value.is_number_float()) return fmt::format("{:.17g}", value.get<double>());
     if (value.is_object()) return "step " + text_of(value["step"]) + ": " + text_of(value["what"]);
     if (!value.is_array()) return value.dump();
-    std::string all;
-    for (const Json& each : value) all += (all.empty() ? "" : ", ") + text_of(each);
-    return "[" + all + "]";
+    return "[" + joined(value, text_of) + "]";
   }
 
   void show(const std::string& topic) const {
@@ -300,8 +288,8 @@ class Shell {
       std::cout << all.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
       return;
     }
-    std::string line;
-    for (const auto& [key, value] : all.items()) line += (line.empty() ? "" : "  ") + key + " = " + text_of(value);
+    const auto pair = [](const auto& item) { return item.key() + " = " + text_of(item.value()); };
+    const std::string line = joined(all.items(), pair, "  ");
     std::cout << (line.empty() ? "none" : line) << '\n';
   }
 

@@ -17,10 +17,24 @@ std::vector<MethodSpec> methods_of(const VerifyOptions& options) {
   for (const std::string& text : options.methods) specs.push_back(parse_method(text));
   if (!options.all) return specs;
   for (const MethodEntry& entry : methods()) {
-    if (entry.kind != MethodKind::cg) specs.push_back(parse_method(entry.name));
+    if (entry.family->representatives.empty()) specs.push_back(parse_method(entry.name));
+    for (const std::string& text : entry.family->representatives) specs.push_back(parse_method(text));
   }
-  for (const char* text : {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) specs.push_back(parse_method(text));
   return specs;
+}
+
+/// The problem as a scenario means it by default; where a method cannot run there, in the first variant where all can.
+Region region_for(const std::string& problem, const std::vector<MethodSpec>& specs) {
+  const auto accepted = [&](const ProblemEntry& entry) {
+    return std::all_of(specs.begin(), specs.end(), [&](const auto& spec) { return entry.accepts(spec); });
+  };
+  if (!accepted(usual_problem(problem))) {
+    for (const ProblemEntry& entry : problems()) {
+      if (entry.info.name != problem || !accepted(entry)) continue;
+      return region_of(problem, {entry.info.variant.begin(), entry.info.variant.end()});
+    }
+  }
+  return region_of(problem);
 }
 
 /// The rows in the order of the methods, measured on all cores.
@@ -48,7 +62,7 @@ int verify_command(const VerifyOptions& options) {
     const std::vector<MethodSpec> specs = methods_of(options);
     if (specs.empty()) throw Error("verify needs at least one METHOD, or --all");
     std::vector<Region> regions;
-    if (!options.problem.empty()) regions = {region_of(options.problem)};
+    if (!options.problem.empty()) regions = {region_for(options.problem, specs)};
     for (const Region& region : regions) {
       for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
     }

@@ -1,5 +1,5 @@
 // The sub-commands. Each returns the exit status: 0 done; 1 the run failed (numerics); 2 the request was wrong, nothing
-// ran; 3 input or output failed; 130 stopped by Ctrl-C.   [spec: product, section 2]
+// ran; 3 input or output failed; 130 stopped by Ctrl-C.
 #pragma once
 
 #include <map>

@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <iostream>
 
+#include "command_line.hpp"
 #include "commands.hpp"
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/scenario/coordinates.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
+#include "hamflow/workflow/sweep.hpp"
 
 namespace {
 
@@ -15,19 +20,6 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
   CLI::App* sub = app.add_subcommand(name, what);
   sub->footer(std::string("Examples:\n") + examples);
   return sub;
-}
-
-/// CLI11 would only say that a sub-command is required.
-void reject_unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(sub->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  const std::string near = hamflow::nearest(argv[1], names);
-  throw CLI::ValidationError(
-      std::string("there is no command '") + argv[1] + "'" + (near.empty() ? "" : "; did you mean " + near + "?"),
-      CLI::ExitCodes::InvalidError);
 }
 
 }  // namespace
@@ -67,9 +59,9 @@ int main(int argc, char** argv) {
       add(app, "plot", "Draw a figure of a run, also of one that goes on or was cut short",
           "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n");
   plot_command->add_option("run", plot.run, "the folder of a run, or its run.h5")->required()->type_name("RUN");
-  plot_command->add_option("--kind", plot.kind, "orbit, energy, energy-error, phase, condition, section")
+  plot_command->add_option("--kind", plot.kind, hamflow::joined(hamflow::figure_names()))
       ->type_name("KIND")
-      ->check(CLI::IsMember({"orbit", "energy", "energy-error", "phase", "condition", "section"}));
+      ->check(CLI::Validator(hamflow::unknown_figure, "", ""));
   plot_command->add_option("-o,--output", plot.file, "the file to write: .svg, .pdf or .png")
       ->required()
       ->type_name("FILE");
@@ -96,7 +88,9 @@ int main(int argc, char** argv) {
   sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")
       ->type_name("DIR")
       ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
-  sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")->type_name("N");
+  sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")
+      ->type_name("N")
+      ->transform(whole_number(0, hamflow::most_sweep_threads));
   sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
       ->type_name("SET");
   sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
@@ -191,8 +185,7 @@ int main(int argc, char** argv) {
       "  hamflow convert --from cartesian --to polar --q 1,0 --p 0,1\n");
   convert_command->add_option("input", convert.input, "a scenario, the folder of a run, or its run.h5")
       ->type_name("INPUT");
-  convert_command
-      ->add_option("--to", convert.to, "cartesian, polar (central-force); absolute, relative (double-pendulum)")
+  convert_command->add_option("--to", convert.to, hamflow::what_charts_there_are())
       ->required()
       ->type_name("COORDINATES");
   convert_command->add_option("--from", convert.from, "the coordinates of --q and --p")->type_name("COORDINATES");
@@ -209,9 +202,7 @@ int main(int argc, char** argv) {
   std::string what;
   bool list_json = false;
   CLI::App* list_command = add(app, "list", "List the catalogue", "  hamflow list methods\n  hamflow list problems\n");
-  list_command->add_option("what", what, "methods or problems")
-      ->required()
-      ->check(CLI::IsMember({"methods", "problems"}));
+  list_command->add_option("what", what, "methods or problems")->required()->check(one_of({"methods", "problems"}));
   list_command->add_flag("--json", list_json, "print JSON");
   list_command->callback([&] { status = hamflow::app::list_command(what, list_json); });
 
@@ -226,10 +217,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11's own statuses start at 100: help is 0, everything else a wrong request.
-    status = app.exit(error) == 0 ? exit_done : exit_rejected;
+    const std::string message = message_of(app, error);
+    const bool wrong = app.exit(message == error.what() ? error : CLI::ParseError(message, error.get_exit_code())) != 0;
+    status = wrong ? exit_rejected : exit_done;
     const std::vector<std::string> words(argv, argv + argc);
     if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
-      std::cout << hamflow::rejection_json(std::vector<std::string>{error.what()});
+      std::cout << hamflow::rejection_json(std::vector<std::string>{message});
     }
   }
   std::cout.flush();

@@ -136,7 +136,7 @@ MpNumber power_of_two(mpfr_exp_t exponent) {
 }
 }  // namespace
 MpNumber Traits::epsilon() { return power_of_two(1 - static_cast<mpfr_exp_t>(MpDigits::bits())); }
-// Far inside MPFR's own range, which is 2^(2^30) at least: nothing physical is larger.
+// Far inside MPFR's own range, which is at least 2^(2^30): no physical quantity is larger.
 MpNumber Traits::max() { return power_of_two(mpfr_exp_t{1} << 28); }
 MpNumber Traits::min() { return power_of_two(-(mpfr_exp_t{1} << 28)); }
 MpNumber Traits::infinity() {
@@ -149,7 +149,7 @@ MpNumber Traits::nan() {
 std::string exact_text(const Mp& x) {
   char* text = nullptr;
   const int length = mpfr_asprintf(&text, "%Ra", x.value.raw());
-  if (length < 0) throw Error("a number cannot be written");
+  if (length < 0) throw Error("MPFR cannot write a number as text");
   std::string out = std::to_string(mpfr_get_prec(x.value.raw())) + " " + text;
   mpfr_free_str(text);
   return out;

@@ -5,91 +5,13 @@
 #include <limits>
 
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
-#include "hamflow/arithmetic/plain.hpp"
-#include "hamflow/methods/boris.hpp"
-#include "hamflow/problems/magnetic.hpp"
+#include "hamflow/core/text.hpp"
 
 namespace hamflow {
 
 std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> all = generated_problems();
   return all;
-}
-
-std::span<const MethodEntry> methods() {
-  static const std::vector<MethodEntry> all = [] {
-    std::vector<MethodEntry> list;
-    for (const CompositionTable* table : generated_compositions()) {
-      list.push_back({std::string(table->name), MethodKind::composition, StartsWith::kick, table, nullptr});
-      list.push_back({std::string(table->name) + "-dkd", MethodKind::composition, StartsWith::drift, table, nullptr});
-    }
-    for (const SplittingTable* table : generated_splittings()) {
-      list.push_back({std::string(table->name), MethodKind::splitting, table->starts_with, nullptr, table});
-    }
-    for (const ForceGradientTable* table : generated_force_gradients()) {
-      list.push_back({.name = std::string(table->name), .kind = MethodKind::force_gradient, .force_gradient = table});
-    }
-    for (const std::string& name : generated_tableaus()) list.push_back({name, MethodKind::runge_kutta});
-    list.push_back({"cg", MethodKind::cg});
-    list.push_back({"boris", MethodKind::boris});
-    list.push_back({"dop853", MethodKind::dop853});
-    list.push_back({"taylor", MethodKind::taylor});
-    // Explicit methods by order and cost, then the rest.
-    std::stable_sort(list.begin(), list.end(), [](const MethodEntry& a, const MethodEntry& b) {
-      const auto key = [](const MethodEntry& e) {
-        if (e.kind == MethodKind::cg) return 1000;
-        if (e.kind == MethodKind::boris) return 1001;
-        if (e.kind == MethodKind::dop853) return 1002;
-        if (e.kind == MethodKind::taylor) return 1003;
-        const MethodInfo info = describe(MethodSpec{.name = e.name});
-        return 50 * info.order + info.forces_per_step;
-      };
-      return key(a) < key(b);
-    });
-    return list;
-  }();
-  return all;
-}
-
-std::string nearest(const std::string& name, std::span<const std::string> candidates) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(name.size() / 2, 2) + 1;  // more than half wrong is no likeness
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);
-    for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= name.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t change = diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-      }
-    }
-    if (row.back() < least) {
-      least = row.back();
-      best = candidate;
-    }
-  }
-  return best;
-}
-
-namespace {
-[[noreturn]] void unknown(const std::string& what, const std::string& name,
-                          const std::vector<std::string>& candidates) {
-  const std::string near = nearest(name, candidates);
-  throw Error(what + " '" + name + "' is unknown" + (near.empty() ? "" : "; did you mean " + near + "?") +
-              " (list them with: hamflow list " + what + "s)");
-}
-}  // namespace
-
-const MethodEntry& find_method(const std::string& name) {
-  std::vector<std::string> names;
-  for (const MethodEntry& entry : methods()) {
-    if (entry.name == name) return entry;
-    names.push_back(entry.name);
-  }
-  unknown("method", name, names);
 }
 
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
@@ -105,10 +27,33 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
     });
     if (matches) return entry;
   }
-  if (same_name == nullptr) unknown("problem", name, names);
+  if (same_name == nullptr) {
+    throw Error("problem '" + name + "' is unknown" + suggestion(name, names) +
+                " (list them with: hamflow list problems)");
+  }
   std::string wanted;
   for (const auto& [key, value] : variant) wanted += (wanted.empty() ? "" : ", ") + key + " = " + value;
   throw Error("problem '" + name + "' has no variant with " + wanted + " (hamflow show " + name + ")");
+}
+
+const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  const ProblemEntry& any = find_problem(name, variant);
+  const auto usual = [](const ProblemInfo& info, const std::string& key) {
+    const auto listed = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+    return listed(info.default_choices) || listed(info.example_choices);
+  };
+  const auto matches = [&](const auto& choice, const ProblemInfo& info) {
+    const auto given = variant.find(choice.first);
+    return given != variant.end() ? given->second == choice.second : usual(info, choice.first);
+  };
+  for (const ProblemEntry& entry : problems()) {
+    const ProblemInfo& info = entry.info;
+    if (info.name == name && std::all_of(info.variant.begin(), info.variant.end(),
+                                         [&](const auto& choice) { return matches(choice, info); })) {
+      return entry;
+    }
+  }
+  return any;  // no entry is declared to be the usual one
 }
 
 Texts complete(const ProblemInfo& info, const Texts& given) {
@@ -119,35 +64,6 @@ Texts complete(const ProblemInfo& info, const Texts& given) {
     all[name] = text;
   }
   return all;
-}
-
-MethodInfo describe(const MethodSpec& spec) {
-  for (const CompositionTable* table : generated_compositions()) {
-    if (spec.name == table->name) return describe(*table, StartsWith::kick);
-    if (spec.name == std::string(table->name) + "-dkd") return describe(*table, StartsWith::drift);
-  }
-  for (const SplittingTable* table : generated_splittings()) {
-    if (spec.name == table->name) return describe(*table);
-  }
-  for (const ForceGradientTable* table : generated_force_gradients()) {
-    if (spec.name == table->name) return describe(*table);
-  }
-  if (spec.name == "cg") return describe(spec.cg);
-  if (spec.name == "boris") return BorisStep<Magnetic<double>, Plain<double>>::describe();
-  if (spec.name == "dop853" || spec.name == "taylor") {
-    MethodInfo info = spec.name == "dop853" ? describe_dop853(spec.adaptive)
-                                            : describe_taylor(spec.adaptive, taylor_order(spec.adaptive));
-    std::string options;
-    const auto add = [&](const std::string& text) { options += (options.empty() ? "" : ",") + text; };
-    if (spec.adaptive.order > 0) add("order=" + std::to_string(spec.adaptive.order));
-    if (spec.adaptive.tolerance_given) add("tolerance=" + shortest(spec.adaptive.tolerance));
-    if (spec.adaptive.fixed) add("step_control=fixed");
-    if (!options.empty()) info.name += "(" + options + ")";
-    return info;
-  }
-  if (const auto info = generated_tableau_info(spec.name)) return *info;
-  (void)find_method(spec.name);  // throws, naming the nearest
-  throw Error("method '" + spec.name + "' has no description");
 }
 
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
@@ -166,33 +82,8 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     }
   }
   if (many) all += " and others (hamflow list methods)";
-  std::string needs;
   const MethodEntry& method = find_method(spec.name);
-  switch (method.kind) {
-    case MethodKind::composition:
-    case MethodKind::splitting:
-      needs = "a separable H = T(p) + V(q)";
-      if (method.splitting != nullptr && method.splitting->nystroem) {
-        needs += ", T quadratic in p with constant mass matrix";
-      }
-      break;
-    case MethodKind::force_gradient:
-      needs = "a separable H = T(p) + V(q), T quadratic in p with constant mass matrix, V twice differentiable";
-      break;
-    case MethodKind::runge_kutta:
-    case MethodKind::dop853:
-      needs = "a differentiable H";
-      break;
-    case MethodKind::taylor:
-      needs = "an H whose derivatives can be recorded";
-      break;
-    case MethodKind::cg:
-      needs = "a twice differentiable H";
-      break;
-    case MethodKind::boris:
-      needs = "a charge in a uniform magnetic field (problem magnetic)";
-      break;
-  }
+  const std::string needs = method.family->needs(method.index);
   return spec.name + " needs " + needs + ", and that of " + problem.info.name + " is none; allowed here: " + all;
 }
 
@@ -207,10 +98,9 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
     return "there is no fast kernel for " + problem.info.name + "; there is for: " + all;
   }
   if (request.arithmetic == "lattice") return "on the lattice forces are exact; allowed exact";
-  const MethodKind kind = find_method(request.method.name).kind;
-  if (kind == MethodKind::cg) return "an energy-conserving element needs the exact force; allowed exact";
-  if (kind == MethodKind::force_gradient) return "a force gradient needs the exact force; allowed exact";
-  if (kind == MethodKind::dop853 || kind == MethodKind::taylor || digits_beyond_double(request.arithmetic) > 0) {
+  const std::string& not_fast = find_method(request.method.name).family->not_fast;
+  if (!not_fast.empty()) return not_fast + "; allowed exact";
+  if (digits_beyond_double(request.arithmetic) > 0) {
     return "the fast kernel is for splitting methods in double; allowed exact";
   }
   return {};
@@ -243,6 +133,9 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const std::string why_not = refusal(request.method, request.arithmetic);
   if (!why_not.empty())
     throw Error("method " + request.method.name + " cannot run in " + request.arithmetic + ": " + why_not);
+  if (const auto wrong = refused_option(request.method)) {
+    throw Error("method " + request.method.name + ": " + wrong->name + ": " + wrong->message);
+  }
   const std::string not_here = refusal(request.method, problem);
   if (!not_here.empty()) throw Error(not_here);
   if (request.kernel != "exact") {
@@ -254,17 +147,13 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   if (!one_thread.empty()) throw Error("threads = " + std::to_string(request.threads) + ": " + one_thread);
   Request full = request;
   full.parameters = complete(problem.info, request.parameters);
-  // Where more digits are asked for, so is their accuracy: four of them are left to rounding.
-  if (const int digits = digits_beyond_double(request.arithmetic);
-      digits > 0 && !full.method.adaptive.tolerance_given) {
-    full.method.adaptive.tolerance = std::pow(10.0, 4 - std::min(digits, 300));
+  const int digits = digits_beyond_double(request.arithmetic);
+  const MethodFamily& family = *find_method(request.method.name).family;
+  if (family.completed) full.method.options = family.completed(full.method.options, digits);
+  if (digits == 0) {
+    if (auto simulation = problem.simulate(full)) return simulation;
   }
-  const MethodKind kind = find_method(request.method.name).kind;
-  const bool typed =
-      digits_beyond_double(request.arithmetic) == 0 && kind != MethodKind::dop853 && kind != MethodKind::taylor &&
-      kind != MethodKind::force_gradient &&
-      !(kind == MethodKind::runge_kutta && request.arithmetic == "compensated" && request.kernel == "exact");
-  return typed ? problem.simulate(full) : problem.simulate_erased(full);
+  return problem.simulate_erased(full);
 }
 
 }  // namespace hamflow

@@ -3,6 +3,7 @@
 
 #include "ensemble_list.hpp"  // generated
 #include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow {
 
@@ -17,15 +18,15 @@ LaneSet widest_lanes() {
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
   static const std::vector<EnsembleEntry> entries = generated_ensembles();
   if (lanes == LaneSet::none || lanes > widest_lanes() || request.arithmetic != "double") return nullptr;
-  const MethodEntry& method = find_method(request.method.name);
-  if (method.kind != MethodKind::composition && method.kind != MethodKind::splitting) return nullptr;
+  const std::optional<AnySplitting> method = splitting_named(request.method.name);
+  if (!method) return nullptr;
   const ProblemInfo& info = find_problem(request.problem, request.variant).info;
   const auto entry = std::find_if(entries.begin(), entries.end(), [&](const EnsembleEntry& one) {
     return one.name == info.name && one.variant == info.variant;
   });
   if (entry == entries.end() || entry->make == nullptr) return nullptr;
   // Without the instructions the fast kernel has the bits of the exact one (numerics/inverse_cube.hpp).
-  return entry->make(method, request.kernel == "fast" && fast_kernel_available(), lanes);
+  return entry->make(*method, request.kernel == "fast" && fast_kernel_available(), lanes);
 }
 
 }  // namespace hamflow

@@ -12,7 +12,7 @@ struct EnsembleEntry {
   std::string name;
   std::vector<std::pair<std::string, std::string>> variant;
   /// Null where there is none.
-  std::unique_ptr<EnsembleBlock> (*make)(const MethodEntry& method, bool fast, LaneSet lanes) = nullptr;
+  std::unique_ptr<EnsembleBlock> (*make)(const AnySplitting& method, bool fast, LaneSet lanes) = nullptr;
 };
 
 template <template <class> class Family>
@@ -32,21 +32,14 @@ class EnsembleUnit {
   }
 
  private:
-  static constexpr bool has_fast_kernel = requires(const P& problem, VectorOf<P>& x) { problem.fast_force(x, x); };
+  static constexpr bool has_fast_kernel = HasFastForce<P>;
 
   template <template <class> class F, class Set>
-  static std::unique_ptr<EnsembleBlock> block(const MethodEntry& method) {
-    if (method.kind == MethodKind::splitting) {
-      return std::make_unique<EnsembleBlockOf<F, Set>>(sequence_of<double>(*method.splitting),
-                                                       detail::describe_splitting, method.splitting);
-    }
-    return std::make_unique<EnsembleBlockOf<F, Set>>(
-        sequence_of<double>(*method.composition, method.starts_with),
-        method.starts_with == StartsWith::kick ? detail::describe_kick_first : detail::describe_drift_first,
-        method.composition);
+  static std::unique_ptr<EnsembleBlock> block(const AnySplitting& method) {
+    return std::make_unique<EnsembleBlockOf<F, Set>>(method.sequence<double>(), method.describe(), method.table());
   }
 
-  static std::unique_ptr<EnsembleBlock> make(const MethodEntry& method, [[maybe_unused]] bool fast, LaneSet lanes) {
+  static std::unique_ptr<EnsembleBlock> make(const AnySplitting& method, [[maybe_unused]] bool fast, LaneSet lanes) {
 #if defined(__x86_64__) && defined(__GNUC__)
     if constexpr (has_fast_kernel) {
       if (fast) return lanes == LaneSet::avx512 ? block<Fast, Avx512Lanes>(method) : nullptr;

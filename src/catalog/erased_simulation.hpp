@@ -9,23 +9,22 @@ namespace hamflow {
 
 template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
-  return visit_erased(run.functions.capability, request.method, [&]<Capability c, class Recipe>(const Recipe& recipe) {
+  return visit_erased(run.functions.capability, request.method, [&]<Capability c, class M>(const M& recipe) {
     const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
       const auto problem = run.functions.template as<c>();
       using P = std::remove_const_t<decltype(problem)>;
       auto method = recipe.template bind<P, A>(problem);
       return std::make_unique<SimulationOf<P, decltype(method), A>>(problem, method, run.q, run.p, run.h, arithmetic);
     };
-    if constexpr (std::is_same_v<R, double> && has_typed_kernel<Recipe> &&
-                  (Recipe::bijective || always_compensated<Recipe>())) {
+    if constexpr (std::is_same_v<R, double> && has_typed_kernel<M>() && (M::bijective || always_compensated<M>())) {
       return std::unique_ptr<Simulation>();  // compiled with each problem
-    } else if constexpr (always_compensated<Recipe>()) {
+    } else if constexpr (always_compensated<M>()) {
       return build(Compensated<R>{});
     } else if constexpr (!std::is_same_v<R, double>) {
       return build(Plain<R>{});
     } else {
       if (request.arithmetic == "compensated") return build(Compensated<R>{});
-      if constexpr (Recipe::bijective) {
+      if constexpr (M::bijective) {
         if (request.arithmetic == "lattice") {
           Lattice lattice;
           lattice.position.set_unit(request.position_unit);

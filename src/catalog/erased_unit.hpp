@@ -41,11 +41,10 @@ class ErasedUnit : ProblemStart<Family> {
 
   template <class R>
   static ErasedFunctions<R> functions_of(const Family<R>& problem) {
-    ErasedFunctions<R> all{capability_of<Family<R>>(), degrees_of_freedom(problem),
-                           std::make_shared<FunctionsOf<Family<R>, R>>(problem),
-                           std::make_shared<FunctionsOf<Family<R>, Trace<R>>>(problem), nullptr};
+    ErasedFunctions<R> all{capabilities_of<Family<R>>(), degrees_of_freedom(problem),
+                           hamflow::functions_of<R>(problem), hamflow::functions_of<Trace<R>>(problem), nullptr};
     if constexpr (std::is_same_v<R, double>) {
-      all.dual = std::make_shared<FunctionsOf<Family<double>, Dual<double, 1>>>(problem);
+      all.dual = hamflow::functions_of<Dual<double, 1>>(problem);
     }
     return all;
   }

@@ -1,125 +1,106 @@
-// A method on the command line: "stv4", "cg(2,6)", "taylor(order=20)".
+// A method as a text: "stv4", "cg(2,6)", "taylor(order=20)".
 #include <algorithm>
-#include <cmath>
 
-#include "hamflow/core/number.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
 namespace {
+
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-double number(const std::string& method, const std::string& key, const std::string& text) {
-  try {
-    return evaluate_number<double>(text);
-  } catch (const Error& error) {
-    throw Error(method + ": " + key + ": " + error.what());
-  }
+/// "tol=1e-9" and "1e-9" as words stand without quotation marks; those of TOML are allowed.
+std::string unquoted(const std::string& text) {
+  const bool quoted = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-int whole_number(const std::string& method, const std::string& key, const std::string& text) {
-  double value = 0.5;
-  try {
-    value = evaluate_number<double>(text);
-  } catch (const Error&) {  // no whole number either
+/// The options that may be given by position, in that order.
+std::vector<const OptionInfo*> by_position(const std::vector<OptionInfo>& options) {
+  std::vector<const OptionInfo*> all;
+  for (const OptionInfo& option : options) {
+    if (option.position > 0) all.push_back(&option);
   }
-  if (value != static_cast<double>(static_cast<int>(std::clamp(value, -1e6, 1e6)))) {
-    throw Error(method + ": " + key + " has to be a whole number, not '" + text + "'");
-  }
-  return static_cast<int>(value);
+  std::sort(all.begin(), all.end(), [](const auto* a, const auto* b) { return a->position < b->position; });
+  return all;
 }
 
-double positive_number(const std::string& method, const std::string& key, const std::string& text) {
-  const double value = number(method, key, text);
-  if (!(value > 0)) throw Error(method + ": " + key + " has to be positive, not " + text);
-  return value;
-}
+class OptionReader {
+ public:
+  OptionReader(const std::string& method, const std::vector<OptionInfo>& options)
+      : method_(method), options_(options), positional_(by_position(options)) {}
 
-void set_cg_option(CgOptions& cg, const std::string& key, const std::string& value) {
-  if (key == "degree") {
-    cg.degree = whole_number("cg", key, value);
-    if (cg.degree != 1) throw Error("cg: degree is 1 in this version, not " + value);
-  } else if (key == "quadrature") {
-    cg.quadrature = value == "auto" ? 0 : whole_number("cg", key, value);
-    if (value != "auto" && (cg.quadrature < cg.degree || cg.quadrature > 64)) {
-      throw Error("cg: quadrature is a number of Gauss points from the degree to 64, or auto, not " + value);
+  void read(const std::string& part, Texts& into) {
+    const auto equals = part.find('=');
+    const OptionInfo& option = equals == std::string::npos ? next() : named(trimmed(part.substr(0, equals)));
+    const std::string text = unquoted(trimmed(equals == std::string::npos ? part : part.substr(equals + 1)));
+    if (into.contains(option.name)) throw Error(method_ + ": " + option.name + ": found it twice; allowed once");
+    if (const std::string refused = refused_value(option, text); !refused.empty()) {
+      throw Error(method_ + ": " + option.name + ": " + refused);
     }
-  } else if (key == "tolerance") {
-    cg.tolerance = positive_number("cg", key, value);
-  } else {
-    throw Error("cg: option '" + key + "' is unknown; allowed: degree, quadrature, tolerance");
+    into[option.name] = text;
   }
-}
 
-void set_adaptive_option(const std::string& method, AdaptiveOptions& options, const std::string& key,
-                         const std::string& value) {
-  if (key == "tolerance") {
-    options.tolerance = positive_number(method, key, value);
-    options.tolerance_given = true;
-    if (options.tolerance >= 1) throw Error(method + ": tolerance has to be less than 1, not " + value);
-  } else if (key == "order" && method == "taylor") {
-    options.order = whole_number(method, key, value);
-    if (options.order < least_taylor_order || options.order > most_taylor_order) {
-      throw Error("taylor: order is a whole number from " + std::to_string(least_taylor_order) + " to " +
-                  std::to_string(most_taylor_order) + ", not " + value);
-    }
-  } else if (key == "step_control") {
-    if (value != "adaptive" && value != "fixed") {
-      throw Error(method + ": step_control is adaptive or fixed, not " + value);
-    }
-    options.fixed = value == "fixed";
-  } else {
-    throw Error(method + ": option '" + key + "' is unknown; allowed: tolerance, step_control" +
-                (method == "taylor" ? ", order" : ""));
+ private:
+  const OptionInfo& named(const std::string& name) const {
+    if (const OptionInfo* option = find_option(options_, name)) return *option;
+    const std::vector<std::string> names = option_names(options_);
+    throw Error(method_ + ": found an unknown option '" + name + "'; allowed " + joined(names) +
+                suggestion(name, names));
   }
-}
+  const OptionInfo& next() {
+    if (at_ < positional_.size()) return *positional_[at_++];
+    throw Error(method_ + ": found more than " + std::to_string(positional_.size()) +
+                " options without a name; allowed " + method_ + "(" +
+                joined(positional_, [](const OptionInfo* o) { return o->name; }) + "), the others by name: NAME=VALUE");
+  }
+
+  const std::string& method_;
+  const std::vector<OptionInfo>& options_;
+  std::vector<const OptionInfo*> positional_;
+  std::size_t at_ = 0;
+};
+
 }  // namespace
 
-int taylor_order(const AdaptiveOptions& options) {
-  return options.order > 0 ? options.order : static_cast<int>(std::ceil(1 - std::log(options.tolerance) / 2));
+std::optional<RefusedOption> refused_option(const MethodSpec& spec) {
+  const MethodFamily& family = *find_method(spec.name).family;
+  for (const auto& [name, text] : spec.options) {
+    const OptionInfo* option = find_option(family.options, name);
+    if (option == nullptr) {
+      const std::vector<std::string> names = option_names(family.options);
+      return RefusedOption{name, "found an unknown option; allowed " + (names.empty() ? "none" : joined(names)) +
+                                     suggestion(name, names)};
+    }
+    if (std::string refused = refused_value(*option, text); !refused.empty()) {
+      return RefusedOption{name, std::move(refused)};
+    }
+  }
+  if (!family.refused) return std::nullopt;
+  auto [name, message] = family.refused(spec.options);
+  return message.empty() ? std::nullopt : std::optional(RefusedOption{std::move(name), std::move(message)});
 }
 
 MethodSpec parse_method(const std::string& text) {
   MethodSpec spec;
   const auto open = text.find('(');
   spec.name = trimmed(text.substr(0, open));
-  const MethodEntry& entry = find_method(spec.name);
+  const std::vector<OptionInfo>& options = find_method(spec.name).family->options;
   if (open == std::string::npos) return spec;
-  if (text.back() != ')') throw Error("method '" + text + "' lacks its closing parenthesis");
-  std::vector<std::string> in_order;
-  if (entry.kind == MethodKind::cg) in_order = {"degree", "quadrature"};
-  if (entry.kind == MethodKind::dop853) in_order = {"tolerance"};
-  if (entry.kind == MethodKind::taylor) in_order = {"order", "tolerance"};
-  if (in_order.empty()) throw Error("method '" + spec.name + "' takes no options");
-  const auto set = [&](const std::string& key, const std::string& value) {
-    if (entry.kind == MethodKind::cg) {
-      set_cg_option(spec.cg, key, value);
-    } else {
-      set_adaptive_option(spec.name, spec.adaptive, key, value);
-    }
-  };
-  const std::string inside = text.substr(open + 1, text.size() - open - 2);
-  std::size_t position = 0;
-  for (std::size_t begin = 0; begin <= inside.size();) {
-    const std::size_t end = std::min(inside.find(',', begin), inside.size());
-    const std::string part = trimmed(inside.substr(begin, end - begin));
-    const auto equals = part.find('=');
-    if (equals != std::string::npos) {
-      set(trimmed(part.substr(0, equals)), trimmed(part.substr(equals + 1)));
-    } else if (position < in_order.size()) {
-      set(in_order[position++], part);
-    } else {
-      std::string all;
-      for (const std::string& key : in_order) all += (all.empty() ? "" : ", ") + key;
-      throw Error("method '" + text + "' has too many options; " + spec.name + " takes (" + all + ")");
-    }
-    begin = end + 1;
-  }
+  const std::string rest = trimmed(text.substr(open));
+  if (rest.back() != ')') throw Error("method '" + text + "' lacks its closing parenthesis");
+  const std::string inside = trimmed(rest.substr(1, rest.size() - 2));
+  if (options.empty()) throw Error("method '" + spec.name + "' takes no options");
+  if (inside.empty()) return spec;
+  OptionReader reader(spec.name, options);
+  for (const std::string& part : split_list(inside)) reader.read(part, spec.options);
+  if (const auto refused = refused_option(spec))
+    throw Error(spec.name + ": " + refused->name + ": " + refused->message);
   return spec;
 }
 

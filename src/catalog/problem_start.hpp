@@ -1,6 +1,7 @@
 // How a problem and its start are made from the texts of a request, in any number type.
 #pragma once
 
+#include "hamflow/core/derivatives.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/run/catalog.hpp"
 
@@ -10,11 +11,6 @@ template <template <class> class Family>
 struct ProblemStart {
   using P = Family<double>;
   static constexpr std::size_t n = P::dimension;
-
-  static constexpr bool has_derived = requires(Parameters<double> & p) { P::derive(std::string(), p, p); };
-  static constexpr bool has_starts = requires(Conditions & c) {
-    P::start(std::string(), Parameters<double>(), Parameters<double>(), c);
-  };
 
   /// The problem; one of any size is told its number of coordinates.
   template <class R>
@@ -44,7 +40,7 @@ struct ProblemStart {
   template <class R>
   static Parameters<R> parameters_of(const Request& request) {
     Parameters<R> parameters(request.parameters);
-    if constexpr (has_derived) {
+    if constexpr (HasDerive<P>) {
       if (!request.start.geometric()) return parameters;
       Family<R>::derive(request.start.kind, Parameters<R>(request.start.orbit), parameters);
     }
@@ -56,7 +52,7 @@ struct ProblemStart {
     const StartSpec& spec = request.start;
     Start<R, n> s;
     if (spec.geometric()) {
-      if constexpr (has_starts) {
+      if constexpr (HasStart<P>) {
         Conditions conditions;
         s = Family<R>::start(spec.kind, parameters_of<R>(request), Parameters<R>(spec.orbit), conditions);
         for (const Condition& c : conditions.all()) {

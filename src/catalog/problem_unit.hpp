@@ -15,8 +15,6 @@ class ProblemUnit : ProblemStart<Family> {
   using In = ProblemStart<Family>;
   using typename In::P;
   static constexpr std::size_t n = P::dimension;
-  using In::has_derived;
-  using In::has_starts;
   using In::refused_size;
   using In::vector_of;
 
@@ -27,16 +25,14 @@ class ProblemUnit : ProblemStart<Family> {
     e.dimension = n == dynamic ? 0 : n;
     e.refused_size = refused_size;
     e.refused_parameters = [](const Texts& parameters) -> std::pair<std::string, std::string> {
-      if constexpr (requires(const Parameters<double>& p) { P::refused_parameters(p); }) {
+      if constexpr (HasRefusedParameters<P>) {
         return P::refused_parameters(Parameters<double>(parameters));
-      } else if constexpr (requires(const Parameters<double>& p) { P::problem_with(p); }) {
-        return {"", P::problem_with(Parameters<double>(parameters))};
       } else {
         return {};
       }
     };
     e.refused_start = [](const Texts& parameters, const std::vector<double>& q) -> std::string {
-      if constexpr (requires(const Parameters<double>& p, VectorOf<P> x) { P::refused_start(p, x); }) {
+      if constexpr (HasRefusedStart<P>) {
         return P::refused_start(Parameters<double>(parameters), vector_of(q));
       } else {
         return {};
@@ -50,7 +46,7 @@ class ProblemUnit : ProblemStart<Family> {
     e.simulate = simulate;
     e.derived = [](const Texts& parameters, const StartSpec& spec) {
       Texts all = parameters;
-      if constexpr (has_derived) {
+      if constexpr (HasDerive<P>) {
         Parameters<double> given(parameters);
         P::derive(spec.kind, Parameters<double>(spec.orbit), given);
         for (auto& [name, text] : all) {
@@ -63,7 +59,7 @@ class ProblemUnit : ProblemStart<Family> {
     };
     e.conditions = [](const Texts& parameters, const StartSpec& spec) {
       Conditions conditions;
-      if constexpr (has_starts)
+      if constexpr (HasStart<P>)
         (void)P::start(spec.kind, Parameters<double>(parameters), Parameters<double>(spec.orbit), conditions);
       return conditions.all();
     };
@@ -71,27 +67,34 @@ class ProblemUnit : ProblemStart<Family> {
       return hamflow::energy(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q),
                              vector_of(p));
     };
+    e.rates = rates;
     e.regular = regular;
     e.invariant_sizes = [](const Texts& parameters, std::size_t size) {
-      const P problem = In::template make<double>(Parameters<double>(parameters), size);
-      return detail::invariant_sizes(problem, P::info().invariants.size());
+      return detail::invariant_sizes(In::template make<double>(Parameters<double>(parameters), size));
     };
-    e.start = [](const Request& request) {
-      const auto s = In::template start<double>(request);
-      Frame frame;
-      frame.q.assign(s.q.begin(), s.q.end());
-      frame.p.assign(s.p.begin(), s.p.end());
-      return frame;
-    };
-    if constexpr (requires(const P& problem, VectorOf<P> x) { problem.exact_radius(x, x); }) {
+    e.start = [](const Request& request) { return frame_of(In::template start<double>(request)); };
+    if constexpr (HasTotalMass<P>) {
+      e.total_mass = [](const Texts& parameters, std::size_t size) {
+        return In::template make<double>(Parameters<double>(parameters), size).total_mass();
+      };
+    }
+    if constexpr (HasChart<P>) {
+      e.to_reference = [](const std::vector<double>& q, const std::vector<double>& p) {
+        return frame_of(P::to_reference({vector_of(q), vector_of(p)}));
+      };
+      e.from_reference = [](const std::vector<double>& q, const std::vector<double>& p) {
+        return frame_of(P::from_reference({vector_of(q), vector_of(p)}));
+      };
+    }
+    if constexpr (HasExactRadius<P>) {
       e.exact_radius = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
         return P(Parameters<double>(parameters)).exact_radius(vector_of(q), vector_of(p));
       };
     }
-    if constexpr (requires(const P& problem, VectorOf<P, long double> x) { problem.exact(x, x, 1.0L); }) {
+    if constexpr (HasExact<P>) {
       e.exact = exact;
     }
-    if constexpr (requires(const P& problem, VectorOf<P> x) { problem.describe_orbit(x, x); }) {
+    if constexpr (HasOrbitFacts<P>) {
       e.describe_orbit = [](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
         return P(Parameters<double>(parameters)).describe_orbit(vector_of(q), vector_of(p));
       };
@@ -100,8 +103,22 @@ class ProblemUnit : ProblemStart<Family> {
   }
 
  private:
-  static constexpr bool has_fast_kernel = requires(const P& problem, VectorOf<P>& x) { problem.fast_force(x, x); };
+  static constexpr bool has_fast_kernel = HasFastForce<P>;
 
+  static Frame frame_of(const Start<double, n>& s) {
+    Frame frame;
+    frame.q.assign(s.q.begin(), s.q.end());
+    frame.p.assign(s.p.begin(), s.p.end());
+    return frame;
+  }
+
+  static std::vector<double> rates(const Texts& parameters, const std::vector<double>& q,
+                                   const std::vector<double>& p) {
+    VectorOf<P> dq = vector_of(q);
+    VectorOf<P> dp = vector_of(p);
+    gradient(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q), vector_of(p), dq, dp);
+    return {dp.begin(), dp.end()};
+  }
   static bool regular(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     const P problem = In::template make<double>(Parameters<double>(parameters), q.size());
     VectorOf<P> dq = vector_of(q);
@@ -134,36 +151,38 @@ class ProblemUnit : ProblemStart<Family> {
     return arithmetic;
   }
 
-  template <class A, template <class> class Problems = Family, class Recipe>
-  static std::unique_ptr<Simulation> build(const Request& request, const Recipe& recipe) {
+  template <class A, template <class> class Problems = Family, class M>
+  static std::unique_ptr<Simulation> build(const Request& request, const M& recipe) {
     using R = typename A::Real;
     const auto s = In::template start<R>(request);
     const Problems<R> problem{In::template make<R>(In::template parameters_of<R>(request), s.q.size())};
     const R h = evaluate_number<R>(request.dt);
     auto method = recipe.template bind<Problems<R>, A>(problem);
-    using M = decltype(method);
+    using Stepper = decltype(method);
     if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
     // Without a probe where the benchmark looks at the step alone, and where the step runs on several threads and the
     // probe would run on one; elsewhere it is not worth the compiler's time.
-    if constexpr ((std::is_same_v<A, Plain<double>> && !std::is_same_v<Recipe, TableRecipe<Shape::any>> &&
+    if constexpr ((std::is_same_v<A, Plain<double>> && !std::is_same_v<M, TableRecipe<Shape::any>> &&
                    has_fast_kernel) ||
                   (A::exact_undo && n == dynamic)) {
       if (!request.watch) {
-        return std::make_unique<SimulationOf<Problems<R>, M, A, NoProbe>>(problem, method, s.q, s.p, h,
-                                                                          arithmetic_of<A>(request));
+        return std::make_unique<SimulationOf<Problems<R>, Stepper, A, NoProbe>>(problem, method, s.q, s.p, h,
+                                                                                arithmetic_of<A>(request));
       }
     }
-    return std::make_unique<SimulationOf<Problems<R>, M, A>>(problem, method, s.q, s.p, h, arithmetic_of<A>(request));
+    return std::make_unique<SimulationOf<Problems<R>, Stepper, A>>(problem, method, s.q, s.p, h,
+                                                                   arithmetic_of<A>(request));
   }
 
   template <class R>
   using Fast = FastKernel<Family<R>>;
 
+  /// Null where the request has no typed kernel: it then runs behind virtual calls.
   static std::unique_ptr<Simulation> simulate(const Request& request) {
-    return visit_method(request.method, [&]<class Recipe>(const Recipe& recipe) -> std::unique_ptr<Simulation> {
-      if constexpr (!Recipe::template accepts<P> || !has_typed_kernel<Recipe>) {
-        return nullptr;  // make_simulation has said why
-      } else if constexpr (always_compensated<Recipe>()) {
+    return visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
+      if constexpr (!M::template accepts<P> || !has_typed_kernel<M>()) {
+        return nullptr;
+      } else if constexpr (always_compensated<M>()) {
         return build<Compensated<double>>(request, recipe);
       } else {
         if constexpr (has_fast_kernel) {
@@ -174,13 +193,13 @@ class ProblemUnit : ProblemStart<Family> {
             return build<Plain<double>, Fast>(request, recipe);
           }
         }
-        if constexpr (Recipe::bijective) {  // others compensate behind virtual calls
+        if constexpr (M::bijective) {
           if (request.arithmetic == "compensated") {
             return build<Compensated<double>>(request, with_few_shapes(recipe));
           }
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }
-        return build<Plain<double>>(request, recipe);
+        return request.arithmetic == "double" ? build<Plain<double>>(request, recipe) : nullptr;
       }
     });
   }

@@ -1,29 +1,48 @@
-// Which face of a problem behind virtual calls a method works on.
+// Which face of a problem behind virtual calls a method works on. A face is a set of capabilities; each method is
+// compiled on as few as it needs.
 #pragma once
+
+#include <array>
 
 #include "erased.hpp"
 #include "recipes.hpp"
 
 namespace hamflow {
 
-/// Calls f.operator()<capability>(recipe). Elements choose how to solve a step by what H offers; what only needs
-/// derivatives takes them in two parts where H has two.
+namespace detail {
+/// The faces of a recipe, the preferred one first: those that it declares, or the one with the fewest capabilities that
+/// it accepts.
+template <class M>
+constexpr auto faces_of() {
+  if constexpr (requires { M::faces; }) {
+    return std::to_array(M::faces);
+  } else if constexpr (M::template accepts<Erased<double, Capability::smooth>>) {
+    // Derivatives come in two parts where H has two.
+    return std::array{Capability::separable, Capability::smooth};
+  } else if constexpr (M::template accepts<Erased<double, Capability::separable>>) {
+    return std::array{Capability::separable};
+  } else {
+    return std::array{Capability::separable | Capability::quadratic_kinetic};
+  }
+}
+
+template <class M, std::size_t k, class F>
+auto visit_face(Capability offered, const M& recipe, F&& f) {
+  constexpr auto faces = faces_of<M>();
+  static_assert(M::template accepts<Erased<double, faces[k]>>, "hamflow: a recipe has to accept its faces");
+  if constexpr (k + 1 < faces.size()) {
+    if (!includes(offered, faces[k])) return visit_face<M, k + 1>(offered, recipe, f);
+  }
+  return f.template operator()<faces[k]>(recipe);
+}
+}  // namespace detail
+
+/// Calls f.operator()<face>(recipe) with the first face of the recipe that the problem offers.
 template <class F>
 auto visit_erased(Capability offered, const MethodSpec& spec, F&& f) {
-  const bool separable = offered == Capability::natural || offered == Capability::separable;
-  return visit_method(spec, [&]<class Recipe>(const Recipe& recipe) {
-    constexpr auto natural = Capability::natural;
-    if constexpr (std::is_same_v<Recipe, Cg>) {
-      if (offered == natural) return f.template operator()<natural>(recipe);
-      if (offered == Capability::cyclic) return f.template operator()<Capability::cyclic>(recipe);
-      return f.template operator()<Capability::smooth>(recipe);
-    } else if constexpr (std::is_same_v<Recipe, Boris>) {
-      return f.template operator()<Capability::charge>(recipe);
-    } else if constexpr (!Recipe::template accepts<Erased<double, Capability::smooth>>) {
-      return f.template operator()<natural>(with_shape_at_run_time(recipe));
-    } else {
-      return separable ? f.template operator()<natural>(recipe) : f.template operator()<Capability::smooth>(recipe);
-    }
+  return visit_method(spec, [&](const auto& recipe) {
+    const auto of_any_shape = with_shape_at_run_time(recipe);
+    return detail::visit_face<std::remove_cv_t<decltype(of_any_shape)>, 0>(offered, of_any_shape, f);
   });
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "text.hpp"
+
 namespace hamflow::figures {
 
 namespace {
@@ -13,6 +15,47 @@ constexpr double resolvable = 1e-5;  // a shorter range, relative to the numbers
 int decimals_of(double step) {
   // The small shift keeps a step of 0.1 from counting as 0.0999...
   return std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+}
+
+std::vector<Tick> linear_ticks(const Axis& axis) {
+  std::vector<Tick> result;
+  const int decimals = decimals_of(axis.step);
+  const double slack = 1e-9 * (axis.high - axis.low);
+  for (double n = std::ceil((axis.low - slack) / axis.step); n * axis.step <= axis.high + slack && result.size() < 50;
+       n += 1) {
+    std::string label = fmt::format("{:.{}f}", std::abs(n) * axis.step, decimals);
+    if (n < 0) label.insert(0, "\u2212");
+    result.push_back({n * axis.step, label});
+  }
+  return result;
+}
+
+/// Powers of ten, of long axes every second or third; between them the other digits, of short axes 2 and 5 with labels.
+std::vector<Tick> logarithmic_ticks(const Axis& axis) {
+  std::vector<Tick> result;
+  const auto add = [&](double at, const std::string& label, bool minor) {
+    if (at >= axis.low - 1e-9 && at <= axis.high + 1e-9) result.push_back({at, label, minor});
+  };
+  const double length = axis.high - axis.low;
+  const int step = std::max(1, static_cast<int>(std::ceil(length / 7)));
+  const bool is_short = length < 2.2;
+  for (int k = static_cast<int>(std::floor(axis.low)) - 1; k <= static_cast<int>(std::ceil(axis.high)); ++k) {
+    const bool major = k % step == 0;
+    add(k, major ? power_of_ten(k) : "", !major);
+    for (int digit = 2; digit <= 9 && step == 1; ++digit) {
+      const bool labelled = is_short && (digit == 2 || digit == 5);
+      add(k + std::log10(digit), labelled ? fmt::format("{}·{}", digit, power_of_ten(k)) : "", true);
+    }
+  }
+  return result;
+}
+
+/// Characters of a label in print, without the signs of enhanced text.
+std::size_t printed_length(const std::string& label) {
+  return static_cast<std::size_t>(std::count_if(label.begin(), label.end(), [](char c) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // a later byte of a character
+    return !continues && c != '^' && c != '{' && c != '}';
+  }));
 }
 
 bool fits(const Axis& axis, TickRoom room) {
@@ -33,6 +76,12 @@ void Extent::include(std::span<const double> xs) {
   for (const double x : xs) include(x);
 }
 
+void Extent::include_positive(std::span<const double> xs) {
+  for (const double x : xs) {
+    if (x > 0) include(x);
+  }
+}
+
 double Extent::largest() const { return empty() ? 0 : std::max(std::abs(low), std::abs(high)); }
 
 int common_exponent(double largest) {
@@ -45,23 +94,16 @@ double scaled(double x, int exponent) {
   return x / std::pow(10.0, half) / std::pow(10.0, exponent - half);
 }
 
-std::vector<std::pair<double, std::string>> Axis::ticks() const {
-  std::vector<std::pair<double, std::string>> result;
-  const int decimals = decimals_of(step);
-  const double slack = 1e-9 * (high - low);
-  for (double n = std::ceil((low - slack) / step); n * step <= high + slack && result.size() < 50; n += 1) {
-    std::string label = fmt::format("{:.{}f}", std::abs(n) * step, decimals);
-    if (n < 0) label.insert(0, "\u2212");
-    result.emplace_back(n * step, label);
-  }
-  return result;
+double Axis::place(double x) const {
+  if (!logarithmic) return scaled(x, exponent);
+  return x > 0 ? std::log10(x) : std::numeric_limits<double>::quiet_NaN();
 }
+
+std::vector<Tick> Axis::ticks() const { return logarithmic ? logarithmic_ticks(*this) : linear_ticks(*this); }
 
 std::size_t Axis::widest_label() const {
   std::size_t widest = 1;
-  for (const auto& [at, label] : ticks()) {
-    widest = std::max(widest, at < 0 ? label.size() - 2 : label.size());  // the minus sign takes three bytes
-  }
+  for (const Tick& tick : ticks()) widest = std::max(widest, printed_length(tick.label));
   return widest;
 }
 
@@ -91,6 +133,18 @@ Axis plain_axis(double low, double high, TickRoom room) {
       return digit == 5 && axis.ticks().size() < 3 && fits(finer, room) ? finer : axis;
     }
   }
+}
+
+Axis log_axis(const Extent& extent) {
+  Axis axis{-1, 1};
+  axis.logarithmic = true;
+  if (extent.empty()) return axis;
+  const double low = std::log10(extent.low);
+  const double high = std::log10(extent.high);
+  const double room = std::max(0.04 * (high - low), 0.1);
+  axis.low = low - room;
+  axis.high = high + room;
+  return axis;
 }
 
 }  // namespace hamflow::figures

@@ -1,11 +1,10 @@
 // An axis: its range, its ticks and the power of ten taken out of both. gnuplot never sees anything but numbers of
-// ordinary size, so ranges of 1e-16 or 1e300 need no care further down.
+// ordinary size, so ranges of 1e-16 or 1e300 need no care further down; of a logarithmic axis it sees logarithms.
 #pragma once
 
 #include <limits>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hamflow::figures {
@@ -17,6 +16,8 @@ struct Extent {
 
   void include(double x);
   void include(std::span<const double> xs);
+  /// Those above 0, which a logarithmic axis can show.
+  void include_positive(std::span<const double> xs);
   bool empty() const { return low > high; }
   /// The largest absolute value.
   double largest() const;
@@ -27,15 +28,23 @@ int common_exponent(double largest);
 /// x / 10^exponent, without overflow on the way.
 double scaled(double x, int exponent);
 
-struct Axis {
-  double low = 0;  // in units of 10^exponent
-  double high = 1;
-  int exponent = 0;
-  double step = 1;  // between ticks
+struct Tick {
+  double at = 0;      // where `Axis::place` puts the number
+  std::string label;  // enhanced text; empty: a mark without label
+  bool minor = false;
+};
 
-  /// Positions (in units of 10^exponent) and labels.
-  std::vector<std::pair<double, std::string>> ticks() const;
-  /// Characters of the longest label.
+struct Axis {
+  double low = 0;  // as `place` puts it: in units of 10^exponent, or log10
+  double high = 1;
+  int exponent = 0;  // of a linear axis
+  double step = 1;   // between the ticks of a linear axis
+  bool logarithmic = false;
+
+  /// The position of x on the axis; not finite where it has none.
+  double place(double x) const;
+  std::vector<Tick> ticks() const;
+  /// Characters of the longest label in print.
   std::size_t widest_label() const;
 };
 
@@ -50,5 +59,7 @@ struct TickRoom {
 Axis fit_axis(const Extent& extent, double padding, TickRoom room);
 /// The same with a range that is already chosen: the ticks are as close as the room allows.
 Axis plain_axis(double low, double high, TickRoom room);
+/// A logarithmic axis over an extent of positive numbers, with some room at either end; 0.1 .. 10 where there are none.
+Axis log_axis(const Extent& extent);
 
 }  // namespace hamflow::figures

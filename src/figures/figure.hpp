@@ -1,4 +1,4 @@
-// **Figures** of a run: orbit, energy, energy error and phase plane, as SVG, PDF or PNG, drawn by gnuplot.
+// **Figures** of a run, of the kinds in figure_kinds.hpp, as SVG, PDF or PNG, drawn by gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "figure_kinds.hpp"
 
 namespace hamflow {
 
@@ -21,7 +23,7 @@ struct FigureData {
   std::vector<double> curve_y;
   /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies; 0 otherwise.
   std::size_t space = 0;
-  /// Of the steps of an implicit method, names and values at each sample; empty unless the run was asked for them.
+  /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;
   /// The points of a Poincare section in the plane of another coordinate and its momentum, and its name.
   std::vector<double> section_q;
@@ -35,10 +37,10 @@ struct FigureData {
 /// whole if the data go round it. Does nothing without r(phi) or without an orbit in the data.
 void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureData& data);
 
-/// "orbit", "energy", "energy-error", "phase", "condition", "section".
-std::vector<std::string> figure_kinds();
+/// What the data of a run allow.
+FigureFacts facts_of(const FigureData& data);
 
-/// Empty if the kind can be drawn from these data, else a sentence saying why not and what can be.
+/// Empty if the kind can be drawn of these data, else "found ...; allowed ...".
 std::string why_not(const FigureData& data, const std::string& kind);
 
 /// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.

@@ -10,8 +10,10 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/text.hpp"
 #include "text.hpp"
 
 extern char** environ;
@@ -42,16 +44,16 @@ std::string contents(std::FILE* file) {
 
 /// What gnuplot complained of, without its echo of the script.
 std::string complaint(const std::string& text) {
-  std::string result;
-  for (std::size_t begin = 0; begin < text.size() && result.size() < 600;) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size() && lines.size() < 6;) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string line = text.substr(begin, end - begin);
     begin = end + 1;
     line.erase(0, line.find_first_not_of(" \t"));
     if (line.empty() || line == "^" || line.starts_with("gnuplot>")) continue;
-    result += (result.empty() ? "" : "; ") + line.substr(0, 300);
+    lines.push_back(line.substr(0, 300));
   }
-  return result.empty() ? "it gave no reason" : result;
+  return lines.empty() ? "it gave no reason" : joined(lines, "; ");
 }
 
 [[noreturn]] void fail_to_start(int error) {

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
+#include "terminal.hpp"
+
 namespace hamflow::figures {
 
-enum class Format { svg, pdf, png };
-
-/// Runs a script and returns what gnuplot writes. @throws FileError with what gnuplot said
+/// Runs a script and returns what gnuplot writes. @throws FileError with gnuplot's own words
 std::string run_gnuplot(const std::string& script);
 
 /// The same figure without what changes from run to run or names the program: dates, and tooltips saying "Gnuplot".

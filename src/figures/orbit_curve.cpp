@@ -9,7 +9,7 @@ namespace hamflow::figures {
 
 namespace {
 
-struct Point {
+struct OrbitPoint {
   double x = 0;
   double y = 0;
 };
@@ -37,12 +37,12 @@ class OrbitSampler {
     const double r = r_of_phi_(phi);
     return r > 0 && r <= largest_radius_;  // false for NaN
   }
-  Point at(double phi) const {
+  OrbitPoint at(double phi) const {
     const double r = r_of_phi_(phi);
     return {r * std::cos(phi), r * std::sin(phi)};
   }
   void add(double phi) {
-    const Point z = at(phi);
+    const OrbitPoint z = at(phi);
     curve_.add(z.x, z.y);
   }
   /// The last visible angle on the way from a visible to an invisible one.
@@ -71,9 +71,9 @@ class OrbitSampler {
   void refine(double left, double right, int depth) {
     const double middle = 0.5 * (left + right);
     if (depth > 0 && visible(middle)) {
-      const Point a = at(left);
-      const Point b = at(right);
-      const Point m = at(middle);
+      const OrbitPoint a = at(left);
+      const OrbitPoint b = at(right);
+      const OrbitPoint m = at(middle);
       const double sag = std::hypot(m.x - 0.5 * (a.x + b.x), m.y - 0.5 * (a.y + b.y));
       if (sag > 1e-4 * largest_radius_) {
         refine(left, middle, depth - 1);

@@ -1,98 +1,72 @@
 #include "parameter_map.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
-#include "gnuplot.hpp"
 #include "hamflow/core/error.hpp"
+#include "page.hpp"
+#include "panels.hpp"
 #include "text.hpp"
-#include "work_precision.hpp"
 
 namespace hamflow {
 
 namespace {
 using namespace figures;
 
-struct Range {
-  double least = INFINITY;
-  double most = -INFINITY;
-  void include(double x) {
-    if (!std::isfinite(x)) return;
-    least = std::min(least, x);
-    most = std::max(most, x);
-  }
-};
-
-Range range_of(const std::vector<double>& values) {
-  Range range;
-  for (const double x : values) range.include(x);
-  return range;
+/// Positive values over more than two decades have a logarithmic axis.
+Axis value_axis(const std::vector<double>& values, double margin) {
+  Extent extent;
+  extent.include(values);
+  if (extent.low > 0 && extent.high > 100 * extent.low) return log_axis(extent);
+  return fit_axis(extent, margin, {7});
 }
 
-std::string terminal(Format format) {
-  switch (format) {
-    case Format::svg:
-      return "set terminal svg size 900,720 enhanced font 'DejaVu Sans,14' background rgb 'white'\n";
-    case Format::pdf:
-      return "set terminal pdfcairo size 18cm,14.4cm enhanced font 'DejaVu Sans,11'\n";
-    case Format::png:
-      break;
-  }
-  return "set terminal pngcairo size 1200,960 enhanced font 'DejaVu Sans,16' background rgb 'white'\n";
+/// The extent of the points, and half the distance of neighbours more at either end: a pixel is a field round a point.
+Extent of_fields(const std::vector<double>& xs) {
+  Extent extent;
+  extent.include(xs);
+  std::vector<double> places = xs;
+  std::sort(places.begin(), places.end());
+  const auto count = std::unique(places.begin(), places.end()) - places.begin();
+  if (count < 2) return extent;
+  const double half = 0.5 * (extent.high - extent.low) / static_cast<double>(count - 1);
+  return {extent.low - half, extent.high + half};
 }
 
-std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : "NaN"; }
+Panel curve_over(const ParameterMap& map) {
+  Panel panel;
+  Extent x;
+  x.include(map.x);
+  panel.x = fit_axis(x, 0.03, {7, 40});
+  panel.y = value_axis(map.value, padding);
+  panel.y_label = escaped(map.value_name);
+  const Curve curve{map.x, map.value};
+  panel.series.push_back({Ink::line, "", curve});
+  if (map.x.size() <= most_separate_dots) panel.series.push_back({Ink::dots, "", curve});
+  return panel;
+}
 
-std::string script_of(const ParameterMap& map, Format format) {
-  const Range values = range_of(map.value);
-  const bool logarithmic = values.least > 0 && values.most > 100 * values.least;
-  std::string text = terminal(format);
-  const auto line = [&]<class... Ts>(fmt::format_string<Ts...> pattern, Ts&&... parts) {
-    fmt::format_to(std::back_inserter(text), pattern, std::forward<Ts>(parts)...);
-    text += '\n';
-  };
-  line("set title {}", quoted(escaped(map.title)));
-  line("set xlabel {}\nset tics out nomirror\nunset key", quoted(escaped(map.x_name)));
-  text += "$data << EOD\n";
-  for (std::size_t i = 0; i < map.x.size(); ++i) {
-    if (map.y_name.empty()) {
-      line("{} {}", number(map.x[i]), number(map.value[i]));
-    } else {
-      line("{} {} {}", number(map.x[i]), number(map.y[i]), number(map.value[i]));
-    }
-  }
-  text += "EOD\n";
-  if (map.y_name.empty()) {
-    line("set ylabel {}", quoted(escaped(map.value_name)));
-    if (logarithmic) line("set logscale y");
-    line("plot $data using 1:2 with linespoints linecolor rgb '#0072b2' pointtype 7 pointsize 0.3");
-    return text;
-  }
-  const Range x = range_of(map.x);
-  const Range y = range_of(map.y);
-  line("set ylabel {}\nset cblabel {}", quoted(escaped(map.y_name)), quoted(escaped(map.value_name)));
-  if (logarithmic) line("set logscale cb");
-  // Light is little: from pale yellow to dark blue, readable in grey too.
-  line("set palette defined (0 '#ffffd9', 0.3 '#7fcdbb', 0.6 '#1d91c0', 1 '#081d58')");
-  line("set xrange [{}:{}]\nset yrange [{}:{}]", number(x.least), number(x.most), number(y.least), number(y.most));
-  line("plot $data using 1:2:3 with image pixels");
-  return text;
+Panel plane_over(const ParameterMap& map) {
+  Panel panel;
+  panel.x = fit_axis(of_fields(map.x), 0, {7, 60});
+  panel.y = fit_axis(of_fields(map.y), 0, {7});
+  panel.z = value_axis(map.value, 0);
+  panel.y_label = escaped(map.y_name);
+  panel.z_label = escaped(map.value_name);
+  panel.aspect = 0.8;
+  panel.series.push_back({.ink = Ink::map, .curve = {map.x, map.y}, .value = map.value});
+  return panel;
 }
 }  // namespace
 
-void write_parameter_map(const ParameterMap& data, const std::filesystem::path& file) {
+void write_parameter_map(const ParameterMap& map, const std::filesystem::path& file) {
   const std::string refused = refused_figure_file(file);
   if (!refused.empty()) throw Error(refused);
-  const Range values = range_of(data.value);
-  if (!(values.least <= values.most))
-    throw Error("there is nothing to draw: " + data.value_name + " has no finite value");
-  const std::string extension = file.extension().string();
-  const Format format = extension == ".pdf" ? Format::pdf : extension == ".png" ? Format::png : Format::svg;
-  if (format != Format::svg) require_font();
-  write_whole(file, finished(run_gnuplot(script_of(data, format)), format, data.title));
+  Extent values;
+  values.include(map.value);
+  if (values.empty()) throw Error("there is nothing to draw: " + map.value_name + " has no finite value");
+  Panel panel = map.y_name.empty() ? curve_over(map) : plane_over(map);
+  panel.x_label = escaped(map.x_name);
+  draw({map.title, {panel}, 1, map.y_name.empty() ? one_column : two_columns}, file);
 }
 
 }  // namespace hamflow

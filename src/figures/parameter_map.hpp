@@ -21,6 +21,6 @@ struct ParameterMap {
 /// Writes svg, pdf or png by the extension of `file`. Values that are all positive and span more than two decades are
 /// coloured by their logarithm.
 /// @throws Error when the extension or the data do not fit   @throws FileError when gnuplot or the file fails
-void write_parameter_map(const ParameterMap& data, const std::filesystem::path& file);
+void write_parameter_map(const ParameterMap& map, const std::filesystem::path& file);
 
 }  // namespace hamflow

@@ -28,7 +28,4 @@ struct WorkPrecision {
 /// @throws Error when the extension or the data do not fit   @throws FileError when gnuplot or the file fails
 void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file);
 
-/// Empty if the file's extension is that of a figure, else what is wrong with it.
-std::string refused_figure_file(const std::filesystem::path& file);
-
 }  // namespace hamflow

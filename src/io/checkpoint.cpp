@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "hamflow/core/hash.hpp"
+
 namespace hamflow {
 
 namespace {
@@ -52,7 +54,7 @@ void force_to_disk(const std::filesystem::path& file_or_folder) { Descriptor(fil
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   Writer ar;
   ar(magic, format, checkpoint);
-  ar(checksum(ar.bytes()));
+  ar(fnv1a(ar.bytes()));
   std::filesystem::path next = file;
   next += ".new";
   try {
@@ -88,7 +90,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
     std::uint64_t found_format = 0;
     ar(found_magic, found_format);
     if (found_magic != magic) throw damaged("is none of hamflow on a machine like this, or damaged");
-    if (found_sum != checksum(content)) throw damaged("is damaged: its checksum is wrong");
+    if (found_sum != fnv1a(content)) throw damaged("is damaged: its checksum is wrong");
     if (found_format != format)
       throw damaged("has format " + std::to_string(found_format) + ", this hamflow knows " + std::to_string(format));
     ar(checkpoint);

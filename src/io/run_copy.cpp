@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hdf5_handle.hpp"
+#include "hdf5_text.hpp"
 
 namespace hamflow {
 
@@ -37,16 +37,6 @@ void copy_attribute(hid_t from, hid_t to, const char* name) {
   check_hdf5(H5Awrite(target, type, bytes.data()), std::string("write attribute ") + name);
 }
 
-void write_text_dataset(hid_t file, const char* name, const std::string& text) {
-  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  check_hdf5(H5Tset_size(type, std::max<std::size_t>(text.size(), 1)), "size a text type");
-  check_hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
-  const Hdf5Handle dataset(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                           std::string("create dataset ") + name);
-  check_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), std::string("write ") + name);
-}
-
 /// Rows of a sample each, chunked like those of a run.
 void write_states(hid_t file, const char* name, const std::vector<std::vector<double>>& by_coordinate) {
   const std::size_t width = by_coordinate.size();
@@ -72,15 +62,9 @@ void write_states(hid_t file, const char* name, const std::vector<std::vector<do
 void copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
                    const std::string& scenario, const std::vector<std::vector<double>>& q,
                    const std::vector<std::vector<double>>& p) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const Hdf5Handle reading(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_metadata_read_attempts(reading, 24), "limit the attempts to read");
-  const Hdf5Handle from(H5Fopen(source.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, reading), H5Fclose,
-                        "open " + source.string());
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "choose the file format");
-  const Hdf5Handle to(H5Fcreate(target.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
-                      "create " + target.string());
+  silence_hdf5();
+  const Hdf5Handle from = open_to_read(source);
+  const Hdf5Handle to = create_hdf5(target);
   for (const std::string& name : names_in(from, true)) copy_attribute(from, to, name.c_str());
   for (const std::string& name : names_in(from, false)) {
     if (name == "q" || name == "p" || name == "scenario") continue;

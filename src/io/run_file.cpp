@@ -4,7 +4,7 @@
 #include <ctime>
 
 #include "checkpoint.hpp"
-#include "hdf5_handle.hpp"
+#include "hdf5_text.hpp"
 
 namespace hamflow {
 
@@ -17,9 +17,6 @@ constexpr double flush_seconds = 0.25;                       // at most so much 
 using Clock = std::chrono::steady_clock;
 constexpr const char* diagnostic_names[] = {"iterations", "residual", "condition_tangent", "determinant_tangent",
                                             "condition_inverse_mass"};
-
-/// HDF5 prints its error stack unless told not to; our messages say what failed.
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 /// A dataset that grows by rows of `width` doubles or 64-bit integers, with the rows that wait to be written.
 template <class T>
@@ -92,40 +89,12 @@ class Column {
   hsize_t written_ = 0;
 };
 
-Hdf5Handle text_type(std::size_t length) {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  check_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "size a text type");
-  check_hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
-  return type;
-}
-
-void write_attribute(hid_t file, const char* name, const std::string& text) {
-  const Hdf5Handle type = text_type(text.size());
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
-  const Hdf5Handle attribute(H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                             "create an attribute");
-  check_hdf5(H5Awrite(attribute, type, text.c_str()), std::string("write attribute ") + name);
-}
-
-std::string read_attribute(hid_t file, const char* name) {
-  if (H5Aexists(file, name) <= 0) return {};
-  const Hdf5Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, "open an attribute");
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read a type");
-  std::string text(H5Tget_size(type), '\0');
-  check_hdf5(H5Aread(attribute, type, text.data()), std::string("read attribute ") + name);
-  return text.substr(0, text.find('\0'));
-}
-
 std::string now_utc() {
   const std::time_t now = std::time(nullptr);
   char text[32];
   std::tm parts{};
   gmtime_r(&now, &parts);
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
-}
-
-Hdf5Handle make_group(hid_t file, const char* name) {
-  return {H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, std::string("create group ") + name};
 }
 
 }  // namespace
@@ -157,24 +126,10 @@ struct RunFile::Impl {
   }
 };
 
-namespace {
-/// Reads what a writer has open or a crash has left. A reader beside a writer may meet metadata half written and tries
-/// again, each time twice as long after. HDF5's own 100 attempts would wait for ever on a damaged file; 24 are over in
-/// a few hundredths of a second each.
-Hdf5Handle open_to_read(const std::filesystem::path& path) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open " + path.string()};
-}
-}  // namespace
-
 RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description)
     : impl_(std::make_unique<Impl>()) {
   silence_hdf5();
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "choose the file format");
-  impl_->file =
-      Hdf5Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create " + file.string());
+  impl_->file = create_hdf5(file);
   const hid_t id = impl_->file;
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
@@ -183,13 +138,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   write_attribute(id, "arithmetic", description.arithmetic);
   write_attribute(id, "kernel", description.kernel);
   write_attribute(id, "created", description.created.empty() ? now_utc() : description.created);
-  {
-    const Hdf5Handle type = text_type(description.scenario.size());
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
-    const Hdf5Handle text(H5Dcreate2(id, "scenario", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                          "create dataset scenario");
-    check_hdf5(H5Dwrite(text, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, description.scenario.c_str()), "write the scenario");
-  }
+  write_text_dataset(id, "scenario", description.scenario);
   const Hdf5Handle groups[] = {make_group(id, "invariants"), make_group(id, "solver"), make_group(id, "events")};
   const std::size_t rows = description.samples > 0 ? description.samples : batch_rows;
   impl_->vectors.emplace_back(id, "q", description.dimension, rows);
@@ -330,13 +279,7 @@ RunSamples read_samples(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) throw FileError("there is no such file");
   const Hdf5Handle file = open_to_read(path);
   RunSamples run;
-  {
-    const Hdf5Handle dataset(H5Dopen2(file, "scenario", H5P_DEFAULT), H5Dclose, "open dataset scenario");
-    const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
-    std::string text(H5Tget_size(type), '\0');
-    check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read the scenario");
-    run.description.scenario = text;
-  }
+  run.description.scenario = read_text_dataset(file, "scenario");
   run.description.version = read_attribute(file, "hamflow");
   run.description.host = read_attribute(file, "host");
   run.description.problem = read_attribute(file, "problem");

@@ -11,7 +11,7 @@ struct Frames {
   Frame between;  // of a partial step
 };
 
-/// Wakes the observers due at the simulation's step, in their order.
+/// Calls the observers that are due at the simulation's step, in their order.
 Outcome wake(const Simulation& simulation, std::span<Observer* const> observers, Frames& frames) {
   const std::int64_t now = simulation.step();
   bool looked = false;

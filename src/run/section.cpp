@@ -37,7 +37,7 @@ void SectionFinder::archive(Reader& ar) {
   copy_ = begun_ ? simulation_.clone() : nullptr;
 }
 
-/// Secants, guarded by bisection. At theta = 1 the run's own next state is meant, which has the other sign.
+/// At theta = 1 the run's own next state is meant, which has the other sign.
 bool SectionFinder::locate(std::int64_t step, double before, double after) {
   if (copy_->advance(step - copy_->step()) != Outcome::done) return false;
   SectionPoint best;
@@ -49,18 +49,7 @@ bool SectionFinder::locate(std::int64_t step, double before, double after) {
     if (good && std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x)};
     return x;
   };
-  double last_theta = 0;
-  double last = before;
-  double slope = after - before;
-  const double theta = bracketed_root(
-      [&](double at) {
-        const double x = good ? look(at) : 0;
-        if (at != last_theta && x != last) slope = (x - last) / (at - last_theta);
-        last_theta = at;
-        last = x;
-        return ValueAndSlope<double>{x, slope};
-      },
-      0.0, 1.0, before > 0);
+  const double theta = bracketed_root([&](double at) { return good ? look(at) : 0; }, 0.0, 1.0, before, after);
   (void)look(theta);
   if (!good) return false;
   ++points_;

@@ -2,109 +2,118 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/problems/support/pendulum_angles.hpp"
-#include "hamflow/problems/support/polar.hpp"
-#include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// One set of coordinates that a problem may have, as its selecting key and its two values.
-struct Family {
-  const char* problem;
-  const char* key;
-  std::vector<std::string> systems;
-};
-const std::vector<Family>& families() {
-  static const std::vector<Family> all{{"central-force", "coordinates", {"cartesian", "polar"}},
-                                       {"double-pendulum", "angles", {"absolute", "relative"}}};
-  return all;
-}
-
-const Family* family_of(const std::string& system) {
-  for (const Family& family : families()) {
-    if (std::find(family.systems.begin(), family.systems.end(), system) != family.systems.end()) return &family;
-  }
-  return nullptr;
-}
-
-std::string what_there_is() {
-  std::string text;
-  for (const Family& family : families()) {
-    text += (text.empty() ? "" : "; ") + std::string(family.problem) + " has " + family.systems[0] + " and " +
-            family.systems[1];
-  }
-  return text;
-}
-
-CanonicalState as_state(const Vector<double, 2>& q, const Vector<double, 2>& p) { return {{q[0], q[1]}, {p[0], p[1]}}; }
-
-}  // namespace
-
-const std::vector<std::string>& coordinate_systems() {
-  static const std::vector<std::string> all = [] {
-    std::vector<std::string> names;
-    for (const Family& family : families()) names.insert(names.end(), family.systems.begin(), family.systems.end());
-    return names;
+/// The problems that have several charts, each with one entry for each of them.
+const std::map<std::string, std::vector<const ProblemEntry*>>& charted_problems() {
+  static const std::map<std::string, std::vector<const ProblemEntry*>> all = [] {
+    std::map<std::string, std::vector<const ProblemEntry*>> found;
+    for (const ProblemEntry& entry : problems()) {
+      if (entry.info.chart_key.empty()) continue;
+      auto& charts = found[entry.info.name];
+      const bool is_new = std::none_of(charts.begin(), charts.end(), [&](const ProblemEntry* other) {
+        return coordinates_of(*other) == coordinates_of(entry);
+      });
+      if (is_new) charts.push_back(&entry);
+    }
+    return found;
   }();
   return all;
 }
 
-std::string coordinate_key(const std::string& system) {
-  if (const Family* family = family_of(system)) return family->key;
-  const std::string near = nearest(system, coordinate_systems());
-  throw Error("found coordinates '" + system + "'; allowed cartesian, polar, absolute, relative" +
-              (near.empty() ? "" : "; did you mean " + near + "?"));
+const ProblemEntry* with_coordinates(const std::vector<const ProblemEntry*>& charts, const std::string& name) {
+  const auto found = std::find_if(charts.begin(), charts.end(),
+                                  [&](const ProblemEntry* entry) { return coordinates_of(*entry) == name; });
+  return found == charts.end() ? nullptr : *found;
 }
 
-std::string present_system(const std::string& problem, const std::map<std::string, std::string>& variant,
-                           const std::string& to) {
-  const std::string key = coordinate_key(to);
-  if (problem == family_of(to)->problem && variant.contains(key)) return variant.at(key);
-  throw Error(problem + " has no " + to + " coordinates; allowed: " + what_there_is());
+/// One problem that has both. @throws Error
+std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::string& from, const std::string& to) {
+  check_coordinates(from);
+  check_coordinates(to);
+  for (const auto& [name, charts] : charted_problems()) {
+    const ProblemEntry* const first = with_coordinates(charts, from);
+    const ProblemEntry* const second = with_coordinates(charts, to);
+    if (first != nullptr && second != nullptr) return {first, second};
+  }
+  throw Error("found no way from " + from + " to " + to + "; allowed: " + what_charts_there_are());
 }
 
-StateConverter::StateConverter(std::string from, std::string to) : from_(std::move(from)), to_(std::move(to)) {
-  if (coordinate_key(from_) != coordinate_key(to_)) {
-    throw Error("found no way from " + from_ + " to " + to_ + "; allowed: " + what_there_is());
+}  // namespace
+
+std::string coordinates_of(const ProblemEntry& problem) { return choice_of(problem.info, problem.info.chart_key); }
+
+std::string what_charts_there_are() {
+  std::string text;
+  for (const auto& [name, charts] : charted_problems()) {
+    text += (text.empty() ? "" : "; ") + name + " has ";
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      text += (i == 0 ? "" : i + 1 < charts.size() ? ", " : " and ") + coordinates_of(*charts[i]);
+    }
+  }
+  return text;
+}
+
+void check_coordinates(const std::string& name) {
+  std::vector<std::string> all;
+  for (const auto& [problem, charts] : charted_problems()) {
+    for (const ProblemEntry* entry : charts) {
+      const std::string system = coordinates_of(*entry);
+      if (std::find(all.begin(), all.end(), system) == all.end()) all.push_back(system);
+    }
+  }
+  if (std::find(all.begin(), all.end(), name) != all.end()) return;
+  throw Error("found coordinates '" + name + "'; allowed " + joined(all) + suggestion(name, all));
+}
+
+const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to) {
+  check_coordinates(to);
+  const auto charts = charted_problems().find(problem.info.name);
+  if (charts == charted_problems().end() || with_coordinates(charts->second, to) == nullptr) {
+    throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + what_charts_there_are());
+  }
+  std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
+  variant[problem.info.chart_key] = to;
+  return find_problem(problem.info.name, variant);
+}
+
+StateConverter::StateConverter(const ProblemEntry& from, const ProblemEntry& to) : from_(&from), to_(&to) {
+  if (!from.info.angles.empty()) return;
+  for (std::size_t i = 0; i < to.info.coordinates.size(); ++i) {
+    const auto& angles = to.info.angles;
+    if (std::find(angles.begin(), angles.end(), to.info.coordinates[i]) != angles.end()) turning_.push_back(i);
   }
 }
+StateConverter::StateConverter(const std::string& from, const std::string& to)
+    : StateConverter(charts_named(from, to)) {}
 
 CanonicalState StateConverter::operator()(const CanonicalState& state) {
-  if (state.q.size() != 2 || state.p.size() != 2) {
+  const std::size_t size = from_->dimension > 0 ? from_->dimension : state.q.size();
+  if (state.q.size() != size || state.p.size() != size) {
     throw Error("found " + std::to_string(state.q.size()) + " coordinates and " + std::to_string(state.p.size()) +
-                " momenta; allowed 2 of each");
+                " momenta; allowed " + std::to_string(size) + " of each");
   }
-  if (from_ == to_) return state;
-  const Vector<double, 2> q{state.q[0], state.q[1]};
-  const Vector<double, 2> p{state.p[0], state.p[1]};
-  if (to_ == "polar") return to_polar_continuously(state);
-  if (to_ == "cartesian") {
-    if (q[0] == 0 && p[1] != 0) throw Error("found r = 0 with p_phi = " + shortest(p[1]) + "; allowed r other than 0");
-    const Start<double, 2> s = to_cartesian(Start<double, 2>{q, p});
-    return as_state(s.q, s.p);
+  if (coordinates_of(*from_) == coordinates_of(*to_)) return state;
+  Frame now;
+  now.q = state.q;
+  now.p = state.p;
+  if (from_->to_reference) now = from_->to_reference(now.q, now.p);
+  if (to_->from_reference) now = to_->from_reference(now.q, now.p);
+  const double turn = 2 * pi_value<double>();
+  for (const std::size_t i : turning_) {
+    if (last_.empty()) break;
+    now.q[i] += turn * std::round((last_[i] - now.q[i]) / turn);
+    largest_turn_ = std::max(largest_turn_, std::abs(now.q[i] - last_[i]));
   }
-  if (to_ == "relative") return as_state(relative_angles(q), relative_momenta(p));
-  return as_state(absolute_angles(q), absolute_momenta(p));
-}
-
-CanonicalState StateConverter::to_polar_continuously(const CanonicalState& state) {
-  if (state.q[0] == 0 && state.q[1] == 0) {
-    throw Error("found the centre, r = 0, where there are no polar coordinates; allowed any other point");
-  }
-  Start<double, 2> s = to_polar(Start<double, 2>{{state.q[0], state.q[1]}, {state.p[0], state.p[1]}});
-  if (begun_) {
-    const double turn = 2 * pi_value<double>();
-    s.q[1] += turn * std::round((phi_ - s.q[1]) / turn);
-    largest_turn_ = std::max(largest_turn_, std::abs(s.q[1] - phi_));
-  }
-  begun_ = true;
-  phi_ = s.q[1];
-  return as_state(s.q, s.p);
+  last_ = now.q;
+  return {now.q, now.p};
 }
 
 }  // namespace hamflow

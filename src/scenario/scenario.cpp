@@ -1,27 +1,15 @@
 #include "hamflow/scenario/scenario.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
+#include "scenario_family.hpp"
 #include "scenario_reader.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {
 
 namespace {
-
-/// Puts a --set PATH=VALUE into the document.
-void apply_set(toml::table& root, const std::string& set, const std::string& file, std::vector<Complaint>& complaints) {
-  const auto equals = set.find('=');
-  const std::string path = set.substr(0, equals);
-  if (equals == std::string::npos || path.empty()) {
-    complaints.push_back({file, 0, 0, set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"});
-    return;
-  }
-  const std::string wrong = assign(root, path, *parsed_value(set.substr(equals + 1)).get("value"));
-  if (!wrong.empty()) complaints.push_back({file, 0, 0, path, wrong});
-}
 
 /// Every value by its dotted path.
 void list_settings(const toml::table& table, const std::string& path, std::map<std::string, Setting>& settings) {
@@ -60,25 +48,38 @@ std::int64_t default_record_every(std::int64_t steps) {
   return every;
 }
 
-Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
-  Reading reading;
+std::optional<toml::table> parsed_document(const std::string& text, const std::string& name,
+                                           const std::vector<std::string>& sets, std::vector<Complaint>& complaints) {
   toml::table root;
   try {
     root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    reading.complaints.push_back({name, static_cast<int>(error.source().begin.line),
-                                  static_cast<int>(error.source().begin.column), "syntax",
-                                  "found no valid TOML: " + std::string(error.description())});
-    return reading;
+    complaints.push_back({name, static_cast<int>(error.source().begin.line),
+                          static_cast<int>(error.source().begin.column), "syntax",
+                          "found no valid TOML: " + std::string(error.description())});
+    return std::nullopt;
   }
-  std::string full_text = text;
   for (const std::string& set : sets) {
-    apply_set(root, set, name, reading.complaints);
-    full_text += "# --set " + set + "\n";
+    const auto [path, wrong] = apply_set(root, set);
+    if (!wrong.empty()) complaints.push_back({name, 0, 0, path, wrong});
   }
-  Scenario scenario = ScenarioReader(root, name, reading.complaints).read();
-  scenario.text = full_text;
-  list_settings(root, "", scenario.settings);
+  drop_excluded(root);
+  return root;
+}
+
+std::string with_sets(const std::string& text, const std::vector<std::string>& sets) {
+  std::string all = text;
+  for (const std::string& set : sets) all += "# --set " + set + "\n";
+  return all;
+}
+
+Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
+  Reading reading;
+  const std::optional<toml::table> root = parsed_document(text, name, sets, reading.complaints);
+  if (!root) return reading;
+  Scenario scenario = ScenarioReader(*root, name, reading.complaints).read();
+  scenario.text = with_sets(text, sets);
+  list_settings(*root, "", scenario.settings);
   // In the order of the file, so that a reader can walk through it.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });
@@ -87,11 +88,7 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
 }
 
 Reading read_scenario(const std::filesystem::path& file, const std::vector<std::string>& sets) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw FileError("cannot read the scenario " + file.string());
-  std::ostringstream text;
-  text << in.rdbuf();
-  return read_scenario_text(text.str(), file.string(), sets);
+  return read_scenario_text(scenario_text(file.string()), file.string(), sets);
 }
 
 }  // namespace hamflow

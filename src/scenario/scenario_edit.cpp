@@ -8,42 +8,12 @@
 #include <sstream>
 
 #include "hamflow/core/number.hpp"
+#include "method_keys.hpp"
+#include "toml_path.hpp"
 
 namespace hamflow {
 
 namespace {
-
-toml::table value_of(const std::string& text) {
-  toml::table parsed;
-  try {
-    parsed = toml::parse("value = " + text);
-  } catch (const toml::parse_error&) {
-    parsed.clear();
-  }
-  if (parsed.size() != 1) {
-    parsed.clear();
-    parsed.insert_or_assign("value", text);
-  }
-  return parsed;
-}
-
-void apply(toml::table& root, const ScenarioEdit& edit) {
-  toml::table* table = &root;
-  std::string rest = edit.path;
-  for (auto dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-    const std::string head = rest.substr(0, dot);
-    if (!table->contains(head)) table->insert(head, toml::table{});
-    table = table->get(head)->as_table();
-    if (table == nullptr) return;  // not in a scenario that can be read
-    rest = rest.substr(dot + 1);
-  }
-  if (!edit.value) {
-    table->erase(rest);
-  } else {
-    const toml::table value = value_of(*edit.value);
-    table->insert_or_assign(rest, *value.get("value"));
-  }
-}
 
 /// Keys as they stood in the file; new ones behind them.
 std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table) {
@@ -122,10 +92,20 @@ std::vector<std::string> sets_of(const std::string& text) {
 std::string edited_scenario(const std::string& text, const std::vector<ScenarioEdit>& edits) {
   toml::table root = toml::parse(text);
   for (const std::string& set : sets_of(text)) {
-    const auto equals = set.find('=');
-    apply(root, {set.substr(0, equals), set.substr(equals + 1)});
+    (void)apply_set(root, set);  // of a scenario that was read: nothing is wrong with it
   }
-  for (const ScenarioEdit& edit : edits) apply(root, edit);
+  drop_excluded(root);
+  if (toml::table* const method = root["method"].as_table()) {
+    for (const std::string& key : replaced_method_keys(*method)) method->erase(key);
+  }
+  for (const ScenarioEdit& edit : edits) {
+    if (edit.value) {
+      const std::string wrong = assign(root, edit.path, *parsed_value(*edit.value).get("value"));
+      if (!wrong.empty()) throw Error(edit.path + ": " + wrong);
+    } else {
+      erase(root, edit.path);
+    }
+  }
   std::vector<std::string> order{"problem", "method", "run", "output"};
   for (const auto& [key, node] : root) {
     const std::string name(key.str());

@@ -20,26 +20,8 @@ struct ScenarioFamily::Impl {
 ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name, const std::vector<std::string>& sets)
     : impl_(std::make_unique<Impl>()) {
   impl_->name = name;
-  impl_->text = text;
-  try {
-    impl_->root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    impl_->complaints.push_back({name, static_cast<int>(error.source().begin.line),
-                                 static_cast<int>(error.source().begin.column), "syntax",
-                                 "found no valid TOML: " + std::string(error.description())});
-    return;
-  }
-  for (const std::string& set : sets) {
-    impl_->text += "# --set " + set + "\n";
-    const auto equals = set.find('=');
-    const std::string path = set.substr(0, equals);
-    if (equals == std::string::npos || path.empty()) {
-      impl_->complaints.push_back({name, 0, 0, set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"});
-      continue;
-    }
-    const std::string wrong = assign(impl_->root, path, *parsed_value(set.substr(equals + 1)).get("value"));
-    if (!wrong.empty()) impl_->complaints.push_back({name, 0, 0, path, wrong});
-  }
+  impl_->text = with_sets(text, sets);
+  if (auto root = parsed_document(text, name, sets, impl_->complaints)) impl_->root = std::move(*root);
 }
 
 ScenarioFamily::~ScenarioFamily() = default;
@@ -59,6 +41,7 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
     if (!wrong.empty()) reading.complaints.push_back({impl_->name, 0, 0, paths[i], wrong});
   }
   if (!reading.complaints.empty()) return reading;
+  drop_excluded(impl_->root);  // the same keys for every member
   Scenario scenario = ScenarioReader(impl_->root, impl_->name, reading.complaints).read();
   if (reading.complaints.empty()) reading.scenario = std::move(scenario);
   return reading;

@@ -1,6 +1,7 @@
-// What a run is asked to measure beside its trajectory: run.lyapunov, run.eigenvalues, run.section.
+// What a run measures beside its trajectory: the Lyapunov exponents, the eigenvalues and the section of [run].
 #include <algorithm>
 
+#include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
@@ -25,52 +26,58 @@ std::vector<std::string> coordinate_names(const ProblemEntry& problem, std::size
 }  // namespace
 
 void ScenarioReader::read_measures(TomlTable& table) {
+  const RunKeys& keys = run_keys();
   const std::size_t dimension = scenario_.start_q.size();
-  if (table.is_boolean("lyapunov")) {
-    if (table.boolean("lyapunov").value_or(false)) scenario_.lyapunov = 2 * dimension;
-  } else if (const auto count =
-                 table.whole("lyapunov", 1, dimension > 0 ? static_cast<std::int64_t>(2 * dimension) : most_steps)) {
-    scenario_.lyapunov = static_cast<std::size_t>(*count);
-  } else if (table.has("lyapunov")) {
-    complaints_.back().message += ", or true, false";
+  OptionInfo lyapunov = keys.lyapunov;
+  if (dimension > 0) lyapunov.range.most = static_cast<double>(2 * dimension);
+  if (const auto count = table.text(lyapunov)) {
+    scenario_.lyapunov = *count == "true"    ? 2 * dimension
+                         : *count == "false" ? 0
+                                             : static_cast<std::size_t>(number_value(*count));
   }
-  scenario_.eigenvalues = table.boolean("eigenvalues").value_or(false);
-  for (const char* key : {"lyapunov", "eigenvalues"}) {
-    if (!(key[0] == 'l' ? scenario_.lyapunov > 0 : scenario_.eigenvalues)) continue;
-    if (scenario_.request.arithmetic != "double") {
-      table.complain(key, table.found(key) + " with arithmetic \"" + scenario_.request.arithmetic +
-                              "\"; allowed with arithmetic = \"double\": steps are differentiated in double");
-    }
-    if (scenario_.request.method.name == "cg" && scenario_.request.method.cg.halve) {
-      table.complain(key, table.found(key) +
-                              " with method.on_divergence = \"halve\"; allowed with \"error\": a step that was halved "
-                              "is not differentiated");
-    }
-  }
+  scenario_.eigenvalues = table.yes_no(keys.eigenvalues).value_or(false);
+  if (scenario_.lyapunov > 0) refuse_derivative(table, keys.lyapunov.name);
+  if (scenario_.eigenvalues) refuse_derivative(table, keys.eigenvalues.name);
   read_section(table);
 }
 
+/// Steps are differentiated in double, and only where each is one step of one map.
+void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key) {
+  const OptionInfo& arithmetic = run_keys().arithmetic;
+  if (scenario_.request.arithmetic != arithmetic.default_value) {
+    table.complain(key, table.found(key) + " with " + arithmetic.name + " \"" + scenario_.request.arithmetic +
+                            "\"; allowed with " + arithmetic.name + " = \"" + arithmetic.default_value +
+                            "\": steps are differentiated in double");
+  }
+  if (has_method() && describe(scenario_.request.method).halves_steps) {
+    table.complain(key, table.found(key) +
+                            " with a method that halves steps which do not converge; allowed without: a step that "
+                            "was halved is not differentiated");
+  }
+}
+
 void ScenarioReader::read_section(TomlTable& table) {
-  if (!table.has("section")) {
-    table.know("section");
+  const std::string& key = run_keys().section.name;
+  if (!table.has(key)) {
+    table.know(key);
     return;
   }
-  TomlTable section = table.table("section");
-  if (!section.exists()) return;  // told
+  TomlTable section = table.table(key);
+  if (!section.exists()) return;  // complained about
+  const SectionKeys& keys = section_keys();
   Section wanted;
-  if (const auto value = section.number("value")) wanted.value = value->value;
-  if (const auto direction = section.whole("direction", -1, 1)) wanted.direction = static_cast<int>(*direction);
+  if (const auto value = section.number(keys.value)) wanted.value = *value;
+  if (const auto direction = section.whole(keys.direction)) wanted.direction = static_cast<int>(*direction);
   if (scenario_.problem == nullptr || scenario_.start_q.empty()) {
-    (void)section.string("coordinate");
+    section.know(keys.coordinate.name);
   } else {
-    std::vector<std::string> names = coordinate_names(*scenario_.problem, scenario_.start_q.size());
-    const std::size_t dimension = names.size();
-    for (std::size_t i = 0; i < dimension; ++i) names.push_back(momentum_name(names[i]));
-    if (!section.has("coordinate")) {
-      section.know("coordinate");
-      section.missing("coordinate", joined(names));
-    } else if (const auto name = section.choice("coordinate", names)) {
-      const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), *name) - names.begin());
+    OptionInfo coordinate = keys.coordinate;
+    coordinate.words = coordinate_names(*scenario_.problem, scenario_.start_q.size());
+    const std::size_t dimension = coordinate.words.size();
+    for (std::size_t i = 0; i < dimension; ++i) coordinate.words.push_back(momentum_name(coordinate.words[i]));
+    if (const auto name = section.text(coordinate)) {
+      const auto at = static_cast<std::size_t>(
+          std::find(coordinate.words.begin(), coordinate.words.end(), *name) - coordinate.words.begin());
       wanted.coordinate = at % dimension;
       wanted.momentum = at >= dimension;
       scenario_.section = wanted;

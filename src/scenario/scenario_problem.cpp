@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hamflow/problems/support/polar.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
@@ -15,19 +14,25 @@ std::vector<std::string> problem_names() {
   }
   return names;
 }
-/// What a selecting key is when it is not given.
-const std::map<std::string, std::string> default_choices{
-    {"coordinates", "cartesian"}, {"model", "nonlinear"}, {"angles", "absolute"}};
+const OptionInfo& problem_name_key() {
+  static const OptionInfo key{
+      .name = "name", .meaning = "of the problem", .type = OptionType::word, .required = true, .words = problem_names()};
+  return key;
+}
+/// A number of a start, which has no range of its own: its conditions are judged together.
+OptionInfo number_key(const std::string& name) { return {.name = name}; }
+OptionInfo kind_key(const std::vector<std::string>& kinds) {
+  return {.name = "kind", .type = OptionType::word, .words = kinds};
+}
+OptionInfo list_key(const std::string& name, std::size_t length) {
+  return {.name = name, .type = OptionType::list, .length = length, .required = true};
+}
 }  // namespace
 
 void ScenarioReader::read_problem(TomlTable& table) {
-  if (!table.has("name")) {
-    table.missing("name", joined(problem_names()));
-    return;
-  }
-  const auto name = table.choice("name", problem_names());
+  const auto name = table.text(problem_name_key());
   if (!name) {
-    const std::string meant = nearest(table.string("name").value_or(""), problem_names());
+    const std::string meant = nearest(table.plain_string(problem_name_key().name).value_or(""), problem_names());
     if (!meant.empty()) read_uncertain(table, meant);
     return;
   }
@@ -40,10 +45,8 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
-    if (const auto value = read_parameter(table, parameter)) {
-      scenario_.request.parameters[parameter.name] = *value;
-    } else if (parameter.required && !table.has(parameter.name)) {
-      table.missing(parameter.name, allowed_form(parameter));
+    if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
+      scenario_.request.parameters[parameter.name] = *text;
     }
   }
   scenario_.request.parameters = complete(info, scenario_.request.parameters);
@@ -52,60 +55,11 @@ void ScenarioReader::read_problem(TomlTable& table) {
   } else if (!info.starts.empty()) {
     read_orbit(table);
   }
-  if (*name == "central-force") read_bodies(table);
+  if (info.two_bodies) read_bodies(table);
   read_initial(table);
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);
-}
-
-std::string ScenarioReader::allowed_form(const ParameterInfo& parameter) {
-  const std::string of_each = parameter.range == Range::positive       ? "positive "
-                              : parameter.range == Range::not_negative ? "not negative "
-                              : parameter.range == Range::count        ? "whole "
-                                                                       : "";
-  const std::string list =
-      "an array of " + (parameter.length > 0 ? std::to_string(parameter.length) + " " : "") + of_each + "numbers";
-  const std::string meaning =
-      " (" + parameter.meaning + (parameter.range == Range::count ? ", from 1 to 1000000)" : ")");
-  switch (parameter.kind) {
-    case ParameterKind::number:
-      return "a " + of_each + "number" + meaning;
-    case ParameterKind::list:
-      return list + meaning;
-    case ParameterKind::number_or_list:
-      break;
-  }
-  return "a number or " + list + meaning;
-}
-
-std::optional<std::string> ScenarioReader::read_parameter(TomlTable& table, const ParameterInfo& parameter) {
-  std::optional<std::vector<Number>> values;
-  if (parameter.kind == ParameterKind::number) {
-    const auto value = table.number(parameter.name);
-    if (value) values = {*value};
-  } else if (parameter.kind == ParameterKind::list) {
-    values = table.numbers(parameter.name, parameter.length);
-  } else {
-    values = table.number_or_numbers(parameter.name);
-  }
-  if (!values) return std::nullopt;
-  std::string text;
-  for (const Number& value : *values) {
-    const double x = value.value;
-    const bool fits = parameter.range == Range::positive       ? x > 0
-                      : parameter.range == Range::not_negative ? x >= 0
-                      : parameter.range == Range::count        ? x >= 1 && x <= 1e6 && x == std::floor(x)
-                                                               : true;
-    if (!fits) {
-      const std::string found =
-          parameter.kind == ParameterKind::number ? table.found(parameter.name) : "found an array with " + shortest(x);
-      table.complain(parameter.name, found + "; allowed " + allowed_form(parameter));
-      return std::nullopt;
-    }
-    text += (text.empty() ? "" : ", ") + value.text;
-  }
-  return parameter.kind == ParameterKind::number ? text : "[" + text + "]";
 }
 
 void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
@@ -136,7 +90,9 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
     for (const ParameterInfo& parameter : entry.info.parameters) {
       if (std::find(seen.begin(), seen.end(), parameter.name) != seen.end()) continue;
       seen.push_back(parameter.name);
-      (void)read_parameter(table, parameter);
+      OptionInfo optional = parameter;  // what has to be given is not known
+      optional.required = false;
+      (void)table.text(optional, " (" + parameter.meaning + ")");
     }
     for (const StartInfo& start : entry.info.starts) {
       if (std::find(kinds.begin(), kinds.end(), start.kind) == kinds.end()) kinds.push_back(start.kind);
@@ -146,9 +102,9 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
   table.know_all({"name", "initial"});
   if (!kinds.empty() && table.has("orbit")) {
     TomlTable orbit = table.table("orbit");
-    (void)orbit.choice("kind", kinds);
+    (void)orbit.text(kind_key(kinds));
     for (const std::string& key : orbit_keys) {
-      if (orbit.has(key)) (void)orbit.number(key);
+      if (orbit.has(key)) (void)orbit.text(number_key(key));
     }
     orbit.know_all(orbit_keys);
     orbit.finish();
@@ -161,8 +117,10 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   // The choices of each selecting key, from the entries that carry the name.
   std::vector<std::string> keys;
   std::map<std::string, std::vector<std::string>> choices;
+  std::map<std::string, std::string> defaults;
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name != name) continue;
+    for (const std::string& key : entry.info.default_choices) defaults[key] = choice_of(entry.info, key);
     for (const auto& [key, value] : entry.info.variant) {
       if (!choices.contains(key)) keys.push_back(key);
       auto& list = choices[key];
@@ -173,8 +131,8 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   for (const std::string& key : keys) {
     if (!table.has(key)) {
       table.know(key);
-      const auto usual = default_choices.find(key);
-      if (usual != default_choices.end()) {
+      const auto usual = defaults.find(key);
+      if (usual != defaults.end()) {
         scenario_.request.variant[key] = usual->second;
       } else {
         table.missing(key, joined(choices[key]));
@@ -182,7 +140,7 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
       }
       continue;
     }
-    const auto chosen = table.choice(key, choices[key]);
+    const auto chosen = table.text({.name = key, .type = OptionType::word, .words = choices[key]});
     if (chosen) {
       scenario_.request.variant[key] = *chosen;
     } else {
@@ -200,14 +158,14 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
 /// `case = 1`, with the keys of that start beside it.
 void ScenarioReader::read_numbered_start(TomlTable& table) {
   const ProblemInfo& info = scenario_.problem->info;
-  const auto number = table.whole(info.start_key, 1, static_cast<std::int64_t>(info.starts.size()));
+  const auto number = table.whole(
+      {.name = info.start_key, .range = Range::whole_from(1, static_cast<double>(info.starts.size()))});
   std::vector<std::string> of_this;
   if (number) {
     const StartInfo& start = info.starts[static_cast<std::size_t>(*number - 1)];
     of_this = start.keys;
     for (const std::string& key : start.keys) {
-      const auto value = table.number(key);
-      if (value) scenario_.request.start.orbit[key] = value->text;
+      if (const auto value = table.text(number_key(key))) scenario_.request.start.orbit[key] = *value;
       if (!table.has(key))
         table.missing(key, "a number: " + info.start_key + " = " + std::to_string(*number) + " takes exactly " +
                                joined(start.keys));
@@ -269,7 +227,7 @@ void ScenarioReader::read_orbit(TomlTable& table) {
     orbit.know("kind");
     start = by_keys;
   } else {
-    const auto kind = orbit.choice("kind", kinds);
+    const auto kind = orbit.text(kind_key(kinds));
     if (!kind) return;
     start =
         &*std::find_if(info.starts.begin(), info.starts.end(), [&](const StartInfo& one) { return one.kind == *kind; });
@@ -282,13 +240,12 @@ void ScenarioReader::read_orbit(TomlTable& table) {
       orbit.missing(key, "a number: the start \"" + start->kind + "\" takes exactly " + joined(start->keys));
       continue;
     }
-    const auto value = orbit.number(key);
-    if (value) spec.orbit[key] = value->text;
+    if (const auto value = orbit.text(number_key(key))) spec.orbit[key] = *value;
   }
-  if (const auto direction = orbit.number("direction")) {
-    if (direction->value != 1 && direction->value != -1)
+  if (const auto direction = orbit.number(number_key("direction"))) {
+    if (*direction != 1 && *direction != -1)
       orbit.complain("direction", orbit.found("direction") + "; allowed 1, -1");
-    spec.direction = direction->value < 0 ? -1 : 1;
+    spec.direction = *direction < 0 ? -1 : 1;
   }
   orbit.finish();
   refuse_derived(table, *start, because);
@@ -311,16 +268,13 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   std::string masses[2];
   for (std::size_t i = 0; i < 2; ++i) {
     TomlTable& body = (*tables)[i];
-    if (!body.has("mass")) body.missing("mass", "a positive number");
-    if (const auto mass = body.number("mass")) {
-      if (!(mass->value > 0)) body.complain("mass", body.found("mass") + "; allowed a positive number");
-      bodies[i].mass = mass->value;
-      masses[i] = mass->text;
+    if (const auto mass = body.text({.name = "mass", .range = Range::positive, .required = true})) {
+      bodies[i].mass = number_value(*mass);
+      masses[i] = *mass;
     }
     const auto read_vector = [&](const char* key, Vector<double, 3>& out) {
-      if (!body.has(key)) body.missing(key, "an array of 3 numbers");
-      const auto values = body.numbers(key, 3);
-      for (std::size_t k = 0; values && k < 3; ++k) out[k] = (*values)[k].value;
+      const auto values = body.numbers(list_key(key, 3));
+      for (std::size_t k = 0; values && k < 3; ++k) out[k] = number_value((*values)[k]);
     };
     read_vector("position", bodies[i].position);
     read_vector("velocity", bodies[i].velocity);
@@ -334,17 +288,20 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   scenario_.bodies = TwoBodies(bodies[0], bodies[1]);
   Request& request = scenario_.request;
   request.parameters["mass"] = "(" + masses[0] + ")*(" + masses[1] + ")/((" + masses[0] + ")+(" + masses[1] + "))";
-  Start<double, 2> start = scenario_.bodies->start();
+  const Start<double, 2>& plane = scenario_.bodies->start();
   const double mu = scenario_.bodies->reduced_mass();
-  const double sum = mu + start.q[0] + start.p[0] + start.p[1];
-  if (!std::isfinite(sum) || !(mu > 0) || !(start.q[0] > 0)) {
+  const double sum = mu + plane.q[0] + plane.p[0] + plane.p[1];
+  if (!std::isfinite(sum) || !(mu > 0) || !(plane.q[0] > 0)) {
     table.complain("bodies",
                    "found masses, positions or velocities whose products overflow; allowed numbers between "
                    "about 1e-100 and 1e100");
     scenario_.bodies.reset();
     return;
   }
-  if (scenario_.request.variant["coordinates"] == "polar") start = to_polar(start);
+  Frame start;
+  start.q.assign(plane.q.begin(), plane.q.end());
+  start.p.assign(plane.p.begin(), plane.p.end());
+  if (const auto& from_plane = scenario_.problem->from_reference) start = from_plane(start.q, start.p);
   request.start.q = {shortest(start.q[0]), shortest(start.q[1])};
   request.start.p = {shortest(start.p[0]), shortest(start.p[1])};
 }
@@ -373,22 +330,20 @@ void ScenarioReader::read_initial(TomlTable& table) {
   }
   TomlTable initial = table.table("initial");
   if (!initial.exists()) return;
-  if (!initial.has("q")) {
-    initial.missing("q", problem.dimension == 0 ? "an array of numbers"
-                                                : "an array of " + std::to_string(problem.dimension) + " numbers");
-  }
   if (initial.has("p") == initial.has("v")) {
     initial.complain(initial.has("p") ? "v" : "p", initial.has("p") ? "found p and v together; allowed one of them"
                                                                     : "found neither p nor v; allowed one of them");
   }
   const auto texts = [&](const char* key) {
-    std::vector<std::string> all;
-    const auto values = initial.numbers(key, problem.dimension);
-    for (std::size_t i = 0; values && i < values->size(); ++i) all.push_back((*values)[i].text);
-    return all;
+    OptionInfo list = list_key(key, problem.dimension);
+    list.required = list.name == "q";
+    return initial.numbers(list).value_or(std::vector<std::string>{});
   };
-  spec.kind.clear();  // a state overrides a geometric start
-  spec.orbit.clear();
+  for (const std::string& other : {std::string("orbit"), problem.info.start_key}) {
+    if (other.empty() || !table.has(other)) continue;
+    table.complain("initial", "found it beside " + other + "; allowed one of them");
+    return;
+  }
   spec.q = texts("q");
   spec.p = texts("p");
   spec.v = texts("v");

@@ -1,11 +1,16 @@
 // The walk through a parsed document, table by table.
 #pragma once
 
+#include "run_keys.hpp"
 #include "toml_table.hpp"
 
 namespace hamflow {
 
-inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // t = n h needs n exact in double
+/// A text as a document in which each --set is carried out; none where it is no TOML, which is complained about.
+std::optional<toml::table> parsed_document(const std::string& text, const std::string& name,
+                                           const std::vector<std::string>& sets, std::vector<Complaint>& complaints);
+/// The text with a comment line for each --set.
+std::string with_sets(const std::string& text, const std::vector<std::string>& sets);
 
 /// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
 class ScenarioReader {
@@ -18,8 +23,8 @@ class ScenarioReader {
   Scenario read() {
     TomlTable problem = root_.table("problem");
     TomlTable method = root_.table("method");
-    TomlTable run = root_.table("run");
-    TomlTable output = root_.table("output");
+    TomlTable run = root_.table(run_table);
+    TomlTable output = root_.table(output_table);
     read_problem(problem);
     read_method(method);
     read_run(run);
@@ -30,10 +35,8 @@ class ScenarioReader {
 
  private:
   void read_problem(TomlTable& table);
-  std::optional<std::string> read_parameter(TomlTable& table, const ParameterInfo& parameter);
   void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
-  static std::string allowed_form(const ParameterInfo& parameter);
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -43,12 +46,14 @@ class ScenarioReader {
   void read_initial(TomlTable& table);
   void check_start(TomlTable& table);
   void read_method(TomlTable& table);
-  void read_cg(TomlTable& table);
-  void read_adaptive(TomlTable& table);
+  bool has_method() const { return !scenario_.request.method.name.empty(); }
+  bool read_method_name(TomlTable& table);
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
+  void read_kernel(TomlTable& table);
   void read_length(TomlTable& table);
   void read_measures(TomlTable& table);
+  void refuse_derivative(TomlTable& table, const std::string& key);
   void read_section(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();

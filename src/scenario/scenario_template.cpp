@@ -1,34 +1,20 @@
 #include "scenario_template.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 
+#include "figure_kinds.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "scenario_edit.hpp"
-#include "toml_table.hpp"
+#include "hamflow/core/text.hpp"
+#include "option_text.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// A number expression as a TOML value: itself where it is one, else a string.
-std::string toml_number(const std::string& text) {
-  try {
-    const toml::table parsed = toml::parse("value = " + text);
-    if (parsed.size() == 1 && parsed.get("value")->is_number()) return text;
-  } catch (const toml::parse_error&) {  // NOLINT: then it is an expression
-  }
-  return "\"" + text + "\"";
-}
 std::string toml_numbers(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + toml_number(text);
-  return "[" + all + "]";
-}
-std::string toml_value(const std::string& text) {
-  return text.starts_with("[") ? toml_numbers(list_parts(text)) : toml_number(text);
+  return toml_text({.name = "", .type = OptionType::list}, "[" + joined(texts) + "]");
 }
 
 /// Few digits: the states of an example are arbitrary.
@@ -101,76 +87,17 @@ class Page {
   std::vector<std::pair<std::string, std::string>> block_;
 };
 
-/// A geometric start with numbers that meet its conditions, and the parameters that it needs.
+/// A geometric start with the example values of its keys, and the parameters that go with them.
 struct StartExample {
   const StartInfo* info;
   Texts orbit;
   Texts parameters;
 };
 
-bool can_start(const ProblemEntry& problem, const Texts& parameters, const StartSpec& start) {
-  try {
-    const Texts derived = problem.derived(parameters, start);
-    if (!problem.refused_parameters(derived).second.empty()) return false;
-    const std::vector<Condition> conditions = problem.conditions(derived, start);
-    if (!std::all_of(conditions.begin(), conditions.end(), [](const Condition& c) { return c.holds(); })) return false;
-    Request request;
-    request.problem = problem.info.name;
-    request.parameters = derived;
-    request.start = start;
-    const Frame state = problem.start(request);
-    return problem.refused_start(derived, state.q).empty() && problem.regular(derived, state.q, state.p);
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-/// Round numbers to try for the keys of a start.
-const std::vector<std::string>& candidates(const std::string& key) {
-  static const std::map<std::string, std::vector<std::string>> known{
-      {"r0", {"1", "2"}},
-      {"r_per", {"1", "0.5"}},
-      {"r_aph", {"3", "2"}},
-      {"energy", {"-0.3", "0.5", "1", "2", "3", "5", "-1"}},
-      {"angular_momentum", {"1", "2", "3", "0.5"}},
-      {"speed", {"0.25", "0.5", "1"}}};
-  static const std::vector<std::string> unknown{"1", "2", "0.5", "-1", "-0.5"};
-  const auto found = known.find(key);
-  return found == known.end() ? unknown : found->second;
-}
-
-std::optional<StartExample> example_with(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
-  std::size_t combinations = 1;
-  for (const std::string& key : info.keys) combinations *= candidates(key).size();
-  for (std::size_t c = 0; c < combinations; ++c) {
-    StartSpec start{.kind = info.kind};
-    std::size_t rest = c;
-    for (const std::string& key : info.keys) {
-      const std::vector<std::string>& values = candidates(key);
-      start.orbit[key] = values[rest % values.size()];
-      rest /= values.size();
-    }
-    if (can_start(problem, parameters, start)) return StartExample{&info, start.orbit, parameters};
-  }
-  return std::nullopt;
-}
-
-/// With the parameters as they stand; else with a strength of the other sign; else with the defaults and a strength.
-std::optional<StartExample> example_of(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
-  std::vector<Texts> tries{parameters};
-  if (parameters.contains("k")) {
-    for (const char* k : {"1", "-1"}) {
-      Texts other = parameters;
-      other["k"] = k;
-      tries.push_back(other);
-      other = complete(problem.info, {{"k", k}});
-      tries.push_back(other);
-    }
-  }
-  for (const Texts& some : tries) {
-    if (auto example = example_with(problem, some, info)) return example;
-  }
-  return std::nullopt;
+/// What the problem declares, with the parameters that go with it.
+StartExample example_of(const ProblemEntry& problem, const Texts& parameters, const StartInfo& info) {
+  const bool own = !info.example_parameters.empty();
+  return {&info, info.example, own ? complete(problem.info, info.example_parameters) : parameters};
 }
 
 std::string orbit_table(const StartInfo& info, const Texts& values) {
@@ -197,23 +124,9 @@ std::string difference(const StartExample& start, const Texts& active) {
   return with + (with.empty() || without.empty() ? "" : ", ") + without;
 }
 
-const char* words(Range range) {
-  switch (range) {
-    case Range::positive:
-      return "positive";
-    case Range::not_negative:
-      return "not negative";
-    case Range::count:
-      return "a whole number from 1";
-    case Range::any:
-      break;
-  }
-  return "any number";
-}
-
 class TemplateWriter {
  public:
-  TemplateWriter(const ProblemEntry& problem, const ScenarioExample& example)
+  TemplateWriter(const ProblemEntry& problem, const ExampleInfo& example)
       : problem_(problem),
         info_(problem.info),
         example_(example),
@@ -230,26 +143,22 @@ class TemplateWriter {
     write_problem();
     write_method();
     write_run();
-    page_.section("output");
-    page_.off("folder = \"my.run\"", "default: the name of this file with .run");
-    page_.line("formats = [\"h5\"]", "h5, csv; default [\"h5\"]");
-    page_.off("figures = [\"energy-error\"]",
-              std::string(problem_.dimension == 1 ? "" : "orbit, ") + "phase, energy, energy-error; default none");
+    write_output();
     return page_.text();
   }
 
  private:
   void choose_method() {
-    const bool charged = problem_.accepts(MethodSpec{"boris", {}});
+    const bool charged = problem_.accepts(MethodSpec{.name = "boris"});
     for (const char* name : {"boris", "stv4", "cg"}) {
-      if (!problem_.accepts(MethodSpec{name, {}})) continue;
+      if (!problem_.accepts(MethodSpec{.name = name})) continue;
       if (!charged || std::string(name) == "boris") {
         method_.name = name;
         return;
       }
     }
     for (const MethodEntry& entry : methods()) {
-      if (!problem_.accepts(MethodSpec{entry.name, {}})) continue;
+      if (!problem_.accepts(MethodSpec{.name = entry.name})) continue;
       method_.name = entry.name;
       return;
     }
@@ -257,13 +166,10 @@ class TemplateWriter {
 
   void find_starts() {
     for (const StartInfo& info : info_.starts) {
-      if (auto example = example_of(problem_, parameters_, info)) starts_.push_back(*example);
+      if (!info.example.empty()) starts_.push_back(example_of(problem_, parameters_, info));
     }
-    if (!info_.start_key.empty()) return;
-    for (const char* kind : {"ellipse", "bounded", "circle"}) {
-      for (const StartExample& start : starts_) {
-        if (start.info->kind == kind && start.parameters == parameters_ && active_ == nullptr) active_ = &start;
-      }
+    for (const StartExample& start : starts_) {
+      if (!example_.start.empty() && start.info->kind == example_.start) active_ = &start;
     }
   }
 
@@ -287,22 +193,14 @@ class TemplateWriter {
   }
 
   void write_parameter(const ParameterInfo& parameter) {
-    std::string comment = parameter.meaning + "; ";
-    comment += parameter.kind == ParameterKind::number
-                   ? ""
-                   : "a list" + (parameter.length > 0 ? " of " + std::to_string(parameter.length) : std::string());
-    if (parameter.kind == ParameterKind::number_or_list) comment += " or a number";
-    comment += std::string(parameter.kind == ParameterKind::number ? "" : ", each ") + words(parameter.range);
-    comment += parameter.required                ? "; required"
-               : parameter.default_value.empty() ? "; not given by default"
-                                                 : "; default " + parameter.default_value;
+    const std::string comment = explained_with_default(parameter);
     const std::string value = parameters_.at(parameter.name);
     if (active_ != nullptr && derives(*active_, parameter.name)) {
-      page_.off(parameter.name + " = " + toml_value(value), comment + "; here it follows from the orbit");
+      page_.off(parameter.name + " = " + toml_text(parameter, value), comment + "; here it follows from the orbit");
     } else if (value.empty()) {
-      page_.off(parameter.name + " = " + (parameter.kind == ParameterKind::list ? "[1]" : "1"), comment);
+      page_.off(parameter.name + " = " + example_text(parameter), comment);
     } else {
-      page_.line(parameter.name + " = " + toml_value(value), comment);
+      page_.line(parameter.name + " = " + toml_text(parameter, value), comment);
     }
   }
 
@@ -335,7 +233,7 @@ class TemplateWriter {
       }
     }
     write_state();
-    if (info_.name == "central-force") {
+    if (info_.two_bodies) {
       page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
       page_.line("# bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },");
       page_.line("#           { mass = 2, position = [1, 0, 0], velocity = [0, 1, 0] }]");
@@ -370,57 +268,82 @@ class TemplateWriter {
     page_.section("method");
     std::vector<std::string> names;
     for (const MethodEntry& entry : methods()) {
-      if (problem_.accepts(MethodSpec{entry.name, {}})) names.push_back(entry.name);
+      if (problem_.accepts(MethodSpec{.name = entry.name})) names.push_back(entry.name);
     }
     page_.prose("Allowed here: " + joined(names) + ". More about one: hamflow show NAME");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);
-    if (std::find(names.begin(), names.end(), "cg") == names.end()) return;
-    if (method_.name != "cg") page_.prose("Options of cg:");
-    const auto option = [&](const char* code, const char* comment) {
-      method_.name == "cg" ? page_.line(code, comment) : page_.off(code, comment);
-    };
-    option("degree = 1", "polynomial degree in time; default 1");
-    option("quadrature = \"auto\"",
-           "Gauss points, from the degree to 64, or \"auto\": as many as keep H; default \"auto\"");
-    page_.off("tolerance = 1e-13", "on the residual's 2-norm, positive; default: its rounding level");
-    page_.off("criterion = \"stagnation\"",
-              "stagnation, seed: stagnation above the tolerance is an error; default stagnation");
-    page_.off("max_iterations = 15", "1 to 1000; default 15");
-    page_.off("on_divergence = \"error\"", "error, halve: two half steps instead; default error");
-    page_.off("diagnostics = false", "condition of each step's equations; default false");
+    for (const MethodFamily& family : method_families()) write_method_options(family, names);
   }
 
+  /// Those of the method chosen that may be given by position are set, all others stand as comments.
+  void write_method_options(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
+    const bool chosen = find_method(method_.name).family == &family;
+    const bool allowed = std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) !=
+                         allowed_here.end();
+    if (family.options.empty() || !allowed) return;
+    if (!chosen) page_.prose("Options of " + joined(family.methods) + ":");
+    for (const OptionInfo& option : family.options) {
+      write_option(option, chosen && option.position > 0 && !option.default_value.empty());
+    }
+  }
+
+  void write_option(const OptionInfo& option, bool set) {
+    const std::string code = option.name + " = " + example_text(option);
+    set ? page_.line(code, explained_with_default(option)) : page_.off(code, explained_with_default(option));
+  }
+
+  /// [run] as declared, with the numbers of the example, and without what this problem or its method refuses.
   void write_run() {
     page_.section("run");
-    page_.line("dt = " + shortest(example_.dt), "step length, not 0; negative: backwards in time");
-    page_.line("steps = " + std::to_string(example_.steps),
-               "0 or more; or t_end, which has to be a whole number of dt");
-    page_.off("t_end = " + shortest(example_.dt * static_cast<double>(example_.steps)), "in place of steps");
-    page_.off("record_every = 1", "steps from one sample to the next; default: at most 10000 samples");
-    page_.off("record = [0, " + shortest(example_.dt * 1.5) + "]",
-              "in place of record_every: times, not only of steps");
-    page_.off("lyapunov = true", "true for all exponents, or how many of the largest");
-    page_.off("eigenvalues = true", "of the derivative of all steps");
-    const std::string first = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
-    page_.off("section = { coordinate = \"" + first + "\", value = 0, direction = 1 }",
-              "a Poincare section; direction 1 upwards, -1 downwards, 0 both");
-    page_.off("checkpoint_every = 1000000", "steps from one checkpoint to the next; default: every 10 seconds");
-    std::vector<std::string> allowed;
+    const RunKeys& keys = run_keys();
+    std::vector<std::string> arithmetics_here;
     for (const std::string& arithmetic : arithmetics()) {
-      if (refusal(method_, arithmetic).empty()) allowed.push_back(arithmetic);
+      if (refusal(method_, arithmetic).empty()) arithmetics_here.push_back(arithmetic);
     }
-    page_.line("arithmetic = \"double\"", joined(allowed) + " with this method; default double");
-    if (std::find(allowed.begin(), allowed.end(), "lattice") != allowed.end()) {
-      page_.off("lattice = { position = \"2^-52\", momentum = \"2^-52\" }", "units with arithmetic = \"lattice\"");
-      if (problem_.has_pairwise_forces) page_.off("threads = 2", "with arithmetic = \"lattice\"; default 1");
+    const bool on_lattice = std::find(arithmetics_here.begin(), arithmetics_here.end(), "lattice") !=
+                            arithmetics_here.end();
+    for (OptionInfo key : declared_table(run_table).keys) {
+      bool set = false;
+      if (key.name == keys.dt.name) {
+        key.example = shortest(example_.dt);
+        set = true;
+      } else if (key.name == keys.steps.name) {
+        key.example = std::to_string(example_.steps);
+        set = true;
+      } else if (key.name == keys.t_end.name) {
+        key.example = shortest(example_.dt * static_cast<double>(example_.steps));
+      } else if (key.name == keys.record.name) {
+        key.example = "[0, " + shortest(example_.dt * 1.5) + "]";
+      } else if (key.name == keys.arithmetic.name) {
+        key.words = arithmetics_here;
+        set = true;
+      } else if (key.name == keys.section.name) {
+        key.keys.front().example = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
+      } else if (key.name == keys.kernel.name) {
+        if (!problem_.has_fast_kernel || !find_method(method_.name).family->not_fast.empty()) continue;
+        set = true;
+      } else if (key.name == keys.lattice.name && !on_lattice) {
+        continue;
+      } else if (key.name == keys.threads.name && !(on_lattice && problem_.has_pairwise_forces)) {
+        continue;
+      }
+      write_option(key, set);
     }
-    if (problem_.has_fast_kernel && method_.name != "cg")
-      page_.line("kernel = \"exact\"", "exact, fast; default exact");
+  }
+
+  void write_output() {
+    page_.section("output");
+    for (OptionInfo key : declared_table(output_table).keys) {
+      if (key.name == output_keys().figures.name) {
+        key.words = drawable_figures({.degrees_of_freedom = problem_.dimension});
+      }
+      write_option(key, key.name == output_keys().formats.name);
+    }
   }
 
   const ProblemEntry& problem_;
   const ProblemInfo& info_;
-  const ScenarioExample& example_;
+  const ExampleInfo& example_;
   Texts parameters_;
   MethodSpec method_;
   std::vector<StartExample> starts_;
@@ -430,7 +353,7 @@ class TemplateWriter {
 
 }  // namespace
 
-std::string scenario_template(const ProblemEntry& problem, const ScenarioExample& example) {
+std::string scenario_template(const ProblemEntry& problem, const ExampleInfo& example) {
   return TemplateWriter(problem, example).write();
 }
 

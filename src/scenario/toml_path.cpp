@@ -1,7 +1,10 @@
 #include "toml_path.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <vector>
+
+#include "run_keys.hpp"
 
 namespace hamflow {
 
@@ -40,6 +43,66 @@ std::vector<Part> parts_of(const std::string& path) {
   return parts;
 }
 
+/// Where the last part of a path is, or what is wrong with the path.
+struct Place {
+  toml::node* parent = nullptr;  // an array that has the last index, or a table
+  std::string wrong{};
+};
+
+Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) {
+  toml::node* at = &root;
+  std::string walked;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
+    const bool last = i + 1 == parts.size();
+    if (part.is_index) {
+      const toml::array* const array = at->as_array();
+      if (array == nullptr) {
+        return {nullptr, "found " + walked + " to be no array; allowed an index of an array that is there"};
+      }
+      if (part.index >= array->size()) {
+        return {nullptr, "found index " + std::to_string(part.index) + " of an array of " +
+                             std::to_string(array->size()) + "; allowed 0 to " + std::to_string(array->size() - 1)};
+      }
+      if (last) return {at};
+      at = at->as_array()->get(part.index);
+      walked += "[" + std::to_string(part.index) + "]";
+      continue;
+    }
+    toml::table* const table = at->as_table();
+    if (table == nullptr) return {nullptr, "found " + walked + " to be no table; allowed a path through tables"};
+    if (last) return {at};
+    walked += (walked.empty() ? "" : ".") + part.name;
+    if (!table->contains(part.name)) {
+      if (parts[i + 1].is_index || !make_tables) {
+        return {nullptr, "found no array " + walked + "; allowed an index of an array that is there"};
+      }
+      table->insert(part.name, toml::table{});
+    }
+    at = table->get(part.name);
+  }
+  return {nullptr, "found no path"};
+}
+
+/// Keys of which a scenario has at most one.
+const std::vector<std::pair<std::string, std::vector<std::string>>>& exclusive_keys() {
+  static const std::vector<std::pair<std::string, std::vector<std::string>>> all{
+      {run_table, {run_keys().steps.name, run_keys().t_end.name}},
+      {run_table, {run_keys().record_every.name, run_keys().record.name}},
+      {"problem", {"orbit", "initial"}}};
+  return all;
+}
+
+/// Whether a value, or a part of it, was set from outside.
+bool touched(const toml::node& node) {
+  if (is_set(node)) return true;
+  if (const auto* table = node.as_table()) {
+    return std::any_of(table->begin(), table->end(), [](const auto& entry) { return touched(entry.second); });
+  }
+  const auto* array = node.as_array();
+  return array != nullptr && std::any_of(array->begin(), array->end(), touched);
+}
+
 }  // namespace
 
 toml::table parsed_value(const std::string& text) {
@@ -59,40 +122,57 @@ toml::table parsed_value(const std::string& text) {
 std::string assign(toml::table& root, const std::string& path, const toml::node& value) {
   const std::vector<Part> parts = parts_of(path);
   if (parts.empty()) return "found no path; allowed names with dots between, and [0], [1], ... for entries of an array";
-  toml::node* at = &root;
-  std::string walked;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
-    const bool last = i + 1 == parts.size();
-    if (part.is_index) {
-      toml::array* const array = at->as_array();
-      if (array == nullptr) return "found " + walked + " to be no array; allowed an index of an array that is there";
-      if (part.index >= array->size()) {
-        return "found index " + std::to_string(part.index) + " of an array of " + std::to_string(array->size()) +
-               "; allowed 0 to " + std::to_string(array->size() - 1);
-      }
-      if (last) {
-        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(part.index), value);
-      } else {
-        at = array->get(part.index);
-      }
-      walked += "[" + std::to_string(part.index) + "]";
-      continue;
-    }
-    toml::table* const table = at->as_table();
-    if (table == nullptr) return "found " + walked + " to be no table; allowed a path through tables";
-    walked += (walked.empty() ? "" : ".") + part.name;
-    if (last) {
-      table->insert_or_assign(part.name, value);
-    } else {
-      if (!table->contains(part.name)) {
-        if (parts[i + 1].is_index) return "found no array " + walked + "; allowed an index of an array that is there";
-        table->insert(part.name, toml::table{});
-      }
-      at = table->get(part.name);
-    }
+  Place place = walk(root, parts, true);
+  if (!place.wrong.empty()) return place.wrong;
+  const Part& last = parts.back();
+  if (last.is_index) {
+    toml::array& array = *place.parent->as_array();
+    array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(last.index), value);
+  } else {
+    place.parent->as_table()->insert_or_assign(last.name, value);
   }
   return {};
+}
+
+void erase(toml::table& root, const std::string& path) {
+  const std::vector<Part> parts = parts_of(path);
+  if (parts.empty()) return;
+  const Place place = walk(root, parts, false);
+  if (!place.wrong.empty()) return;
+  const Part& last = parts.back();
+  if (last.is_index) {
+    toml::array& array = *place.parent->as_array();
+    array.erase(array.cbegin() + static_cast<std::ptrdiff_t>(last.index));
+  } else {
+    place.parent->as_table()->erase(last.name);
+  }
+}
+
+std::pair<std::string, std::string> parsed_set(const std::string& set) {
+  const auto equals = set.find('=');
+  if (equals == std::string::npos) return {};
+  return {set.substr(0, equals), set.substr(equals + 1)};
+}
+
+std::pair<std::string, std::string> apply_set(toml::table& root, const std::string& set) {
+  const auto [path, text] = parsed_set(set);
+  if (path.empty()) return {set, "found no PATH=VALUE; allowed e.g. --set run.dt=0.05"};
+  return {path, assign(root, path, *parsed_value(text).get("value"))};
+}
+
+void drop_excluded(toml::table& root) {
+  for (const auto& [section, keys] : exclusive_keys()) {
+    toml::table* const table = root[section].as_table();
+    if (table == nullptr) continue;
+    const bool any_set = std::any_of(keys.begin(), keys.end(), [&, table = table](const std::string& key) {
+      const toml::node* node = table->get(key);
+      return node != nullptr && touched(*node);
+    });
+    for (const std::string& key : keys) {
+      const toml::node* node = any_set ? table->get(key) : nullptr;
+      if (node != nullptr && !touched(*node)) table->erase(key);
+    }
+  }
 }
 
 }  // namespace hamflow

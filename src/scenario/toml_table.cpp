@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
-#include "hamflow/core/number.hpp"
+#include "hamflow/core/problem_info.hpp"
+#include "toml_path.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr const char* number_forms = "a finite number, or a text such as \"0.1\", \"1/3\", \"2*pi/100\"";
+constexpr const char* number_forms = "; numbers may be texts such as \"0.1\", \"1/3\", \"2*pi/100\"";
 
 std::string shown(const toml::node& node) {
   std::ostringstream out;
@@ -37,17 +39,6 @@ std::string shown(const toml::node& node) {
 }
 }  // namespace
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
-std::string suggestion(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(name, candidates);
-  return near.empty() ? "" : "; did you mean " + near + "?";
-}
-
 std::string Complaint::text() const {
   // One line each, whatever a key or a string holds; and nothing that a terminal would obey.
   const auto plain = [](const std::string& raw) {
@@ -69,6 +60,13 @@ std::string Complaint::text() const {
 
 TomlTable::TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints)
     : table_(table), path_(std::move(path)), file_(std::move(file)), complaints_(&complaints) {}
+
+const toml::table& TomlTable::node() const {
+  static const toml::table none;
+  return table_ == nullptr ? none : *table_;
+}
+
+bool TomlTable::is_set(const std::string& key) const { return has(key) && hamflow::is_set(*table_->get(key)); }
 
 const toml::node* TomlTable::find(const std::string& key) {
   know(key);
@@ -98,108 +96,153 @@ void TomlTable::missing(const std::string& key, const std::string& allowed) {
   complain(key, "found nothing; allowed " + allowed);
 }
 
-std::optional<std::string> TomlTable::string(const std::string& key) {
+std::optional<std::string> TomlTable::plain_string(const std::string& key) {
   const toml::node* node = find(key);
-  if (node == nullptr) return std::nullopt;
-  if (const auto* text = node->as_string()) return text->get();
-  complain(key, "found " + shown(*node) + "; allowed a string");
-  return std::nullopt;
+  return node == nullptr ? std::nullopt : node->value<std::string>();
 }
 
-std::optional<std::string> TomlTable::choice(const std::string& key, const std::vector<std::string>& allowed) {
-  auto text = string(key);
-  if (!text) return text;
-  for (const std::string& word : allowed) {
-    if (*text == word) return text;
+std::optional<std::string> TomlTable::text(const OptionInfo& option, const std::string& behind) {
+  const toml::node* node = find(option.name);
+  const std::string allowed = "; allowed " + allowed_text(option) + behind;
+  if (node == nullptr) {
+    if (option.required) complain(option.name, "found nothing" + allowed);
+    return std::nullopt;
   }
-  complain(key, "found \"" + *text + "\"; allowed " + joined(allowed) + suggestion(*text, allowed));
-  return std::nullopt;
+  switch (option.type) {
+    case OptionType::number:
+      return number_text(*node, option, allowed);
+    case OptionType::list:
+      return list_text(*node, option, allowed);
+    case OptionType::number_or_list:
+      return node->is_array() ? list_text(*node, option, allowed) : number_text(*node, option, allowed);
+    case OptionType::word:
+    case OptionType::text:
+    case OptionType::yes_no:
+      return word_text(*node, option, allowed);
+    case OptionType::word_list:
+    case OptionType::table:
+      break;
+  }
+  throw std::logic_error("hamflow: " + option.name + " has no text");
 }
 
-std::optional<Number> TomlTable::number_of(const toml::node& node, const std::string& key) {
+std::optional<double> TomlTable::number(const OptionInfo& option) {
+  const auto found = text(option);
+  return found ? std::optional(number_value(*found)) : std::nullopt;
+}
+
+std::optional<std::int64_t> TomlTable::whole(const OptionInfo& option) {
+  const auto found = number(option);
+  return found ? std::optional(static_cast<std::int64_t>(*found)) : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> TomlTable::numbers(const OptionInfo& option) {
+  const auto found = text(option);
+  return found ? std::optional(list_parts(*found)) : std::nullopt;
+}
+
+std::optional<bool> TomlTable::yes_no(const OptionInfo& option) {
+  const auto found = text(option);
+  return found ? std::optional(*found == "true") : std::nullopt;
+}
+
+std::optional<std::string> TomlTable::number_text(const toml::node& node, const OptionInfo& option,
+                                                  const std::string& allowed) {
   // At the node itself: an entry of an array has its own place.
-  const auto wrong = [&] { complain_at(node.source(), key, "found " + shown(node) + "; allowed " + number_forms); };
-  Number number;
-  if (const auto* integer = node.as_integer()) {
-    number = {std::to_string(integer->get()), static_cast<double>(integer->get())};
-  } else if (const auto* real = node.as_floating_point()) {
-    number = {std::isfinite(real->get()) ? shortest(real->get()) : "", real->get()};
-  } else if (const auto* text = node.as_string()) {
+  const auto refuse = [&](const std::string& message) {
+    complain_at(node.source(), option.name, message);
+    return std::nullopt;
+  };
+  const bool in_array = table_->get(option.name) != &node;
+  const auto found = [&] { return "found " + std::string(in_array ? "an array with " : "") + shown(node); };
+  if (const auto* boolean = node.as_boolean()) {
+    std::string word = boolean->get() ? "true" : "false";
+    if (std::find(option.words.begin(), option.words.end(), word) != option.words.end()) return word;
+  }
+  if (const auto* word = node.as_string()) {
+    if (refused_value(option, word->get()).empty()) return word->get();
+    // What is no formula has an error of its own, which says where the text goes wrong.
+    const bool meant_as_word = !option.words.empty() && word->get().find_first_of("0123456789") == std::string::npos;
+    if (meant_as_word) return refuse(found() + allowed + suggestion(word->get(), option.words));
     try {
-      number = {text->get(), evaluate_number<double>(text->get())};
-    } catch (const Error&) {
-      wrong();
-      return std::nullopt;
+      (void)number_value(word->get());
+    } catch (const Error& error) {
+      return refuse(error.what());
     }
-  } else {
-    wrong();
-    return std::nullopt;
+    return refuse(found() + allowed);
   }
-  if (!std::isfinite(number.value)) {
-    wrong();
-    return std::nullopt;
+  constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
+  if (const auto* integer = node.as_integer()) {
+    const std::int64_t value = integer->get();
+    const bool is_rounded = option.range.whole && (value > exact_in_double || value < -exact_in_double);
+    if (!is_rounded && option.range.contains(static_cast<double>(value))) return std::to_string(value);
+    return refuse(found() + allowed);
   }
-  return number;
-}
-
-std::optional<Number> TomlTable::number(const std::string& key) {
-  const toml::node* node = find(key);
-  return node == nullptr ? std::nullopt : number_of(*node, key);
-}
-
-std::optional<bool> TomlTable::boolean(const std::string& key) {
-  const toml::node* node = find(key);
-  if (node == nullptr) return std::nullopt;
-  if (const auto* value = node->as_boolean()) return value->get();
-  complain(key, "found " + shown(*node) + "; allowed true, false");
-  return std::nullopt;
-}
-
-std::optional<std::int64_t> TomlTable::whole(const std::string& key, std::int64_t least, std::int64_t most) {
-  const toml::node* node = find(key);
-  if (node == nullptr) return std::nullopt;
-  const auto value = number_of(*node, key);
-  if (!value) return std::nullopt;
-  if (const auto* integer = node->as_integer()) {  // beyond 2^53 the double would hide what was written
-    if (integer->get() >= least && integer->get() <= most) return integer->get();
+  if (const auto* real = node.as_floating_point()) {
+    if (option.range.contains(real->get())) return shortest(real->get());
+    return refuse(found() + allowed);
   }
-  const bool fits = !node->is_integer() && value->value == std::floor(value->value) &&
-                    value->value >= static_cast<double>(least) && value->value <= static_cast<double>(most);
-  if (fits) return static_cast<std::int64_t>(value->value);
-  complain(key, "found " + shown(*node) + "; allowed a whole number from " + std::to_string(least) + " to " +
-                    std::to_string(most));
-  return std::nullopt;
+  return refuse(found() + allowed + number_forms);
 }
 
-std::optional<std::vector<Number>> TomlTable::numbers(const std::string& key, std::size_t count) {
-  const toml::node* node = find(key);
-  if (node == nullptr) return std::nullopt;
-  const auto* array = node->as_array();
-  const std::string allowed =
-      "allowed an array of " + (count == 0 ? "" : std::to_string(count) + " ") + (count == 1 ? "number" : "numbers");
+std::optional<std::string> TomlTable::list_text(const toml::node& node, const OptionInfo& option,
+                                                const std::string& allowed) {
+  const auto* array = node.as_array();
   if (array == nullptr) {
-    complain(key, "found " + shown(*node) + "; " + allowed);
+    complain(option.name, "found " + shown(node) + allowed);
     return std::nullopt;
   }
-  if (array->empty() || (count > 0 && array->size() != count)) {
-    complain(key, "found " + std::to_string(array->size()) + " entries; " + allowed);
+  if (array->empty() || (option.length > 0 && array->size() != option.length)) {
+    complain(option.name, "found " + std::to_string(array->size()) + " entries" + allowed);
     return std::nullopt;
   }
-  std::vector<Number> all;
+  std::vector<std::string> all;
   for (const toml::node& entry : *array) {
-    const auto value = number_of(entry, key);
-    if (!value) return std::nullopt;
-    all.push_back(*value);
+    auto text = number_text(entry, option, allowed);
+    if (!text) return std::nullopt;
+    all.push_back(std::move(*text));
   }
-  return all;
+  return "[" + joined(all) + "]";
 }
 
-std::optional<std::vector<Number>> TomlTable::number_or_numbers(const std::string& key) {
-  const toml::node* node = find(key);
+std::optional<std::string> TomlTable::word_text(const toml::node& node, const OptionInfo& option,
+                                                const std::string& allowed) {
+  if (option.type == OptionType::yes_no) {
+    if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
+    complain(option.name, "found " + shown(node) + allowed);
+    return std::nullopt;
+  }
+  const auto* word = node.as_string();
+  if (word == nullptr) {
+    complain(option.name, "found " + shown(node) + allowed);
+    return std::nullopt;
+  }
+  if (refused_value(option, word->get()).empty()) return word->get();
+  complain(option.name, "found \"" + word->get() + "\"" + allowed + suggestion(word->get(), option.words));
+  return std::nullopt;
+}
+
+std::optional<std::vector<std::string>> TomlTable::words(const OptionInfo& option) {
+  const toml::node* node = find(option.name);
   if (node == nullptr) return std::nullopt;
-  if (node->is_array()) return numbers(key, 0);
-  const auto value = number_of(*node, key);
-  return value ? std::optional(std::vector<Number>{*value}) : std::nullopt;
+  std::vector<std::string> all;
+  const auto take = [&](const toml::node& entry) {
+    const auto* word = entry.as_string();
+    if (word == nullptr) {
+      complain(option.name, "found " + shown(entry) + "; allowed " + allowed_text(option));
+      return false;
+    }
+    all.push_back(word->get());
+    if (std::find(option.words.begin(), option.words.end(), word->get()) != option.words.end()) return true;
+    complain(option.name, "found \"" + word->get() + "\"; allowed " + joined(option.words) +
+                              suggestion(word->get(), option.words));
+    return false;
+  };
+  const auto* array = node->as_array();
+  if (array == nullptr) return take(*node) ? std::optional(all) : std::nullopt;
+  bool good = true;
+  for (const toml::node& entry : *array) good = take(entry) && good;
+  return good ? std::optional(all) : std::nullopt;
 }
 
 std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, std::size_t count) {
@@ -218,34 +261,6 @@ std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, 
     all.emplace_back(array->get(i)->as_table(), full(key) + "[" + std::to_string(i) + "]", file_, *complaints_);
   }
   return all;
-}
-
-std::optional<std::vector<std::string>> TomlTable::choices(const std::string& key,
-                                                           const std::vector<std::string>& allowed) {
-  const toml::node* node = find(key);
-  if (node == nullptr) return std::nullopt;
-  std::vector<std::string> words;
-  const auto take = [&](const toml::node& entry) {
-    const auto* text = entry.as_string();
-    if (text == nullptr) {
-      complain(key, "found " + shown(entry) + "; allowed a list out of " + joined(allowed));
-      return false;
-    }
-    for (const std::string& word : allowed) {
-      if (text->get() == word) {
-        words.push_back(word);
-        return true;
-      }
-    }
-    complain(key, "found \"" + text->get() + "\"; allowed " + joined(allowed) + suggestion(text->get(), allowed));
-    return false;
-  };
-  if (const auto* array = node->as_array()) {
-    bool good = true;
-    for (const toml::node& entry : *array) good = take(entry) && good;
-    return good ? std::optional(words) : std::nullopt;
-  }
-  return take(*node) ? std::optional(words) : std::nullopt;
 }
 
 TomlTable TomlTable::table(const std::string& key) {

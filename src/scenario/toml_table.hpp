@@ -3,20 +3,15 @@
 
 #include <toml++/toml.h>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hamflow/core/option_info.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
-
-/// A number as text, with its value in double.
-struct Number {
-  std::string text;
-  double value = 0;
-};
 
 class TomlTable {
  public:
@@ -24,32 +19,36 @@ class TomlTable {
   TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints);
 
   bool exists() const { return table_ != nullptr; }
+  /// The table itself; an empty one where there is none.
+  const toml::table& node() const;
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
 
-  // Each look-up makes the key known; finish() complains about the others.
-  std::optional<std::string> string(const std::string& key);
-  /// A string out of a closed list.
-  std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& allowed);
-  std::optional<Number> number(const std::string& key);
-  std::optional<bool> boolean(const std::string& key);
-  std::optional<std::int64_t> whole(const std::string& key, std::int64_t least, std::int64_t most);
-  /// An array of so many numbers; 0: any, but not none.
-  std::optional<std::vector<Number>> numbers(const std::string& key, std::size_t count);
-  std::optional<std::vector<Number>> number_or_numbers(const std::string& key);
+  // Each look-up makes the key known; finish() complains about the others. A value that the option does not accept is
+  // complained about and then counts as not given. A required one that is missing is complained about too.
+
+  /// The value as the text that the declared option has elsewhere: "0.1", "[1, 2]", "auto", "true".
+  /// @param behind what is allowed, in messages: e.g. " (the mass)"
+  std::optional<std::string> text(const OptionInfo& option, const std::string& behind = "");
+  std::optional<double> number(const OptionInfo& option);
+  std::optional<std::int64_t> whole(const OptionInfo& option);
+  /// The entries of a list of numbers.
+  std::optional<std::vector<std::string>> numbers(const OptionInfo& option);
+  /// The entries of a list of words; a single string counts as a list of one.
+  std::optional<std::vector<std::string>> words(const OptionInfo& option);
+  std::optional<bool> yes_no(const OptionInfo& option);
   /// An array of so many tables.
   std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
-  /// A list of strings out of a closed list; a single string counts as a list of one.
-  std::optional<std::vector<std::string>> choices(const std::string& key, const std::vector<std::string>& allowed);
   TomlTable table(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
   void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
-  bool is_boolean(const std::string& key) const { return has(key) && table_->get(key)->is_boolean(); }
   /// Whether the value came from the command line and not from the file.
-  bool from_set(const std::string& key) const { return has(key) && table_->get(key)->source().begin.line == 0; }
+  bool is_set(const std::string& key) const;
 
   /// Complains about every key nobody asked for, naming the nearest that is known.
   void finish();
 
+  /// The text of a string; none where the value is another, which is not complained about.
+  std::optional<std::string> plain_string(const std::string& key);
   void missing(const std::string& key, const std::string& allowed);
   /// A complaint at the key's value, or at the table when the key is absent.
   void complain(const std::string& key, const std::string& message);
@@ -58,7 +57,9 @@ class TomlTable {
 
  private:
   const toml::node* find(const std::string& key);
-  std::optional<Number> number_of(const toml::node& node, const std::string& key);
+  std::optional<std::string> number_text(const toml::node& node, const OptionInfo& option, const std::string& allowed);
+  std::optional<std::string> list_text(const toml::node& node, const OptionInfo& option, const std::string& allowed);
+  std::optional<std::string> word_text(const toml::node& node, const OptionInfo& option, const std::string& allowed);
   void complain_at(const toml::source_region& where, const std::string& key, const std::string& message);
 
   const toml::table* table_;
@@ -67,10 +68,5 @@ class TomlTable {
   std::vector<Complaint>* complaints_;
   std::vector<std::string> known_;
 };
-
-/// "a, b, c".
-std::string joined(const std::vector<std::string>& words);
-/// "; did you mean NAME?" or nothing.
-std::string suggestion(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace hamflow

@@ -10,49 +10,9 @@
 
 namespace hamflow {
 
-std::string_view name(MemberStatus status) {
-  switch (status) {
-    case MemberStatus::done:
-      return "done";
-    case MemberStatus::interrupted:
-      return "interrupted";
-    case MemberStatus::not_converged:
-      return "not_converged";
-    case MemberStatus::non_finite:
-      return "non_finite";
-    case MemberStatus::lattice_overflow:
-      return "lattice_overflow";
-    case MemberStatus::not_run:
-      return "not_run";
-  }
-  return "unknown";
-}
-
 namespace {
 
-MemberStatus status_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::done:
-      return MemberStatus::done;
-    case Outcome::stopped:
-      return MemberStatus::interrupted;
-    case Outcome::not_converged:
-      return MemberStatus::not_converged;
-    case Outcome::non_finite:
-      return MemberStatus::non_finite;
-    case Outcome::lattice_overflow:
-      return MemberStatus::lattice_overflow;
-  }
-  return MemberStatus::not_run;
-}
-
-std::string message_of(Outcome outcome, const Simulation& simulation) {
-  if (outcome == Outcome::non_finite) return "the energy or the state became infinite or NaN";
-  if (outcome == Outcome::lattice_overflow) return "a number left the range of the lattice";
-  return outcome == Outcome::not_converged ? simulation.failure() : "";
-}
-
-/// Each thread with a copy of the scenario of its own. An exception of a thread is that of the caller.
+/// Each thread has its own copy of the scenario. An exception of a thread is passed on to the caller.
 template <class Work>
 void on_threads(int threads, const Work& work) {
   std::exception_ptr trouble;
@@ -210,7 +170,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   }
 }
 
-/// What one thread has of its own.
+/// The resources of one thread.
 class Sweep::Worker {
  public:
   explicit Worker(Sweep& sweep) : sweep_(sweep) {}
@@ -251,11 +211,11 @@ class Sweep::Worker {
     for (std::size_t lane = 0; lane < task.count; ++lane) {
       MemberEnd end = block->look(lane);
       MemberRow& row = sweep_.rows_[members[lane]];
-      if (!end.regular) {  // the run alone tells what happened, and when
+      if (!end.regular) {  // the single run shows what happened, and when
         if (complete) run_alone(members[lane]);
         continue;
       }
-      row.status = complete ? MemberStatus::done : MemberStatus::interrupted;
+      row.status = complete ? Outcome::done : Outcome::stopped;
       row.steps = taken;
       row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[members[lane]].h;
       row.q = std::move(end.q);
@@ -281,7 +241,7 @@ class Sweep::Worker {
     MemberRow& row = sweep_.rows_[member];
     Frame frame;
     simulation->look(frame);
-    row.status = hamflow::status_of(outcome);
+    row.status = outcome;
     row.steps = frame.step;
     row.t = frame.time;
     row.q = frame.q;
@@ -289,7 +249,7 @@ class Sweep::Worker {
     row.energy = simulation->energy();
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();
-    row.message = message_of(outcome, *simulation);
+    row.message = outcome == Outcome::not_converged ? simulation->failure() : std::string(message(outcome));
     if (outcome == Outcome::done && sweep_.options_.observables.observe) {
       row.observables = sweep_.options_.observables.observe(scenario);
     }
@@ -308,7 +268,7 @@ class Sweep::Worker {
       values[k] = numbers_[key];
     }
     Reading reading = family_->read(paths_, values);
-    if (!reading.scenario) throw Error("a member that could be read before cannot be read now");
+    if (!reading.scenario) throw Error("a member of the sweep can no longer be read");
     return *std::move(reading.scenario);
   }
 

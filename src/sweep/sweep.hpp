@@ -16,12 +16,9 @@
 
 namespace hamflow {
 
-enum class MemberStatus { done, interrupted, not_converged, non_finite, lattice_overflow, not_run };
-std::string_view name(MemberStatus status);
-
-/// What a member leaves. Of one that failed: its last good state.
+/// The result of a member; of one that failed, its last good state.
 struct MemberRow {
-  MemberStatus status = MemberStatus::not_run;
+  Outcome status = Outcome::not_run;
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;
@@ -47,7 +44,7 @@ struct SweepOptions {
 
 class Sweep {
  public:
-  /// Reads and checks every member. Where something is wrong, complaints() tells it and nothing can be run.
+  /// Reads and checks every member. Where something is wrong, complaints() lists it and nothing can be run.
   Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
         std::vector<Vary> varied, SweepOptions options);
 

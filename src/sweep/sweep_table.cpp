@@ -5,7 +5,8 @@
 #include <fstream>
 #include <limits>
 
-#include "hdf5_handle.hpp"
+#include "hamflow/core/text.hpp"
+#include "hdf5_text.hpp"
 
 namespace hamflow {
 
@@ -69,30 +70,14 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   }
 }
 
-Hdf5Handle text_type(std::size_t length) {
-  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  check_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "size a text type");
-  check_hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
-  return type;
-}
-
 void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memory, int rank, const hsize_t* size,
                    const void* values) {
-  const Hdf5Handle space(rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, size, nullptr), H5Sclose,
-                         "make a data space");
+  const Hdf5Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose, "make a data space");
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_create_intermediate_group(links, 1), "ask for groups on the way");
+  check_hdf5(H5Pset_create_intermediate_group(links, 1), "request intermediate groups");
   const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
                            "create dataset " + name);
   check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
-}
-
-void write_attribute(hid_t file, const char* name, const std::string& text) {
-  const Hdf5Handle type = text_type(text.size());
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
-  const Hdf5Handle attribute(H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                             "create an attribute");
-  check_hdf5(H5Awrite(attribute, type, text.c_str()), std::string("write attribute ") + name);
 }
 
 void write_column(hid_t file, const SweepColumn& column) {
@@ -148,7 +133,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
 }
 
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages say what failed
+  silence_hdf5();
   const Hdf5Handle id(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
                       "create " + file.string());
   const Request& request = sweep.common().request;
@@ -157,8 +142,7 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "problem", request.problem);
   write_attribute(id, "arithmetic", request.arithmetic);
   write_attribute(id, "kernel", request.kernel);
-  const Hdf5Handle type = text_type(sweep.text().size());
-  write_dataset(id, "scenario", type, type, 0, nullptr, sweep.text().c_str());
+  write_text_dataset(id, "scenario", sweep.text());
   for (const SweepColumn& column : columns_of(sweep)) write_column(id, column);
   check_hdf5(H5Fflush(id, H5F_SCOPE_GLOBAL), "write " + file.string() + " (is the disk full?)");
 }
@@ -173,29 +157,28 @@ void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
     for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
     return all + "\"";
   };
-  std::string line;
+  std::vector<std::string> labels;
   for (const SweepColumn& column : columns) {
     const std::string label = column.name.starts_with("varied/") ? column.name.substr(7) : column.name;
     for (std::size_t i = 0; i < column.width; ++i) {
-      line += (line.empty() ? "" : ",") + quoted(label) + (column.scalar ? "" : std::to_string(i + 1));
+      labels.push_back(quoted(label) + (column.scalar ? "" : std::to_string(i + 1)));
     }
   }
-  out << line << '\n';
+  out << joined(labels, ",") << '\n';
   for (std::size_t row = 0; row < sweep.members(); ++row) {
-    line.clear();
+    std::vector<std::string> cells;
     for (const SweepColumn& column : columns) {
       for (std::size_t i = 0; i < column.width; ++i) {
-        if (!line.empty()) line += ',';
         if (!column.texts.empty()) {
-          line += quoted(column.texts[row]);
+          cells.push_back(quoted(column.texts[row]));
         } else if (!column.counts.empty()) {
-          line += std::to_string(column.counts[row]);
+          cells.push_back(std::to_string(column.counts[row]));
         } else {
-          line += fmt::format("{:.17g}", column.numbers[row * column.width + i]);
+          cells.push_back(fmt::format("{:.17g}", column.numbers[row * column.width + i]));
         }
       }
     }
-    out << line << '\n';
+    out << joined(cells, ",") << '\n';
   }
   out.flush();
   if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");

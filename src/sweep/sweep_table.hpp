@@ -20,7 +20,7 @@ struct SweepColumn {
 };
 
 /// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
-/// /energy/..., /invariants/NAME/..., /observables/NAME. What a member has not is NaN.
+/// /energy/..., /invariants/NAME/..., /observables/NAME. What a member does not have is NaN.
 std::vector<SweepColumn> columns_of(const Sweep& sweep);
 
 /// What is the same for all rows.

@@ -55,7 +55,7 @@ std::optional<double> number_in(std::string text) {
 
 double range_end(const std::string& text, const std::string& whole) {
   const auto x = number_in(text);
-  if (!x) throw Error("found \"" + text + "\" in " + whole + ", which is no finite number; " + forms);
+  if (!x) throw Error("found \"" + text + "\" in " + whole + ", which is not a finite number; " + forms);
   return *x;
 }
 

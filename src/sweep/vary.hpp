@@ -14,7 +14,7 @@ struct Vary {
 };
 
 /// "PATH=a:b:n", n numbers from a to b, both included; or "PATH=v1,v2,...", commas in parentheses, brackets and quotes
-/// do not split. @throws Error saying what was found and what is allowed
+/// do not split. @throws Error naming what was found and what is allowed
 Vary parse_vary(const std::string& text);
 
 /// The number of members: the product of the numbers of values. @throws Error when there are too many

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "hamflow/verify/counter_random.hpp"
+#include "rounding.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t seed = 1686;  // any number: the places of the samples are part of the result
 
 /// In the first half of the k-th block, where it still is when two blocks become one.
@@ -54,7 +54,7 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
 /// 16 of each: the largest of a walk over the whole run is rarely above four standard deviations, and two coordinates
 /// of a body, or two bodies, are rounded in every action. The centre of mass takes the walk of the momentum along for
 /// the time of the run.
-std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const std::vector<InvariantInfo>& infos,
+std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request) {
   std::vector<MomentumMap> all;
   const std::vector<InvariantExcursion> invariants = simulation.invariants();
@@ -67,27 +67,33 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const std::
   const bool lattice = request.arithmetic == "lattice";
   const double q_unit = std::max(unit, lattice ? request.position_unit / std::max(magnitudes[0], 1e-300) : 0);
   const double p_unit = std::max(unit, lattice ? request.momentum_unit / std::max(magnitudes[1], 1e-300) : 0);
-  const auto coordinates = request.variant.find("coordinates");
-  const bool polar = coordinates != request.variant.end() && coordinates->second == "polar";
-  const Parameters<double> parameters(request.parameters);
+  const std::vector<InvariantInfo>& infos = problem.info.invariants;
   Frame end;
   simulation.look(end);
   for (std::size_t i = 0; i < invariants.size() && i < infos.size(); ++i) {
     MomentumMap map{infos[i].name, invariants[i].max_error, 0, {}};
     double size = largest(invariants[i].initial);
-    if (map.name == "angular_momentum" && !polar) {
-      size = std::max(size, magnitudes[3]);
-      map.rounding = walk * (q_unit + p_unit) * size;
-    } else if (map.name == "angular_momentum") {  // p_phi itself
-      map.rounding = walk * p_unit * size;
-    } else if (map.name == "linear_momentum" || map.name == "parallel_momentum") {
-      size = std::max(size, magnitudes[2]);
-      map.rounding = walk * p_unit * size;
-    } else if (map.name == "centre_of_mass" && parameters.has("masses")) {
-      double mass = 0;
-      for (const double m : parameters.list("masses")) mass += m;
-      size = std::max(size, magnitudes[0]);
-      map.rounding = walk * (q_unit * size + p_unit * magnitudes[2] / mass * std::abs(end.time));
+    switch (infos[i].terms) {
+      case Terms::moments:
+        size = std::max(size, magnitudes[3]);
+        map.rounding = walk * (q_unit + p_unit) * size;
+        break;
+      case Terms::momentum:
+        map.rounding = walk * p_unit * size;
+        break;
+      case Terms::momenta:
+        size = std::max(size, magnitudes[2]);
+        map.rounding = walk * p_unit * size;
+        break;
+      case Terms::centre_of_mass: {
+        if (!problem.total_mass) break;
+        const double mass = problem.total_mass(complete(problem.info, request.parameters), end.q.size());
+        size = std::max(size, magnitudes[0]);
+        map.rounding = walk * (q_unit * size + p_unit * magnitudes[2] / mass * std::abs(end.time));
+        break;
+      }
+      case Terms::other:
+        break;
     }
     map.relative = size > 0 ? map.max_error / size : map.max_error;
     all.push_back(map);
@@ -102,7 +108,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, cons
   const double scale = simulation.energy_scale();
   const double error = simulation.energy().max_error;
   found.energy_level = scale > 0 ? error / scale : error;
-  found.momentum_maps = momentum_maps(simulation, problem.info.invariants, blocks.state().magnitudes, request);
+  found.momentum_maps = momentum_maps(simulation, problem, blocks.state().magnitudes, request);
   if (steps_taken > 0) {  // there and back together a hundredth of the run
     found.reversal = reversal_of(request, std::clamp<std::int64_t>(steps_taken / 200, 1, 1000));
   }

@@ -8,10 +8,11 @@
 #include <ctime>
 #include <limits>
 
+#include "rounding.hpp"
+
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 using Long = long double;
 
 Frame start_of(const ComparisonRequest& asked, const ProblemEntry& problem) {
@@ -26,7 +27,7 @@ State<double> joined(const Frame& frame) {
   return z;
 }
 
-/// Angles that the closed form knows up to whole turns: the nearest is meant.
+/// Angles that the closed form gives up to whole turns are moved to the nearest.
 double largest_difference(const ProblemInfo& info, const State<double>& a, const State<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -81,9 +82,8 @@ double usual_tolerance(std::size_t k, std::size_t count) {
 
 /// Whether a method chooses its sub-steps itself: then it has a tolerance to vary, and steps that do not matter.
 bool set_tolerance(MethodSpec& method, double tolerance) {
-  const MethodKind kind = find_method(method.name).kind;
-  if ((kind != MethodKind::dop853 && kind != MethodKind::taylor) || method.adaptive.fixed) return false;
-  method.adaptive.tolerance = tolerance;
+  if (!describe(method).own_substeps) return false;
+  method.options[tolerance_option] = shortest(tolerance);
   return true;
 }
 constexpr std::int64_t adaptive_steps = 32;  // few, as each cuts a sub-step short
@@ -133,28 +133,10 @@ Timing timed(const Request& request, std::int64_t steps, const std::function<boo
 std::string reason_of(const Simulation& simulation, Outcome outcome) {
   Frame frame;
   simulation.look(frame);
-  const std::string why = outcome == Outcome::not_converged      ? simulation.failure()
-                          : outcome == Outcome::non_finite       ? "the energy or the state became infinite or NaN"
-                          : outcome == Outcome::lattice_overflow ? "a number left the range of the lattice"
-                                                                 : std::string(name(outcome));
+  const std::string why = outcome == Outcome::not_converged ? simulation.failure() : std::string(message(outcome));
   return fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time), why);
 }
 }  // namespace
-
-std::vector<std::string> split_list(const std::string& text) {
-  std::vector<std::string> parts{""};
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '(') ++depth;
-    if (c == ')') --depth;
-    if (c == ',' && depth == 0) {
-      parts.emplace_back();
-    } else if (c != ' ' && c != '\t') {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
 
 std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count) {
   std::vector<std::int64_t> all;
@@ -222,7 +204,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       point.dt = asked.t_end / static_cast<double>(point.steps);
       request.dt = shortest(point.dt);
       const MethodInfo info = describe(request.method);
-      point.method = info.name;
+      point.method = describe(method).name;  // as requested: the tolerance varies like a step
       point.order = info.order;
       point.explicit_step = info.explicit_step;
 
@@ -249,7 +231,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(std:
       const Timing timing = timed(request, point.steps, pulse);
       if (timing.outcome == Outcome::stopped) return found;
       point.wall_seconds = timing.wall;
-      // Other programs that take the processor away are not the method's doing; a clock of the processor, though, is
+      // Time that other programs take from the processor is not the method's; a clock of the processor, though, is
       // slow to read.
       point.seconds = std::min(timing.wall, timing.processor);
       found.points.push_back(point);
@@ -297,8 +279,7 @@ std::vector<ComparisonWinner> winners(const Comparison& comparison) {
     for (int level = highest; level >= lowest; --level) {
       std::vector<std::pair<double, std::string>> ranking;
       for (const auto& [name, points] : methods) {
-        // A sweep over a tape of series is no evaluation of a force.
-        if (!by_time && name == "taylor") continue;
+        if (!by_time && !find_method(parse_method(name).name).family->counts_forces) continue;
         if (const auto work = work_for(points, level, by_time, floor)) ranking.emplace_back(*work, name);
       }
       if (ranking.empty()) continue;

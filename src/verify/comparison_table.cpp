@@ -15,7 +15,7 @@ std::string time_text(double seconds) {
   return fmt::format("{:.3g} s", seconds);
 }
 
-/// A field of RFC 4180.
+/// A field of a CSV file.   [RFC4180]
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";

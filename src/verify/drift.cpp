@@ -1,27 +1,16 @@
 #include "hamflow/verify/drift.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "drift_class.hpp"
 
 namespace hamflow {
 
 double student_p_value(double t, int degrees_of_freedom) {
-  const double nu = degrees_of_freedom;
-  const double theta = std::atan(std::abs(t) / std::sqrt(nu));
-  const double cosine = std::cos(theta);
-  const bool odd = degrees_of_freedom % 2 == 1;
-  double term = odd ? cosine : 1.0;
-  double sum = degrees_of_freedom == 1 ? 0.0 : term;
-  for (int k = odd ? 3 : 2; k <= degrees_of_freedom - 2; k += 2) {
-    term *= cosine * cosine * (k - 1) / k;
-    sum += term;
-  }
-  const double inside = odd ? 2 / std::numbers::pi * (theta + std::sin(theta) * sum) : std::sin(theta) * sum;
-  return std::clamp(1 - inside, 0.0, 1.0);
+  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(degrees_of_freedom), std::abs(t)));
 }
 
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {

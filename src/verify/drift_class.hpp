@@ -1,4 +1,4 @@
-// Private to hamflow_verify: what the statistics of a run and of an ensemble share.
+// Private to hamflow_verify: what the statistics of a run and those of an ensemble share.
 #pragma once
 
 #include "hamflow/verify/drift.hpp"
@@ -7,7 +7,7 @@ namespace hamflow {
 
 /// p-value of the t-test that the increments of one series have mean 0.
 double increments_p_value(const std::vector<double>& energies);
-/// The class by the rule of methods, section 1.
+/// The class by the rules of docs/design.md, Certificates, reversal, comparison.
 DriftClass drift_class(double p_value, double growth_exponent);
 
 }  // namespace hamflow

@@ -100,7 +100,7 @@ RunDrift classify_run(const std::vector<double>& energies) {
   found.blocks = std::max(0, static_cast<int>(energies.size()) - 1);
   if (found.blocks < RunDrift::fewest_blocks) {
     found.reason =
-        fmt::format("{} blocks of steps are too few; a class needs {}", found.blocks, RunDrift::fewest_blocks);
+        fmt::format("{} blocks of steps are too few; a drift class needs {}", found.blocks, RunDrift::fewest_blocks);
     return found;
   }
   double largest = 0;

@@ -3,13 +3,13 @@
 
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "rounding.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t starts = 32;  // the growth exponent of a random walk is then known to about 0.06
-constexpr int blocks = 511;           // nine dyadic windows
+constexpr int coarse_blocks = 511;    // nine dyadic windows
 constexpr std::int64_t block_steps = 64;
 constexpr int fine_factor = 128;
 constexpr int fine_blocks = 31;
@@ -78,11 +78,11 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   const double unit = scale(map, region);
   std::vector<std::vector<double>> energies;
   for (std::uint64_t k = 0; k < starts; ++k) {
-    energies.push_back(map.energies(random_state(region, k), h, blocks, block_steps));
-    found.level = larger(found.level, largest_error(energies.back(), blocks + 1) / unit);
+    energies.push_back(map.energies(random_state(region, k), h, coarse_blocks, block_steps));
+    found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
   }
   found.step = h;
-  found.rounding = rounding_level(region, h, static_cast<double>(blocks * block_steps));
+  found.rounding = rounding_level(region, h, static_cast<double>(coarse_blocks * block_steps));
   found.drift = classify_drift(energies);
 
   const double fine_step = h / fine_factor;
@@ -101,7 +101,7 @@ Conservation EnergyMeasurement::conserving(int order, bool even_in_momenta) cons
   }
   // A method of order r without any conservation has level ~ h^r; with s > k quadrature points cg(k) has h^(2 s),
   // 2 s >= r + 2. What a quadrature leaves has no direction where H is even in p: forth and back it cancels. Whether it
-  // grows with time is not asked: near a resonance, and in chaos, it does.
+  // grows with time is not judged: near a resonance, and in chaos, it does.
   if (even_in_momenta && drift.p_value < DriftStatistics::level) return Conservation::no;
   return step_exponent >= order + 1.5 ? Conservation::up_to_quadrature : Conservation::no;
 }

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
@@ -29,7 +30,7 @@ PropertyCell cell(std::string property, bool claimed, Finding found, std::size_t
   return {std::move(property), text(claimed), std::string(name(found)), agrees};
 }
 
-/// Of a motion that is not reversed with its momenta nothing can be asked.
+/// Of a motion that is not reversed with its momenta nothing can be judged.
 PropertyCell reversal_cell(std::string property, bool claimed, std::span<const Measurement> on,
                            DefectMeasurement Measurement::*which) {
   std::vector<Measurement> even;
@@ -128,11 +129,11 @@ bool PropertyRow::agrees() const {
 }
 
 std::string PropertyRow::differing() const {
-  std::string all;
+  std::vector<std::string> properties;
   for (const PropertyCell& c : cells) {
-    if (c.agrees != Finding::yes) all += (all.empty() ? "" : ", ") + c.property;
+    if (c.agrees != Finding::yes) properties.push_back(c.property);
   }
-  return all;
+  return joined(properties);
 }
 
 const PropertyCell& PropertyRow::operator[](std::string_view property) const {

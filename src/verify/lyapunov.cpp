@@ -62,7 +62,7 @@ TangentFrame::TangentFrame(std::size_t dimension, std::size_t count, std::uint64
 bool TangentFrame::orthonormalise(std::span<double> logs) {
   for (std::size_t k = 0; k < vectors_.size(); ++k) {
     State<double>& v = vectors_[k];
-    for (int pass = 0; pass < (k > 0 ? 2 : 1); ++pass) {  // twice is enough [Parlett 1998, Sect. 6.9]
+    for (int pass = 0; pass < (k > 0 ? 2 : 1); ++pass) {  // twice is enough [Parlett1998, Sect. 6.9]
       for (std::size_t j = 0; j < k; ++j) {
         const State<double>& u = vectors_[j];
         const double product = dot(u, v);

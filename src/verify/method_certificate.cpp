@@ -31,8 +31,7 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
   EnergyBlocks blocks;
   Observer* const observers[] = {&blocks};
   const bool done = run(*simulation, map_steps, observers) == Outcome::done;
-  for (const MomentumMap& map :
-       momentum_maps(*simulation, problem.info.invariants, blocks.state().magnitudes, request)) {
+  for (const MomentumMap& map : momentum_maps(*simulation, problem, blocks.state().magnitudes, request)) {
     if (!map.rounding) continue;
     found.momentum_maps.push_back({region.problem, map.name, simulation->step(), map.max_error, map.relative,
                                    *map.rounding, done && map.conserved() == true});
@@ -46,8 +45,10 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
   for (const Measurement& m : on) found.drift = std::max(found.drift, m.energy.drift.drift);
   measure_maps(region_of("central-force", {{"potential", "kepler"}, {"coordinates", "cartesian"}}), method, found);
   measure_maps(region_of("n-body"), method, found);
-  if (found.momentum_maps.empty()) {
-    for (const Region& region : regions) measure_maps(region, method, found);
+  for (const Region& region : regions) {
+    const bool measured = std::any_of(found.momentum_maps.begin(), found.momentum_maps.end(),
+                                      [&](const auto& map) { return map.problem == region.problem; });
+    if (!measured) measure_maps(region, method, found);
   }
   for (const Region& region : regions) {
     const auto back = reversal_of(request_on(region, method, random_state(region, 0)), return_steps);

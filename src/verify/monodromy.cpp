@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hamflow/core/error.hpp"
+#include "symplectic.hpp"
 
 namespace hamflow {
 
@@ -24,19 +25,6 @@ std::vector<std::vector<double>> transposed(const std::vector<State<double>>& co
   return rows;
 }
 
-double symplectic_defect_of(const std::vector<std::vector<double>>& m) {
-  const std::size_t n = m.size() / 2;
-  double largest = 0;
-  for (std::size_t a = 0; a < 2 * n; ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      double value = a == b + n ? 1 : 0;  // -J_ab
-      for (std::size_t i = 0; i < n; ++i) value += m[i][a] * m[n + i][b] - m[n + i][a] * m[i][b];
-      largest = std::max(largest, std::abs(value));
-    }
-  }
-  return largest;
-}
-
 }  // namespace
 
 SymplecticEigenvalues symplectic_eigenvalues(const std::vector<std::vector<double>>& rows) {
@@ -52,9 +40,11 @@ SymplecticEigenvalues symplectic_eigenvalues(const std::vector<std::vector<doubl
     if (!(sum <= std::numeric_limits<double>::max())) throw Error("the derivative of the steps is not finite");
     found.norm = std::max(found.norm, sum);
   }
-  found.symplectic_defect = symplectic_defect_of(rows);
+  for_each_symplectic_defect(
+      rows, [&](double defect, double) { found.symplectic_defect = std::max(found.symplectic_defect, defect); });
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(m, false);
-  if (solver.info() != Eigen::Success) throw Error("the eigenvalues of the steps' derivative were not found");
+  if (solver.info() != Eigen::Success)
+    throw Error("the eigenvalues of the derivative of the steps could not be computed");
   std::vector<std::complex<double>> left(solver.eigenvalues().data(), solver.eigenvalues().data() + size);
   while (!left.empty()) {  // the largest that is left, and what comes nearest to its inverse
     const auto larger = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) {

@@ -52,10 +52,10 @@ template <class Long>
 OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   const State<Long> start(region.centre.begin(), region.centre.end());
   const Long time(region.time);
-  const Long epsilon = std::numeric_limits<Long>::epsilon();
+  const Long long_epsilon = std::numeric_limits<Long>::epsilon();
   const State<Long> exact = map.flow(start, time);
   const Long size = distance(exact, State<Long>(exact.size()));
-  const Long unit = epsilon * size * amplification(map, start, exact, time);
+  const Long unit = long_epsilon * size * amplification(map, start, exact, time);
 
   // From about half a time unit to 2^12 times finer: a coefficient that is wrong in the 6th place has taken over from
   // an error term of order 4 at the fine end. Rounding of N steps is a walk of sqrt(N) units, to which the reference

@@ -3,24 +3,19 @@
 #include <cmath>
 
 #include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/core/hash.hpp"
 #include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
 
-std::uint64_t hash_of(const std::vector<std::byte>& bits) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::byte b : bits) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
-  return hash;
-}
-
 namespace {
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
   return most;
 }
 /// The same of numbers with all their digits.
-double distance(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+double largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   std::size_t longest = 0;
   for (const std::string& text : a) longest = std::max(longest, text.size());
   const MpDigits scope(static_cast<int>(longest) + 10);
@@ -30,7 +25,7 @@ double distance(const std::vector<std::string>& a, const std::vector<std::string
   }
   return most;
 }
-double size_of(const std::vector<double>& a) { return distance(a, std::vector<double>(a.size())); }
+double largest_entry(const std::vector<double>& a) { return largest_difference(a, std::vector<double>(a.size())); }
 }  // namespace
 
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse) {
@@ -38,7 +33,7 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   found.steps = steps;
   simulation.look(found.start);
   const std::vector<std::byte> bits = simulation.bits();
-  found.start_hash = hash_of(bits);
+  found.start_hash = fnv1a(bits);
   const std::int64_t first = simulation.step();
   const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
   const auto go = [&](std::int64_t to) {
@@ -48,19 +43,20 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   };
   const bool there = go(first + steps);
   simulation.look(found.turn);
-  found.turn_hash = hash_of(simulation.bits());
+  found.turn_hash = fnv1a(simulation.bits());
   if (!there) return found;
   simulation.negate_momenta();
   const bool back = go(first + 2 * steps);
   simulation.negate_momenta();
   simulation.look(found.end);
-  found.end_hash = hash_of(simulation.bits());
+  found.end_hash = fnv1a(simulation.bits());
   if (!back) return found;
   const FrameDigits& to = found.end.digits;
   const FrameDigits& from = found.start.digits;
-  found.distance = from.q.empty() ? std::max(distance(found.end.q, found.start.q), distance(found.end.p, found.start.p))
-                                  : std::max(distance(to.q, from.q), distance(to.p, from.p));
-  const double size = std::max(size_of(found.start.q), size_of(found.start.p));
+  found.distance = from.q.empty() ? std::max(largest_difference(found.end.q, found.start.q),
+                                             largest_difference(found.end.p, found.start.p))
+                                  : std::max(largest_difference(to.q, from.q), largest_difference(to.p, from.p));
+  const double size = std::max(largest_entry(found.start.q), largest_entry(found.start.p));
   found.relative_distance = size > 0 ? found.distance / size : found.distance;
   found.bit_exact = simulation.bits() == bits;
   return found;

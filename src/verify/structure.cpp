@@ -5,11 +5,12 @@
 
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "rounding.hpp"
+#include "symplectic.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t states = 8;
 
 using Rows = std::vector<std::vector<double>>;
@@ -66,22 +67,6 @@ double norm(const Rows& m) {
   return largest;
 }
 
-/// M^T J M - J entry by entry: entry (a, b) is sum_i M_ia M_(n+i)b - M_(n+i)a M_ib - J_ab.
-void add_symplectic_defect(const Rows& m, Defects& defects) {
-  const std::size_t n = m.size() / 2;
-  for (std::size_t a = 0; a < 2 * n; ++a) {
-    for (std::size_t b = 0; b < 2 * n; ++b) {
-      double value = b == a + n ? -1.0 : a == b + n ? 1.0 : 0.0;
-      double terms = 1;
-      for (std::size_t i = 0; i < n; ++i) {
-        value += m[i][a] * m[n + i][b] - m[n + i][a] * m[i][b];
-        terms += abs(m[i][a] * m[n + i][b]) + abs(m[n + i][a] * m[i][b]);
-      }
-      defects.add(abs(value), terms);
-    }
-  }
-}
-
 /// The exact Jacobian against (Psi(z + d e) - Psi(z - d e))/(2 d) of the map itself in long double. With d = 2^-16 the
 /// truncation is d^2 Psi'''/6, some 4e-11 Psi''', the rounding 2^-64/d, 4e-15.
 void add_jacobian_mismatch(const StepMap& map, const State<double>& z, double h, const Rows& exact, Defects& defects) {
@@ -122,7 +107,7 @@ void measure_structure(const StepMap& map, const Region& region, Measurement& fo
     const double uneven = map.energies(reversed(z), h, 0, 0).front() - map.energies(z, h, 0, 0).front();
     if (abs(uneven) > 64 * epsilon * map.energy_scale(z)) found.even_in_momenta = false;
     add_jacobian_mismatch(map, z, h, m, jacobian);
-    add_symplectic_defect(m, symplectic);
+    for_each_symplectic_defect(m, [&](double defect, double terms) { symplectic.add(defect, terms); });
 
     // What the second step makes of the rounding of the first is at most the norm of its Jacobian.
     const double size = size_of(z) * norm(m);

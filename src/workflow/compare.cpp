@@ -8,6 +8,7 @@
 
 #include "run_folder.hpp"
 #include "summary.hpp"
+#include "terminal.hpp"
 #include "work_precision.hpp"
 
 namespace hamflow {

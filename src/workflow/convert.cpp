@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "converted_text.hpp"
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
+#include "run_keys.hpp"
 #include "scenario_edit.hpp"
 #include "summary.hpp"
 
@@ -16,16 +19,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string row(const std::vector<double>& numbers) {
-  std::string text;
-  for (const double x : numbers) text += fmt::format("{}{:.17g}", text.empty() ? "" : ", ", x);
-  return "[" + text + "]";
+  return "[" + joined(numbers, [](double x) { return fmt::format("{:.17g}", x); }) + "]";
 }
 
 /// Why the scenario's method cannot run in the new coordinates; empty if it can.
 std::string refused_method(const Scenario& scenario, const std::string& to) {
-  auto variant = scenario.request.variant;
-  variant[coordinate_key(to)] = to;
-  return refusal(scenario.request.method, find_problem(scenario.request.problem, variant));
+  return refusal(scenario.request.method, in_coordinates(*scenario.problem, to));
 }
 
 }  // namespace
@@ -37,29 +36,27 @@ std::string state_json(const std::string& system, const CanonicalState& state) {
 }
 
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
-  const std::string key = coordinate_key(to);
-  std::vector<ScenarioEdit> edits{{"problem." + key, "\"" + to + "\""}};
+  std::vector<ScenarioEdit> edits{{"problem." + scenario.problem->info.chart_key, "\"" + to + "\""}};
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
   }
   if (scenario.section) {  // of a coordinate that is there no more
-    edits.push_back({"run.section", {}});
-    std::string others;
-    for (const std::string& figure : scenario.figures) {
-      if (figure != "section") others += (others.empty() ? "\"" : ", \"") + figure + "\"";
-    }
-    if (!scenario.figures.empty()) edits.push_back({"output.figures", "[" + others + "]"});
+    edits.push_back({run_path(run_keys().section), {}});
+    std::vector<std::string> others = scenario.figures;
+    const FigureFacts without_section{.diagnostics = true, .section = false};
+    std::erase_if(others, [&](const std::string& kind) { return !refused_figure(kind, without_section).empty(); });
+    const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
+    if (!scenario.figures.empty()) edits.push_back({output_path(output_keys().figures), "[" + list + "]"});
   }
   return edited_scenario(scenario.text, edits);
 }
 
 CanonicalState converted_start(const Scenario& scenario, const std::string& to) {
-  const std::string from = present_system(scenario.request.problem, scenario.request.variant, to);
-  return StateConverter(from, to)({scenario.start_q, scenario.start_p});
+  return StateConverter(*scenario.problem, in_coordinates(*scenario.problem, to))({scenario.start_q, scenario.start_p});
 }
 
 std::string converted_scenario(const Scenario& scenario, const std::string& to) {
-  const std::string from = present_system(scenario.request.problem, scenario.request.variant, to);
+  const std::string from = coordinates_of(*scenario.problem);
   const CanonicalState start = converted_start(scenario, to);
   const std::string why_not = refused_method(scenario, to);
   if (!why_not.empty()) {

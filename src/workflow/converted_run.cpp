@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "converted_text.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "run_copy.hpp"
 #include "run_file.hpp"
+#include "run_keys.hpp"
 #include "scenario_edit.hpp"
 #include "summary.hpp"
 
@@ -24,8 +26,9 @@ class ConvertedRun::Impl {
     if (!reading_.scenario) {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
-    from_ = present_system(scenario().request.problem, scenario().request.variant, to);
-    StateConverter convert(from_, to);
+    target_ = &in_coordinates(*scenario().problem, to);
+    from_ = coordinates_of(*scenario().problem);
+    StateConverter convert(*scenario().problem, *target_);
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       try {
         const CanonicalState state = convert(state_at(k));
@@ -37,15 +40,22 @@ class ConvertedRun::Impl {
         throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
       }
     }
-    turn_ = std::max(convert.largest_turn(), fastest_turn());
+    turn_ = std::max(convert.largest_turn(), fastest_turn(convert.turning()));
+    turning_ = joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; });
   }
 
   std::string csv() const {
-    std::string text = "t,q1,q2,p1,p2,energy\n";
+    std::string text = "t";
+    for (const char* name : {"q", "p"}) {
+      for (std::size_t i = 1; i <= samples_.q.size(); ++i) text += fmt::format(",{}{}", name, i);
+    }
+    text += ",energy\n";
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       const CanonicalState s = state_at(k);
-      text += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", samples_.t[k], s.q[0], s.q[1], s.p[0],
-                          s.p[1], samples_.energy[k]);
+      text += fmt::format("{:.17g}", samples_.t[k]);
+      for (const double x : s.q) text += fmt::format(",{:.17g}", x);
+      for (const double x : s.p) text += fmt::format(",{:.17g}", x);
+      text += fmt::format(",{:.17g}\n", samples_.energy[k]);
     }
     return text;
   }
@@ -59,7 +69,8 @@ class ConvertedRun::Impl {
     return json_text(all);
   }
   std::string write_h5(const fs::path& target) const {
-    const CanonicalState start = StateConverter(from_, to_)({scenario().start_q, scenario().start_p});
+    const CanonicalState start =
+        StateConverter(*scenario().problem, *target_)({scenario().start_q, scenario().start_p});
     std::string note;
     std::string text =
         "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
@@ -72,9 +83,10 @@ class ConvertedRun::Impl {
       note = "the samples were computed by " + method + " with settings that " + to_ +
              " coordinates do not allow; the scenario in " + target.string() + " names cg in double instead";
       Scenario changed = scenario();
-      changed.text = edited_scenario(
-          changed.text,
-          {{"method", "{ name = \"cg\" }"}, {"run.arithmetic", {}}, {"run.lattice", {}}, {"run.kernel", {}}});
+      changed.text = edited_scenario(changed.text, {{"method", "{ name = \"cg\" }"},
+                                                    {run_path(run_keys().arithmetic), {}},
+                                                    {run_path(run_keys().lattice), {}},
+                                                    {run_path(run_keys().kernel), {}}});
       text += converted_text(changed, to_, start);
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
@@ -82,17 +94,19 @@ class ConvertedRun::Impl {
     return note;
   }
   double turn() const { return turn_; }
+  const std::string& turning() const { return turning_; }
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
-  /// |phi'| times the time to the next sample, at most: it shows whole turns, which the states do not.
-  double fastest_turn() const {
-    if (to_ != "polar") return 0;
-    const double mass = Parameters<double>(scenario().request.parameters)["mass"];
+  /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
+  double fastest_turn(const std::vector<std::size_t>& angles) const {
     double most = 0;
-    for (std::size_t k = 0; k + 1 < samples_.t.size(); ++k) {
-      const double r = samples_.q[0][k];
-      most = std::max(most, std::abs(samples_.p[1][k] / (mass * r * r) * (samples_.t[k + 1] - samples_.t[k])));
+    for (std::size_t k = 0; k + 1 < samples_.t.size() && !angles.empty(); ++k) {
+      const CanonicalState s = state_at(k);
+      const std::vector<double> rates = target_->rates(scenario().request.parameters, s.q, s.p);
+      for (const std::size_t i : angles) {
+        most = std::max(most, std::abs(rates[i] * (samples_.t[k + 1] - samples_.t[k])));
+      }
     }
     return most;
   }
@@ -111,6 +125,8 @@ class ConvertedRun::Impl {
   RunSamples samples_;
   Reading reading_;
   double turn_ = 0;
+  std::string turning_;
+  const ProblemEntry* target_ = nullptr;  // the problem in the coordinates `to`
 };
 
 ConvertedRun::ConvertedRun(const fs::path& run, const std::string& to)
@@ -120,5 +136,6 @@ std::string ConvertedRun::csv() const { return impl_->csv(); }
 std::string ConvertedRun::json() const { return impl_->json(); }
 std::string ConvertedRun::write_h5(const fs::path& target) const { return impl_->write_h5(target); }
 double ConvertedRun::largest_turn() const { return impl_->turn(); }
+const std::string& ConvertedRun::turning() const { return impl_->turning(); }
 
 }  // namespace hamflow

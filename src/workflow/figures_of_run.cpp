@@ -62,10 +62,7 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
     data.section_p = std::move(samples.section_p[shown]);
     data.section_coordinate = data.coordinates.size() == data.q.size() ? data.coordinates[shown] : "q";
   }
-  const char* const usual = problem.dimension == 2 || data.space > 0 ? "orbit"
-                            : data.q.size() <= 12                    ? "phase"
-                                                                     : "energy-error";
-  write_figure(data, !kind.empty() ? kind : usual, file);
+  write_figure(data, !kind.empty() ? kind : usual_figure(facts_of(data)), file);
 }
 
 void draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {

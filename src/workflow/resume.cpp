@@ -5,19 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/numerics/inverse_cube.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
 namespace {
 
 constexpr double checkpoint_seconds = 10;
-
-/// Settings that do not decide a bit of what is written: they may change when a run goes on.
-bool is_free(const std::string& key) {
-  static const std::vector<std::string> free{
-      "run.steps", "run.t_end", "run.threads", "output.folder", "run.checkpoint_every", "output.figures"};
-  return std::find(free.begin(), free.end(), key) != free.end();
-}
 
 std::string instruction_set() { return std::string(name(fast_kernel_instruction_set())); }
 
@@ -34,7 +28,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   std::map<std::string, std::string> before;
   for (std::size_t i = 0; i < checkpoint.keys.size(); ++i) before[checkpoint.keys[i]] = checkpoint.values[i];
   for (const auto& [key, setting] : scenario.settings) {
-    if (is_free(key)) continue;
+    if (is_free_on_resume(key)) continue;
     const std::string& value = setting.text;
     const auto there = before.find(key);
     if (there == before.end()) {
@@ -44,11 +38,12 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     }
   }
   for (const auto& [key, value] : before) {
-    if (is_free(key) || scenario.settings.contains(key)) continue;
+    if (is_free_on_resume(key) || scenario.settings.contains(key)) continue;
     complain(key, "found nothing; allowed with --resume " + value + ", as when the run began");
   }
   if (scenario.steps < checkpoint.step) {
-    complain(scenario.settings.contains("run.t_end") ? "run.t_end" : "run.steps",
+    const std::string by_time = run_path(run_keys().t_end);
+    complain(scenario.settings.contains(by_time) ? by_time : run_path(run_keys().steps),
              "found " + std::to_string(scenario.steps) + " steps; allowed with --resume at least the " +
                  std::to_string(checkpoint.step) + " that were taken");
   }
@@ -57,9 +52,9 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
                             checkpoint.version + ", with which the run began");
   }
   if (scenario.request.kernel == "fast" && checkpoint.instruction_set != instruction_set()) {
-    complain("run.kernel", "found \"fast\" with the instruction set " + instruction_set() +
-                               "; allowed with --resume the instruction set " + checkpoint.instruction_set +
-                               ", with which the run began");
+    complain(run_path(run_keys().kernel), "found \"fast\" with the instruction set " + instruction_set() +
+                                              "; allowed with --resume the instruction set " +
+                                              checkpoint.instruction_set + ", with which the run began");
   }
   return all;
 }

@@ -23,7 +23,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .kernel = scenario.request.kernel,
           .dimension = scenario.start_q.size(),
           .invariants = invariant_columns(scenario),
-          .diagnostics = scenario.request.method.cg.diagnostics,
+          .diagnostics = describe(scenario.request.method).diagnostics,
           .section = scenario.section.has_value(),
           .samples = samples};
 }

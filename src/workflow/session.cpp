@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "method_keys.hpp"
+#include "run_keys.hpp"
 #include "scenario_edit.hpp"
 
 namespace hamflow {
@@ -34,23 +36,29 @@ Effort sum(const Effort& a, const Effort& b) {
 
 /// The method as a table for [method].
 std::string method_table(const MethodSpec& method) {
-  std::string text = "{ name = \"" + method.name + "\"";
-  if (method.name == "cg") {
-    const CgOptions& cg = method.cg;
-    text += ", degree = " + std::to_string(cg.degree) +
-            ", quadrature = " + (cg.quadrature == 0 ? "\"auto\"" : std::to_string(cg.quadrature)) +
-            ", max_iterations = " + std::to_string(cg.max_iterations);
-    if (cg.tolerance) text += ", tolerance = " + shortest(*cg.tolerance);
-    if (cg.seed_criterion) text += ", criterion = \"seed\"";
-    if (cg.halve) text += ", on_divergence = \"halve\"";
-    if (cg.diagnostics) text += ", diagnostics = true";
+  std::string text = "{ " + method_name_key().name + " = \"" + method.name + "\"";
+  for (const OptionInfo& option : find_method(method.name).family->options) {
+    const auto given = method.options.find(option.name);
+    if (given != method.options.end()) text += ", " + option.name + " = " + toml_text(option, given->second);
   }
   return text + " }";
 }
 
+/// The methods that have an option, one of each family.
+std::string methods_with(const std::string& option) {
+  std::vector<std::string> names;
+  for (const MethodFamily& family : method_families()) {
+    if (find_option(family.options, option) != nullptr) names.push_back(family.methods.front());
+  }
+  return joined(names);
+}
+
 }  // namespace
 
-Session::Session(const Scenario& scenario) : scenario_(scenario), request_(scenario.request) { restart(); }
+Session::Session(const Scenario& scenario)
+    : scenario_(scenario), request_(scenario.request), options_(scenario.request.method.options) {
+  restart();
+}
 
 void Session::restart() {
   Request request = request_;
@@ -76,42 +84,48 @@ void Session::restart() {
 }
 
 void Session::set_step_length(const std::string& text) {
-  double value = 0;
-  try {
-    value = evaluate_number<double>(text);
-  } catch (const Error&) {
-    value = std::numeric_limits<double>::quiet_NaN();
-  }
-  if (!std::isfinite(value) || value == 0) {
-    throw Error("dt: found '" + text + "'; allowed a number other than 0, such as 0.1, 1/3, -0.05");
-  }
+  const OptionInfo& dt = run_keys().dt;
+  if (const std::string refused = refused_value(dt, text); !refused.empty()) throw Error(dt.name + ": " + refused);
   Request next = request_;
   next.dt = text;
-  change(next, "dt = " + text);
+  change(next, dt.name + " = " + text);
 }
 
 void Session::set_method(const MethodSpec& method) {
   Request next = request_;
-  CgOptions cg = request_.method.cg;
-  cg.degree = method.cg.degree;
-  cg.quadrature = method.cg.quadrature;
-  if (method.cg.tolerance) cg.tolerance = method.cg.tolerance;
-  next.method = {method.name, cg};
+  next.method = method;
+  for (const OptionInfo& option : find_method(method.name).family->options) {
+    const auto before = options_.find(option.name);
+    if (before != options_.end() && refused_value(option, before->second).empty()) {
+      next.method.options.insert(*before);
+    }
+  }
+  if (const auto refused = refused_option(next.method)) {
+    throw Error(method.name + ": " + refused->name + ": " + refused->message);
+  }
   change(next, "method = " + describe(next.method).name);
+  for (const auto& [name, text] : next.method.options) options_[name] = text;
 }
 
-void Session::set_tolerance(std::optional<double> tolerance) {
-  const MethodInfo info = describe(request_.method);
-  if (info.explicit_step) throw Error("tol: found method " + info.name + ", which has no tolerance; allowed with cg");
-  if (tolerance && !(*tolerance > 0 && std::isfinite(*tolerance))) {
-    throw Error("tol: found " + shortest(*tolerance) + "; allowed a positive number, or off");
-  }
-  if (!tolerance && request_.method.cg.seed_criterion) {
-    throw Error("tol: found off; allowed a positive number, which criterion = \"seed\" needs");
+void Session::set_tolerance(const std::string& text) {
+  const std::string& method = request_.method.name;
+  const OptionInfo* const option = find_option(find_method(method).family->options, tolerance_option);
+  if (option == nullptr) {
+    throw Error("tol: found method " + method + ", which has no tolerance; allowed with " +
+                methods_with(tolerance_option));
   }
   Request next = request_;
-  next.method.cg.tolerance = tolerance;
-  change(next, "tolerance = " + (tolerance ? shortest(*tolerance) : std::string("off")));
+  if (text == "off") {
+    next.method.options.erase(option->name);
+  } else {
+    OptionInfo with_off = *option;
+    with_off.words.emplace_back("off");
+    if (const std::string refused = refused_value(with_off, text); !refused.empty()) throw Error("tol: " + refused);
+    next.method.options[option->name] = text;
+  }
+  change(next, option->name + " = " + text);
+  if (text == "off") options_.erase(option->name);
+  if (text != "off") options_[option->name] = text;
 }
 
 void Session::change(const Request& next, const std::string& what) {
@@ -151,14 +165,15 @@ Scenario Session::present() const {
   now.dt = evaluate_number<double>(request_.dt);
   now.steps = step();
   const Request& first = scenario_.request;
-  const bool same_method = method_table(first.method) == method_table(request_.method);
+  const bool same_method = first.method == request_.method;
   if (same_method && first.dt == request_.dt && changes_.empty()) return now;
   now.text = "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
   for (const SessionChange& c : changes_) {
     now.text += "# after step " + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
   }
-  std::vector<ScenarioEdit> edits{
-      {"run.dt", "\"" + request_.dt + "\""}, {"run.t_end", {}}, {"run.steps", std::to_string(now.steps)}};
+  std::vector<ScenarioEdit> edits{{run_path(run_keys().dt), "\"" + request_.dt + "\""},
+                                  {run_path(run_keys().t_end), {}},
+                                  {run_path(run_keys().steps), std::to_string(now.steps)}};
   if (!same_method) edits.push_back({"method", method_table(request_.method)});
   now.text += edited_scenario(scenario_.text, edits);
   return now;

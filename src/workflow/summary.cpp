@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "certificate_json.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
-#include "hamflow/problems/support/polar.hpp"
 #include "measures/measures.hpp"
 
 namespace hamflow {
@@ -26,9 +26,9 @@ Json parameters_of(const Scenario& scenario) {
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
     if (!values.has(parameter.name)) continue;
     const std::vector<double>& list = values.list(parameter.name);
-    const bool single = parameter.kind == ParameterKind::number ||
-                        (parameter.kind == ParameterKind::number_or_list && list.size() == 1);
-    parameters[parameter.name] = parameter.range == Range::count ? Json(static_cast<std::int64_t>(list[0]))
+    const bool single =
+        parameter.type == OptionType::number || (parameter.type == OptionType::number_or_list && list.size() == 1);
+    parameters[parameter.name] = single && parameter.range.whole ? Json(static_cast<std::int64_t>(list[0]))
                                  : single                        ? Json(list[0])
                                                                  : Json(list);
   }
@@ -51,9 +51,9 @@ Json diagnostics_of(const StepDiagnostics& d, double dt) {
 
 /// The two bodies in space, from the planar state.
 Json bodies_of(const Scenario& scenario, const Frame& frame) {
-  Start<double, 2> planar{{frame.q[0], frame.q[1]}, {frame.p[0], frame.p[1]}};
-  if (scenario.request.variant.at("coordinates") == "polar") planar = to_cartesian(planar);
-  const auto [first, second] = scenario.bodies->at(frame.time, planar.q, planar.p);
+  const auto& to_plane = scenario.problem->to_reference;
+  const Frame planar = to_plane ? to_plane(frame.q, frame.p) : frame;
+  const auto [first, second] = scenario.bodies->at(frame.time, {planar.q[0], planar.q[1]}, {planar.p[0], planar.p[1]});
   Json all = Json::array();
   for (const Body& body : {first, second}) {
     all.push_back({{"mass", body.mass},
@@ -88,30 +88,18 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   return Json{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};
 }
 
+/// The hint of the outcome, and what method and problem add to it.
 std::string hint_for(const Request& request, Outcome outcome) {
-  switch (outcome) {
-    case Outcome::not_converged:
-      if (request.method.name == "dop853" || request.method.name == "taylor") {
-        return "try a smaller dt, a larger method.tolerance" +
-               std::string(request.method.name == "taylor" ? " or another method.order" : "");
-      }
-      return std::string("try a smaller dt, ") + (request.method.cg.halve ? "" : "method.on_divergence = \"halve\", ") +
-             "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
-    case Outcome::non_finite:
-      return "try a smaller dt: the energy in the samples before shows where it went wrong";
-    case Outcome::lattice_overflow:
-      return fmt::format(
-          "a position or momentum left the range of 2^62 lattice units: give larger powers of two in run.lattice, e.g. "
-          "{{ position = \"2^{}\", momentum = \"2^{}\" }}{}",
-          std::ilogb(request.position_unit) + 8, std::ilogb(request.momentum_unit) + 8,
-          find_problem(request.problem, request.variant).has_pairwise_forces
-              ? "; if two bodies met, a smaller dt or a softening"
-              : "");
-    case Outcome::done:
-    case Outcome::stopped:
-      break;
+  if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
+  std::string text(hint(outcome));
+  if (outcome == Outcome::lattice_overflow) {
+    text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
+                        std::ilogb(request.momentum_unit) + 8);
+    if (find_problem(request.problem, request.variant).has_pairwise_forces) {
+      text += "; if two bodies met, a smaller dt or a softening";
+    }
   }
-  return {};
+  return text;
 }
 
 /// What was computed is kept; here is how to look at it and how to go on.
@@ -125,23 +113,19 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
             {"message", result.file_trouble},
             {"hint", "make room, or write elsewhere with --out; the samples up to the last flush are kept"}};
   }
-  std::string message = result.failure;
-  if (result.outcome == Outcome::non_finite) message = "the energy or the state became infinite or NaN";
-  if (result.outcome == Outcome::lattice_overflow) message = "a number left the range of the lattice";
+  const bool own_words = result.outcome == Outcome::not_converged && !result.failure.empty();
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
-  message = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time), message);
+  const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
+                                       own_words ? result.failure : std::string(message(result.outcome)));
   return {{"kind", std::string(name(result.outcome))},
           {"step", step},
           {"t", frame.time},
-          {"message", message},
+          {"message", text},
           {"hint", hint_for(request, result.outcome)}};
 }
 }  // namespace
 
-std::string status_of(Outcome outcome) {
-  if (outcome == Outcome::done) return "done";
-  return outcome == Outcome::stopped ? "interrupted" : "failed";
-}
+std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
 
 Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                 const RunCertificate* certificate, const Measures* measures) {
@@ -182,7 +166,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
                                   {"final", one ? Json(invariants[i].final[0]) : Json(invariants[i].final)},
                                   {"max_error", invariants[i].max_error}};
   }
-  if (scenario.request.method.cg.diagnostics && scenario.request.method.name == "cg") {
+  if (describe(scenario.request.method).diagnostics) {
     s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);
   }
   if (scenario.bodies) s["bodies"] = bodies_of(scenario, frame);

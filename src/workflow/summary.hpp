@@ -1,4 +1,4 @@
-// The summary of a run: what --json prints and summary.json holds.   [spec: product, section 4]
+// The summary of a run: what --json prints and summary.json holds.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

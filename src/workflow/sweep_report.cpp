@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr std::size_t most_failures = 10;
 
-std::size_t count(const Sweep& sweep, MemberStatus status) {
+std::size_t count(const Sweep& sweep, Outcome status) {
   return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(),
                                                 [&](const MemberRow& row) { return row.status == status; }));
 }
@@ -44,7 +44,7 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   }
   json["status"] = std::string(name(row.status));
   json["steps"] = row.steps;
-  if (row.status == MemberStatus::not_run) return json;
+  if (row.status == Outcome::not_run) return json;
   json["final"] = {{"t", row.t}, {"q", row.q}, {"p", row.p}};
   json["energy"] = {{"initial", row.energy.initial},
                     {"final", row.energy.final},
@@ -65,8 +65,8 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
 }
 
 Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
-  const std::size_t done = count(sweep, MemberStatus::done);
-  const std::size_t unfinished = count(sweep, MemberStatus::interrupted) + count(sweep, MemberStatus::not_run);
+  const std::size_t done = count(sweep, Outcome::done);
+  const std::size_t unfinished = count(sweep, Outcome::stopped) + count(sweep, Outcome::not_run);
   const std::size_t failed = sweep.members() - done - unfinished;
   std::int64_t steps = 0;
   for (const MemberRow& row : sweep.rows()) steps += row.steps;

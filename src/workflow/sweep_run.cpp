@@ -4,6 +4,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "hamflow/core/text.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "measures/measures.hpp"
 #include "parameter_map.hpp"
@@ -12,7 +13,7 @@
 #include "summary.hpp"
 #include "sweep_report.hpp"
 #include "sweep_table.hpp"
-#include "work_precision.hpp"
+#include "terminal.hpp"
 
 namespace hamflow {
 
@@ -27,9 +28,11 @@ LaneSet lanes_named(const std::string& name) {
     if (name == hamflow::name(set) && set <= widest_lanes()) return set;
   }
   if (name.empty() || name == "auto") return widest_lanes();
-  throw Error("--lanes: found \"" + name + "\"; allowed on this machine: auto, none, generic" +
-              (widest_lanes() >= LaneSet::avx2 ? ", avx2" : "") +
-              (widest_lanes() >= LaneSet::avx512 ? ", avx512" : ""));
+  std::vector<std::string> allowed{"auto", "none", "generic"};
+  if (widest_lanes() >= LaneSet::avx2) allowed.emplace_back("avx2");
+  if (widest_lanes() >= LaneSet::avx512) allowed.emplace_back("avx512");
+  throw Error("--lanes: found \"" + name + "\"; allowed on this machine: " + joined(allowed) +
+              suggestion(name, allowed));
 }
 
 void save(const Sweep& sweep, const fs::path& folder, const std::string& summary) {
@@ -42,7 +45,7 @@ void save(const Sweep& sweep, const fs::path& folder, const std::string& summary
 }
 
 /// Empty if the figure can be drawn, else what is wrong with the request for it.
-std::string refused_figure(const Sweep& sweep, const fs::path& file, const std::string& colour) {
+std::string refused_map(const Sweep& sweep, const fs::path& file, const std::string& colour) {
   const std::string wrong = refused_figure_file(file);
   if (!wrong.empty()) return "--figure: error: " + wrong;
   std::size_t numeric = 0;
@@ -57,9 +60,7 @@ std::string refused_figure(const Sweep& sweep, const fs::path& file, const std::
            " varied keys; allowed one or two, all numbers";
   }
   if (std::find(columns.begin(), columns.end(), colour) == columns.end()) {
-    std::string all;
-    for (const std::string& name : columns) all += (all.empty() ? "" : ", ") + name;
-    return "--colour: error: found " + colour + "; allowed " + all;
+    return "--colour: error: found " + colour + "; allowed " + joined(columns) + suggestion(colour, columns);
   }
   return {};
 }
@@ -87,8 +88,9 @@ void draw(const Sweep& sweep, const fs::path& file, const std::string& colour) {
 std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
   std::vector<Vary> varied;
   if (request.varied.empty()) wrong.emplace_back("--vary: error: found none; allowed PATH=a:b:n or PATH=v1,v2,...");
-  if (request.threads < 0 || request.threads > 1024) {
-    wrong.push_back("--threads: error: found " + std::to_string(request.threads) + "; allowed 1 to 1024, 0 for all");
+  if (request.threads < 0 || request.threads > most_sweep_threads) {
+    wrong.push_back("--threads: error: found " + std::to_string(request.threads) + "; allowed 1 to " +
+                    std::to_string(most_sweep_threads) + ", 0 for all");
   }
   const auto try_to = [&](const char* prefix, const auto& action) {
     try {
@@ -149,7 +151,7 @@ const std::vector<std::string>& ScenarioSweep::notes() const { return impl_->not
 std::int64_t ScenarioSweep::total_steps() const { return impl_->sweep->total_steps(); }
 
 std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column) const {
-  return hamflow::refused_figure(*impl_->sweep, file, column);
+  return refused_map(*impl_->sweep, file, column);
 }
 
 SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {

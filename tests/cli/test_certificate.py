@@ -111,6 +111,12 @@ class Certificate(CommandCase):
         self.assertEqual(set(maps), {"angular_momentum", "linear_momentum", "centre_of_mass"})
         for name, found in maps.items():
             self.assertEqual(found["conserved"], "to rounding", name)
+        # Judged by what the problem declares of its terms, whether or not it has masses among its parameters.
+        s = self.summary(str(EXAMPLES / "solar_system.toml"))
+        maps = s["certificate"]["momentum_maps"]
+        self.assertEqual({name: found["conserved"] for name, found in maps.items()},
+                         {"angular_momentum": "to rounding", "linear_momentum": "to rounding",
+                          "centre_of_mass": "to rounding"})
 
     def test_of_methods(self):
         answer = json.loads(self.hamflow("verify", "stv4", "rk4", "cg(1,5)", "--json").stdout)
@@ -127,6 +133,15 @@ class Certificate(CommandCase):
         self.assertLess(found["stv4"]["reversal_distance"][0]["relative"], 1e-11)
         self.assertGreater(found["rk4"]["reversal_distance"][0]["relative"], 1e-6)
         self.assertIn("certificates", self.hamflow("verify", "verlet").stdout)
+
+    def test_of_methods_on_a_problem_of_choice(self):
+        answer = json.loads(self.hamflow("verify", "rk4", "--problem", "magnetic", "--json").stdout)
+        maps = answer["methods"][0]["certificate"]["momentum_maps"]
+        kept = {(m["problem"], m["name"]): m["conserved"] for m in maps}
+        self.assertEqual(kept["magnetic", "parallel_momentum"], "to rounding")
+        self.assertEqual(kept["magnetic", "angular_momentum"], "not")
+        # Without a variant the problem is the one of a scenario, or the first that the method can run on.
+        self.hamflow("verify", "stv4", "cg(1,5)", "--problem", "double-pendulum", "--json")
 
 
 if __name__ == "__main__":

@@ -70,7 +70,18 @@ class Files(CommandCase):
     def test_plot_errors(self):
         self.hamflow("run", "kepler.toml")
         self.assertIn("svg", self.hamflow("plot", "kepler.run", "-o", "orbit.gif", status=2).stderr)
-        self.assertIn("orbit", self.hamflow("plot", "kepler.run", "--kind", "orbt", "-o", "o.svg", status=2).stderr)
+        self.assertIn("did you mean orbit?",
+                      self.hamflow("plot", "kepler.run", "--kind", "orbt", "-o", "o.svg", status=2).stderr)
+        self.assertIn("method.diagnostics",
+                      self.hamflow("plot", "kepler.run", "--kind", "condition", "-o", "o.svg", status=2).stderr)
+
+    def test_kinds_stand_in_one_table(self):
+        shown = self.hamflow("plot", "--help").stdout
+        kinds = next(line for line in shown.splitlines() if "--kind KIND" in line).split("KIND")[1].strip()
+        for kind in kinds.split(", "):
+            self.assertIn("a figure: ", self.hamflow("show", kind).stdout)
+        text = self.hamflow("run", "kepler.toml", "--out", "none", "--set", "output.figures=['nothing']", status=2).stderr
+        self.assertIn("allowed " + kinds, text)
         self.hamflow("plot", "nothing.run", "-o", "o.svg", status=3)
         self.hamflow("plot", "kepler.toml", "-o", "o.svg", status=3)
         self.hamflow("plot", "kepler.run", "-o", "no/such/folder/o.svg", status=3)

@@ -50,30 +50,44 @@ class New(CommandCase):
                     self.assertLessEqual(len(line), 120)
         self.assertGreaterEqual(len(seen), 15)
 
-    def test_commented_starts_are_valid(self):
+    def with_changes(self, lines, words):
+        """The keys that "with k = 1, without alpha, beta" sets and takes away."""
+        given = re.search(r"with ((?:\w+ = [^,;]+(?:, )?)+)", words)
+        for name, value in re.findall(r"(\w+) = ([^,; )]+)", given[1] if given else ""):
+            lines = [re.sub(rf"^(# )?{name} = \S+", f"{name} = {value}", line) for line in lines]
+        without = re.search(r"without ([\w, ]+)", words)
+        for name in without[1].split(", ") if without else []:
+            lines = [re.sub(rf"^{name} = ", f"# {name} = ", line) for line in lines]
+        return lines
+
+    def test_every_other_start_can_be_chosen(self):
         tried = 0
-        for potential in ("kepler", "hooke", "linear", "binomial", "power"):
-            for coordinates in ("cartesian", "polar"):
-                text = self.hamflow("new", "central-force", "--potential", potential, "--coordinates", coordinates).stdout
-                lines = text.splitlines()
-                for i, line in enumerate(lines):
-                    if not re.match(r"# (orbit|initial) = ", line):
-                        continue
-                    # A long comment stands above its line.
-                    comment = line if "# " in line[2:] else lines[i - 1]
-                    chosen = [re.sub(r"^(orbit|initial) = ", "# ", other) for other in lines]
-                    chosen[i] = line[2:]
-                    with_k = re.search(r"with k = (-?[0-9.]+)", comment)
-                    chosen = [re.sub(r"^(# )?k = \S+", f"k = {with_k[1]}", l) if with_k else l for l in chosen]
-                    if "without k" in comment or (potential == "hooke" and re.search('"(circle|ellipse|line)"', line)):
-                        chosen = [re.sub(r"^k = ", "# k = ", l) for l in chosen]
-                    elif potential == "hooke":
-                        chosen = [re.sub(r"^# k = ", "k = ", l) for l in chosen]
-                    self.write("start.toml", "\n".join(chosen) + "\n")
-                    with self.subTest(potential=potential, coordinates=coordinates, start=line):
-                        self.summary("start.toml", "--set", "run.steps=1")
-                        tried += 1
-        self.assertGreaterEqual(tried, 28)
+        for name, variant, options in self.variants():
+            lines = self.hamflow("new", name, *options).stdout.splitlines()
+            for i, line in enumerate(lines):
+                if not re.match(r"# (orbit|initial) = \{ (?!q = \[\.)", line):
+                    continue
+                # A long comment stands above its line.
+                comment = line if "# " in line[2:] else lines[i - 1]
+                chosen = [re.sub(r"^(orbit|initial) = ", "# ", other) for other in lines]
+                chosen[i] = line[2:]
+                chosen = self.with_changes(chosen, comment)
+                if line.startswith("# initial"):  # then nothing follows from an orbit
+                    chosen = [other[2:] if "it follows from the orbit" in other else other for other in chosen]
+                self.write("start.toml", "\n".join(chosen) + "\n")
+                with self.subTest(problem=name, **variant, start=line):
+                    self.summary("start.toml", "--set", "run.steps=1")
+                    tried += 1
+            prose = "\n".join(lines).replace("\n# ", " ")
+            for key, number, others, changes in re.findall(r"  (\w+) = (\d); ([^:]+): .*?\((with[^)]*)\)", prose):
+                chosen = [re.sub(r"^initial = ", "# initial = ", line) for line in self.with_changes(lines, changes)]
+                keys = [f"{key} = {number}", *others.split("; ")]
+                at = chosen.index(f'name = "{name}"')
+                self.write("start.toml", "\n".join(chosen[: at + 1] + keys + chosen[at + 1 :]) + "\n")
+                with self.subTest(problem=name, case=number):
+                    self.summary("start.toml", "--set", "run.steps=1")
+                    tried += 1
+        self.assertGreaterEqual(tried, 35)
 
     def test_a_changed_key_takes_effect(self):
         self.write("new.toml", self.hamflow("new", "central-force").stdout)

@@ -9,4 +9,11 @@ void use() {
   (void)hamflow::simulate(h, hamflow::Composition<hamflow::compositions::verlet>{}, {0.1}, {0.1}, 0.1,
                           hamflow::Lattice{});
   (void)hamflow::simulate(h, hamflow::Cg{}, {0.1}, {0.1}, 0.1);
+  // Of dynamic size, with velocity, force and second derivatives by hand.
+  const hamflow::Fput<double> chain(2, 0.25, 0.0);
+  static_assert(hamflow::QuadraticKinetic<hamflow::Fput<double>> && hamflow::Smooth<hamflow::Fput<double>>);
+  static_assert(hamflow::Separable<hamflow::NBody<double>> && hamflow::TwiceDifferentiable<hamflow::NBody<double>>);
+  (void)hamflow::simulate(chain, hamflow::Composition<hamflow::compositions::verlet>{}, {0.1, 0.2}, {0.1, 0.2}, 0.1);
+  (void)hamflow::simulate(chain, hamflow::RungeKuttaBy<hamflow::tableaus::rk4>{}, {0.1, 0.2}, {0.1, 0.2}, 0.1);
+  (void)hamflow::simulate(chain, hamflow::Cg{}, {0.1, 0.2}, {0.1, 0.2}, 0.1);
 }

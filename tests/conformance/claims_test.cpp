@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/run/splitting_named.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
@@ -12,9 +13,10 @@ namespace {
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const MethodEntry& entry : methods()) {
-    if (entry.kind != MethodKind::cg) names.push_back(entry.name);
+    const std::vector<std::string>& forms = entry.family->representatives;
+    if (forms.empty()) names.push_back(entry.name);
+    names.insert(names.end(), forms.begin(), forms.end());
   }
-  for (const char* cg : {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) names.emplace_back(cg);
   return names;
 }
 
@@ -37,11 +39,11 @@ TEST_P(Claims, AreWhatIsMeasured) {
 /// Tables differ in their coefficients alone, which the other tests look at. What a problem can do to the one kernel
 /// that runs them shows in one table of each shape and need.
 bool stands_for_others(const std::string& name) {
-  const MethodEntry& entry = find_method(parse_method(name).name);
+  const MethodSpec spec = parse_method(name);
   // Of the elements the ends: five points, and as many as it takes. The adaptive references are tested by themselves.
-  if (entry.kind == MethodKind::cg) return name == "cg(1,5)" || name == "cg(1,auto)";
-  if (entry.kind == MethodKind::dop853 || entry.kind == MethodKind::taylor) return false;
-  if (entry.kind != MethodKind::composition && entry.kind != MethodKind::splitting) return true;
+  if (spec.name == "cg") return name == "cg(1,5)" || name == "cg(1,auto)";
+  if (describe(spec).own_substeps) return false;
+  if (!splitting_named(spec.name)) return true;
   const std::vector<std::string> chosen{"euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "sb3a-4"};
   return std::find(chosen.begin(), chosen.end(), name) != chosen.end();
 }
@@ -103,7 +105,7 @@ TEST(Expected, NobodyConservesEnergyButTheElementsWithTwoPointsAndMore) {
   for (const char* name : {"euler", "euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "suzuki4", "yoshida6", "rk4",
                            "chin4a", "pefrl", "cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) {
     const MethodSpec spec = parse_method(name);
-    const bool element = spec.name == "cg" && spec.cg.quadrature != 1;
+    const bool element = describe(spec).energy_conserving != Conservation::no;
     for (const Region& region : regions) {
       const auto map = step_map_on(region, spec);
       const EnergyMeasurement energy = measure_energy(*map, region);

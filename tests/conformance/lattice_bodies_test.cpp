@@ -1,5 +1,5 @@
 // Many bodies on the lattice: every bit back for any number of threads, the total momentum to the last bit, sums
-// without order, overflow found; and mutants that each of these catches.   [spec: methods, section 7]
+// without order, overflow found; and mutants that each of these catches.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ struct Cluster {
 /// Bodies of different masses, 1 together, in a cube with edges of 2.
 Cluster cluster(std::size_t bodies) {
   std::uint64_t state = 12345;
-  const auto random = [&state] {  // in [-1, 1); Knuth's MMIX
+  const auto random = [&state] {  // in [-1, 1)   [Knuth1997, 3.3.4, table 1]
     state = state * 6364136223846793005u + 1442695040888963407u;
     return static_cast<double>(state >> 11) * 0x1p-52 - 1.0;
   };

@@ -1,21 +1,15 @@
 // Bit-exact return on the lattice: forward, momenta reversed, forward again, and every bit is back.
-// [spec: methods, section 7]
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "hamflow/core/hash.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 namespace {
 
 constexpr std::int64_t there = 100'000;
-
-std::uint64_t hash(const std::vector<std::byte>& bits) {  // FNV-1a
-  std::uint64_t h = 0xcbf29ce484222325u;
-  for (const std::byte b : bits) h = (h ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
-  return h;
-}
 
 struct Orbit {
   std::string problem;
@@ -75,9 +69,9 @@ TEST(Lattice, EveryPalindromicMethodReturnsEveryBit) {
       simulation->negate_momenta();
       EXPECT_EQ(simulation->bits(), start);
       std::printf("%-12s %-25s start %016llx, after %lld steps %016llx, back %016llx\n", name.c_str(),
-                  orbit.problem.c_str(), static_cast<unsigned long long>(hash(start)), static_cast<long long>(steps),
-                  static_cast<unsigned long long>(hash(far)),
-                  static_cast<unsigned long long>(hash(simulation->bits())));
+                  orbit.problem.c_str(), static_cast<unsigned long long>(fnv1a(start)), static_cast<long long>(steps),
+                  static_cast<unsigned long long>(fnv1a(far)),
+                  static_cast<unsigned long long>(fnv1a(simulation->bits())));
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "../support/allocations.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/splitting_named.hpp"
 #include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
@@ -21,7 +22,7 @@ std::vector<Request> every_request() {
   // Of the tables, one for each shape of a step: they share their kernels.
   const std::vector<std::string> tables{"euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "ruth3", "sb3a-4"};
   for (const MethodEntry& entry : methods()) {
-    const bool table = entry.kind == MethodKind::composition || entry.kind == MethodKind::splitting;
+    const bool table = splitting_named(entry.name).has_value();
     if (!table || std::find(tables.begin(), tables.end(), entry.name) != tables.end()) names.push_back(entry.name);
   }
   names.insert(names.end(), {"cg(1,1)", "cg(1,5)", "cg(quadrature=5,tolerance=1e-13)"});

@@ -1,10 +1,11 @@
-// compare_runs A.h5 B.h5: whether two files hold the same datasets, bit for bit. Says which differ; exit 1 then.
+// compare_runs A.h5 B.h5: whether two files hold the same datasets, bit for bit. Names those that differ, with
+// status 1.
 #include <cstring>
 #include <iostream>
 #include <map>
 #include <vector>
 
-#include "hdf5_handle.hpp"
+#include "hdf5_text.hpp"
 
 namespace {
 
@@ -33,7 +34,7 @@ Content read(hid_t file, const char* name) {
 }
 
 Contents contents(const char* path) {
-  const Hdf5Handle file(H5Fopen(path, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose, "open a file");
+  const Hdf5Handle file = hamflow::open_to_read(path);
   std::vector<std::string> names;
   const auto note = [](hid_t, const char* name, const H5O_info_t* info, void* all) -> herr_t {
     if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(all)->emplace_back(name);

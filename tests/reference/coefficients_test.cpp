@@ -5,15 +5,17 @@
 #include <cmath>
 #include <map>
 
+#include "catalog_tables.hpp"  // generated
 #include "hamflow/core/math.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/splitting_named.hpp"
 #include "reference_data.hpp"
 
 namespace hamflow::test {
 namespace {
 
-/// The row of coefficients.json of each composition and splitting of the closed list of names.   [spec: methods]
+/// The row of coefficients.json of each composition and splitting of the closed list of names.
 const std::map<std::string, std::string>& rows() {
   static const std::map<std::string, std::string> all{
       {"stv4", "StV4_triple_jump (Forest-Ruth/Candy-Rozmus/Yoshida4)"},
@@ -139,20 +141,19 @@ TEST(Coefficients, OfEveryNameOfTheClosedListAreThere) {
   for (const char* name : {"euler-a", "euler-b", "verlet", "pefrl", "chin4a", "chin4b"}) {
     EXPECT_EQ(find_method(name).name, name);
   }
-  for (const MethodEntry& entry : methods()) {
-    if (entry.kind == MethodKind::composition && entry.starts_with == StartsWith::kick) {
-      EXPECT_EQ(find_method(entry.name + "-dkd").composition, entry.composition);
-    }
+  for (const CompositionTable* table : composition_tables()) {
+    const std::string name(table->name);
+    EXPECT_EQ(splitting_named(name)->table(), table);
+    EXPECT_EQ(splitting_named(name + "-dkd")->table(), table);
   }
 }
 
 TEST(Coefficients, OfCompositionsAreThoseOfThePublishedSets) {
-  for (const MethodEntry& entry : methods()) {
-    const CompositionTable* table = entry.composition;
-    if (table == nullptr || entry.starts_with == StartsWith::drift) continue;
+  for (const CompositionTable* table : composition_tables()) {
     if (table->half_count() == 0) continue;  // verlet has no coefficients
-    SCOPED_TRACE(entry.name);
-    const nlohmann::json set = row_of(entry.name);
+    const std::string name(table->name);
+    SCOPED_TRACE(name);
+    const nlohmann::json set = row_of(name);
     EXPECT_EQ(set["order"].get<int>(), table->order);
     EXPECT_EQ(set["stages"].get<int>(), table->stages());
     const bool refined = set.contains("refined_half_40digits");
@@ -163,11 +164,11 @@ TEST(Coefficients, OfCompositionsAreThoseOfThePublishedSets) {
 }
 
 TEST(Coefficients, OfSplittingsAreThoseOfThePublishedSets) {
-  for (const MethodEntry& entry : methods()) {
-    const SplittingTable* table = entry.splitting;
-    if (table == nullptr || entry.name == "euler-a" || entry.name == "euler-b" || entry.name == "pefrl") continue;
-    SCOPED_TRACE(entry.name);
-    const nlohmann::json set = row_of(entry.name);
+  for (const SplittingTable* table : splitting_tables()) {
+    const std::string name(table->name);
+    if (name == "euler-a" || name == "euler-b" || name == "pefrl") continue;
+    SCOPED_TRACE(name);
+    const nlohmann::json set = row_of(name);
     EXPECT_EQ(set["order"].get<int>(), table->order);
     EXPECT_EQ(set["starts_with"].get<std::string>(), table->starts_with == StartsWith::kick ? "kick" : "drift");
     EXPECT_EQ(set["kind"].get<std::string>().starts_with("Runge-Kutta-Nystroem"), table->nystroem);
@@ -182,7 +183,7 @@ TEST(Coefficients, OfSplittingsAreThoseOfThePublishedSets) {
       found.emplace_back(table->coefficient(i));
     }
     // Of srkn14a the coefficients with 15 decimals meet the conditions to 4 units only.
-    expect_digits(found, published, false, entry.name == "srkn14a" ? 4 : 1);
+    expect_digits(found, published, false, name == "srkn14a" ? 4 : 1);
   }
 }
 

@@ -1,4 +1,4 @@
-// The first thesis' programs in polar coordinates (a line through the centre) and for the double pendulum, at each step
+// The programs of Gross1999 in polar coordinates (a line through the centre) and for the double pendulum, at each step
 // that the reference lists; the linear pendulum's modal solution, and condition numbers along the nonlinear one.
 #include <gtest/gtest.h>
 
@@ -22,8 +22,7 @@ Request element_request(const std::string& problem, const std::map<std::string, 
   Request request;
   request.problem = problem;
   request.variant = variant;
-  request.method.name = "cg";
-  request.method.cg = {.quadrature = 5, .tolerance = 1e-13};
+  request.method = parse_method("cg(quadrature=5,tolerance=1e-13)");
   return request;
 }
 
@@ -98,7 +97,7 @@ TEST(NonlinearPendulumListing, SameStatesAndConditionNumbers) {
   request.start.q = texts(data["q0"]);
   request.start.p = texts(data["p0"]);
   request.dt = data["dt"].dump();
-  request.method.cg.diagnostics = true;
+  request.method = parse_method("cg(quadrature=5,tolerance=1e-13,diagnostics=true)");
   const auto simulation = make_simulation(request);
   Frame frame;
   for (const auto& state : data["states"]) {

@@ -1,4 +1,4 @@
-// Kepler orbits by the programs printed in the first thesis, at each step that the reference lists.
+// Kepler orbits by the programs printed in Gross1999, at each step that the reference lists.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,8 +28,7 @@ TEST_P(Listing, SameStates) {
   request.start.q = texts(data["q0"]);
   request.start.p = texts(data["p0"]);
   request.dt = data["dt"].dump();
-  request.method.name = "cg";
-  request.method.cg = {.quadrature = data["ir"].get<int>(), .tolerance = data["tol"].get<double>()};
+  request.method = parse_method("cg(quadrature=" + data["ir"].dump() + ",tolerance=" + data["tol"].dump() + ")");
   const auto simulation = make_simulation(request);
   const double r_min = data["rmin"].get<double>();
   const double fastest = std::max(1.0, data["l0"].get<double>() / (data["mass"].get<double>() * r_min * r_min));

@@ -6,10 +6,12 @@
 
 #include <deque>
 
+#include "catalog_tables.hpp"  // generated
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/splitting_named.hpp"
 
 namespace hamflow::test {
 namespace {
@@ -46,7 +48,7 @@ Defects<R> conditions(const ForceGradientTable& table, int order) {
 
 /// 2 (1/4) e1 + 2 (lambda - 1/2) e2 = 0 for mclachlan-s2: of the family lambda, 1/2, 1 - 2 lambda, ... all of order 2
 /// it has the smallest e1^2 + e2^2, e1 = lambda/4 - 1/24 and e2 = (1 - 2 lambda + 2 lambda^2)/4 - 1/6 being what is
-/// left at the words AAB and ABB.   [McLachlan 1995]
+/// left at the words AAB and ABB.   [McLachlan1995]
 template <class R>
 void add_optimality(const SplittingTable& table, Defects<R>& all) {
   if (table.name != "mclachlan-s2") return;
@@ -62,12 +64,15 @@ void add_optimality(const Table&, Defects<R>&) {}
 /// Calls f with every table of the catalogue, whatever its kind.
 template <class F>
 void for_each_table(F&& f) {
-  for (const MethodEntry& entry : methods()) {
-    SCOPED_TRACE(entry.name);
-    if (entry.composition != nullptr && entry.starts_with == StartsWith::kick) f(*entry.composition);
-    if (entry.splitting != nullptr) f(*entry.splitting);
-    if (entry.force_gradient != nullptr) f(*entry.force_gradient);
-  }
+  const auto visit = [&](const auto& tables) {
+    for (const auto* table : tables) {
+      SCOPED_TRACE(table->name);
+      f(*table);
+    }
+  };
+  visit(composition_tables());
+  visit(splitting_tables());
+  visit(force_gradient_tables());
 }
 
 template <class R>
@@ -123,8 +128,7 @@ TEST(OrderConditions, AreAsManyAsKnown) {
   for (int k = 1; k <= 10; ++k) EXPECT_EQ(words[k], fibonacci[static_cast<std::size_t>(k - 1)]);
   std::map<int, int> trees;
   for (const auto& tree : nystroem_trees(8).all) ++trees[tree.order];
-  const std::vector<int> special_nystroem{1, 1,  2,  3,
-                                          6, 10, 20, 36};  // Hairer, Norsett, Wanner 1993, II.14, table 14.3
+  const std::vector<int> special_nystroem{1, 1, 2, 3, 6, 10, 20, 36};  // HNW1993, II.14, table 14.3
   for (int k = 1; k <= 8; ++k) EXPECT_EQ(trees[k], special_nystroem[static_cast<std::size_t>(k - 1)]);
 }
 

@@ -7,7 +7,7 @@
 //   words      letters Y1, Y3, ... with degrees that add up to at most p; 1/n! at the word Y1 ... Y1, else 0.
 //   trees      for T = p^T M^-1 p/2 a splitting is a Runge-Kutta-Nystroem method for q'' = F(q), with Q_j = q + c_j h v
 //   +
-//              h^2 sum_(i<j) b_i (c_j - c_i) F(Q_i): special Nystroem trees.   [Hairer, Norsett, Wanner 1993, II.14]
+//              h^2 sum_(i<j) b_i (c_j - c_i) F(Q_i): special Nystroem trees.   [HNW1993, II.14]
 //              Those of q follow from those of p, since the weights there are b_j (1 - c_j).
 // Beside each defect stands the sum of the absolute values of its terms, of which rounding is a small multiple.
 #pragma once

@@ -43,7 +43,7 @@ TEST(Compensated, TheTwoPartsAreTheExactSumAfterOneAddition) {
     auto s = arithmetic.position.store(x);
     arithmetic.position.add(s, y);
     // x + y needs at most 53 + 21 bits: more than a long double has, so compare the parts with the two-sum of x and y
-    // in the order of magnitude, which is exact by Dekker's theorem.
+    // in the order of magnitude, which is exact by Dekker's theorem [Dekker1971].
     const double large = std::fabs(x) > std::fabs(y) ? x : y;
     const double little = std::fabs(x) > std::fabs(y) ? y : x;
     const double sum = x + y;

@@ -116,7 +116,7 @@ L condition(const Flow& flow, const Start<R, 2>& z, L t) {
 // ---- quadrature and roots ----
 
 TEST(Quadrature, IsExactToRoundingWithSingularEndsToo) {
-  const auto expect = [](const Integral<L>& found, L exact, L roundings) {
+  const auto expect = [](const Integral& found, L exact, L roundings) {
     EXPECT_TRUE(within(found.value, exact, roundings * long_epsilon * abs(exact)));
     EXPECT_LE(found.error, 1e3L * long_epsilon * abs(exact));
   };
@@ -138,16 +138,30 @@ TEST(Quadrature, ReportsWhatItCannotReach) {
 }
 
 TEST(BracketedRoot, FindsRootsToRoundingInWideBrackets) {
-  const auto root = [](auto f, auto slope, L a, L b) {
-    return bracketed_root([&](L x) { return ValueAndSlope<L>{f(x), slope(x)}; }, a, b, f(a) > 0);
+  const auto infinity = std::numeric_limits<L>::infinity();
+  // The values at the ends known, and only their signs: f is then evaluated strictly between them.
+  const auto expect_root = [&](auto f, L a, L b, L exact, L bound) {
+    EXPECT_TRUE(within(bracketed_root(f, a, b, f(a), f(b)), exact, bound));
+    EXPECT_TRUE(within(bracketed_root(f, b, a, f(b), f(a)), exact, bound));
+    const auto inside = [&](L x) {
+      EXPECT_TRUE(a < x && x < b);
+      return f(x);
+    };
+    const L sign = f(a) < 0 ? -1 : 1;
+    EXPECT_TRUE(within(bracketed_root(inside, a, b, sign * infinity, -sign * infinity), exact, bound));
   };
-  EXPECT_TRUE(
-      within(root([](L x) { return x * x - 2; }, [](L x) { return 2 * x; }, 0, 1e30L), sqrt(L(2)), 2 * long_epsilon));
-  EXPECT_TRUE(
-      within(root([](L x) { return x * x - 2; }, [](L) { return L(0); }, 1e-30L, 1e30L), sqrt(L(2)), 4 * long_epsilon));
-  EXPECT_TRUE(within(root([](L x) { return atan(x); }, [](L x) { return 1 / (1 + x * x); }, -3, 100), 0, long_epsilon));
-  EXPECT_TRUE(within(root([](L x) { return 1 / x - 1e-12L; }, [](L x) { return -1 / (x * x); }, 1e-3L, 1e20L), 1e12L,
-                     2e12L * long_epsilon));
+  const auto square = [](L x) { return x * x - 2; };
+  expect_root(square, 0, 1e30L, sqrt(L(2)), 2 * long_epsilon);
+  expect_root(square, 1e-30L, 1e30L, sqrt(L(2)), 2 * long_epsilon);
+  expect_root([](L x) { return atan(x); }, -3, 100, 0, long_epsilon);
+  expect_root([](L x) { return 1 / x - 1e-12L; }, 1e-3L, 1e20L, 1e12L, 2e12L * long_epsilon);
+  expect_root([](L x) { return std::cbrt(x - 1); }, 0, 4, 1, 2 * long_epsilon);  // a vertical tangent
+  // A zero at an end is that end; a zero that is only rounding is passed over when its sign is given.
+  const auto two = [](L x) { return x * (1 - x); };
+  EXPECT_EQ(bracketed_root(two, L(0), L(3), two(0), two(3)), 0);
+  EXPECT_TRUE(within(bracketed_root(two, L(0), L(3), infinity, -infinity), 1, 2 * long_epsilon));
+  EXPECT_TRUE(within(bracketed_root([](double x) { return std::exp(x) - 2; }, 0.0, 1.0, -1.0, std::exp(1.0) - 2),
+                     std::log(2.0), 2 * test::epsilon));
 }
 
 // ---- the exact Kepler flow ----

@@ -1,5 +1,5 @@
 // The tableau of DOP853 against the order conditions, one for each rooted tree, in 34 digits; then its order on
-// nonlinear problems.   [Hairer, Norsett, Wanner 1993, II.2, theorem 2.13]
+// nonlinear problems.   [HNW1993, II.2, theorem 2.13]
 #include "hamflow/methods/dop853.hpp"
 
 #include <map>

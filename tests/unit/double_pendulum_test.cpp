@@ -448,24 +448,17 @@ struct Chain {
   explicit Chain(std::uint64_t seed) {
     std::uint64_t k = 0;
     const auto draw = [&] { return static_cast<Long>(counter_uniform(seed, k++)); };
-    Eigen::Matrix<Long, 4, 4> root;
-    Eigen::Matrix<Long, 4, 4> indefinite;
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < 4; ++j) {
-        root(i, j) = (i == j ? 2 : 0) + draw() / 2;
-        indefinite(i, j) = draw();
-      }
-    }
-    const Eigen::Matrix<Long, 4, 4> m = root * root.transpose();
-    const Eigen::Matrix<Long, 4, 4> c = indefinite + indefinite.transpose();
-    const Eigen::Matrix<Long, 4, 4> w = m.inverse();
+    Matrix<Long, 4> root{};
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
-        mass[i][j] = m(static_cast<int>(i), static_cast<int>(j));
-        stiffness[i][j] = c(static_cast<int>(i), static_cast<int>(j));
-        inverse[i][j] = w(static_cast<int>(i), static_cast<int>(j));
+        root[i][j] = (i == j ? 2 : 0) + draw() / 2;
+        const Long indefinite = draw();
+        stiffness[i][j] += indefinite;
+        stiffness[j][i] += indefinite;
       }
     }
+    for (std::size_t i = 0; i < 4; ++i) mass[i] = apply(root, root[i]);
+    inverse = hamflow::inverse(mass);
   }
   template <class S>
   static S form(const Matrix<Long, 4>& m, const Vector<S, 4>& x) {
@@ -523,10 +516,10 @@ TEST(DoublePendulum, DeclaresItself) {
   const Pair p{1, -2};
   EXPECT_EQ(DoublePendulumNonlinearRelative<Long>(given).energy(q, p),
             DoublePendulumNonlinearRelative<Long>().energy(q, p));
-  EXPECT_EQ(DoublePendulumNonlinearRelative<Long>::problem_with(given), "");
+  EXPECT_EQ(DoublePendulumNonlinearRelative<Long>::refused_parameters(given).second, "");
   defaults["masses"] = "[1e-200, 1]";
   defaults["half_lengths"] = "[1e-100, 1]";
-  EXPECT_NE(DoublePendulumLinearAbsolute<double>::problem_with(Parameters<double>(defaults)), "");
+  EXPECT_NE(DoublePendulumLinearAbsolute<double>::refused_parameters(Parameters<double>(defaults)).second, "");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Ensemble ensemble(F&& error) {
 double noise(std::size_t s, std::size_t b) { return counter_uniform(31, s * 1000 + b); }
 
 TEST(Drift, StudentTMatchesTheTables) {
-  // Two-sided 5 % and 1 % points; t has three decimals there, the density is below 0.06.   [Abramowitz, Stegun, 26.10]
+  // Two-sided 5 % and 1 % points; t has three decimals there, the density is below 0.06. [AbramowitzStegun1964, 26.10]
   const double bound = 0.0005 * 0.06;
   EXPECT_NEAR(student_p_value(2.228, 10), 0.05, bound);
   EXPECT_NEAR(student_p_value(2.042, 30), 0.05, bound);
@@ -39,6 +39,10 @@ TEST(Drift, StudentTMatchesTheTables) {
     EXPECT_TRUE(test::within(student_p_value(t, 2), 1 - t / std::sqrt(2 + t * t), 4 * test::epsilon));
   }
   EXPECT_EQ(student_p_value(0, 7), 1);
+  // Far out, where 1 - P has no digits left: with two degrees of freedom 2/t^2 (1 - 3/t^2 + ...)/(1 + ...), here from
+  // 1 - x = (1 - x^2)/(1 + x) with x = t/sqrt(2 + t^2).
+  const double t = 1e12;
+  EXPECT_TRUE(test::same_to_rounding(student_p_value(t, 2), 2 / (2 + t * t) / (1 + t / std::sqrt(2 + t * t)), 16.0));
 }
 
 TEST(Drift, AnOscillationIsBounded) {

@@ -1,4 +1,4 @@
-// The Duffing oscillator: cases of the thesis, phase curve, periods, exact solution in time.
+// The Duffing oscillator: cases of Gross1999, phase curve, periods, exact solution in time.
 #include "hamflow/problems/duffing.hpp"
 
 #include "../support/exact_motion.hpp"
@@ -34,7 +34,7 @@ TEST(Duffing, FiguresHaveTheirLambdaAndEnergy) {
     const Parameters<double> orbit(figure.orbit);
     Duffing<double>::derive(figure.kind, orbit, given);
     EXPECT_EQ(given["lambda"], figure.lambda);  // small whole numbers: no rounding
-    EXPECT_EQ(Duffing<double>::problem_with(given), "");
+    EXPECT_EQ(Duffing<double>::refused_parameters(given).second, "");
     Conditions conditions;
     const Start<double, 1> start = Duffing<double>::start(figure.kind, given, orbit, conditions);
     for (const Condition& c : conditions.all()) EXPECT_TRUE(c.holds()) << c.statement;
@@ -87,7 +87,9 @@ TEST(Duffing, ImpossibleCasesSayWhichInequalityFails) {
   EXPECT_EQ(failing("case1", {}, {{"r0", "4"}, {"speed", "1"}}), "problem.k: 0 < k");
   EXPECT_EQ(failing("case2", {{"k", "2"}}, {{"r0", "-4"}}), "problem.r0: 0 < r0");
   using Given = std::map<std::string, std::string>;
-  const auto complaint = [](const Given& given) { return Duffing<double>::problem_with(Parameters<double>(given)); };
+  const auto complaint = [](const Given& given) {
+    return Duffing<double>::refused_parameters(Parameters<double>(given)).second;
+  };
   EXPECT_EQ(complaint({{"alpha", "1"}, {"beta", "0"}}), "");
   EXPECT_NE(complaint({{"alpha", "1"}, {"beta", "0"}, {"k", "1"}}), "");
   EXPECT_NE(complaint({{"alpha", "1"}}), "");

@@ -2,6 +2,9 @@
 #include "hamflow/core/number.hpp"
 
 #include "../support/near.hpp"
+#include "hamflow/arithmetic/double_double.hpp"
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/step_clock.hpp"
 
 namespace hamflow {
@@ -52,47 +55,183 @@ TEST(Number, IsReadInTheWorkingArithmetic) {
   EXPECT_EQ(evaluate_number<long double>("pi"), 3.14159265358979323846264338327950288L);
 }
 
+std::string complaint(const std::string& text) {
+  return test::message_of<Error>([&] { (void)evaluate_number<double>(text); });
+}
+const std::string functions = "sqrt, exp, log, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, abs";
+const std::string operands = "a number, pi, a function such as sqrt(2), or '('";
+const std::string operators = "an operator (+ - * / ^)";
+
 struct Wrong {
-  const char* text;
+  std::string text;
   int column;
-  const char* expected;
+  std::string what;
+  std::string allowed;
+  std::string meant = "";
 };
 
-TEST(Number, SaysInWhichColumnItStopsMakingSense) {
+TEST(Number, EveryErrorNamesItsColumnWhatIsWrongAndWhatIsAllowed) {
+  const std::string symbols = "numbers, pi, functions such as sqrt(2)";
+  const std::string decimal = "a decimal number such as 0.1";
+  const std::string finite = "finite real numbers";
   const Wrong all[] = {
-      {"", 1, "a number"},
-      {"1 +", 4, "a number"},
-      {"2 pi", 3, "an operator or the end"},
-      {"(1", 3, "')'"},
-      {"1)", 2, "an operator"},
-      {"foo", 1, "a number"},
-      {"nan", 1, "a number"},
-      {"inf", 1, "a number"},
-      {"NaN", 1, "a number"},
-      {"2e", 2, "an operator"},
-      {"1.2.3", 6, "a decimal"},
-      {".", 2, "a decimal"},
-      {"sqrt 2", 1, "a number, pi, a function such as sqrt(2)"},
-      {"sin(1", 6, "')'"},
-      {"3 * * 2", 5, "a number"},
-      {"1 + sinus(2)", 5, "one of sqrt, exp"},
-      {"atan2(1)", 8, "','"},
-      {"0x10", 2, "an operator"},
-      {"1,5", 2, "an operator"},
-      {"2 ^ ", 5, "a number"},
+      // a number is missing
+      {"", 1, "the end where a number has to be", operands},
+      {"  ", 3, "the end where a number has to be", operands},
+      {"1 +", 4, "the end where a number has to be", operands},
+      {"2 ^ ", 5, "the end where a number has to be", operands},
+      {"3 * * 2", 5, "'*' where a number has to be", operands},
+      {"()", 2, "')' where a number has to be", operands},
+      {"sqrt()", 6, "')' where a number has to be", operands},
+      {"\"1\"", 1, "'\"' where a number has to be", operands},
+      {"2*π", 3, "'π' where a number has to be", operands},
+      // an operator is missing
+      {"2pi", 2, "no operator before pi", operators, "2*pi"},
+      {"2 pi", 3, "no operator before pi", operators, "2*pi"},
+      {"1 + 2Pi/3", 6, "no operator before Pi", operators, "1 + 2*Pi/3"},
+      {"2sqrt(3)", 2, "no operator before sqrt", operators, "2*sqrt(3)"},
+      {"2(3 + 4)", 2, "no operator before (", operators, "2*(3 + 4)"},
+      {"(1)(2)", 4, "no operator before (", operators, "(1)*(2)"},
+      {"(2pi)", 3, "no operator before pi", operators, "(2*pi)"},
+      {"pi 2", 4, "no operator before 2", operators, "pi*2"},
+      {"1 000", 3, "no operator before 0", operators},
+      {"2foo", 2, "no operator before foo", operators},
+      {"2e", 2, "no operator before e", operators + ", or an exponent such as 2e-3"},
+      {"0x10", 2, "no operator before x10", operators},
+      {"1)", 2, "')' without its '('", operators + " or the end"},
+      {"1,5", 2, "',' in a number", "a point before decimals", "1.5"},
+      {"1;5", 2, "';' after a complete number", operators + " or the end"},
+      {"(1;5)", 3, "';' after a complete number", operators + " or ')'"},
+      {"π = 3", 1, "'π' where a number has to be", operands},
+      {"1 = 1", 3, "'=' after a complete number", operators + " or the end"},
+      // parentheses
+      {"(1", 3, "the end before the ')' of (1", "')'"},
+      {"2*(1 + (3)", 11, "the end before the ')' of (1 + (3)", "')'"},
+      {"sin(1", 6, "the end before the ')' of (1", "')'"},
+      {"atan2(1", 8, "the end before the ')' of (1", "')'"},
+      // names
+      {"foo(3)", 1, "the unknown function foo", functions, "log"},  // two of three letters: the nearest there is
+      {"1 + sinus(2)", 5, "the unknown function sinus", functions, "sin"},
+      {"integral(3)", 1, "the unknown function integral", functions},
+      {"Sqrt(2)", 1, "the unknown function Sqrt", functions, "sqrt"},
+      {"foo", 1, "the unknown symbol foo", symbols},
+      {"2*x_1 + 1", 3, "the unknown symbol x_1", symbols},
+      {"nan", 1, "the unknown symbol nan", symbols},
+      {"inf", 1, "the unknown symbol inf", symbols},
+      {"NaN", 1, "the unknown symbol NaN", symbols},
+      {"2*PI", 3, "the unknown symbol PI", symbols, "pi"},
+      {"p + 1", 1, "the unknown symbol p", symbols, "pi"},
+      {"sqrt 2", 1, "the function sqrt without parentheses", "sqrt(x)"},
+      {"1 - atan2", 5, "the function atan2 without parentheses", "atan2(y, x)"},
+      {"atan2(1)", 8, "atan2 of one number", "atan2(y, x)"},
+      {"atan2(1, 2, 3)", 11, "atan2 of more than two numbers", "atan2(y, x)"},
+      {"sin(1, 2)", 6, "sin of more than one number", "sin(x)"},
+      // literals
+      {"1.2.3", 4, "a second point in a number", decimal},
+      {".", 1, "'.' without digits", decimal},
+      {"1 + .e5", 5, "'.' without digits", decimal},
+      // division by zero
+      {"2*pi/0", 5, "2*pi divided by 0", "a divisor other than 0"},
+      {"1 + 2*pi/(3 - 3)", 9, "2*pi divided by (3 - 3), which is 0", "a divisor other than 0"},
+      {"(1/0)", 3, "1 divided by 0", "a divisor other than 0"},
+      {"0/0.0", 2, "0 divided by 0.0, which is 0", "a divisor other than 0"},
+      {"(1 + 1) / 0 + 5", 9, "(1 + 1) divided by 0", "a divisor other than 0"},
+      // what is not finite
+      {"9^9^9^9", 4, "9^9^9 is infinite or too large", finite},
+      {"1e999", 1, "1e999 is infinite or too large", finite},
+      {"2 + exp(1000)", 5, "exp(1000) is infinite or too large", finite},
+      {"0^-1", 2, "0^-1 is infinite or too large", finite},
+      {"log(0)", 1, "log(0) is infinite or too large", finite},
+      {"1 + log(-1)", 5, "log(-1) is not a real number", finite},
+      {"sqrt(-1)", 1, "sqrt(-1) is not a real number", finite},
+      {"(-8)^(1/3)", 5, "(-8)^(1/3) is not a real number", finite},
+      {"acos(2)", 1, "acos(2) is not a real number", finite},
+      {"1e308 * 10", 7, "1e308 * 10 is infinite or too large", finite},
   };
   for (const Wrong& wrong : all) {
-    const std::string message = test::message_of<Error>([&] { (void)number(wrong.text); });
-    EXPECT_NE(message.find("column " + std::to_string(wrong.column) + ":"), std::string::npos) << message;
-    EXPECT_NE(message.find(std::string("expected ") + wrong.expected), std::string::npos) << message;
-    EXPECT_NE(message.find("\"" + std::string(wrong.text) + "\""), std::string::npos) << message;
+    EXPECT_EQ(complaint(wrong.text), "found \"" + wrong.text + "\", column " + std::to_string(wrong.column) + ": " +
+                                         wrong.what + "; allowed " + wrong.allowed +
+                                         (wrong.meant.empty() ? "" : "; did you mean " + wrong.meant + "?"));
   }
 }
 
-TEST(Number, RefusesNestingThatWouldExhaustTheStack) {
-  const std::string deep = std::string(100000, '(') + "1" + std::string(100000, ')');
-  EXPECT_THROW((void)number(deep.c_str()), Error);
-  EXPECT_THROW((void)number((std::string(100000, '-') + "1").c_str()), Error);
+TEST(Number, LengthNestingAndOperationsAreLimited) {
+  const auto repeated = [](const std::string& part, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += part;
+    return all;
+  };
+  const std::string too_deep = ": more than 200 nested signs, powers and parentheses; allowed at most 200";
+  for (const char* opening : {"(", "-", "2^", "sqrt("}) {
+    const std::string text = repeated(opening, 100'000) + "1";
+    const std::size_t column = 200 * std::string(opening).size() + 1;
+    EXPECT_NE(complaint(text).find(", column " + std::to_string(column) + too_deep), std::string::npos)
+        << complaint(text);
+  }
+  EXPECT_EQ(number((repeated("(", 199) + "1" + repeated(")", 199)).c_str()), 1);
+  EXPECT_EQ(number((repeated("1+", 5'000 - 1) + "1").c_str()), 5'000);
+  EXPECT_NE(complaint(repeated("1+", 10'000) + "1").find(": more than 10^4 operations; allowed at most 10^4"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint(repeated("1", 1'000'001)).find(", column 1000001: more than 10^6 characters; allowed at most 10^6"),
+      std::string::npos);
+  // A long text is shown around the place that is meant, and no more of it.
+  const std::string message = complaint(repeated("1+", 500) + "foo" + repeated("+1", 500));
+  EXPECT_NE(message.find("1+foo+1"), std::string::npos) << message;
+  EXPECT_NE(message.find("column 1001: the unknown symbol foo"), std::string::npos) << message;
+  EXPECT_LT(message.size(), 200U);
+}
+
+/// The same texts in every arithmetic; what is too large depends on it.
+template <class R>
+void refuses_what_is_not_finite() {
+  const auto message = [](const char* text) {
+    return test::message_of<Error>([&] { (void)evaluate_number<R>(text); });
+  };
+  EXPECT_EQ(message("2*pi/0"), "found \"2*pi/0\", column 5: 2*pi divided by 0; allowed a divisor other than 0");
+  EXPECT_EQ(message("1 + log(-1)"),
+            "found \"1 + log(-1)\", column 5: log(-1) is not a real number; allowed finite real numbers");
+  EXPECT_EQ(message("sqrt(-1)"),
+            "found \"sqrt(-1)\", column 1: sqrt(-1) is not a real number; allowed finite real numbers");
+  EXPECT_NE(message("9^9^9^9").find(" is infinite or too large; allowed finite real numbers"), std::string::npos)
+      << message("9^9^9^9");
+  EXPECT_NE(message("log(0)").find("column 1: log(0) is "), std::string::npos) << message("log(0)");
+  EXPECT_EQ(evaluate_number<R>("2*3 - 8/4 + 2^3"), R(12));
+}
+TEST(Number, IsFiniteInEveryArithmetic) {
+  refuses_what_is_not_finite<double>();
+  refuses_what_is_not_finite<long double>();
+  refuses_what_is_not_finite<DoubleDouble>();
+  refuses_what_is_not_finite<Quad>();
+  refuses_what_is_not_finite<Mp>();
+  EXPECT_TRUE(evaluate_number<long double>("1e999") > 1e308L);  // too large for double only
+}
+
+TEST(Number, WholeNumbersMayBeFormulas) {
+  EXPECT_EQ(evaluate_whole("1e6"), 1'000'000);
+  EXPECT_EQ(evaluate_whole("10^6"), 1'000'000);
+  EXPECT_EQ(evaluate_whole("2*500"), 1000);
+  EXPECT_EQ(evaluate_whole(" -3 "), -3);
+  EXPECT_EQ(evaluate_whole("6/3"), 2);
+  EXPECT_EQ(evaluate_whole("1.5e1"), 15);
+  std::int64_t ten = 1;
+  for (int k = 0; k <= 15; ++k, ten *= 10) {
+    EXPECT_EQ(evaluate_whole("10^" + std::to_string(k)), ten);
+    EXPECT_EQ(evaluate_whole("1e" + std::to_string(k)), ten);
+    EXPECT_EQ(evaluate_whole("1e" + std::to_string(k) + " + 1"), ten + 1);
+  }
+  for (int k = 0; k <= 53; ++k) EXPECT_EQ(evaluate_whole("2^" + std::to_string(k)), std::int64_t{1} << k);
+  EXPECT_EQ(evaluate_whole("-9007199254740992"), -(std::int64_t{1} << 53));
+  const auto message = [](const char* text) { return test::message_of<Error>([&] { (void)evaluate_whole(text); }); };
+  const std::string allowed = "; allowed whole numbers from -2^53 to 2^53, such as 1000, 1e6 or 10^6";
+  EXPECT_EQ(message("1/2"), "found \"1/2\", column 1: 0.5, which is not whole" + allowed);
+  EXPECT_EQ(message("1000.5"), "found \"1000.5\", column 1: 1000.5, which is not whole" + allowed);
+  EXPECT_EQ(message("2^53 + 1"), "found \"2^53 + 1\", column 1: a number beyond 2^53" + allowed);
+  EXPECT_EQ(message("9007199254740993"), "found \"9007199254740993\", column 1: a number beyond 2^53" + allowed);
+  EXPECT_EQ(message("1/0"), "found \"1/0\", column 2: 1 divided by 0; allowed a divisor other than 0");
+  EXPECT_EQ(message("many"),
+            "found \"many\", column 1: the unknown symbol many; allowed numbers, pi, functions such as "
+            "sqrt(2)");
 }
 
 TEST(Number, ShortestDecimalReadsBackAsTheSameDouble) {

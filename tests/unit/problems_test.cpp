@@ -42,9 +42,9 @@ Texts uncommon_parameters(const ProblemInfo& info) {
   const auto next = [&] { return std::to_string(1.3 + 0.4 * k++); };
   for (const ParameterInfo& p : info.parameters) {
     if (info.name == "duffing" && (p.name == "k" || p.name == "lambda")) continue;  // instead of alpha and beta
-    if (p.range == Range::count) {
+    if (p.range.whole) {
       texts[p.name] = "4";
-    } else if (p.kind == ParameterKind::number) {
+    } else if (p.type == OptionType::number) {
       texts[p.name] = next();
     } else {
       const std::size_t length = p.length > 0 ? p.length : 3;

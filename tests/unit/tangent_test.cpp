@@ -146,7 +146,7 @@ TEST(Lyapunov, RegularOrbitGoesToZero) {
 }
 
 /// Two orbits 1e-7 apart, their distance reset every 8 steps: no derivative anywhere. The other orbit is off the
-/// tangent by the distance times second derivatives.   [Benettin, Galgani, Strelcyn 1976]
+/// tangent by the distance times second derivatives.   [BenettinGalganiStrelcyn1976]
 template <class R>
 std::vector<double> growth_of_distance(const StepMap& map, State<R> z, R h, int resets,
                                        const State<double>& direction) {

@@ -1,5 +1,5 @@
 // Compensated summation: each stored number is an unevaluated sum high + low, so that adding small increments loses
-// nothing to the rounding of the state. [HLW2006, Sect. VIII.5; the exact sum of two numbers: Knuth, TAOCP 2, 4.2.2]
+// nothing to the rounding of the state. [HLW2006, Sect. VIII.5; the exact sum of two numbers: Knuth1997, 4.2.2]
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Double-double: the unevaluated sum of two doubles, about 32 digits, by the QD library.   [Hida, Li, Bailey 2001]
+// Double-double: the unevaluated sum of two doubles, about 32 digits, by the QD library.   [HidaLiBailey2001]
 // Sums and quotients are QD's accurate ones: its defaults lose digits where terms cancel, and cancelling is what
 // energies and invariants do when they are compared.
 #pragma once
@@ -68,5 +68,6 @@ template <>
 inline DoubleDouble parse_decimal<DoubleDouble>(std::string_view text) {
   return DoubleDouble(ExtendedTraits<dd_real>::read(text));
 }
+extern template DoubleDouble evaluate_number<DoubleDouble>(std::string_view);  // in src/arithmetic/numbers.cpp
 
 }  // namespace hamflow

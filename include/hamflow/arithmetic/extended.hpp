@@ -1,4 +1,4 @@
-// Number types with more digits than double, under one roof: Extended<T> around QD's dd_real, libquadmath's __float128
+// Number types with more digits than double, in one wrapper: Extended<T> around QD's dd_real, libquadmath's __float128
 // or an MPFR number gives them the same operators, conversions and functions, so that a problem or a method never sees
 // which one it computes in. What differs between them is in ExtendedTraits<T> (double_double.hpp, quad.hpp, mp.hpp).
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace hamflow {
 
-/// What a library has to say of its numbers: made(x) from any built-in number, as<U>(x) back, add, subtract, multiply,
+/// What a library provides for its numbers: made(x) from any built-in number, as<U>(x) back, add, subtract, multiply,
 /// divide, the elementary functions, read(text), written(x) with all digits, and the limits.
 template <class T>
 struct ExtendedTraits;

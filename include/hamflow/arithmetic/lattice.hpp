@@ -1,6 +1,6 @@
 // Positions and momenta on integer lattices: every kick and every drift adds an integer that is a pure function of
 // integers, hence is undone exactly by its mirror image. A palindromic splitting returns every bit.
-// [spec: methods, section 7; Levesque and Verlet 1993]
+// [LevesqueVerlet1993]
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Multiple precision with a number of digits chosen at run time, by MPFR.
-// The digits are a property of the thread: what computes in Mp stands inside an MpDigits scope, and every number made
-// there, results included, has those digits. Operations are compiled once (src/arithmetic/mp.cpp): a call is nothing
-// beside them, and problems compile faster for it.
+// The digits are a property of the thread: code that computes in Mp runs inside an MpDigits scope, and every number
+// made there, results included, has those digits. Operations are compiled once (src/arithmetic/mp.cpp): a call is
+// nothing beside them, and problems compile faster for it.
 #pragma once
 
 #include <mpfr.h>
@@ -132,5 +132,6 @@ template <>
 inline Mp parse_decimal<Mp>(std::string_view text) {
   return Mp(ExtendedTraits<MpNumber>::read(text));
 }
+extern template Mp evaluate_number<Mp>(std::string_view);  // in src/arithmetic/numbers.cpp
 
 }  // namespace hamflow

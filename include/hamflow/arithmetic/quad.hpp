@@ -79,5 +79,6 @@ template <>
 inline Quad parse_decimal<Quad>(std::string_view text) {
   return Quad(ExtendedTraits<__float128>::read(text));
 }
+extern template Quad evaluate_number<Quad>(std::string_view);  // in src/arithmetic/numbers.cpp
 
 }  // namespace hamflow

@@ -1,9 +1,9 @@
-// What decides the steps to come, as bytes: checkpoints. A class lists its fields once, for writing and for reading:
+// Checkpoints: what decides the steps to come, as bytes. A class lists its fields once, for writing and for reading:
 //     template <class Archive> void archive(Archive& ar) { ar(kick_, factor_, count_); }
 // Kinds of fields: numbers, enumerations, strings, std::vector, std::array, C arrays, std::optional, Vector of either
-// kind, classes with archive(), and empty classes, which have nothing to say. All of it is cold: compiled for size.
-// What follows from a field, a pointer into a table say, is found again where `Archive::reading` is true. Bytes are the
-// machine's own: a checkpoint is no exchange format. Equal values give equal bytes.
+// kind, classes with archive(), and empty classes, which write nothing. All of it is cold: compiled for size.
+// What follows from a field, e.g. a pointer into a table, is set again where `Archive::reading` is true. Bytes are the
+// machine's own: a checkpoint is not an exchange format. Equal values give equal bytes.
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ namespace hamflow {
 class Writer;
 class Reader;
 
-/// How a type of numbers stands in an archive. Specialise it for types that are no plain bytes:
+/// How a number type is stored in an archive. Specialise it for types that are not plain bytes:
 ///     template <> struct ArchivedNumber<Big> : ArchivedText<Big> {};
 /// or with static void write(Writer&, const T&) and static void read(Reader&, T&) of its own.
 template <class T>
 struct ArchivedNumber;
 
 namespace detail {
-/// Bytes that carry the value: the 80-bit long double has 6 more, which hold anything.
+/// The number of bytes that carry the value: the 80-bit long double has 6 more, of any content.
 template <class T>
 constexpr std::size_t significant_bytes() {
   return std::is_same_v<T, long double> && std::numeric_limits<long double>::digits == 64 ? 10 : sizeof(T);
@@ -120,7 +120,7 @@ class Writer {
   std::vector<std::byte> bytes_;
 };
 
-/// Turns bytes back into fields. @throws Error where they are too short or cannot be what was asked for
+/// Turns bytes back into fields. @throws Error where they are too short or do not fit the type of the field
 class Reader {
  public:
   static constexpr bool reading = true;
@@ -137,16 +137,16 @@ class Reader {
     bytes_ = bytes_.subspan(size);
   }
   std::size_t left() const { return bytes_.size(); }
-  /// @throws Error when something is left
+  /// @throws Error when bytes are left over
   void finish() const {
-    if (!bytes_.empty()) throw Error("saved bytes go on where they should end");
+    if (!bytes_.empty()) throw Error("saved bytes are longer than expected");
   }
 
  private:
   [[gnu::cold, gnu::noinline]] std::size_t count() {
     std::uint64_t size = 0;
     get(size);
-    if (size > left()) throw Error("saved bytes end too early");  // every entry has a byte at least
+    if (size > left()) throw Error("saved bytes end too early");  // every entry takes at least one byte
     return static_cast<std::size_t>(size);
   }
   template <class T>
@@ -158,7 +158,7 @@ class Reader {
     } else if constexpr (std::is_same_v<T, bool>) {
       unsigned char byte = 0;
       get(byte);
-      if (byte > 1) throw Error("saved bytes hold no truth value where there should be one");
+      if (byte > 1) throw Error("saved bytes hold an invalid truth value");
       x = byte == 1;
     } else if constexpr (detail::PlainNumber<T>) {
       raw(&x, detail::significant_bytes<T>());
@@ -210,12 +210,5 @@ struct ArchivedText {
     from_exact_text(text, x);
   }
 };
-
-/// FNV-1a, 64 bits: tells damage, not malice.
-inline std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (const std::byte b : bytes) sum = (sum ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
-  return sum;
-}
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// What a problem can offer, and what a method may ask for. A method that asks for more than a problem offers does not
+// What a problem can offer, and what a method may require. A method that requires more than a problem offers does not
 // compile, and the message names the missing capability (tests/compile_fail).
 #pragma once
 
@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "hamflow/core/dual.hpp"
+#include "hamflow/core/optional_functions.hpp"
 #include "hamflow/core/vector.hpp"
 
 namespace hamflow {
@@ -22,7 +23,7 @@ concept Arithmetic = requires(A a, typename A::Stored s, const typename A::Real 
   { A::exact_undo } -> std::convertible_to<bool>;  // add(s, r); add(s, -r); restores every bit of s
 };
 
-/// **IntegerSums**: stored are integers, so that contributions, each rounded, can be summed without rounding: the sum
+/// **IntegerSums**: integers are stored, so that contributions, each rounded, are summed without rounding, and the sum
 /// does not depend on their order.
 template <class A>
 concept IntegerSums = Arithmetic<A> && std::integral<typename A::Stored> &&
@@ -32,10 +33,6 @@ concept IntegerSums = Arithmetic<A> && std::integral<typename A::Stored> &&
   a.momentum.add_units(s, s);
 };
 
-template <class P>
-using RealOf = typename P::Real;
-template <class P, class S = typename P::Real>
-using VectorOf = Vector<S, P::dimension>;
 /// The dual number that carries the gradient with respect to one vector of the problem.
 template <class P, class S = typename P::Real>
 using GradientDual = Dual<S, P::dimension>;
@@ -50,36 +47,9 @@ template <class P, class S = typename P::Real>
 concept HasEnergy = requires(const P& problem, const VectorOf<P, S>& x) {
   { problem.energy(x, x) } -> std::convertible_to<S>;
 };
+/// Dual numbers have a fixed number of slopes: they cannot differentiate a problem of dynamic size.
 template <class P>
-concept HasVelocity = requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
-  problem.velocity(x, out);
-};
-template <class P>
-concept HasForce = requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
-  problem.force(x, out);
-};
-template <class P>
-concept HasGradient = requires(const P& problem, const VectorOf<P>& x, VectorOf<P>& out) {
-  problem.gradient(x, x, out, out);
-};
-template <class P>
-concept HasHessian = requires(const P& problem, const VectorOf<P>& q, Matrix<typename P::Real, P::dimension>& out) {
-  problem.potential_hessian(q, out);
-};
-template <class P>
-concept HasForceAndHessian = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f,
-                                      Matrix<typename P::Real, P::dimension>& out) {
-  problem.force_and_hessian(q, f, out);
-};
-template <class P>
-concept HasFullHessian = requires(const P& problem, const VectorOf<P>& x, Matrix<typename P::Real, P::dimension>& out) {
-  problem.hessian(x, x, out, out, out);
-};
-template <class P>
-concept HasDualGradient = requires(const P& problem, const VectorOf<P, Dual<typename P::Real, 2 * P::dimension>>& x,
-                                   VectorOf<P, Dual<typename P::Real, 2 * P::dimension>>& out) {
-  problem.gradient(x, x, out, out);
-};
+concept OfFixedSize = (P::dimension != dynamic);
 template <class R>
 struct AnyDifference {
   R operator()(std::size_t a, std::size_t b) const;  // q_a - q_b
@@ -102,36 +72,38 @@ concept Problem = requires {
 &&(detail::HasEnergy<P> || detail::HasParts<P>);
 
 /// **Separable**: H = T(p) + V(q), with velocity(p, out) and force(q, out) by hand, or kinetic and potential as
-/// function templates that dual numbers can differentiate.
+/// function templates that dual numbers can differentiate. A problem of dynamic size has to give velocity and force.
 template <class P>
 concept Separable = Problem<P> && detail::HasParts<P> &&
-    ((detail::HasVelocity<P> && detail::HasForce<P>) || (detail::HasParts<P, GradientDual<P>>));
+    ((HasVelocity<P> && HasForce<P>) || (detail::OfFixedSize<P> && detail::HasParts<P, GradientDual<P>>));
 
 /// **Differentiable**: dH/dq and dH/dp, by hand or by dual numbers. A separable problem is differentiable for free.
 template <class P>
 concept Differentiable = Problem<P> &&
-    (Separable<P> || detail::HasGradient<P> || detail::HasEnergy<P, Dual<typename P::Real, 2 * P::dimension>>);
+    (Separable<P> || HasGradient<P> || (detail::OfFixedSize<P> && detail::HasEnergy<P, detail::EnergyDual<P>>));
 
-/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M. The problem says so: `quadratic_kinetic = true`.
+/// **QuadraticKinetic**: T = p^T M^-1 p / 2 with constant M, declared by `quadratic_kinetic = true`.
 template <class P>
 concept QuadraticKinetic = Separable<P> && requires {
   requires P::quadratic_kinetic;
 };
 
-/// **TwiceDifferentiable**: V''(q), by hand or by nested dual numbers.
+/// **TwiceDifferentiable**: V''(q), by hand or by nested dual numbers. A problem of dynamic size has to give
+/// force_and_hessian or potential_hessian.
 template <class P>
-concept TwiceDifferentiable = Separable<P> &&(detail::HasHessian<P> || detail::HasForceAndHessian<P> ||
-                                              detail::HasParts<P, Dual<GradientDual<P>, P::dimension>>);
+concept TwiceDifferentiable = Separable<P> &&
+    (HasPotentialHessian<P> || HasForceAndHessian<P> ||
+     (detail::OfFixedSize<P> && detail::HasParts<P, Dual<GradientDual<P>, P::dimension>>));
 
 /// **Smooth**: the whole Hessian of H, by hand or by nested dual numbers. Implicit methods for any H need it.
 template <class P>
 concept Smooth = Differentiable<P> &&
-    (detail::HasFullHessian<P> || (QuadraticKinetic<P> && TwiceDifferentiable<P>) ||
-     (P::dimension != dynamic &&
-      (detail::HasDualGradient<P> || detail::HasParts<P, Dual<GradientDual<P>, P::dimension>> ||
+    (HasHessian<P> || (QuadraticKinetic<P> && TwiceDifferentiable<P>) ||
+     (detail::OfFixedSize<P> &&
+      (HasGradient<P, detail::EnergyDual<P>> || detail::HasParts<P, Dual<GradientDual<P>, P::dimension>> ||
        detail::HasEnergy<P, Dual<detail::EnergyDual<P>, 2 * P::dimension>>)));
 
-/// **PairwiseForces**: V is a sum over pairs, and a kick can be had pair by pair, as a function of differences of
+/// **PairwiseForces**: V is a sum over pairs, and a kick is computed pair by pair, as a function of differences of
 /// coordinates. pair_kicks(factor, difference, first, last, sink) visits the pairs of the rows first .. last - 1 and
 /// calls sink(a, b, r) where factor times the pair's force adds r to p_a and subtracts it from p_b.
 template <class P>
@@ -143,7 +115,7 @@ concept PairwiseForces = Separable<P> && requires(const P& problem, const typena
   problem.pair_kicks(factor, difference, row, row, sink);
 };
 
-/// **PairwiseGradients**: the same of V'' v, for kicks with force gradient.
+/// **PairwiseGradients**: the same for V'' v, in kicks with force gradient.
 template <class P>
 concept PairwiseGradients = PairwiseForces<P> &&
     requires(const P& problem, const typename P::Real& factor,

@@ -43,6 +43,7 @@ namespace detail {
 /// The gradient of f at x, carried by dual numbers.
 template <class F, class S, std::size_t N>
 void differentiate(const F& f, const Vector<S, N>& x, Vector<S, N>& out) {
+  static_assert(N != dynamic, "hamflow: a problem of dynamic size has to give its velocity and force by hand");
   Vector<Dual<S, N>, N> seeded{};
   for (std::size_t k = 0; k < N; ++k) seeded[k] = Dual<S, N>::variable(x[k], k);
   out = f(seeded).slope;
@@ -52,7 +53,7 @@ void differentiate(const F& f, const Vector<S, N>& x, Vector<S, N>& out) {
 /// v = dT/dp.
 template <class P, class S, std::size_t N>
 void velocity(const P& problem, const Vector<S, N>& p, Vector<S, N>& v) {
-  if constexpr (requires { problem.velocity(p, v); }) {
+  if constexpr (HasVelocity<P, S>) {
     problem.velocity(p, v);
   } else {
     detail::differentiate([&](const auto& x) { return problem.kinetic(x); }, p, v);
@@ -62,30 +63,19 @@ void velocity(const P& problem, const Vector<S, N>& p, Vector<S, N>& v) {
 /// f = -dV/dq.
 template <class P, class S, std::size_t N>
 void force(const P& problem, const Vector<S, N>& q, Vector<S, N>& f) {
-  if constexpr (requires { problem.force(q, f); }) {
+  if constexpr (HasForce<P, S>) {
     problem.force(q, f);
   } else {
     detail::differentiate([&](const auto& x) { return -problem.potential(x); }, q, f);
   }
 }
 
-namespace detail {
-template <class P, class F, class V>
-concept HasScaledVelocity = requires(const P& problem, const F& factor, const V& p, V& v) {
-  problem.scaled_velocity(factor, p, v);
-};
-template <class P, class F, class V>
-concept HasScaledForce = requires(const P& problem, const F& factor, const V& q, V& f) {
-  problem.scaled_force(factor, q, f);
-};
-}  // namespace detail
-
 /// v = factor dT/dp, the increment of a drift. A problem that gives it multiplies its constants by the factor instead
 /// of the result: one dependent operation less from one force to the next. Odd in the factor, like the product, bit for
 /// bit.
 template <class P, class F, class S, std::size_t N>
 void scaled_velocity(const P& problem, const F& factor, const Vector<S, N>& p, Vector<S, N>& v) {
-  if constexpr (detail::HasScaledVelocity<P, F, Vector<S, N>>) {
+  if constexpr (HasScaledVelocity<P, F, S>) {
     problem.scaled_velocity(factor, p, v);
   } else {
     velocity(problem, p, v);
@@ -96,7 +86,7 @@ void scaled_velocity(const P& problem, const F& factor, const Vector<S, N>& p, V
 /// f = -factor dV/dq, the increment of a kick, likewise.
 template <class P, class F, class S, std::size_t N>
 void scaled_force(const P& problem, const F& factor, const Vector<S, N>& q, Vector<S, N>& f) {
-  if constexpr (detail::HasScaledForce<P, F, Vector<S, N>>) {
+  if constexpr (HasScaledForce<P, F, S>) {
     problem.scaled_force(factor, q, f);
   } else {
     force(problem, q, f);
@@ -107,9 +97,13 @@ void scaled_force(const P& problem, const F& factor, const Vector<S, N>& q, Vect
 /// out[i][j] = d^2 V / dq_i dq_j.
 template <class P, class S, std::size_t N>
 void potential_hessian(const P& problem, const Vector<S, N>& q, Matrix<S, N>& out) {
-  if constexpr (requires { problem.potential_hessian(q, out); }) {
+  if constexpr (HasPotentialHessian<P, S>) {
     problem.potential_hessian(q, out);
+  } else if constexpr (HasForceAndHessian<P, S>) {
+    Vector<S, N> f = zeros_like(q);
+    problem.force_and_hessian(q, f, out);
   } else {
+    static_assert(N != dynamic, "hamflow: a problem of dynamic size has to give its Hessian by hand");
     Vector<Dual<S, N>, N> seeded{};
     Vector<Dual<S, N>, N> f{};
     for (std::size_t k = 0; k < N; ++k) seeded[k] = Dual<S, N>::variable(q[k], k);
@@ -123,7 +117,7 @@ void potential_hessian(const P& problem, const Vector<S, N>& q, Matrix<S, N>& ou
 /// Both at once: they share their square roots and divisions.
 template <class P, class S, std::size_t N>
 void force_and_hessian(const P& problem, const Vector<S, N>& q, Vector<S, N>& f, Matrix<S, N>& hessian) {
-  if constexpr (requires { problem.force_and_hessian(q, f, hessian); }) {
+  if constexpr (HasForceAndHessian<P, S>) {
     problem.force_and_hessian(q, f, hessian);
   } else {
     force(problem, q, f);
@@ -134,13 +128,14 @@ void force_and_hessian(const P& problem, const Vector<S, N>& q, Vector<S, N>& f,
 /// dq = dH/dq, dp = dH/dp.
 template <class P, class S, std::size_t N>
 void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Vector<S, N>& dq, Vector<S, N>& dp) {
-  if constexpr (requires { problem.gradient(q, p, dq, dp); }) {
+  if constexpr (HasGradient<P, S>) {
     problem.gradient(q, p, dq, dp);
   } else if constexpr (Separable<P>) {
     force(problem, q, dq);
     for (std::size_t i = 0; i < q.size(); ++i) dq[i] = -dq[i];
     velocity(problem, p, dp);
   } else {
+    static_assert(N != dynamic, "hamflow: a problem of dynamic size has to give its gradient by hand");
     using D = Dual<S, 2 * N>;
     Vector<D, N> dual_q{};
     Vector<D, N> dual_p{};
@@ -153,6 +148,20 @@ void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Ve
       dq[k] = h.slope[k];
       dp[k] = h.slope[N + k];
     }
+  }
+}
+
+/// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Inlined by force, as it belongs into loops over steps,
+/// where the state would otherwise go through memory.
+template <class P, class S, std::size_t N>
+[[gnu::always_inline]] inline void motion(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p,
+                                          Vector<S, N>& dq, Vector<S, N>& dp) {
+  if constexpr (Separable<P>) {
+    velocity(problem, p, dq);
+    force(problem, q, dp);
+  } else {
+    gradient(problem, q, p, dp, dq);
+    for (std::size_t i = 0; i < dp.size(); ++i) dp[i] = -dp[i];
   }
 }
 
@@ -177,7 +186,7 @@ Matrix<RealOf<P>, P::dimension> inverse_mass_matrix(const P& problem) {
 template <class P, class S, std::size_t N>
 void hessian(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Matrix<S, N>& qq, Matrix<S, N>& qp,
              Matrix<S, N>& pp) {
-  if constexpr (requires { problem.hessian(q, p, qq, qp, pp); }) {
+  if constexpr (HasHessian<P, S>) {
     problem.hessian(q, p, qq, qp, pp);
   } else if constexpr (QuadraticKinetic<P> && std::is_same_v<S, RealOf<P>>) {
     potential_hessian(problem, q, qq);

@@ -27,7 +27,7 @@ using std::sqrt;
 using std::tan;
 using std::tanh;
 
-/// Binary digits of a number type whose digits are chosen at run time; 0 of the others.
+/// Binary digits of a number type whose digits are chosen at run time; 0 for the others.
 template <class R>
 long precision_in_use() {
   return 0;

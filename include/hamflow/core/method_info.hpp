@@ -1,5 +1,5 @@
-// What a method claims about itself. The claims are not documentation: tests/conformance tries to refute each of them,
-// and `hamflow verify` prints them beside what was measured.
+// What a method claims about itself. The claims are tested: tests/conformance tries to refute each of them, and
+// `hamflow verify` prints them beside what was measured.
 #pragma once
 
 #include <limits>
@@ -34,10 +34,13 @@ struct MethodInfo {
   bool symmetric = false;          // Psi_-h o Psi_h = id
   bool reversible = false;         // S Psi_h S Psi_h = id
   Conservation energy_conserving = Conservation::no;
-  int forces_per_step = 0;  // -dV/dq per step when none is computed twice; 0: depends on the iteration
+  int forces_per_step = 0;    // -dV/dq per step when none is computed twice; 0: depends on the iteration
+  bool own_substeps = false;  // a step is made of sub-steps whose lengths the method chooses
+  bool halves_steps = false;  // a step that does not converge is replaced by two half steps
+  bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
 };
 
-/// Of an implicit step, on request: how well conditioned its Newton was.   [Gross1999, figures 3.27, 3.28]
+/// How well conditioned Newton's method was in an implicit step; computed on request.   [Gross1999, figures 3.27, 3.28]
 struct StepDiagnostics {
   struct Extremes {
     double least = std::numeric_limits<double>::infinity();
@@ -79,7 +82,7 @@ struct StepDiagnostics {
   }
 };
 
-/// What a method has done since it was made.
+/// What a method has computed since it was constructed.
 struct Effort {
   long long force = 0;          // evaluations of -dV/dq
   long long gradient = 0;       // evaluations of the whole gradient of H
@@ -88,7 +91,7 @@ struct Effort {
   long long steps = 0;          // implicit steps taken
   long long solves_min = 0;     // linear solves per step
   long long solves_max = 0;
-  long long stagnated = 0;  // steps accepted at the rounding level above the tolerance asked for
+  long long stagnated = 0;  // steps accepted at the rounding level above the requested tolerance
   long long halved = 0;     // steps replaced by two half steps (on_divergence = "halve")
 
   template <class Archive>

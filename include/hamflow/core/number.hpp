@@ -1,10 +1,18 @@
-// Numbers as people write them: "0.1", "1/3", "2*pi/100", read in any arithmetic to its full precision.
+// **Numbers as people write them**: "0.1", "1/3", "2*pi/100", read in any arithmetic to its full precision. The text is
+// read once, without an arithmetic (src/core/number.cpp); its operations are then carried out in R.
+//
+// Every error has the form
+//     found "2*pi/0", column 5: 2*pi divided by 0; allowed a divisor other than 0
+//     found "1 + sinus(2)", column 5: the unknown function sinus; allowed sqrt, exp, ...; did you mean sin?
+// so that a reader of options can pass it on after the name of its option. Columns count characters from 1.
 #pragma once
 
-#include <charconv>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/math.hpp"
@@ -31,160 +39,144 @@ R pi_value() {
 
 namespace detail {
 
-/// sum := product (('+'|'-') product)*, product := power (('*'|'/') power)*, power := unary (('^'|'**') power)?
-template <class R>
-class NumberReader {
- public:
-  explicit NumberReader(std::string_view text) : text_(text) {}
-
-  R read() {
-    const R value = sum();
-    skip_space();
-    if (at_ != text_.size()) fail("an operator or the end");
-    return value;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& wanted) const {
-    throw Error("not a number: \"" + std::string(text_) + "\", column " + std::to_string(at_ + 1) + ": expected " +
-                wanted);
-  }
-  void skip_space() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-  }
-  bool take(std::string_view token) {
-    skip_space();
-    if (text_.substr(at_, token.size()) != token) return false;
-    at_ += token.size();
-    return true;
-  }
-  R sum() {
-    R value = product();
-    for (;;) {
-      if (take("+")) {
-        value = value + product();
-      } else if (take("-")) {
-        value = value - product();
-      } else {
-        return value;
-      }
-    }
-  }
-  R product() {
-    R value = unary();
-    for (;;) {
-      skip_space();
-      if (text_.substr(at_, 2) == "**") return value;
-      if (take("*")) {
-        value = value * unary();
-      } else if (take("/")) {
-        value = value / unary();
-      } else {
-        return value;
-      }
-    }
-  }
-  R unary() {
-    if (++depth_ > 200) fail("fewer nested signs and parentheses");
-    R value{};
-    if (take("-")) {
-      value = -unary();
-    } else if (take("+")) {
-      value = unary();
-    } else {
-      value = power();
-    }
-    --depth_;
-    return value;
-  }
-  R power() {
-    const R base = atom();
-    if (take("**") || take("^")) return pow(base, unary());  // right-associative, and 2^-3 is allowed
-    return base;
-  }
-  R atom() {
-    skip_space();
-    if (take("(")) {
-      const R value = sum();
-      if (!take(")")) fail("')'");
-      return value;
-    }
-    if (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) return literal();
-    const std::size_t begin = at_;
-    std::string word;
-    while (at_ < text_.size() && (is_letter(text_[at_]) || (!word.empty() && is_digit(text_[at_]))))
-      word += text_[at_++];
-    if (word == "pi" || word == "Pi") return pi_value<R>();
-    if (!word.empty() && take("(")) return function_of(word, begin);
-    at_ = begin;
-    fail("a number, pi, a function such as sqrt(2), or '('");
-  }
-  /// What follows "word(".
-  R function_of(const std::string& word, std::size_t begin) {
-    const auto close = [this](const R& value) {
-      if (!take(")")) fail("')'");
-      return value;
-    };
-    const R x = sum();
-    if (word == "atan2") {
-      if (!take(",")) fail("',': atan2 takes two numbers");
-      const R y = sum();
-      return close(atan2(x, y));
-    }
-    if (word == "sqrt") return close(sqrt(x));
-    if (word == "exp") return close(exp(x));
-    if (word == "log") return close(log(x));
-    if (word == "sin") return close(sin(x));
-    if (word == "cos") return close(cos(x));
-    if (word == "tan") return close(tan(x));
-    if (word == "asin") return close(asin(x));
-    if (word == "acos") return close(acos(x));
-    if (word == "atan") return close(atan(x));
-    if (word == "sinh") return close(sinh(x));
-    if (word == "cosh") return close(cosh(x));
-    if (word == "tanh") return close(tanh(x));
-    if (word == "abs") return close(abs(x));
-    at_ = begin;
-    fail("one of sqrt, exp, log, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, abs");
-  }
-  R literal() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_digit(text_[at_]) || text_[at_] == '.')) ++at_;
-    if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
-      std::size_t after = at_ + 1;
-      if (after < text_.size() && (text_[after] == '+' || text_[after] == '-')) ++after;
-      if (after < text_.size() && is_digit(text_[after])) {
-        at_ = after;
-        while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
-      }
-    }
-    const std::string_view digits = text_.substr(begin, at_ - begin);
-    if (digits.find_first_of("0123456789") == std::string_view::npos || digits.find('.') != digits.rfind('.')) {
-      fail("a decimal number");
-    }
-    return parse_decimal<R>(digits);
-  }
-  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-  static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  int depth_ = 0;
+enum class NumberAction : unsigned char {
+  literal,
+  pi,
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  atan2,
+  sqrt,
+  exp,
+  log,
+  sin,
+  cos,
+  tan,
+  asin,
+  acos,
+  atan,
+  sinh,
+  cosh,
+  tanh,
+  abs
 };
+constexpr bool takes_two(NumberAction action) { return action >= NumberAction::add && action <= NumberAction::atan2; }
+
+/// One action on a stack of numbers.
+struct NumberStep {
+  NumberAction action;
+  std::size_t at;     // of the literal, the operator or the function in the text: errors point there
+  std::size_t begin;  // [begin, end): the part of the text whose value this is
+  std::size_t end;
+};
+/// A text, and what has to be done one after the other to get its value.
+struct NumberFormula {
+  std::string_view text;
+  std::vector<NumberStep> steps;
+};
+
+/// @throws Error when the text is no formula of numbers
+NumberFormula read_number(std::string_view text);
+/// @throws Error always: the divisor of a division is 0
+[[noreturn]] void refuse_division_by_zero(const NumberFormula& formula, const NumberStep& step);
+/// @throws Error always: the value of a step is infinite, or not a number
+[[noreturn]] void refuse_value(const NumberFormula& formula, const NumberStep& step, bool infinite);
+
+template <class R>
+R carried_out(NumberAction action, const R& x, const R& y) {
+  switch (action) {
+    case NumberAction::negate:
+      return -x;
+    case NumberAction::add:
+      return x + y;
+    case NumberAction::subtract:
+      return x - y;
+    case NumberAction::multiply:
+      return x * y;
+    case NumberAction::divide:
+      return x / y;
+    case NumberAction::power:
+      return pow(x, y);
+    case NumberAction::atan2:
+      return atan2(x, y);
+    case NumberAction::sqrt:
+      return sqrt(x);
+    case NumberAction::exp:
+      return exp(x);
+    case NumberAction::log:
+      return log(x);
+    case NumberAction::sin:
+      return sin(x);
+    case NumberAction::cos:
+      return cos(x);
+    case NumberAction::tan:
+      return tan(x);
+    case NumberAction::asin:
+      return asin(x);
+    case NumberAction::acos:
+      return acos(x);
+    case NumberAction::atan:
+      return atan(x);
+    case NumberAction::sinh:
+      return sinh(x);
+    case NumberAction::cosh:
+      return cosh(x);
+    case NumberAction::tanh:
+      return tanh(x);
+    case NumberAction::abs:
+      return abs(x);
+    case NumberAction::literal:
+    case NumberAction::pi:
+      break;
+  }
+  return x;
+}
 
 }  // namespace detail
 
-/// The value of a number expression in R. @throws Error naming the column where it stops making sense
+/// The value of a formula of numbers in R: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), pi or Pi, parentheses, and the
+/// functions sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs. At most 10^6 characters, 10^4
+/// operations, and 200 nested signs, powers and parentheses.
+/// @throws Error naming the column where the text stops making sense, what was divided by zero, or what is not a finite
+/// real number in R
 template <class R>
 R evaluate_number(std::string_view text) {
-  return detail::NumberReader<R>(text).read();
+  const detail::NumberFormula formula = detail::read_number(text);
+  std::vector<R> stack;
+  for (const detail::NumberStep& step : formula.steps) {
+    if (step.action == detail::NumberAction::literal) {
+      stack.push_back(parse_decimal<R>(text.substr(step.begin, step.end - step.begin)));
+    } else if (step.action == detail::NumberAction::pi) {
+      stack.push_back(pi_value<R>());
+    } else {
+      R second{};
+      if (detail::takes_two(step.action)) {
+        second = stack.back();
+        stack.pop_back();
+        if (step.action == detail::NumberAction::divide && second == R(0)) {
+          detail::refuse_division_by_zero(formula, step);
+        }
+      }
+      stack.back() = detail::carried_out<R>(step.action, stack.back(), second);
+    }
+    const R& value = stack.back();
+    if (!(abs(value) <= std::numeric_limits<R>::max())) detail::refuse_value(formula, step, value == value);
+  }
+  return stack.back();
 }
+// Compiled once, in src/core/number.cpp.
+extern template double evaluate_number<double>(std::string_view);
+extern template long double evaluate_number<long double>(std::string_view);
+
+/// The whole number that a formula gives: "1e6", "10^6" and "2*500" are whole numbers.
+/// @throws Error as evaluate_number does, and when the value is not whole or beyond 2^53 in size, from where on a
+/// double is no longer every whole number
+std::int64_t evaluate_whole(std::string_view text);
 
 /// The shortest decimal that reads back as the same double.
-inline std::string shortest(double x) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, x).ptr;
-  return {buffer, end};
-}
+std::string shortest(double x);
 
 }  // namespace hamflow

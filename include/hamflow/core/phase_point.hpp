@@ -22,7 +22,7 @@ struct PhasePoint {
       p[i] = arithmetic.momentum.store(p_values[i]);
     }
   }
-  /// The positions as numbers; where they are stored as such, and in a vector of any size, a reference to them.
+  /// The positions as numbers; a reference to them where they are stored as such, in a vector of any size.
   decltype(auto) positions() const {
     if constexpr (N == dynamic && std::is_same_v<Stored, Real>) {
       return static_cast<const Vector<Real, N>&>(q);

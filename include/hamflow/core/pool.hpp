@@ -1,5 +1,5 @@
-// Memory for short-lived vectors: blocks that were given back are kept, by size, for the next of that size. One pool a
-// thread, so that nothing is locked.
+// Memory for short-lived vectors: blocks that are returned are kept, by size, for the next request of that size. One
+// pool per thread, so that nothing is locked.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace hamflow {
 
-/// Blocks of 2^k bytes, k = 4 .. 47. A block may be given back on another thread than it was taken.
+/// Blocks of 2^k bytes, k = 4 .. 47. A block may be returned on another thread than the one that took it.
 class Pool {
  public:
   static void* take(std::size_t bytes) {

@@ -1,6 +1,7 @@
 // One declaration per problem; the command's help and checks, the documentation and the output files are made from it.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -10,48 +11,78 @@
 #include <vector>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/option_info.hpp"
 #include "hamflow/core/vector.hpp"
 
 namespace hamflow {
 
-enum class Range { any, positive, not_negative, count };  // count: a whole number from 1
-
-enum class ParameterKind { number, list, number_or_list };
-
-struct ParameterInfo {
-  std::string name;
-  std::string default_value;  // a number expression, or "[...]"; empty: it need not be given, and has no default
-  std::string meaning;
-  Range range = Range::any;  // of each number
-  ParameterKind kind = ParameterKind::number;
-  std::size_t length = 0;  // of a list; 0: any from 1
-  bool required = false;
-};
+/// A parameter of a problem is an option like any other; its default is a formula of numbers or "[...]".
+using ParameterInfo = OptionInfo;
 
 /// How many numbers an invariant has: one, one for each dimension of space, or as many as space has rotations.
 enum class Components { one, space, rotations };
+
+/// What an invariant is a sum of. With it a momentum map is judged: its size times what rounding makes of each term
+/// bounds the error that rounding alone explains (verify/certificate.hpp).
+enum class Terms {
+  other,          // the excursion is reported but not judged
+  momentum,       // one momentum coordinate, such as p_phi
+  momenta,        // momenta, such as the total momentum
+  moments,        // products of a position and a momentum, such as x p_y - y p_x
+  centre_of_mass  // sum m x/M - P t/M; the problem has total_mass()
+};
 
 struct InvariantInfo {
   std::string name;
   std::string meaning;
   Components components = Components::one;
+  Terms terms = Terms::other;
 };
 
-/// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them. An
-/// empty kind: the keys alone tell it.
+/// A geometric start: the keys of `orbit` that it takes, all required. `direction` is always allowed beside them. With
+/// an empty kind the keys alone select it.
 struct StartInfo {
   std::string kind;
   std::vector<std::string> keys;
   std::string meaning;
   std::vector<std::string> derives{};  // parameters of the problem that follow from the start and must not be given
+  Texts example{};                     // a value for each key
+  Texts example_parameters{};          // that the example needs; empty: those of the problem's example
+};
+
+/// Where `hamflow verify` measures a method: states in which the motion is bounded, regular and, where the problem is,
+/// nonlinear, far from turning points and apsides, where defects are largest. Missing parameters take their defaults.
+struct RegionInfo {
+  Texts parameters{};
+  std::vector<double> centre{};  // q, then p; empty: the default start, each coordinate moved a little
+  double spread = 0.1;           // random states: each coordinate uniform within centre +- spread
+  double step = 0.1;  // for structure and energy, a sixtieth of a period; no power of two, whose products do not round
+  double time = 2.5;  // over which the order is measured: neither a period nor an apsis
+};
+
+/// The scenario that `hamflow new` prints. What is not given is that of the region: parameters, q and p, dt.
+struct ExampleInfo {
+  Texts parameters{};
+  std::vector<double> q{};
+  std::vector<double> p{};
+  double dt = 0;
+  std::int64_t steps = 1000;
+  std::string start{};  // the kind of the geometric start that is active; empty: the state
 };
 
 struct ProblemInfo {
   std::string name;                                            // as in a scenario
   std::vector<std::pair<std::string, std::string>> variant{};  // keys that select among entries of one name
+  std::vector<std::string> default_choices{};  // keys of `variant`; without them a scenario means this entry
+  std::vector<std::string> example_choices{};  // keys that a scenario has to give; without them `new` takes this entry
+  /// The key of `variant` whose value names the chart, that is, the coordinates. Entries that differ in it alone are
+  /// one motion; all but the one in the reference chart have to_reference and from_reference
+  /// (core/optional_functions.hpp). Empty: there are no other coordinates.
+  std::string chart_key{};
   std::string formula{};
   std::string reference{};
   std::vector<std::string> coordinates{};
+  std::vector<std::string> angles{};  // coordinates with period 2 pi; they are not wrapped
   std::vector<ParameterInfo> parameters{};
   std::vector<InvariantInfo> invariants{};
   std::vector<StartInfo> starts{};
@@ -60,7 +91,19 @@ struct ProblemInfo {
   std::string start_key{};
   std::vector<std::string> default_q{};  // number expressions; empty: a scenario has to give a start
   std::vector<std::string> default_p{};
+  bool two_bodies =
+      false;  // a planar relative motion: `bodies` may give two bodies in space, from which `mass` follows
+  RegionInfo region{};
+  ExampleInfo example{};
 };
+
+/// The value of a selecting key in this entry; empty if it has no such key.
+inline std::string choice_of(const ProblemInfo& info, const std::string& key) {
+  for (const auto& [name, value] : info.variant) {
+    if (name == key) return value;
+  }
+  return {};
+}
 
 /// The parts of "[1, 2/3, atan2(1, 2)]", or the text itself when it is no list.
 inline std::vector<std::string> list_parts(const std::string& text) {
@@ -83,7 +126,7 @@ inline std::vector<std::string> list_parts(const std::string& text) {
   return parts;
 }
 
-/// Values by name, read in R from the text that was given, so that every arithmetic reads its own digits.
+/// Values by name, read in R from the given text, so that every arithmetic reads its own digits.
 template <class R>
 class Parameters {
  public:
@@ -129,7 +172,7 @@ using OrbitFacts = std::vector<std::pair<std::string, std::variant<double, std::
 
 /// A condition on a geometric start: left < right or left <= right has to hold. The message says by how much it fails.
 struct Condition {
-  std::string key;        // the scenario key to blame
+  std::string key;        // the scenario key at fault
   std::string statement;  // e.g. "r_per <= r_aph"
   double left = 0;
   double right = 0;
@@ -137,7 +180,7 @@ struct Condition {
   bool holds() const { return strict ? left < right : left <= right; }
 };
 
-/// The conditions of one start, in the order in which they were asked.
+/// The conditions of one start, in the order in which they were stated.
 class Conditions {
  public:
   template <class R>

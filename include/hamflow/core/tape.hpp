@@ -1,12 +1,12 @@
 // A recording of the arithmetic in a problem's member templates. Called once with S = Trace<R>, they leave a straight
 // line of operations, from which the Taylor coefficients of a motion are propagated (numerics/taylor_series.hpp).
-// [Griewank and Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 2, 13]
+// [GriewankWalther2008, ch. 2, 13]
 //
 // What is constant is computed at once, what occurs twice is recorded once, and what no output needs is dropped: dual
 // numbers over Trace, which differentiate a Hamiltonian that comes without a gradient, produce many zeros and ones.
 // A branch on the state has no place in a straight line: < and abs throw. A test for equality (a case of measure zero,
-// such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, by which a later state can tell
-// that it would branch otherwise.
+// such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, which shows for a
+// later state that it would branch otherwise.
 #pragma once
 
 #include <cstddef>
@@ -186,7 +186,7 @@ Trace<R> value_of(const Trace<R>& x) {
   return x;
 }
 
-/// Takes the operations down, with the values at one state.
+/// Records the operations, with the values at one state.
 template <class R>
 class Recorder {
  public:
@@ -258,7 +258,7 @@ class Recorder {
   }
   int constant(const R& value) {
     const std::size_t count = tape_.constants.size();
-    // Few constants are many times the same; of a long list (n masses) only the last ones are looked at.
+    // Few constants occur many times; in a long list (n masses) only the last ones are compared.
     for (std::size_t i = count; i > 0 && i + 64 > count; --i) {
       if (detail::identical(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
     }

@@ -1,6 +1,6 @@
-// Threads that wait for work that comes in pieces of some microseconds: the forces of one step. They look for it a
-// while before they sleep, and no piece of work allocates. A piece goes to whichever thread is free: what is computed
-// must not depend on who computes it, as sums of integers do not.
+// Threads for work in pieces of some microseconds: the forces of one step. An idle thread looks for work for a while
+// before it sleeps, and no piece of work allocates. A piece goes to whichever thread is free: the result must not
+// depend on which thread computes it, as sums of integers do not.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace hamflow {
 
 class ThreadTeam {
  public:
-  /// @param size how many work at once, the one that calls share() included
+  /// @param size the number of workers, the caller of share() included
   explicit ThreadTeam(std::size_t size) : size_(size) {
     for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
   }
@@ -29,7 +29,7 @@ class ThreadTeam {
 
   /// work(worker, call, block) for each block, by any worker, in any order; back when all are done. A worker that comes
   /// late finds nothing to do, and is not waited for. One caller at a time; `work` must not throw.
-  /// @return the number of this call, which `work` is told too
+  /// @return the number of this call, which is passed to `work` too
   template <class Work>
   std::uint64_t share(std::size_t blocks, Work& work) {
     job_ = &work;

@@ -1,5 +1,5 @@
-// A vector of N numbers: the coordinates q or the momenta p of one system, or a force, or a row of a matrix. N is a
-// number, and the vector lives in place, or `dynamic`, and its length is known when a system is made.
+// A vector of N numbers: the coordinates q or the momenta p of one system, or a force, or a row of a matrix. Either N
+// is a number, and the vector is stored in place, or it is `dynamic`, and the length is chosen at run time.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ struct Vector {
   friend constexpr bool operator==(const Vector&, const Vector&) = default;
 };
 
-/// Any number of numbers, a value like the others. Its memory comes from a pool, so that the temporaries of a step cost
-/// no call of the allocator once the first steps are taken.
+/// A vector whose length is chosen at run time, a value like the others. Its memory comes from a pool, so that the
+/// temporaries of a step cost no call of the allocator once the first steps are taken.
 template <class R>
 struct Vector<R, dynamic> {
   using value_type = R;
@@ -76,7 +76,7 @@ struct Vector<Vector<R, dynamic>, dynamic> {
 template <class R, std::size_t N>
 using Matrix = Vector<Vector<R, N>, N>;
 
-/// Zeros; `size` counts for `dynamic` vectors only.
+/// Zeros; `size` is used for `dynamic` vectors only.
 template <class R, std::size_t N>
 constexpr Vector<R, N> zeros([[maybe_unused]] std::size_t size) {
   if constexpr (N == dynamic) {

@@ -1,7 +1,8 @@
 // What a user can choose about the methods that control their own sub-steps, and what they then claim.
-// [spec: methods, section 8]
+// How they choose them is explained in docs/design.md, dop853 and taylor.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "hamflow/core/method_info.hpp"
@@ -9,10 +10,9 @@
 namespace hamflow {
 
 struct AdaptiveOptions {
-  double tolerance = 1e-12;      // on the error of a sub-step, relative to the size of q and of p, each by itself
-  bool tolerance_given = false;  // else the catalogue takes that which fits the arithmetic of a run
-  int order = 0;                 // of taylor; 0: the cheapest for the tolerance
-  bool fixed = false;            // one sub-step a step, whatever its error: what orders are measured on
+  double tolerance = 1e-12;  // on the error of a sub-step, relative to the size of q and of p, each by itself
+  int order = 0;             // of taylor; 0: the cheapest for the tolerance
+  bool fixed = false;        // one sub-step a step, whatever its error: what orders are measured on
   int max_substeps = 100000;
 };
 
@@ -22,10 +22,16 @@ inline MethodInfo describe_dop853(const AdaptiveOptions& options) {
   return {.name = "dop853",
           .summary = options.fixed ? "explicit Runge-Kutta, 12 stages, order 8"
                                    : "explicit Runge-Kutta, 12 stages, order 8, with sub-steps of its own",
-          .reference = "Hairer, Norsett, Wanner 1993, II.5, II.10",
+          .reference = "HNW1993, II.5, II.10",
           .order = 8,
           .weakly_reversible = true,
-          .forces_per_step = options.fixed ? 12 : 0};
+          .forces_per_step = options.fixed ? 12 : 0,
+          .own_substeps = !options.fixed};
+}
+
+/// The order of taylor: that of the options, or the cheapest for the tolerance.   [JorbaZou2005, (3.4)]
+inline int taylor_order(const AdaptiveOptions& options) {
+  return options.order > 0 ? options.order : static_cast<int>(std::ceil(1 - std::log(options.tolerance) / 2));
 }
 
 /// What taylor of a given order claims.
@@ -33,9 +39,10 @@ inline MethodInfo describe_taylor(const AdaptiveOptions& options, int order) {
   return {.name = "taylor",
           .summary = "Taylor series of order " + std::to_string(order) + " by automatic differentiation" +
                      (options.fixed ? "" : ", with sub-steps of its own"),
-          .reference = "Jorba and Zou 2005; Griewank and Walther 2008, ch. 13",
+          .reference = "JorbaZou2005; GriewankWalther2008, ch. 13",
           .order = order,
-          .weakly_reversible = true};
+          .weakly_reversible = true,
+          .own_substeps = !options.fixed};
 }
 
 }  // namespace hamflow

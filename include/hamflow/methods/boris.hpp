@@ -1,19 +1,30 @@
 // The Boris step for a charge in a uniform magnetic field: half a flight, a rotation of the velocity about the field,
-// half a flight.   [Boris 1970; Birdsall and Langdon 1985, Sect. 4-4]
+// half a flight.   [Boris1970; BirdsallLangdon1985, Sect. 4-4]
 //     x <- x + h v/2,   v <- rotated by v' = v + v x t, v <- v + v' x s, t = (h/2) omega, s = 2 t/(1 + t^2),   x <- x +
 //     h v/2
 // omega = charge field/mass. |v|, hence the energy, is conserved to rounding. In general the map preserves
-// volume and is not symplectic [Qin et al. 2013]; in a uniform field, the only one here, it is symplectic, as measured.
-// Order 2, symmetric. Reversing the canonical momenta does not bring it back, and neither the motion itself: the field
+// volume and is not symplectic [QinEtAl2013]; in a uniform field, the only one here, it is symplectic, as measured.
+// Order 2, symmetric. Reversing the canonical momenta reverses neither the method nor the motion itself: the field
 // would have to be reversed too [Sonnleitner2010, footnote 21].
 #pragma once
 
+#include "hamflow/core/capability.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
 
 namespace hamflow {
+
+inline MethodInfo describe_boris() {
+  return {.name = "boris",
+          .summary = "Boris push: half a flight, a rotation about the magnetic field, half a flight",
+          .reference = "Boris1970",
+          .order = 2,
+          .symplectic = true,
+          .symmetric = true,
+          .energy_conserving = Conservation::yes};
+}
 
 template <class P, Arithmetic A>
 class BorisStep {
@@ -24,16 +35,7 @@ class BorisStep {
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
 
-  static MethodInfo describe() {
-    return {.name = "boris",
-            .summary = "Boris push: half a flight, a rotation about the magnetic field, half a flight",
-            .reference = "Boris 1970",
-            .order = 2,
-            .symplectic = true,
-            .symmetric = true,
-            .energy_conserving = Conservation::yes};
-  }
-  MethodInfo info() const { return describe(); }
+  MethodInfo info() const { return describe_boris(); }
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
     const Vector<Real, n> x0 = z.positions();
@@ -94,6 +96,8 @@ struct Boris {
   static constexpr bool implicit = false;
   static constexpr bool compensated = true;  // the velocity is a difference of p and A(q): their rounding would add up
   static constexpr bool bijective = false;
+  static constexpr bool typed = true;
+  static constexpr Capability faces[] = {Capability::charge};
   template <class P>
   static constexpr bool accepts = ChargeInField<P>;
   template <class P, class A>

@@ -1,4 +1,4 @@
-// What a user can choose about cg, and what it then claims.   [spec: methods, section 3]
+// What a user can choose about cg, and what it then claims.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ struct CgOptions {
   int degree = 1;
   int quadrature = 0;                 // Gauss points; 0: "auto", the fewest that keep the energy at rounding level
   std::optional<double> tolerance{};  // on the 2-norm of the residual (2.63); unset: its rounding level
-  bool seed_criterion = false;        // stagnation above the tolerance is an error, as in the first thesis' programs
+  bool seed_criterion = false;        // stagnation above the tolerance is an error, as in the programs of Gross1999
   int max_iterations = 15;
   bool halve = false;        // replace a step that does not converge by two half steps
   bool diagnostics = false;  // condition and determinant of the tangent, condition of M^-1, at every step
@@ -34,7 +34,9 @@ inline MethodInfo describe(const CgOptions& options) {
           .reversible = true,
           .energy_conserving = automatic  ? Conservation::yes
                                : midpoint ? Conservation::no
-                                          : Conservation::up_to_quadrature};
+                                          : Conservation::up_to_quadrature,
+          .halves_steps = options.halve,
+          .diagnostics = options.diagnostics};
 }
 
 }  // namespace hamflow

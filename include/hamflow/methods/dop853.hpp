@@ -1,5 +1,5 @@
 // DOP853, the explicit Runge-Kutta method of Dormand and Prince of order 8 with 12 stages, and its step control by two
-// embedded formulas of orders 5 and 3.   [Hairer, Norsett, Wanner 1993, II.5, (II.10.17) and the code DOP853]
+// embedded formulas of orders 5 and 3.   [HNW1993, II.5, (II.10.17), and the code DOP853]
 // Non-geometric: it drifts. Here as a reference to compare against.
 //
 // One step advances by h in sub-steps tau. With the max-norms of the q- and of the p-block, each by itself,
@@ -62,7 +62,9 @@ constexpr bool has_weight(std::size_t stage) {
 template <class P, Arithmetic A>
 class DormandPrince853 {
  public:
-  static_assert(Differentiable<P>, "hamflow: dop853 needs a Differentiable problem");
+  static_assert(Differentiable<P>,
+                "hamflow: dop853 needs a Differentiable problem; one of dynamic size gives "
+                "velocity and force, or gradient, by hand");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = dop853::stages;
   using Real = typename A::Real;
@@ -73,13 +75,13 @@ class DormandPrince853 {
 
   MethodInfo info() const { return describe_dop853(options_); }
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
-  /// Sub-steps taken, and tried in vain, since the method was made.
+  /// Sub-steps taken, and sub-steps rejected, since the method was constructed.
   long long substeps() const { return substeps_; }
   long long rejected() const { return rejected_; }
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
-  /// Repeats the step that failed and tells why. Changes nothing.
+  /// Repeats the step that failed and returns why it failed. Changes nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     DormandPrince853 again = *this;
     PhasePoint<A, n> copy = z;
@@ -246,19 +248,13 @@ class DormandPrince853 {
              "= " +
              shortest(options_.tolerance) + " below the rounding of the arithmetic?";
     }
-    return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, all that it may, for " +
+    return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
            shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";
   }
 
   void derivative(const P& problem, const V& q, const V& p, V& dq, V& dp) {
     ++evaluations_;
-    if constexpr (Separable<P>) {
-      velocity(problem, p, dq);
-      force(problem, q, dp);
-    } else {
-      gradient(problem, q, p, dp, dq);
-      for (std::size_t k = 0; k < dp.size(); ++k) dp[k] = -dp[k];
-    }
+    motion(problem, q, p, dq, dp);
   }
 
   AdaptiveOptions options_;

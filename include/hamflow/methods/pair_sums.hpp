@@ -1,7 +1,7 @@
 // A kick on the lattice from forces between pairs: each pair's contribution is rounded to the lattice of momenta, added
-// to one body and subtracted from the other, and the integers are summed. [spec: methods, section 7] The sum depends
-// neither on the order of the pairs nor on who adds them up, so that any number of threads gives the same bits; the
-// total momentum does not change at all; and since the rounding is odd, a kick of -h takes back one of h.
+// to one body and subtracted from the other, and the integers are summed. The sum depends neither on the order of
+// the pairs nor on which thread adds them, so that any number of threads gives the same bits; the total momentum does
+// not change at all; and since the rounding is odd, a kick of -h takes back one of h.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class PairSums {
   void use_threads(std::size_t count) { crew_ = count > 1 ? std::make_shared<Crew>(count) : nullptr; }
 
   /// kick <- factor F(q), rounded pair by pair.
-  /// @return false where a contribution is too large; `kick` is then of no use
+  /// @return false where a contribution is too large; `kick` is then undefined
   template <class F>
   [[gnu::noinline]] bool evaluate(const P& problem, const F& factor, const PhasePoint<A, n>& z,
                                   Vector<Stored, n>& kick) const {

@@ -48,7 +48,9 @@ MethodInfo describe(const ButcherTableau<S>& tableau) {
 template <class P, Arithmetic A, const auto& Tableau>
 class RungeKutta {
  public:
-  static_assert(Differentiable<P>, "hamflow: a Runge-Kutta method needs a Differentiable problem");
+  static_assert(Differentiable<P>,
+                "hamflow: a Runge-Kutta method needs a Differentiable problem; one of dynamic size gives "
+                "velocity and force, or gradient, by hand");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = std::remove_cvref_t<decltype(Tableau)>::stages;
   using Real = typename A::Real;
@@ -78,7 +80,8 @@ class RungeKutta {
           }
         }
       });
-      derivative(problem, q, p, dq[i], dp[i]);
+      ++evaluations_;
+      motion(problem, q, p, dq[i], dp[i]);
     });
     Vector<Real, n> sum_q = zeros_like(q0);
     Vector<Real, n> sum_p = zeros_like(q0);
@@ -95,7 +98,7 @@ class RungeKutta {
       z.move(sum_q);
       z.push(sum_p);
     }
-    // The last stage by itself: the next step waits for it, and for nothing else.
+    // The last stage is added by itself: the next step waits for it, and for nothing else.
     const Base weight = h * Tableau.b[stages - 1].template as<Base>();
     z.move(weight, dq[stages - 1]);
     z.push(weight, dp[stages - 1]);
@@ -117,17 +120,6 @@ class RungeKutta {
     }
     (std::make_index_sequence<stages>{});
   }
-  [[gnu::always_inline]] void derivative(const P& problem, const Vector<Real, n>& q, const Vector<Real, n>& p,
-                                         Vector<Real, n>& dq, Vector<Real, n>& dp) {
-    ++evaluations_;
-    if constexpr (Separable<P>) {
-      velocity(problem, p, dq);
-      force(problem, q, dp);
-    } else {
-      gradient(problem, q, p, dp, dq);
-      for (std::size_t k = 0; k < dp.size(); ++k) dp[k] = -dp[k];
-    }
-  }
 
   long long evaluations_ = 0;
 };
@@ -139,6 +131,7 @@ struct RungeKuttaBy {
   static constexpr bool accepts = Differentiable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = false;
+  static constexpr bool typed = true;
   template <class P, class A>
   using Stepper = RungeKutta<P, A, Tableau>;
   template <class P, class A>

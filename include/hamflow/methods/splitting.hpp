@@ -146,8 +146,9 @@ class Splitting {
  public:
   static_assert(
       Separable<P>,
-      "hamflow: a splitting method needs a Separable problem, H = T(p) + V(q): give kinetic(p) and potential(q). "
-      "Methods that accept any differentiable H: euler, rk4");
+      "hamflow: a splitting method needs a Separable problem, H = T(p) + V(q): give kinetic(p) and potential(q), "
+      "and for dynamic size velocity(p, v) and force(q, f) by hand. Methods that accept any differentiable H: euler, "
+      "rk4");
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
@@ -237,7 +238,7 @@ class Splitting {
   constexpr bool factor_within() const {
     if constexpr (sums_integers) {
       return true;
-    } else if constexpr (!detail::HasScaledForce<P, Base, Vector<Real, n>>) {
+    } else if constexpr (!HasScaledForce<P, Base, Real>) {
       return false;
     } else if constexpr (shape == Shape::any) {
       return ends_alike_;
@@ -294,7 +295,7 @@ class Splitting {
   [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z,
                                            [[maybe_unused]] auto& late) {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
-    constexpr bool scaled = detail::HasScaledVelocity<P, Base, Vector<Real, n>>;
+    constexpr bool scaled = HasScaledVelocity<P, Base, Real>;
     if constexpr (scaled) {
       scaled_velocity(problem, factor, z.momenta(), v);
     } else {
@@ -342,9 +343,53 @@ inline MethodInfo describe_drift_first(const void* table) {
 inline MethodInfo describe_splitting(const void* table) { return describe(*static_cast<const SplittingTable*>(table)); }
 }  // namespace detail
 
-// Recipes: what a user names, from which a stepper for a problem and an arithmetic is made. `implicit`: the step solves
-// equations. `bijective`: every action of the step is one-to-one on a lattice. `accepts<P>`: the problem has what the
-// method needs.
+// Recipes, see methods/recipe.hpp. Every kick and drift is one-to-one on a lattice.
+
+/// A table of either kind that is chosen at run time.
+class AnySplitting {
+ public:
+  AnySplitting(const CompositionTable& table, StartsWith starts_with)
+      : composition_(&table), starts_with_(starts_with) {}
+  explicit AnySplitting(const SplittingTable& table) : splitting_(&table) {}
+
+  template <class R>
+  SplittingSequence<R> sequence() const {
+    return splitting_ != nullptr ? sequence_of<R>(*splitting_) : sequence_of<R>(*composition_, starts_with_);
+  }
+  MethodInfo (*describe() const)(const void*) {
+    if (splitting_ != nullptr) return detail::describe_splitting;
+    return starts_with_ == StartsWith::kick ? detail::describe_kick_first : detail::describe_drift_first;
+  }
+  const void* table() const {
+    return splitting_ != nullptr ? static_cast<const void*>(splitting_) : static_cast<const void*>(composition_);
+  }
+  /// Whether its order holds for quadratic T only.
+  bool nystroem() const { return splitting_ != nullptr && splitting_->nystroem; }
+
+ private:
+  const CompositionTable* composition_ = nullptr;
+  StartsWith starts_with_ = StartsWith::kick;
+  const SplittingTable* splitting_ = nullptr;
+};
+
+/// Any table of one shape, its length known at run time.
+template <Shape shape>
+struct TableRecipe {
+  template <class P>
+  static constexpr bool accepts = Separable<P>;
+  static constexpr bool implicit = false;
+  static constexpr bool bijective = true;
+  static constexpr bool typed = true;
+  AnySplitting method;
+  bool needs_quadratic_kinetic() const { return method.nystroem(); }
+  TableRecipe<Shape::any> with_any_shape() const { return {method}; }
+  template <class P, class A>
+  using Stepper = Splitting<P, A, shape>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P&) const {
+    return {method.sequence<typename Stepper<P, A>::Base>(), method.describe(), method.table()};
+  }
+};
 
 /// A composition chosen by type: Composition<compositions::stv4> has its length compiled in.
 template <const CompositionTable& Table, StartsWith starts_with = StartsWith::kick>

@@ -1,14 +1,14 @@
 // The Taylor series method: z(t0 + tau) = sum_k z_k tau^k up to any order, the coefficients by automatic
-// differentiation of the problem's own formulas.   [Jorba and Zou, Experimental Mathematics 14 (2005) 99-117]
+// differentiation of the problem's own formulas.   [JorbaZou2005]
 // Non-geometric: it drifts. Here as a reference to compare against.
 //
-// One step advances by h in sub-steps. Each asks the last two coefficients of the q- and of the p-block, in the
-// max-norm, how far the series reaches (Jorba and Zou (3-8) with the size of a block taken within that reach, so that a
+// One step advances by h in sub-steps. The last two coefficients of the q- and of the p-block, in the max-norm, show
+// how far the series reaches (as [JorbaZou2005, (3-8)], with the size of a block taken within that reach, so that a
 // block that passes through 0 does not stop the motion):
 //     rho_j = max_{k=0,1,2} (|x_k|/|x_j|)^(1/(j - k)),   rho = the least rho_j, j = p - 1, p, of both blocks,
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
 // For the cheapest order, p = ceil(1 - ln(tolerance)/2), that is rho/e^2 and their safety factor. What is left of h is
-// divided into equal parts that are no longer. No sub-step knows of the one before it: there is no memory.
+// divided into equal parts that are no longer. No sub-step depends on the one before it: there is no memory.
 #pragma once
 
 #include <cmath>
@@ -30,16 +30,10 @@ namespace hamflow {
 
 /// **Traceable**: the derivatives of H as templates that a recording can be passed through.
 template <class P, class R>
-concept Traceable = Differentiable<P> &&(
-    requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
-      problem.velocity(x, out);
-      problem.force(x, out);
-    } ||
-    requires(const P& problem, const VectorOf<P, Trace<R>>& x, VectorOf<P, Trace<R>>& out) {
-      problem.gradient(x, x, out, out);
-    } ||
-    (P::dimension != dynamic &&
-     (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
+concept Traceable = Differentiable<P> &&
+    ((HasVelocity<P, Trace<R>> && HasForce<P, Trace<R>>) || HasGradient<P, Trace<R>> ||
+     (P::dimension != dynamic &&
+      (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
 
 /// q' = dH/dp, p' = -dH/dq on a tape, recorded at (q, p).
 template <class R, class P, std::size_t N>
@@ -51,13 +45,7 @@ Tape<R> tape_of_motion(const P& problem, const Vector<R, N>& q, const Vector<R, 
   Vector<Trace<R>, N> dp = zeros_like(x);
   for (std::size_t i = 0; i < q.size(); ++i) x[i] = recorder.input(q[i]);
   for (std::size_t i = 0; i < q.size(); ++i) y[i] = recorder.input(p[i]);
-  if constexpr (Separable<P>) {
-    velocity(problem, y, dq);
-    force(problem, x, dp);
-  } else {
-    gradient(problem, x, y, dp, dq);
-    for (Trace<R>& rate : dp) rate = -rate;
-  }
+  motion(problem, x, y, dq, dp);
   std::vector<Trace<R>> outputs(dq.begin(), dq.end());
   outputs.insert(outputs.end(), dp.begin(), dp.end());
   return recorder.finish(outputs);
@@ -72,7 +60,7 @@ class TaylorMethod {
   static_assert(Traceable<P, Base>,
                 "hamflow: taylor needs a Differentiable problem whose functions are templates over the number type");
 
-  /// Records H at a state like any other, so that what cannot be recorded is told before anything runs.
+  /// Records H at a state like any other, so that what cannot be recorded is refused before anything runs.
   TaylorMethod(const P& problem, const AdaptiveOptions& options)
       : options_(options), order_(options.order > 0 ? options.order : cheapest_order(options.tolerance)) {
     const std::size_t size = degrees_of_freedom(problem);
@@ -84,7 +72,7 @@ class TaylorMethod {
     }
     record(problem, q, p);
   }
-  /// [Jorba and Zou 2005, (3-7)]
+  /// [JorbaZou2005, (3-7)]
   static int cheapest_order(double tolerance) { return static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)); }
 
   MethodInfo info() const { return describe_taylor(options_, order_); }
@@ -96,7 +84,7 @@ class TaylorMethod {
 
   Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return advance(problem, h, z, nullptr); }
 
-  /// Repeats the step that failed and tells why. Changes nothing.
+  /// Repeats the step that failed and returns why it failed. Changes nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     TaylorMethod again = *this;
     PhasePoint<A, n> copy = z;
@@ -229,7 +217,7 @@ class TaylorMethod {
       return "taylor would need a sub-step of " + shortest(allowed) + " after " + shortest(substeps.done()) +
              " of the step, too short to add up: is the motion near a collision or another singularity?";
     }
-    return "taylor took " + std::to_string(options_.max_substeps) + " sub-steps, all that it may, for " +
+    return "taylor took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
            shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";
   }
 

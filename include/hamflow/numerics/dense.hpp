@@ -2,8 +2,6 @@
 // of Newton in the plane, else Eigen's closed-form inverses up to 4 x 4 and LU with partial pivoting above.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "hamflow/core/math.hpp"
 #include "hamflow/core/vector.hpp"
 #include "hamflow/numerics/elimination.hpp"
@@ -14,7 +12,7 @@ namespace detail {
 template <class R>
 inline constexpr bool is_hardware = std::is_floating_point_v<R>;
 
-/// b <- m^-1 b for a matrix of `size` rows and a right side of so many columns, both row after row. LU with partial
+/// b <- m^-1 b for a matrix of `size` rows and a right side of `columns` columns, both row by row. LU with partial
 /// pivoting, compiled once (src/numerics/dense.cpp). A singular m shows as entries that are not finite.
 void solve_large(const double* m, double* b, std::size_t size, std::size_t columns);
 void solve_large(const long double* m, long double* b, std::size_t size, std::size_t columns);
@@ -29,15 +27,14 @@ requires(!is_hardware<R>) R determinant_large(const R* m, std::size_t size) {
   return eliminate(m, static_cast<R*>(nullptr), size, 0);
 }
 
-/// Up to 4 x 4.
+/// The same up to 4 x 4 by Eigen's closed forms, compiled in the same file: b <- m^-1 b, out = m^-1, det m.
 template <class R, std::size_t N>
-Eigen::Matrix<R, static_cast<int>(N), static_cast<int>(N)> to_eigen(const Matrix<R, N>& m) {
-  Eigen::Matrix<R, static_cast<int>(N), static_cast<int>(N)> e;
-  for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) e(static_cast<int>(i), static_cast<int>(j)) = m[i][j];
-  }
-  return e;
-}
+void solve_small(const Matrix<R, N>& m, Vector<R, N>& b);
+template <class R, std::size_t N>
+void invert_small(const Matrix<R, N>& m, Matrix<R, N>& out);
+template <class R, std::size_t N>
+R determinant_small(const Matrix<R, N>& m);
+
 /// The entries row after row.
 template <class R, std::size_t N>
 std::vector<R, PoolAllocator<R>> flat(const Matrix<R, N>& m) {
@@ -59,12 +56,9 @@ Vector<R, N> solve(const Matrix<R, N>& m, const Vector<R, N>& b) {
     return {(b[0] * m[1][1] - b[1] * m[0][1]) * inverse_determinant,
             (b[1] * m[0][0] - b[0] * m[1][0]) * inverse_determinant};
   } else if constexpr (N <= 4 && detail::is_hardware<R>) {
-    Eigen::Matrix<R, static_cast<int>(N), 1> x;
-    for (std::size_t i = 0; i < N; ++i) x(static_cast<int>(i)) = b[i];
-    x = (detail::to_eigen(m).inverse() * x).eval();
-    Vector<R, N> out{};
-    for (std::size_t i = 0; i < N; ++i) out[i] = x(static_cast<int>(i));
-    return out;
+    Vector<R, N> x = b;
+    detail::solve_small(m, x);
+    return x;
   } else {
     Vector<R, N> x = b;
     detail::solve_large(detail::flat(m).data(), x.begin(), b.size(), 1);
@@ -77,10 +71,7 @@ template <class R, std::size_t N>
 Matrix<R, N> inverse(const Matrix<R, N>& m) {
   Matrix<R, N> out = m;
   if constexpr (N <= 4 && detail::is_hardware<R>) {
-    const auto e = detail::to_eigen(m).inverse().eval();
-    for (std::size_t i = 0; i < N; ++i) {
-      for (std::size_t j = 0; j < N; ++j) out[i][j] = e(static_cast<int>(i), static_cast<int>(j));
-    }
+    detail::invert_small(m, out);
   } else {
     const std::size_t size = m.size();
     std::vector<R, PoolAllocator<R>> columns(size * size);
@@ -96,7 +87,7 @@ Matrix<R, N> inverse(const Matrix<R, N>& m) {
 template <class R, std::size_t N>
 R determinant(const Matrix<R, N>& m) {
   if constexpr (N <= 4 && detail::is_hardware<R>) {
-    return detail::to_eigen(m).determinant();
+    return detail::determinant_small(m);
   } else {
     return detail::determinant_large(detail::flat(m).data(), m.size());
   }

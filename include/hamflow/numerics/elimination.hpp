@@ -1,5 +1,5 @@
 // Gaussian elimination with partial pivoting for number types that Eigen does not know: those with more digits than the
-// hardware has.   [Golub and Van Loan, Sect. 3.4]
+// hardware has.   [GolubVanLoan2013, Sect. 3.4]
 #pragma once
 
 #include <cstddef>

@@ -135,7 +135,7 @@ R incomplete_f(R phi, R m) {
 
 /// sn, cn, dn, am of u from m1 = 1 - m, by Gauss' transformation of the ratio cn/sn up the ladder of the mean. Every
 /// operation adds or multiplies positive numbers, so that sn, cn and dn keep their relative accuracy; what remains is
-/// the rounding of the phase u.   [Bulirsch 1965, Numer. Math. 7, 78-90]
+/// the rounding of the phase u.   [Bulirsch1965]
 template <class R>
 Jacobi<R> jacobi_of_complement(R u, R m1) {
   if (!(m1 >= R(0) && m1 <= R(1))) {

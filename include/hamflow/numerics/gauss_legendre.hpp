@@ -98,7 +98,7 @@ const GaussRule<R>& gauss_rule(int s) {
       return all;
     }();
     return rules[static_cast<std::size_t>(s)];
-  } else {  // in slow arithmetic each when it is asked for; a run holds on to its address
+  } else {  // in slow arithmetic each on first use; a run keeps its address
     static thread_local std::map<std::pair<long, int>, GaussRule<R>> rules;
     const std::pair<long, int> key{precision_in_use<R>(), s};
     const auto found = rules.find(key);

@@ -7,8 +7,8 @@
 // y has so few digits that y^2 and y^3 are exact; what remains is the rounding of the last addition: the error is at
 // most 1.002 x 2^-53, against 2.5 x 2^-53 for 1/(u sqrt(u)).
 //
-// The library is compiled for any x86-64, and the instructions are asked for only where the processor (and the system)
-// says that it has them. They stand here as assembly and not as intrinsics in functions of another target, because
+// The library is compiled for any x86-64, and the instructions are used only where the processor (and the system)
+// reports that it has them. They stand here as assembly and not as intrinsics in functions of another target, because
 // such functions are not inlined into a step loop for any x86-64, and because inline functions of a header compiled for
 // different processors in different translation units would be merged by the linker into either one.
 //
@@ -34,7 +34,7 @@ namespace detail {
 /// One load and one test of what was found out at the start of the program.
 inline bool has_estimate() { return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("fma"); }
 
-/// y ~ u^(-1/2). volatile: else the compiler may compute it ahead of the branch that asks whether the instruction is
+/// y ~ u^(-1/2). volatile: else the compiler may compute it ahead of the branch that tests whether the instruction is
 /// there. Nothing else needs it: the fused operations all need y.
 [[gnu::always_inline]] inline double inverse_root_estimate(double u) {
   double y;

@@ -126,7 +126,7 @@ class Pack {
       z = (Register)((Mask)x & (Mask{} + 0x7fffffffffffffffLL));
     });
   }
-  /// b where a < b, else a: also beside a NaN what larger(double, double) says.
+  /// b where a < b, else a: also for a NaN the result of larger(double, double).
   [[gnu::always_inline]] friend Pack larger(const Pack& a, const Pack& b) {
     return combined(a, b, [](const Register& x, const Register& y, Register& z) { z = x < y ? y : x; });
   }

@@ -1,6 +1,6 @@
 // Taylor coefficients of the solution of z' = f(z), f recorded on a tape, coefficient by coefficient: with those of z
-// up to k all nodes follow up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k). [Jorba and Zou 2005, Prop. 2.1;
-// Griewank and Walther 2008, tables 13.1, 13.2; HLW2006 has none of this]
+// up to k all nodes follow up to k, and z_(k+1) = f_k/(k + 1). Each node costs O(k). [JorbaZou2005, Prop. 2.1;
+// GriewankWalther2008, tables 13.1, 13.2]
 //
 // Time is counted in units of the caller: z(t0 + s unit) = sum_k z_k s^k.
 #pragma once

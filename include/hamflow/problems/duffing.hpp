@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/problems/support/duffing_exact.hpp"
+#include "hamflow/problems/support/one_dimensional.hpp"
 
 namespace hamflow {
 
@@ -40,14 +40,10 @@ DuffingCase<R> duffing_case3(R mass, R k, R r0, R speed) {
 }
 
 template <class R = double>
-class Duffing {
+class Duffing : public OneDimensional<R> {
  public:
-  using Real = R;
-  static constexpr std::size_t dimension = 1;
-  static constexpr bool quadratic_kinetic = true;
-
   explicit Duffing(R mass = R(1), R alpha = R(-1), R beta = R(1), R gamma = R(0))
-      : inverse_mass_(R(1) / mass), alpha_(alpha), beta_(beta), gamma_(gamma) {}
+      : OneDimensional<R>(R(1) / mass), alpha_(alpha), beta_(beta), gamma_(gamma) {}
   /// From alpha and beta, or else from k and lambda.
   explicit Duffing(const Parameters<R>& given) : Duffing(given["mass"]) {
     if (given.has("alpha") || given.has("beta")) {
@@ -72,36 +68,43 @@ class Duffing {
                            {"beta", "", "cubic stiffness"},
                            {"k", "", "strength, instead of alpha and beta"},
                            {"lambda", "", "square of the minimum's place, instead of alpha and beta"}},
-            .starts = {{"case1", {"r0", "speed"}, "at rest at r0, with the given speed at x = 0; 2 zeros", {"lambda"}},
-                       {"case2", {"r0"}, "at rest at r0, on the separatrix; 3 zeros", {"lambda"}},
-                       {"case3",
-                        {"r0", "speed"},
-                        "at rest at r0 >= sqrt(lambda), the largest speed given; 4 zeros",
-                        {"lambda"}}},
-            .start_key = "case"};
+            .starts = {{.kind = "case1",
+                        .keys = {"r0", "speed"},
+                        .meaning = "at rest at r0, with the given speed at x = 0; 2 zeros",
+                        .derives = {"lambda"},
+                        .example = {{"r0", "1"}, {"speed", "0.25"}},
+                        .example_parameters = {{"k", "1"}}},
+                       {.kind = "case2",
+                        .keys = {"r0"},
+                        .meaning = "at rest at r0, on the separatrix; 3 zeros",
+                        .derives = {"lambda"},
+                        .example = {{"r0", "1"}},
+                        .example_parameters = {{"k", "1"}}},
+                       {.kind = "case3",
+                        .keys = {"r0", "speed"},
+                        .meaning = "at rest at r0 >= sqrt(lambda), the largest speed given; 4 zeros",
+                        .derives = {"lambda"},
+                        .example = {{"r0", "1"}, {"speed", "0.25"}},
+                        .example_parameters = {{"k", "1"}}}},
+            .start_key = "case",
+            .region = {.parameters = {{"alpha", "-1"}, {"beta", "1"}}, .centre = {1.3, 0.4}}};
   }
 
-  /// Which parameters would go together, if these do not; empty: they do. lambda of a case counts as given.
-  static std::string problem_with(const Parameters<R>& given) {
+  /// Which parameters would go together, if these do not. lambda of a case counts as given.
+  static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
     const bool stiffnesses = given.has("alpha") && given.has("beta");
     const bool binomial = given.has("k") && given.has("lambda");
     const bool both = (given.has("alpha") || given.has("beta")) && (given.has("k") || given.has("lambda"));
-    if (both || !(stiffnesses || binomial)) return "alpha with beta, or k with lambda, or k with a case";
+    if (both || !(stiffnesses || binomial)) {
+      return {"", "alpha with beta, or k with lambda, or k with a case"};
+    }
     return {};
   }
 
   template <class S>
-  S kinetic(const Vector<S, 1>& p) const {
-    return p[0] * p[0] * (inverse_mass_ / R(2));
-  }
-  template <class S>
   S potential(const Vector<S, 1>& q) const {
     const S u = q[0] * q[0];
     return u * (u * (beta_ / R(4)) + alpha_ / R(2)) + gamma_;
-  }
-  template <class S>
-  void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {
-    v[0] = p[0] * inverse_mass_;
   }
   template <class S>
   void force(const Vector<S, 1>& q, Vector<S, 1>& f) const {
@@ -139,7 +142,7 @@ class Duffing {
   /// The exact state at time t, where the motion is bounded or the force linear.
   std::optional<Start<long double, 1>> exact(const Vector<long double, 1>& q, const Vector<long double, 1>& p,
                                              long double t) const {
-    const auto w = static_cast<long double>(inverse_mass_);
+    const auto w = static_cast<long double>(this->inverse_mass());
     const auto motion =
         duffing_motion(q[0], p[0] * w, static_cast<long double>(alpha_) * w, static_cast<long double>(beta_) * w, t);
     if (!motion) return std::nullopt;
@@ -151,7 +154,6 @@ class Duffing {
     return given.has(name) ? given[name] : otherwise;
   }
 
-  R inverse_mass_;
   R alpha_;
   R beta_;
   R gamma_;

@@ -1,5 +1,5 @@
 // Chain of n masses between fixed ends, H = sum p_i^2/2 + sum V(q_{i+1} - q_i), V(r) = r^2/2 + alpha r^3/3 + beta
-// r^4/4, q_0 = q_{n+1} = 0.   [Fermi, Pasta, Ulam and Tsingou 1955; HLW2006, Sect. I.5.1] For alpha = 0 V is even, for
+// r^4/4, q_0 = q_{n+1} = 0.   [FermiEtAl1955; HLW2006, Sect. I.5.1] For alpha = 0 V is even, for
 // alpha = beta = 0 the chain is linear with frequencies 2 sin(k pi/(2 n + 2)).
 #pragma once
 
@@ -22,11 +22,15 @@ class Fput {
     return {
         .name = "fput",
         .formula = "H = sum p_i^2/2 + sum (r_i^2/2 + alpha r_i^3/3 + beta r_i^4/4), r_i = q_{i+1} - q_i, fixed ends",
-        .reference = "Fermi, Pasta, Ulam and Tsingou 1955",
+        .reference = "FermiEtAl1955",
         .coordinates = {"q1", "...", "qn"},
         .parameters = {{.name = "n", .meaning = "moving masses", .range = Range::count, .required = true},
                        {"alpha", "0", "cubic strength of a link"},
-                       {"beta", "0", "quartic strength of a link"}}};
+                       {"beta", "0", "quartic strength of a link"}},
+        .region = {.parameters = {{"n", "4"}, {"alpha", "0.25"}, {"beta", "0.5"}},
+                   .centre = {0.3, 0.4, -0.2, 0.2, 0.1, -0.2, 0.2, 0.1},
+                   .spread = 0.05,
+                   .step = 0.05}};
   }
   static std::string refused_size(const Parameters<R>& given, std::size_t size) {
     const double n = static_cast<double>(given["n"]);
@@ -79,11 +83,6 @@ class Fput {
         hessian[i][i - 1] -= stiffness;
       }
     }
-  }
-  template <class S>
-  void potential_hessian(const Vector<S, dynamic>& q, Matrix<S, dynamic>& hessian) const {
-    Vector<S, dynamic> f = zeros_like(q);
-    force_and_hessian(q, f, hessian);
   }
 
  private:

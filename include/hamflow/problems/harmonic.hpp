@@ -1,24 +1,20 @@
-// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2.   [spec: product, section 3]
+// Harmonic oscillator, H = p^2/(2 m) + m omega^2 q^2/2.
 // Every symmetric method gains an order here or there: never measure an order on it. The orbit is exact:
 // q(t) = q0 cos(omega t) + p0/(m omega) sin(omega t).
 #pragma once
 
 #include <optional>
 
-#include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/problems/support/linear_oscillator.hpp"
+#include "hamflow/problems/support/one_dimensional.hpp"
 
 namespace hamflow {
 
 template <class R = double>
-class Harmonic {
+class Harmonic : public OneDimensional<R> {
  public:
-  using Real = R;
-  static constexpr std::size_t dimension = 1;
-  static constexpr bool quadratic_kinetic = true;
-
-  explicit Harmonic(R mass = R(1), R omega = R(1)) : inverse_mass_(R(1) / mass), stiffness_(mass * omega * omega) {}
+  explicit Harmonic(R mass = R(1), R omega = R(1)) : OneDimensional<R>(R(1) / mass), stiffness_(mass * omega * omega) {}
   explicit Harmonic(const Parameters<R>& given) : Harmonic(given["mass"], given["omega"]) {}
 
   static ProblemInfo info() {
@@ -26,20 +22,13 @@ class Harmonic {
             .formula = "H = p^2/(2 m) + m omega^2 q^2/2",
             .reference = "any textbook",
             .coordinates = {"q"},
-            .parameters = {{"mass", "1", "m", Range::positive}, {"omega", "1", "angular frequency"}}};
+            .parameters = {{"mass", "1", "m", Range::positive}, {"omega", "1", "angular frequency"}},
+            .region = {.centre = {1.0, 0.5}, .spread = 0.2}};
   }
 
   template <class S>
-  S kinetic(const Vector<S, 1>& p) const {
-    return p[0] * p[0] * (inverse_mass_ / R(2));
-  }
-  template <class S>
   S potential(const Vector<S, 1>& q) const {
     return q[0] * q[0] * (stiffness_ / R(2));
-  }
-  template <class S>
-  void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {
-    v[0] = p[0] * inverse_mass_;
   }
   template <class S>
   void force(const Vector<S, 1>& q, Vector<S, 1>& f) const {
@@ -53,13 +42,12 @@ class Harmonic {
   /// The exact state at time t.
   std::optional<Start<long double, 1>> exact(const Vector<long double, 1>& q, const Vector<long double, 1>& p,
                                              long double t) const {
-    const auto w = static_cast<long double>(inverse_mass_);
+    const auto w = static_cast<long double>(this->inverse_mass());
     const LinearMotion x = linear_motion(q[0], p[0] * w, static_cast<long double>(stiffness_) * w, t);
     return Start<long double, 1>{{x.position}, {x.velocity / w}};
   }
 
  private:
-  R inverse_mass_;
   R stiffness_;  // m omega^2
 };
 

@@ -23,7 +23,8 @@ class HenonHeiles {
             .formula = "H = (p1^2 + p2^2 + q1^2 + q2^2)/2 + lambda (q1^2 q2 - q2^3/3)",
             .reference = "HLW2006, Sect. I.3.4",
             .coordinates = {"q1", "q2"},
-            .parameters = {{"lambda", "1", "strength of the cubic terms"}}};
+            .parameters = {{"lambda", "1", "strength of the cubic terms"}},
+            .region = {.centre = {0.3, -0.15, 0.2, 0.25}, .spread = 0.08, .time = 3.25}};
   }
 
   template <class S>

@@ -2,20 +2,16 @@
 // Bounded for H < 0; the seed's start q = 1.5, p = 0 has H = -0.1678756438...
 #pragma once
 
-#include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/problems/support/one_dimensional.hpp"
 
 namespace hamflow {
 
 template <class R = double>
-class LennardJonesOscillator {
+class LennardJonesOscillator : public OneDimensional<R> {
  public:
-  using Real = R;
-  static constexpr std::size_t dimension = 1;
-  static constexpr bool quadratic_kinetic = true;
-
-  LennardJonesOscillator() = default;
-  explicit LennardJonesOscillator(const Parameters<R>&) {}
+  LennardJonesOscillator() : OneDimensional<R>(R(1)) {}
+  explicit LennardJonesOscillator(const Parameters<R>&) : LennardJonesOscillator() {}
 
   static ProblemInfo info() {
     return {.name = "lennard-jones-oscillator",
@@ -23,21 +19,14 @@ class LennardJonesOscillator {
             .reference = "Sonnleitner2010, p. 37-42",
             .coordinates = {"q"},
             .default_q = {"1.5"},
-            .default_p = {"0"}};
+            .default_p = {"0"},
+            .region = {.centre = {1.25, 0.25}, .spread = 0.05, .step = 0.025, .time = 0.7}};
   }
 
-  template <class S>
-  S kinetic(const Vector<S, 1>& p) const {
-    return p[0] * p[0] / R(2);
-  }
   template <class S>
   S potential(const Vector<S, 1>& q) const {
     const S i6 = inverse_sixth(q[0]);
     return i6 * i6 - R(2) * i6;
-  }
-  template <class S>
-  void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {
-    v = p;
   }
   /// -V' = 12/q^13 - 12/q^7.
   template <class S>

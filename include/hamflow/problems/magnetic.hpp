@@ -40,10 +40,12 @@ class Magnetic {
                            {.name = "field",
                             .default_value = "[0, 0, 1]",
                             .meaning = "B, uniform",
-                            .kind = ParameterKind::list,
+                            .type = OptionType::list,
                             .length = 3}},
-            .invariants = {{"angular_momentum", "e B.(x x p)/(e |B|): the component along the field"},
-                           {"parallel_momentum", "e B.p/(e |B|)"}}};
+            .invariants = {{"angular_momentum", "e B.(x x p)/(e |B|): the component along the field", Components::one,
+                            Terms::moments},
+                           {"parallel_momentum", "e B.p/(e |B|)", Components::one, Terms::momenta}},
+            .region = {.centre = {0.4, -0.3, 0.2, 0.5, 0.3, 0.4}}};
   }
 
   template <class S>
@@ -75,7 +77,7 @@ class Magnetic {
     }
   }
   template <class S>
-  Vector<S, 2> invariants(const Vector<S, 3>& q, const Vector<S, 3>& p) const {
+  Vector<S, 2> invariants(const Vector<S, 3>& q, const Vector<S, 3>& p, const S& /*t*/) const {
     const R size = sqrt(strength_[0] * strength_[0] + strength_[1] * strength_[1] + strength_[2] * strength_[2]);
     if (!(size > R(0))) return {S(0), S(0)};
     const Vector<R, 3> b{strength_[0] / size, strength_[1] / size, strength_[2] / size};

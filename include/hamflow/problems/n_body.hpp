@@ -21,11 +21,22 @@ class NBody : public Gravity<R> {
             .parameters = {{.name = "masses",
                             .meaning = "one for each body",
                             .range = Range::positive,
-                            .kind = ParameterKind::list,
+                            .type = OptionType::list,
                             .required = true},
                            {"gravitational_constant", "1", "G"},
                            {"softening", "0", "length", Range::not_negative}},
-            .invariants = Gravity<R>::gravity_invariants()};
+            .invariants = Gravity<R>::gravity_invariants(),
+            // Softened, so that close encounters, to which the elements come in time, do no harm.
+            .region = {.parameters = {{"masses", "[1, 0.3, 0.2]"}, {"softening", "0.2"}},
+                       .centre = {0, 0, 1, 0, 0, -1.5, 0, -0.1, 0, 0.3, 0.16, 0},
+                       .spread = 0.05,
+                       .step = 0.02},
+            // A sun with two planets: the bodies of the region would meet after a while.
+            .example = {.parameters = {{"masses", "[1, 0.001, 0.0005]"}},
+                        .q = {0, 0, 1, 0, 0, -1.7},
+                        .p = {-0.00038, -0.001, 0, 0.001, 0.00038, 0},
+                        .dt = 0.05,
+                        .steps = 2000}};
   }
   /// Why q cannot have that many numbers; empty if it can.
   static std::string refused_size(const Parameters<R>& given, std::size_t size) {

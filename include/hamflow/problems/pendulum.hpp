@@ -7,21 +7,17 @@
 
 #include <optional>
 
-#include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/numerics/elliptic.hpp"
+#include "hamflow/problems/support/one_dimensional.hpp"
 
 namespace hamflow {
 
 template <class R = double>
-class Pendulum {
+class Pendulum : public OneDimensional<R> {
  public:
-  using Real = R;
-  static constexpr std::size_t dimension = 1;
-  static constexpr bool quadratic_kinetic = true;
-
   explicit Pendulum(R mass = R(1), R length = R(1), R gravity = R(1))
-      : inverse_inertia_(R(1) / (mass * length * length)), torque_(mass * gravity * length) {}
+      : OneDimensional<R>(R(1) / (mass * length * length)), torque_(mass * gravity * length) {}
   explicit Pendulum(const Parameters<R>& given) : Pendulum(given["mass"], given["length"], given["gravity"]) {}
 
   static ProblemInfo info() {
@@ -29,21 +25,16 @@ class Pendulum {
             .formula = "H = p^2/(2 m l^2) - m g l cos q",
             .reference = "HLW2006, Sect. I.1.3",
             .coordinates = {"q"},
-            .parameters = {
-                {"mass", "1", "m", Range::positive}, {"length", "1", "l", Range::positive}, {"gravity", "1", "g"}}};
+            .angles = {"q"},
+            .parameters = {{"mass", "1", "m", Range::positive},
+                           {"length", "1", "l", Range::positive},
+                           {"gravity", "1", "g"}},
+            .region = {.centre = {2.0, 0.5}, .spread = 0.15, .time = 2.5}};
   }
 
   template <class S>
-  S kinetic(const Vector<S, 1>& p) const {
-    return p[0] * p[0] * (inverse_inertia_ / R(2));
-  }
-  template <class S>
   S potential(const Vector<S, 1>& q) const {
     return -(cos(q[0]) * torque_);
-  }
-  template <class S>
-  void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {
-    v[0] = p[0] * inverse_inertia_;
   }
   template <class S>
   void force(const Vector<S, 1>& q, Vector<S, 1>& f) const {
@@ -60,7 +51,7 @@ class Pendulum {
                                              long double t) const {
     using Long = long double;
     const Long pi = pi_value<Long>();
-    const auto inverse_inertia = static_cast<Long>(inverse_inertia_);
+    const auto inverse_inertia = static_cast<Long>(this->inverse_mass());
     const auto torque = static_cast<Long>(torque_);
     const Long w0 = sqrt(abs(torque) * inverse_inertia);
     // The angle from the stable rest, in turns; s and c come from q itself, so that c is right to its last digit near
@@ -98,7 +89,6 @@ class Pendulum {
   }
 
  private:
-  R inverse_inertia_;
   R torque_;  // m g l
 };
 

@@ -1,5 +1,5 @@
 // A polynomial example that is not symmetric in p, H = p^3/3 - p/2 + q^6/30 + q^4/4 - q^3/3 + 1/6.
-// [Faou, Hairer, Pham 2004]   Separable, but its kinetic energy is not quadratic: reversing p does not reverse time,
+// [FaouHairerPham2004]   Separable, but its kinetic energy is not quadratic: reversing p does not reverse time,
 // and symmetric methods that are not symplectic may drift in energy. Motion near p = 1/sqrt 2, q^3/5 + q = 1, where T
 // and V have their minima, is bounded.
 #pragma once
@@ -22,8 +22,9 @@ class Sextic {
   static ProblemInfo info() {
     return {.name = "sextic",
             .formula = "H = p^3/3 - p/2 + q^6/30 + q^4/4 - q^3/3 + 1/6",
-            .reference = "Faou, Hairer, Pham 2004",
-            .coordinates = {"q"}};
+            .reference = "FaouHairerPham2004",
+            .coordinates = {"q"},
+            .region = {.centre = {0.6, 0.9}, .spread = 0.2, .step = 0.023}};
   }
 
   template <class S>

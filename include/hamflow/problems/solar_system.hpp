@@ -19,10 +19,16 @@ class SolarSystem : public Gravity<R> {
                         "Neptune, Pluto; AU, days, solar masses",
                     .reference = "HLW2006, Sect. I.2.4",
                     .coordinates = {"x1", "y1", "z1", "...", "z6"},
-                    .invariants = Gravity<R>::gravity_invariants()};
+                    .invariants = Gravity<R>::gravity_invariants(),
+                    // Days; momenta are as small as 1e-11, and any larger move would throw the planets out.
+                    .region = {.spread = 1e-13, .step = 50, .time = 1000},
+                    .example = {.dt = 20, .steps = 10000}};  // Jupiter takes 4333 days for one round
     for (const Body& body : bodies) {
       for (const char* x : body.position) all.default_q.push_back(x);
       for (const char* v : body.velocity) all.default_p.push_back(std::string(body.mass) + "*(" + v + ")");
+    }
+    for (const auto* texts : {&all.default_q, &all.default_p}) {
+      for (const std::string& text : *texts) all.region.centre.push_back(evaluate_number<double>(text));
     }
     return all;
   }

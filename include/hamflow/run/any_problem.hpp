@@ -7,35 +7,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hamflow/core/capability.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/run/probe.hpp"
 
 namespace hamflow {
-
-/// What a problem offers to methods; the concepts of core/concepts.hpp as a value.
-enum class Capability {
-  smooth,     // Smooth and no more: gradient and Hessian of H
-  separable,  // H = T(p) + V(q)
-  natural,    // T quadratic with constant mass matrix
-  cyclic,     // the last coordinate is cyclic
-  charge      // a charge in a uniform magnetic field
-};
-
-template <class P>
-constexpr Capability capability_of() {
-  if constexpr (QuadraticKinetic<P>) {
-    return Capability::natural;
-  } else if constexpr (Separable<P>) {
-    return Capability::separable;
-  } else if constexpr (Cyclic<P>) {
-    return Capability::cyclic;
-  } else if constexpr (ChargeInField<P>) {
-    return Capability::charge;
-  } else {
-    return Capability::smooth;
-  }
-}
 
 /// Number types that only record or carry first derivatives: no Hessian is compiled for them.
 template <class S>
@@ -43,7 +20,7 @@ inline constexpr bool first_derivatives_only = false;
 template <class R>
 inline constexpr bool first_derivatives_only<Trace<R>> = true;
 
-/// The functions of one Hamiltonian for states of type S. What its Capability does not promise is never called.
+/// The functions of one Hamiltonian for states of type S. What its capabilities do not promise is never called.
 template <class S>
 class Functions {
  public:
@@ -74,7 +51,8 @@ template <class P, class S>
 class FunctionsOf final : public Functions<S> {
   static constexpr std::size_t n = P::dimension;
   using X = Vector<S, n>;  // as the problem has it
-  static constexpr Capability capability = capability_of<P>();
+  static constexpr bool cyclic = Cyclic<P>;
+  static constexpr bool charge = ChargeInField<P>;
   static constexpr bool has_hessian = !first_derivatives_only<S>;
 
  public:
@@ -149,8 +127,8 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   V invariants(const V& q, const V& p, const S& t) const override {
-    if constexpr (detail::HasInvariants<P, S>) {
-      const auto values = detail::invariants_of(problem_, in(q), in(p), t);
+    if constexpr (HasInvariants<P, S>) {
+      const auto values = problem_.invariants(in(q), in(p), t);
       V all = zeros<S, dynamic>(values.size());
       for (std::size_t i = 0; i < values.size(); ++i) all[i] = values[i];
       return all;
@@ -158,22 +136,16 @@ class FunctionsOf final : public Functions<S> {
       return {};
     }
   }
-  std::vector<std::size_t> invariant_sizes() const override {
-    if constexpr (requires { P::info(); }) {
-      return detail::invariant_sizes(problem_, P::info().invariants.size());
-    } else {
-      return {};
-    }
-  }
+  std::vector<std::size_t> invariant_sizes() const override { return detail::invariant_sizes(problem_); }
   std::shared_ptr<const Functions<S>> reduced(const S& momentum) const override {
-    if constexpr (capability == Capability::cyclic && std::is_same_v<S, RealOf<P>>) {
-      return std::make_shared<FunctionsOf<typename P::Reduced, S>>(problem_.reduced(momentum));
+    if constexpr (cyclic && std::is_same_v<S, RealOf<P>>) {
+      return std::unique_ptr<const Functions<S>>(new FunctionsOf<typename P::Reduced, S>(problem_.reduced(momentum)));
     } else {
       absent();
     }
   }
   S cyclic_rate(const V& q, const S& momentum) const override {
-    if constexpr (capability == Capability::cyclic && std::is_same_v<S, RealOf<P>>) {
+    if constexpr (cyclic && std::is_same_v<S, RealOf<P>>) {
       Vector<S, P::Reduced::dimension> rest{};
       for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = q[i];
       return problem_.cyclic_rate(rest, momentum);
@@ -182,7 +154,7 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   void velocity_of(const V& q, const V& p, V& v) const override {
-    if constexpr (capability == Capability::charge) {
+    if constexpr (charge) {
       X out = zeros<S, n>(q.size());
       problem_.velocity_of(in(q), in(p), out);
       put(out, v);
@@ -191,7 +163,7 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   void momentum_of(const V& q, const V& v, V& p) const override {
-    if constexpr (capability == Capability::charge) {
+    if constexpr (charge) {
       X out = zeros<S, n>(q.size());
       problem_.momentum_of(in(q), in(v), out);
       put(out, p);
@@ -200,7 +172,7 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   V rotation() const override {
-    if constexpr (capability == Capability::charge) {
+    if constexpr (charge) {
       const auto omega = problem_.rotation();
       V out = zeros<S, dynamic>(omega.size());
       for (std::size_t i = 0; i < omega.size(); ++i) out[i] = omega[i];
@@ -234,6 +206,13 @@ class FunctionsOf final : public Functions<S> {
   P problem_;
 };
 
+/// The functions of a problem for states of type S. Shared by their base, or the library's counting of references would
+/// be compiled for each of them.
+template <class S, class P>
+std::shared_ptr<const Functions<S>> functions_of(const P& problem) {
+  return std::unique_ptr<const Functions<S>>(new FunctionsOf<P, S>(problem));
+}
+
 /// A problem of dynamic size made of functions; a value like any problem, whose copies share them.
 /// @tparam States the number types of states, R the first   @tparam capability what the problem behind it offers
 template <class R, Capability capability, class... Others>
@@ -241,8 +220,10 @@ class AnyProblem {
  public:
   using Real = R;
   static constexpr std::size_t dimension = dynamic;
-  static constexpr bool quadratic_kinetic = capability == Capability::natural;
-  static constexpr bool separable = capability == Capability::natural || capability == Capability::separable;
+  static constexpr bool quadratic_kinetic = includes(capability, Capability::quadratic_kinetic);
+  static constexpr bool separable = includes(capability, Capability::separable);
+  static constexpr bool cyclic = includes(capability, Capability::cyclic);
+  static constexpr bool charge = includes(capability, Capability::charge);
 
   AnyProblem(std::size_t size, std::shared_ptr<const Functions<R>> own,
              std::shared_ptr<const Functions<Others>>... others)
@@ -251,8 +232,7 @@ class AnyProblem {
         invariant_sizes_(std::make_shared<const std::vector<std::size_t>>(on<R>().invariant_sizes())) {}
   template <class P>
   static AnyProblem of(const P& problem) {
-    return {degrees_of_freedom(problem), std::make_shared<FunctionsOf<P, R>>(problem),
-            std::make_shared<FunctionsOf<P, Others>>(problem)...};
+    return {degrees_of_freedom(problem), functions_of<R>(problem), functions_of<Others>(problem)...};
   }
 
   std::size_t size() const { return size_; }
@@ -302,24 +282,22 @@ class AnyProblem {
   }
   const std::vector<std::size_t>& invariant_sizes() const { return *invariant_sizes_; }
 
-  using Reduced = AnyProblem<R, Capability::natural>;
-  Reduced reduced(const R& momentum) const requires(capability == Capability::cyclic) {
-    return {size_ - 1, on<R>().reduced(momentum)};
-  }
-  R cyclic_rate(const Vector<R, dynamic>& q, const R& momentum) const requires(capability == Capability::cyclic) {
+  using Reduced = AnyProblem<R, Capability::separable | Capability::quadratic_kinetic>;
+  Reduced reduced(const R& momentum) const requires cyclic { return {size_ - 1, on<R>().reduced(momentum)}; }
+  R cyclic_rate(const Vector<R, dynamic>& q, const R& momentum) const requires cyclic {
     return on<R>().cyclic_rate(q, momentum);
   }
   template <class S>
-  void velocity_of(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, Vector<S, dynamic>& v) const
-      requires(capability == Capability::charge) {
+  void velocity_of(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p,
+                   Vector<S, dynamic>& v) const requires charge {
     on<S>().velocity_of(q, p, v);
   }
   template <class S>
-  void momentum_of(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v, Vector<S, dynamic>& p) const
-      requires(capability == Capability::charge) {
+  void momentum_of(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v,
+                   Vector<S, dynamic>& p) const requires charge {
     on<S>().momentum_of(q, v, p);
   }
-  Vector<R, dynamic> rotation() const requires(capability == Capability::charge) { return on<R>().rotation(); }
+  Vector<R, dynamic> rotation() const requires charge { return on<R>().rotation(); }
 
  private:
   template <class S>
@@ -328,7 +306,7 @@ class AnyProblem {
   }
   std::size_t size_;
   std::tuple<std::shared_ptr<const Functions<R>>, std::shared_ptr<const Functions<Others>>...> functions_;
-  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // asked for at every step
+  std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // needed at every step
 };
 
 }  // namespace hamflow

@@ -13,35 +13,12 @@
 #include <vector>
 
 #include "hamflow/core/problem_info.hpp"
-#include "hamflow/methods/adaptive_options.hpp"
-#include "hamflow/methods/cg_options.hpp"
-#include "hamflow/methods/tables.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/run/method_family.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/step_map.hpp"
 
 namespace hamflow {
-
-/// A method by name, with its options where it has any.
-struct MethodSpec {
-  std::string name = "stv4";
-  CgOptions cg{};
-  AdaptiveOptions adaptive{};  // of dop853 and taylor
-};
-
-enum class MethodKind { composition, splitting, force_gradient, runge_kutta, cg, boris, dop853, taylor };
-
-/// One name of the closed list of methods.
-struct MethodEntry {
-  std::string name;
-  MethodKind kind;
-  StartsWith starts_with = StartsWith::kick;  // of a composition
-  const CompositionTable* composition = nullptr;
-  const SplittingTable* splitting = nullptr;
-  const ForceGradientTable* force_gradient = nullptr;
-};
-
-/// Numbers are texts, read in the arithmetic of the run.
-using Texts = std::map<std::string, std::string>;
 
 /// Where a run begins: a geometric start or a state; v, if not empty, stands for p = dL/dv.
 struct StartSpec {
@@ -73,9 +50,9 @@ struct Request {
 struct ProblemEntry {
   ProblemInfo info;
   std::size_t dimension = 0;  // degrees of freedom; 0: as many as the start has coordinates
-  /// What q and p have to be where `size` numbers cannot be one of them; empty where they can.
+  /// What q and p have to be where they cannot have `size` numbers; empty where they can.
   std::function<std::string(const Texts& parameters, std::size_t size)> refused_size;
-  /// The key to blame and what is wrong with parameters that do not go together.
+  /// The key at fault, and what is wrong with parameters that contradict each other.
   std::function<std::pair<std::string, std::string>(const Texts& parameters)> refused_parameters;
   /// What is wrong with a start; empty if nothing is.
   std::function<std::string(const Texts& parameters, const std::vector<double>& q)> refused_start;
@@ -84,7 +61,7 @@ struct ProblemEntry {
   bool has_fast_kernel = false;
   bool has_pairwise_forces = false;  // on the lattice several threads may compute them
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
-  /// The same behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
+  /// The same problem behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
   /// Null where the method is not accepted.
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
@@ -94,12 +71,22 @@ struct ProblemEntry {
   std::function<std::vector<Condition>(const Texts& parameters, const StartSpec&)> conditions;
   /// H(q, p).
   std::function<double(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> energy;
+  /// dH/dp, the rates of change of the coordinates.
+  std::function<std::vector<double>(const Texts& parameters, const std::vector<double>& q,
+                                    const std::vector<double>& p)>
+      rates;
   /// Whether H and its derivatives are finite there.
   std::function<bool(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> regular;
   /// How many numbers each invariant has.
   std::function<std::vector<std::size_t>(const Texts& parameters, std::size_t size)> invariant_sizes;
   /// The canonical start of a request in double.
   std::function<Frame(const Request&)> start;
+  /// The total mass, for the centre of mass of `size` coordinates; empty where the problem has none.
+  std::function<double(const Texts& parameters, std::size_t size)> total_mass;
+  /// The canonical change of coordinates to the reference chart of the problem and back; empty in that chart itself.
+  /// They throw an Error where a chart does not reach.
+  std::function<Frame(const std::vector<double>& q, const std::vector<double>& p)> to_reference;
+  std::function<Frame(const std::vector<double>& q, const std::vector<double>& p)> from_reference;
   /// r(phi) of the exact orbit through (q, p); empty where there is no closed form.
   std::function<std::function<double(double)>(const Texts&, const std::vector<double>& q, const std::vector<double>& p)>
       exact_radius;
@@ -107,7 +94,7 @@ struct ProblemEntry {
   std::function<std::optional<Frame>(const Texts&, const std::vector<double>& q, const std::vector<double>& p,
                                      double t)>
       exact;
-  /// What the effective potential says of the orbit through (q, p); empty where there is none.
+  /// What follows from the effective potential for the orbit through (q, p); empty where there is none.
   std::function<OrbitFacts(const Texts&, const std::vector<double>& q, const std::vector<double>& p)> describe_orbit;
 };
 
@@ -118,25 +105,37 @@ inline const std::vector<std::string>& arithmetics() {
   static const std::vector<std::string> names{"double", "compensated", "double-double", "quad", "mp(d)", "lattice"};
   return names;
 }
-/// d of "mp(d)"; 0 where the name is another. @throws Error when d is no number of digits
+/// d of "mp(d)"; 0 for any other name. @throws Error when d is not a number of digits
 int mp_digits(const std::string& arithmetic);
 /// Decimal digits of an arithmetic beyond double: 31, 33, d; else 0.
 int digits_beyond_double(const std::string& arithmetic);
 /// @throws Error naming what is allowed when there is no such arithmetic
 void check_arithmetic(const std::string& arithmetic);
 
-/// @throws Error naming the nearest name when there is none such
+/// @throws Error with the nearest name when there is no such name
 const MethodEntry& find_method(const std::string& name);
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant);
+/// The entry with these choices; what they leave open is chosen as a scenario would by default, or, where a scenario
+/// has to choose, as `new` does (ProblemInfo::default_choices, example_choices). @throws Error as find_problem does
+const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant = {});
 /// The parameters of a problem with defaults for those not given.
 Texts complete(const ProblemInfo& info, const Texts& given);
 MethodInfo describe(const MethodSpec& spec);
-/// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)". @throws Error
+/// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)".
+/// @throws Error naming the option, what was found and what is allowed
 MethodSpec parse_method(const std::string& text);
-/// The order of taylor with these options.
-int taylor_order(const AdaptiveOptions& options);
-inline constexpr int least_taylor_order = 2;
-inline constexpr int most_taylor_order = 200;
+/// The option to blame, and what is wrong with a text for it or with options that do not go together:
+/// "found ...; allowed ...". Empty if nothing is.
+struct RefusedOption {
+  std::string name;
+  std::string message;
+};
+std::optional<RefusedOption> refused_option(const MethodSpec& spec);
+/// What can be tried after a step that did not converge.
+std::string hint_after_divergence(const MethodSpec& spec);
+/// The number of its family in method_families().
+std::size_t family_number(const MethodEntry& method);
+std::span<const MethodFamily> method_families();
 /// Why a method cannot run in an arithmetic; empty if it can.
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
 /// Why a method cannot run on a problem, and which can; empty if it can.
@@ -146,8 +145,6 @@ std::string refused_fast_kernel(const Request& request, const ProblemEntry& prob
 /// Why a request cannot have several threads; empty if it can.
 std::string refused_threads(const Request& request, const ProblemEntry& problem);
 inline constexpr int most_threads = 256;
-/// The name nearest to `name` by edit distance, empty if none is near.
-std::string nearest(const std::string& name, std::span<const std::string> candidates);
 
 /// @throws Error when the request is wrong
 std::unique_ptr<Simulation> make_simulation(const Request& request);

@@ -37,7 +37,7 @@ LaneSet widest_lanes();
 /// Names of the parameters that members have, and how many numbers each is.
 using ParameterShape = std::vector<std::pair<std::string, std::size_t>>;
 
-/// A member as a lane takes it: canonical start, parameters in the order of their shape, step length.
+/// A member in the form that a lane needs: canonical start, parameters in the order of their shape, step length.
 struct MemberStart {
   std::vector<double> q;
   std::vector<double> p;
@@ -45,9 +45,9 @@ struct MemberStart {
   double h = 0;
 };
 
-/// What became of a member.
+/// The result of a member.
 struct MemberEnd {
-  bool regular = false;  // energy and state were finite at every step; if not, the rest means nothing
+  bool regular = false;  // energy and state were finite at every step; if not, the rest is undefined
   std::vector<double> q;
   std::vector<double> p;
   Excursion energy;

@@ -15,8 +15,8 @@
 
 namespace hamflow {
 
-/// A problem that lanes can take: separable, of fixed size, and nothing but numbers. One that asks how large a number
-/// of the state is (lanes would answer differently) says `static constexpr bool lanes = false`.
+/// A problem that lanes can take: separable, of fixed size, and nothing but numbers. One that compares a number
+/// of the state (lanes would answer differently) declares `static constexpr bool lanes = false`.
 template <class P>
 concept LaneProblem =
     Separable<P> && P::dimension != dynamic&& std::is_trivially_copyable_v<P> && !(requires { requires !P::lanes; });
@@ -54,7 +54,7 @@ class EnsembleBlockOf final : public EnsembleBlock {
   using Number = typename Set::Number;
   using P = Family<Number>;
   static constexpr std::size_t n = P::dimension;
-  static constexpr bool has_invariants = detail::HasInvariants<P, Number>;
+  static constexpr bool has_invariants = HasInvariants<P, Number>;
   using Invariants = typename detail::InvariantsOf<P, Number>::type;
 
   EnsembleBlockOf(SplittingSequence<double> sequence, MethodInfo (*describe)(const void*), const void* table)
@@ -158,7 +158,7 @@ class EnsembleBlockOf final : public EnsembleBlock {
   };
 
   [[gnu::always_inline]] static Invariants invariants_of(const P& problem, const PhasePoint<Plain<Number>, n>& z) {
-    return detail::invariants_of(problem, z.positions(), z.momenta(), Number(0.0));
+    return problem.invariants(z.positions(), z.momenta(), Number(0.0));
   }
   /// ConservationProbe, lane by lane; what is not finite is remembered, and does not stop the others.
   [[gnu::always_inline]] static void look_at(const P& problem, const PhasePoint<Plain<Number>, n>& z, Watched& w) {
@@ -166,8 +166,8 @@ class EnsembleBlockOf final : public EnsembleBlock {
     w.worst_energy = larger(w.worst_energy, error);
     w.regular.keep_where_finite(error);
     if constexpr (has_invariants) {
-      static_assert(!(requires { problem.invariant_sizes(); }),
-                    "hamflow: lanes know invariants of one component each; say static constexpr bool lanes = false");
+      static_assert(!HasInvariantSizes<P>,
+                    "hamflow: lanes know invariants of one component each; declare static constexpr bool lanes = false");
       const Invariants values = invariants_of(problem, z);
       for (std::size_t k = 0; k < values.size(); ++k) {
         w.worst[k] = larger(w.worst[k], abs(values[k] - w.initial[k]));

@@ -1,5 +1,5 @@
-// **Observer**: asks to be woken at given steps. Writers, progress bars and user callbacks are observers. Observing
-// never changes the trajectory.
+// **Observer**: called at the steps that it requests. Writers, progress bars and user callbacks are observers.
+// Observing never changes the trajectory.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Observer {
  public:
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
   virtual ~Observer() = default;
-  /// The next step >= `step` at which to be woken, or never.
+  /// The next step >= `step` at which to be called, or never.
   virtual std::int64_t next_due(std::int64_t step) const = 0;
   virtual Verdict observe(const Frame& frame) = 0;
   /// Where due at `step`: the times from this step on, before the next one, at which the state is wanted, as number
@@ -43,8 +43,8 @@ class Observer {
   }
 };
 
-/// Advances to `last_step`, waking each observer when it is due, the start included. A partial step that fails ends the
-/// run like a step that fails.
+/// Advances to `last_step`, calling each observer when it is due, the start included. A partial step that fails ends
+/// the run like a step that fails.
 /// @param pulse called between blocks, several times a second; returns false to stop at the step boundary reached
 Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* const> observers,
             const std::function<bool(std::int64_t step)>& pulse = {});

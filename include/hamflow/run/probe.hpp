@@ -11,45 +11,30 @@ namespace hamflow {
 
 namespace detail {
 template <class P, class R>
-concept HasSteadyInvariants = requires(const P& problem, const VectorOf<P, R>& x) {
-  problem.invariants(x, x);
-};
-template <class P, class R>
-concept HasTimedInvariants = requires(const P& problem, const VectorOf<P, R>& x, const R& t) {
-  problem.invariants(x, x, t);
-};
-template <class P, class R>
-concept HasInvariants = HasSteadyInvariants<P, R> || HasTimedInvariants<P, R>;
-
-/// All invariants in a row, each with as many numbers as it has components.
-template <class P, class R, std::size_t N>
-auto invariants_of(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, [[maybe_unused]] const R& t) {
-  if constexpr (HasTimedInvariants<P, R>) {
-    return problem.invariants(q, p, t);
-  } else {
-    return problem.invariants(q, p);
-  }
-}
-
-template <class P, class R>
 struct InvariantsOf {
   using type = Vector<R, 1>;  // never used
 };
 template <class P, class R>
 requires HasInvariants<P, R>
 struct InvariantsOf<P, R> {
-  using type = decltype(invariants_of(std::declval<const P&>(), std::declval<const VectorOf<P, R>&>(),
-                                      std::declval<const VectorOf<P, R>&>(), R{}));
+  using type = decltype(std::declval<const P&>().invariants(
+      std::declval<const VectorOf<P, R>&>(), std::declval<const VectorOf<P, R>&>(), std::declval<const R&>()));
 };
 
-/// How many numbers each invariant has: ones unless the problem says otherwise.
+/// How many numbers each invariant has; one each unless the problem gives other sizes.
 template <class P>
-std::vector<std::size_t> invariant_sizes(const P& problem, std::size_t numbers) {
-  if constexpr (requires { problem.invariant_sizes(); }) {
+std::vector<std::size_t> invariant_sizes(const P& problem) {
+  if constexpr (HasInvariantSizes<P>) {
     const auto sizes = problem.invariant_sizes();
     return {sizes.begin(), sizes.end()};
+  } else if constexpr (HasInvariants<P>) {
+    using Values = typename InvariantsOf<P, RealOf<P>>::type;
+    static_assert(
+        requires { typename std::integral_constant<std::size_t, Values::size()>; },
+        "hamflow: a problem whose number of invariants is known at run time only has to give their sizes");
+    return std::vector<std::size_t>(Values::size(), 1);
   } else {
-    return std::vector<std::size_t>(numbers, 1);
+    return {};
   }
 }
 }  // namespace detail
@@ -69,27 +54,27 @@ struct NoProbe {
 template <class P, class R>
 class ConservationProbe {
  public:
-  static constexpr bool watches_invariants = detail::HasInvariants<P, R>;
+  static constexpr bool watches_invariants = HasInvariants<P, R>;
   using Invariants = typename detail::InvariantsOf<P, R>::type;
 
   template <std::size_t N>
   void start(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, const R& t) {
     initial_energy_ = hamflow::energy(problem, q, p);
     if constexpr (watches_invariants) {
-      initial_ = detail::invariants_of(problem, q, p, t);
+      initial_ = problem.invariants(q, p, t);
       worst_ = zeros_like(initial_);
     }
   }
-  /// False where the energy is not finite. With all it calls it belongs into the loop over steps, where its square
-  /// roots and divisions hide behind those of the step.
+  /// False where the energy is not finite. It is inlined with all that it calls into the loop over steps, where its
+  /// square roots and divisions overlap with those of the step.
   template <std::size_t N>
   [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
                              [[maybe_unused]] const R& t) {
     const R error = abs(hamflow::energy(problem, q, p) - initial_energy_);
     worst_energy_ = larger(worst_energy_, error);
     if constexpr (watches_invariants) {
-      const auto values = detail::invariants_of(problem, q, p, t);
-      if constexpr (requires { problem.invariant_sizes(); }) {
+      const auto values = problem.invariants(q, p, t);
+      if constexpr (HasInvariantSizes<P>) {
         look_at_groups(problem.invariant_sizes(), values);
       } else {
         for (std::size_t i = 0; i < values.size(); ++i) {

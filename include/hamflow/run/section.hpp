@@ -1,6 +1,6 @@
 // Poincare sections: the states in which a coordinate x passes a value, found on partial steps. Between two steps of
 // opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so that a point of the
-// section lies on the energy level of the method like any of its steps.   [spec: methods, section 3b]
+// section lies on the energy level of the method like any of its steps.
 #pragma once
 
 #include <functional>
@@ -25,11 +25,11 @@ struct SectionPoint {
 };
 
 /// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
-/// blocks of one, some hundred nanoseconds a step. A start on the section is no point of it; an even number of
+/// blocks of one, some hundred nanoseconds a step. A start on the section is not counted as a point; an even number of
 /// crossings within one step is not seen.
 class SectionFinder final : public Observer {
  public:
-  /// @param simulation that runs
+  /// @param simulation the simulation that is observed
   SectionFinder(const Simulation& simulation, const Section& section, std::function<void(const SectionPoint&)> found);
   std::int64_t next_due(std::int64_t step) const override { return failed_ ? never : step; }
   Verdict observe(const Frame& frame) override;
@@ -37,7 +37,7 @@ class SectionFinder final : public Observer {
   void archive(Reader& ar) override;
   std::int64_t points() const { return points_; }
   double max_residual() const { return max_residual_; }
-  /// Whether a partial step failed: no points are sought after it.
+  /// Whether a partial step failed: no points are sought after that.
   bool failed() const { return failed_; }
 
  private:

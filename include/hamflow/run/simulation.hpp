@@ -31,18 +31,18 @@ struct Frame {
   double energy = 0;
   std::vector<double> invariants;
   Effort effort;                // totals since the start
-  StepDiagnostics diagnostics;  // of the last step, where asked for
+  StepDiagnostics diagnostics;  // of the last step, on request
   FrameDigits digits;
 };
 
-/// How far a conserved quantity was seen to go, over every step.
+/// How far a conserved quantity deviated, over every step.
 struct Excursion {
   double initial = 0;
   double final = 0;
   double max_error = 0;
 };
 
-/// The same of an invariant, with as many numbers as it has components. max_error is the length of the deviation.
+/// The same for an invariant, with as many numbers as it has components. max_error is the length of the deviation.
 struct InvariantExcursion {
   std::vector<double> initial;
   std::vector<double> final;
@@ -70,22 +70,22 @@ class Simulation {
   /// In the order of the problem's invariants.
   virtual std::vector<InvariantExcursion> invariants() const = 0;
   virtual Effort effort() const = 0;
-  /// Of implicit steps, where asked for; else unset.
+  /// Of implicit steps, on request; else unset.
   virtual StepDiagnostics diagnostics() const = 0;
   virtual MethodInfo method() const = 0;
   /// After a failure: what went wrong in the step after the present one, in a sentence.
   virtual std::string failure() const = 0;
 
-  /// Everything that decides the bits of the steps to come and of the summary: state, clock, what the method and the
-  /// probe remember. Equal simulations give equal bytes.
+  /// Everything that decides the bits of the steps to come and of the summary: state, clock, and the memory of the
+  /// method and of the probe. Equal simulations give equal bytes.
   virtual std::vector<std::byte> save() const = 0;
-  /// Goes on where save() was called, bit for bit.
+  /// Continues from the state of save(), bit for bit.
   /// @throws Error when the bytes belong to another kind of simulation, or are damaged; then nothing has changed
   virtual void restore(std::span<const std::byte> saved) = 0;
   virtual std::unique_ptr<Simulation> clone() const = 0;
   /// Fills `frame` with the state at another time: that after one partial step Psi_(theta h), theta h = time - t_n, of
   /// the same method from the present state. The simulation does not change; counters stay those of its own steps.
-  /// A time that differs from t_n by rounding alone is t_n.   [spec: methods, section 3b]
+  /// A time that differs from t_n by rounding alone is t_n.
   /// @param time a number expression, read in the arithmetic of the simulation
   virtual Outcome look_ahead(const std::string& time, Frame& frame) const = 0;
   /// The same after the part theta of a step, theta in [0, 1]: what happens within a step is found to the rounding of

@@ -1,10 +1,13 @@
-// States in other coordinates of the same problem: a central force in the plane (cartesian, polar), a double pendulum
-// (absolute, relative). Every change is canonical: momenta change with positions, H stays.   [Gross1999, ch. 2 and 3]
+// States in other coordinates (charts) of the same problem, as the problems declare them: a central force in the plane
+// (cartesian, polar), a double pendulum (absolute, relative). Every change is canonical: momenta change with positions,
+// H stays.   [Gross1999, ch. 2 and 3]
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
@@ -14,33 +17,39 @@ struct CanonicalState {
   std::vector<double> p;
 };
 
-/// Every name of a coordinate system.
-const std::vector<std::string>& coordinate_systems();
-/// The key of [problem] that chooses it: "coordinates" or "angles". @throws Error naming what is allowed
-std::string coordinate_key(const std::string& system);
-/// The system that a problem with these selecting keys has, to be converted to `to`.
-/// @throws Error when the problem has no such coordinates, saying which problems have some
-std::string present_system(const std::string& problem, const std::map<std::string, std::string>& variant,
-                           const std::string& to);
+/// Every problem that has several charts, with their names: "central-force has cartesian and polar; ...".
+std::string what_charts_there_are();
+/// @throws Error naming what is allowed when no problem has such coordinates
+void check_coordinates(const std::string& name);
+/// The same problem in the coordinates `to`. @throws Error when it has none such, naming which problems have some
+const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to);
+/// The coordinates that an entry is in; empty where there is one chart only.
+std::string coordinates_of(const ProblemEntry& problem);
 
-/// Converts states one after the other. phi goes on from the state before, without jumps by whole turns.
+/// Converts states one after the other. Where the coordinates before know no angles, an angle goes on from the state
+/// before, without jumps by whole turns.
 class StateConverter {
  public:
-  /// @throws Error when there is no way from one to the other
-  StateConverter(std::string from, std::string to);
-  /// @throws Error at r = 0, where polar coordinates do not exist, and for a state that has not two coordinates
+  /// Two entries of one problem that differ in their chart alone.
+  StateConverter(const ProblemEntry& from, const ProblemEntry& to);
+  /// By name, for any problem that has both. @throws Error when there is none
+  StateConverter(const std::string& from, const std::string& to);
+  /// @throws Error where a chart does not reach, for polar coordinates at r = 0, and for a state of another size
   CanonicalState operator()(const CanonicalState& state);
-  /// The largest change of phi between two states met so far. Beyond pi turns may have been missed, so a value near it
-  /// says that the states are too far apart.
+  /// The coordinates, by their places in q, whose whole turns the states before do not show.
+  const std::vector<std::size_t>& turning() const { return turning_; }
+  /// The largest change of such an angle between two states met so far. Beyond pi turns may have been missed, so a
+  /// value near it says that the states are too far apart.
   double largest_turn() const { return largest_turn_; }
 
  private:
-  CanonicalState to_polar_continuously(const CanonicalState& state);
+  explicit StateConverter(const std::pair<const ProblemEntry*, const ProblemEntry*>& charts)
+      : StateConverter(*charts.first, *charts.second) {}
 
-  std::string from_;
-  std::string to_;
-  bool begun_ = false;
-  double phi_ = 0;
+  const ProblemEntry* from_;
+  const ProblemEntry* to_;
+  std::vector<std::size_t> turning_;
+  std::vector<double> last_;  // q of the state before
   double largest_turn_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// A scenario: everything a run needs, read from TOML and checked before anything runs.   [spec: product, section 3]
+// A scenario: everything a run needs, read from TOML and checked before anything runs.
 #pragma once
 
 #include <cstdint>

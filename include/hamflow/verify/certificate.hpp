@@ -1,5 +1,5 @@
 // **Certificate**: what a run, or a method, was seen to keep: the class of its energy drift, its momentum maps, and how
-// far it comes back when time is reversed.   [spec: methods, section 1]
+// far it comes back when time is reversed.
 #pragma once
 
 #include <cstdint>
@@ -70,9 +70,6 @@ struct Reversal {
   std::uint64_t start_hash = 0, turn_hash = 0, end_hash = 0;  // of the stored bits
 };
 
-/// FNV-1a, 64 bits.   [Fowler, Noll, Vo, RFC 9923]
-std::uint64_t hash_of(const std::vector<std::byte>& bits);
-
 /// @param pulse called between blocks with the steps taken both ways; returns false to stop
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse = {});
 
@@ -80,11 +77,12 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
 std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps);
 
 /// The invariants of a run beside what rounding explains.
-/// @param infos in their order   @param magnitudes see EnergyBlockState   @param request for the units of a lattice
-std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const std::vector<InvariantInfo>& infos,
+/// Each is judged by the terms that the problem declares of it (InvariantInfo::terms).
+/// @param magnitudes see EnergyBlockState   @param request for its parameters and the units of a lattice
+std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request);
 
-/// What is told of a run.
+/// What is reported of a run.
 struct RunCertificate {
   RunDrift drift;
   double energy_level = 0;  // max |H - H0|/scale over every step

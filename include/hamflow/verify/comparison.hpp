@@ -1,4 +1,4 @@
-// **Comparison** of methods on one run: what accuracy costs.   [spec: product, section 2, hamflow compare]
+// **Comparison** of methods on one run: what accuracy costs.
 // Each method goes the same way with several steps; the error at the end is measured against the closed form where
 // there is one, else against a method of another family.
 #pragma once
@@ -22,7 +22,7 @@ struct ComparisonRequest {
   std::vector<std::int64_t> steps;  // to t_end, one for each dt
 };
 
-/// The end state that is taken to be right.
+/// The end state that errors are measured against.
 struct ReferenceSolution {
   std::string kind;  // "closed form", "extrapolation"
   std::string description;
@@ -68,9 +68,6 @@ struct Comparison {
   std::vector<ComparisonPoint> points;  // method by method
   bool stopped = false;
 };
-
-/// "verlet, cg(1,5)": commas in parentheses do not split.
-std::vector<std::string> split_list(const std::string& text);
 
 /// Numbers of steps for twice, once, a half, ... of the given dt: `count` of them, without those that fall together.
 std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count = 6);

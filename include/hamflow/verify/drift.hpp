@@ -1,5 +1,5 @@
 // Does the energy error drift, walk, or stay? Statistics of recorded energies, of one run or of an ensemble.
-// [spec: methods, section 1]
+// Why these statistics is explained in docs/design.md, Certificates, reversal, comparison.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace hamflow {
 
 /// `linear`: the mean increment is not 0, or the error grows faster than t^0.7. `random_walk`: like t^0.5, as rounding
-/// errors without bias do (Brouwer's law).
+/// errors without bias do (Brouwer's law [Brouwer1937]).
 enum class DriftClass { bounded, random_walk, linear };
 
 constexpr std::string_view name(DriftClass drift) {
@@ -49,7 +49,7 @@ struct RunDrift {
   double mean_increment_error = 0;  // its standard error
 };
 
-/// P(|T| >= |t|) for Student's t with a whole number of degrees of freedom.   [Abramowitz, Stegun, 26.7.3, 26.7.4]
+/// P(|T| >= |t|) for Student's t with a whole number of degrees of freedom, from 1.   [AbramowitzStegun1964, 26.7]
 double student_p_value(double t, int degrees_of_freedom);
 
 /// The slope of a straight line through (x_i, y_i), least squares.
@@ -67,7 +67,7 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
 /// all i (structure function): m for a walk, m^2 for a drift, constant for an oscillation that the blocks do not
 /// resolve. One that they do resolve rises like m^2 before it turns: lags below the first at which (S(2m) - 2 S(m))/(2
 /// S(m)), the correlation of neighbouring increments, is no longer above 2 sqrt(m/B) are left out. For a walk of B
-/// increments ln S(m) has the variance 2 (2 m^2 + 1)/(3 m B), by which the lags are weighted.   [Lo, MacKinlay 1988,
+/// increments ln S(m) has the variance 2 (2 m^2 + 1)/(3 m B), by which the lags are weighted.   [LoMacKinlay1988,
 /// for the variance ratio]
 RunDrift classify_run(const std::vector<double>& energies);
 

@@ -1,7 +1,7 @@
 // Lyapunov exponents of a step map: how fast neighbouring orbits of the *method* part.
 //
 // Tangent vectors are carried by the exact derivative of each step and orthonormalised from time to time, M Q = Q' R;
-// the exponents are the sums of log R_ii over time.   [Benettin, Galgani, Giorgilli, Strelcyn 1980]
+// the exponents are the sums of log R_ii over time.   [BenettinEtAl1980]
 //
 // Exponents of a Hamiltonian flow come in pairs +-lambda. Here they do so at every finite time, not in the limit alone:
 // the first frame is (u_1 .. u_n, J u_n .. J u_1), orthonormal and symplectic. In this order a symplectic M has a
@@ -39,12 +39,12 @@ class TangentFrame {
   std::vector<State<double>> vectors_;
 };
 
-/// What is known after a time.
+/// The exponents after a time.
 struct LyapunovSpectrum {
   /// In the order of the frame: falling, once they have settled.
   std::vector<double> exponents;
-  /// Of the mean over 32 to 63 blocks of time, as if these were independent; NaN before there are two. Of regular
-  /// motion the exponents go to 0 like log(t)/t, and this bias is larger.
+  /// Standard errors of the mean over 32 to 63 blocks of time, as if these were independent; NaN before there are two.
+  /// On regular motion the exponents go to 0 like log(t)/t, and this bias is larger.
   std::vector<double> standard_errors;
   std::vector<double> pair_sums;  // lambda_i + lambda_(2n+1-i), i = 1 .. n, where all 2n are known
   double time = 0;
@@ -101,7 +101,7 @@ class TangentWatch : public Observer {
 
  protected:
   virtual std::vector<State<double>>& tangents() = 0;
-  /// After so many steps. Returns how many to take next; 0: the vectors cannot be followed any further.
+  /// Called after so many steps. Returns how many to take next; 0: the vectors cannot be followed any further.
   virtual std::int64_t taken(std::int64_t steps) = 0;
   /// The fields of the class that carries the vectors.
   virtual void archive_tangents(Writer& ar) = 0;

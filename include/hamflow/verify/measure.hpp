@@ -1,4 +1,4 @@
-// The property table, measured: what a method claims of itself beside what its step does.   [spec: methods, section 1]
+// The property table, measured: what a method claims beside what its step was measured to do.
 //     order                     slope of the global error against a reference of another family, in long double
 //     symplectic                |Psi'^T J Psi' - J|, Psi' exact
 //     weakly time-reversible    |S Psi_-h S z - Psi_h z|
@@ -31,15 +31,10 @@ constexpr std::string_view name(Finding finding) {
   return finding == Finding::yes ? "yes" : finding == Finding::no ? "no" : "unclear";
 }
 
-/// Where to measure: states around a generic one, and a step that is large but safe there.
-struct Region {
+/// Where to measure: states around a generic one of a problem, and a step that is large but safe there.
+struct Region : RegionInfo {
   std::string problem;
   std::map<std::string, std::string> variant{};  // e.g. potential = kepler
-  Texts parameters{};                            // missing ones take their defaults
-  State<double> centre{};                        // bounded, far from turning points and apsides
-  double spread = 0.1;                           // random states: each coordinate uniform within centre +- spread
-  double step = 0.1;  // for structure and energy, a sixtieth of a period; no power of two, whose products do not round
-  double time = 2.5;  // over which the order is measured: neither a period nor an apsis
 };
 
 struct OrderMeasurement {
@@ -80,7 +75,7 @@ struct CostMeasurement {
 struct Measurement {
   std::string problem;
   OrderMeasurement order;
-  DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step: does it belong to it?
+  DefectMeasurement jacobian;  // the exact Jacobian against divided differences of the step
   DefectMeasurement symplectic, weakly_reversible, symmetric, reversible;
   bool even_in_momenta = true;  // H(q, -p) = H(q, p): else the motion itself is not reversed with the momenta
   EnergyMeasurement energy;
@@ -143,14 +138,14 @@ Measurement measure(const StepMap& map, const Region& region);
 PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on);
 
 /// Drift from the measurements; momentum maps and returns from runs of their own: the maps on the Kepler ellipse and on
-/// three bodies where the method can run there, else on the regions; the returns on the regions.
+/// three bodies, where the method can run there, and on the regions; the returns on the regions.
 MethodCertificate certificate_of(const MethodSpec& method, std::span<const Region> regions,
                                  std::span<const Measurement> on);
 
 /// A state of the region, the k-th of its own sequence of random ones.
 State<double> random_state(const Region& region, std::uint64_t k);
-/// The region used for a problem of the catalogue; of a central force, the Kepler ellipse unless the variant says
-/// otherwise. @throws Error when there is no such problem
+/// The region that a problem of the catalogue declares; what the variant leaves open is chosen as usual_problem does.
+/// Without one, states about the default start, or about any state. @throws Error when there is no such problem
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant = {});
 /// The step of a method on the region's problem. @throws Error when there is no such problem
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method);

@@ -1,6 +1,6 @@
 // The derivative of many steps, M = Psi_h'(z_(N-1)) .. Psi_h'(z_0): on a periodic orbit the monodromy matrix.
-// Eigenvalues of a symplectic matrix come in pairs lambda, 1/lambda.   [HLW2006, Sect. VI.2; Arnold, Mathematical
-// methods, Sect. 42]
+// Eigenvalues of a symplectic matrix come in pairs lambda, 1/lambda.   [HLW2006, Sect. VI.2; Arnold1989,
+// Sect. 42]
 #pragma once
 
 #include <complex>

@@ -1,6 +1,6 @@
 // The exact flow to rounding, by a family of its own: Gragg's modified midpoint rule extrapolated in h^2
-// (Aitken-Neville), with step control. Slow and accurate; it knows nothing of the methods it judges.   [Hairer,
-// Norsett, Wanner 1993, II.9]   What is extrapolated is the increment of a step, not the state: its rounding is then
+// (Aitken-Neville), with step control. Slow and accurate; it knows nothing of the methods it judges.   [HNW1993,
+// II.9]   What is extrapolated is the increment of a step, not the state: its rounding is then
 // relative to the increment, and the state takes it with compensation.
 #pragma once
 
@@ -65,11 +65,11 @@ class ExtrapolatedFlow {
       q[i] = z[i] + increment[i];
       p[i] = z[size_ + i] + increment[size_ + i];
     }
-    gradient(problem_, q, p, dq, dp);
+    motion(problem_, q, p, dq, dp);
     Z out = zeros_like(z);
     for (std::size_t i = 0; i < size_; ++i) {
-      out[i] = dp[i];
-      out[size_ + i] = -dq[i];
+      out[i] = dq[i];
+      out[size_ + i] = dp[i];
     }
     return out;
   }

@@ -6,7 +6,7 @@
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
-#include "hamflow/methods/element/context.hpp"
+#include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "hamflow/run/step_map.hpp"
@@ -174,8 +174,9 @@ class StepMapOf final : public StepMap {
   }
 
   /// x as dual numbers; the k-th of all coordinates, of which x is `first` and following, is the variable.
-  static Vector<Dual<double, 1>, n> seeded(const V& x, std::size_t k, std::size_t first) {
-    auto y = zeros<Dual<double, 1>, n>(x.size());
+  template <std::size_t N>
+  static Vector<Dual<double, 1>, N> seeded(const Vector<double, N>& x, std::size_t k, std::size_t first = 0) {
+    auto y = zeros<Dual<double, 1>, N>(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
       y[i] = x[i];
       if (first + i == k) y[i].slope[0] = 1;
@@ -183,40 +184,18 @@ class StepMapOf final : public StepMap {
     return y;
   }
 
-  /// With r(z0, u) = 0 and z1 = z0 + u: du/dz0 = -(dr/du)^-1 dr/dz0, at the converged solution.
+  /// dz1/dz0 of one implicit step, column by column.
   std::vector<std::vector<double>> implicit_jacobian(const State<double>& z, double h) const {
     using A = Arithmetic<double>;
-    using D = Dual<double, 1>;
-    const V q0 = detail::part_of<double, n>(z, 0);
-    const V p0 = detail::part_of<double, n>(z, size_);
     auto method = recipe_.template bind<P, A>(problem_);
     PhasePoint<A, n> point;
-    point.store(q0, p0);
-    if (method.step(problem_, h, point) != Outcome::done) return {};
-    V du_q = point.positions();
-    V du_p = point.momenta();
-    for (std::size_t i = 0; i < size_; ++i) {
-      du_q[i] -= q0[i];
-      du_p[i] -= p0[i];
-    }
-    const std::size_t width = 2 * size_;
-    std::vector<double> by_u(width * width);
-    std::vector<double> by_z(width * width);
-    for (std::size_t k = 0; k < 4 * size_; ++k) {
-      const Increment<D, n> u{seeded(du_q, k, 0), seeded(du_p, k, size_)};
-      Increment<D, n> r;
-      method.equations(problem_, h, seeded(q0, k, 2 * size_), seeded(p0, k, 3 * size_), u, r);
-      auto& matrix = k < 2 * size_ ? by_u : by_z;
-      const std::size_t column = k % width;
-      for (std::size_t i = 0; i < size_; ++i) {
-        matrix[i * width + column] = r.q[i].slope[0];
-        matrix[(size_ + i) * width + column] = r.p[i].slope[0];
-      }
-    }
-    detail::solve_large(by_u.data(), by_z.data(), width, width);
-    std::vector<std::vector<double>> rows(width, std::vector<double>(width));
-    for (std::size_t i = 0; i < width; ++i) {
-      for (std::size_t k = 0; k < width; ++k) rows[i][k] = (i == k ? 1.0 : 0.0) - by_z[i * width + k];
+    point.store(detail::part_of<double, n>(z, 0), detail::part_of<double, n>(z, size_));
+    std::vector<State<double>> columns(2 * size_, State<double>(2 * size_));
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k][k] = 1;
+    if (!implicit_step(method, h, point, columns)) return {};
+    std::vector<std::vector<double>> rows(2 * size_, std::vector<double>(2 * size_));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (std::size_t k = 0; k < columns.size(); ++k) rows[i][k] = columns[k][i];
     }
     return rows;
   }
@@ -248,53 +227,60 @@ class StepMapOf final : public StepMap {
     return true;
   }
 
-  /// Step by step t <- t - (dr/du)^-1 (dr/dz0) t, see implicit_jacobian(). A step that was replaced by two halves does
-  /// not solve the one equation: refused.
   bool implicit_tangents(State<double>& z, std::vector<State<double>>& tangents, double h, std::int64_t steps) const {
     using A = Arithmetic<double>;
-    using D = Dual<double, 1>;
     auto method = recipe_.template bind<P, A>(problem_);
     PhasePoint<A, n> point;
     point.store(detail::part_of<double, n>(z, 0), detail::part_of<double, n>(z, size_));
-    const std::size_t width = 2 * size_;
-    const std::size_t columns = tangents.size();
-    std::vector<double> by_u(width * width);
-    std::vector<double> right(width * columns);
     for (std::int64_t step = 0; step < steps; ++step) {
-      const V q0 = point.positions();
-      const V p0 = point.momenta();
-      const auto halved = method.effort().halved;
-      if (method.step(problem_, h, point) != Outcome::done || method.effort().halved != halved) return false;
-      V du_q = point.positions();
-      V du_p = point.momenta();
-      for (std::size_t i = 0; i < size_; ++i) {
-        du_q[i] -= q0[i];
-        du_p[i] -= p0[i];
-      }
-      const auto column = [&](const Increment<D, n>& u, const Vector<D, n>& q, const Vector<D, n>& p, double* out,
-                              std::size_t stride) {
-        Increment<D, n> r;
-        method.equations(problem_, h, q, p, u, r);
-        for (std::size_t i = 0; i < size_; ++i) {
-          out[i * stride] = r.q[i].slope[0];
-          out[(size_ + i) * stride] = r.p[i].slope[0];
-        }
-      };
-      const State<double> fixed(width);
-      for (std::size_t k = 0; k < width; ++k) {
-        column({seeded(du_q, k, 0), seeded(du_p, k, size_)}, along(q0, fixed, 0), along(p0, fixed, size_), &by_u[k],
-               width);
-      }
-      for (std::size_t k = 0; k < columns; ++k) {
-        column({along(du_q, fixed, 0), along(du_p, fixed, size_)}, along(q0, tangents[k], 0),
-               along(p0, tangents[k], size_), &right[k], columns);
-      }
-      if (columns > 0) detail::solve_large(by_u.data(), right.data(), width, columns);
-      for (std::size_t k = 0; k < columns; ++k) {
-        for (std::size_t i = 0; i < width; ++i) tangents[k][i] -= right[i * columns + k];
-      }
+      if (!implicit_step(method, h, point, tangents)) return false;
     }
     z = detail::joined<double, n>(point.positions(), point.momenta());
+    return true;
+  }
+
+  /// One step and its tangents. With r(z0, U) = 0 and z1 = z0 + E(U) the implicit function theorem gives
+  ///     t1 = t0 - E_U (dr/dU)^-1 (dr/dz0) t0
+  /// at the converged solution, for any number of unknowns. A step that was replaced by two halves does not solve the
+  /// one equation: refused.
+  template <class Method, class Point>
+  bool implicit_step(Method& method, double h, Point& point, std::vector<State<double>>& tangents) const {
+    using D = Dual<double, 1>;
+    const V q0 = point.positions();
+    const V p0 = point.momenta();
+    typename Method::Unknowns u{};
+    const auto halved = method.effort().halved;
+    if (method.step(problem_, h, point, u) != Outcome::done || method.effort().halved != halved) return false;
+    const std::size_t unknowns = u.size();
+    const std::size_t columns = tangents.size();
+    if (columns == 0) return true;
+    std::vector<double> by_unknowns(unknowns * unknowns);
+    std::vector<double> right(unknowns * columns);
+    const auto residual = [&](const auto& q, const auto& p, const auto& at, double* out, std::size_t stride) {
+      const auto r = method.residual(problem_, h, q, p, at);
+      for (std::size_t i = 0; i < unknowns; ++i) out[i * stride] = r[i].slope[0];
+    };
+    const State<double> fixed(2 * size_);
+    std::vector<State<double>> increments(unknowns);  // E_U, column by column
+    for (std::size_t k = 0; k < unknowns; ++k) {
+      const auto at = seeded(u, k);
+      residual(along(q0, fixed, 0), along(p0, fixed, size_), at, &by_unknowns[k], unknowns);
+      const Increment<D, n> e = method.increment(at);
+      increments[k].resize(2 * size_);
+      for (std::size_t i = 0; i < size_; ++i) {
+        increments[k][i] = e.q[i].slope[0];
+        increments[k][size_ + i] = e.p[i].slope[0];
+      }
+    }
+    for (std::size_t k = 0; k < columns; ++k) {
+      residual(along(q0, tangents[k], 0), along(p0, tangents[k], size_), seeded(u, unknowns), &right[k], columns);
+    }
+    detail::solve_large(by_unknowns.data(), right.data(), unknowns, columns);
+    for (std::size_t k = 0; k < columns; ++k) {
+      for (std::size_t j = 0; j < unknowns; ++j) {
+        for (std::size_t i = 0; i < 2 * size_; ++i) tangents[k][i] -= increments[j][i] * right[j * columns + k];
+      }
+    }
     return true;
   }
 

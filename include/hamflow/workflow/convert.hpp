@@ -37,9 +37,11 @@ class ConvertedRun {
   /// Writes a run.h5 that has all of the run but its section.   @return what is worth a note, or nothing
   /// @throws FileError
   std::string write_h5(const std::filesystem::path& target) const;
-  /// The largest change of phi between two samples, in radians: where it is more than pi turns may be missing. 0 where
-  /// `to` has no angle that goes round.
+  /// The largest change between two samples, in radians, of an angle whose whole turns the samples do not show: where
+  /// it is more than pi turns may be missing. 0 where `to` has no such angle.
   double largest_turn() const;
+  /// The names of these angles, with commas between.
+  const std::string& turning() const;
 
  private:
   class Impl;

@@ -9,7 +9,7 @@
 namespace hamflow {
 
 /// Draws one figure of a run.   @param run its folder or run.h5, also of a run that goes on or was cut short
-/// @param kind orbit, energy, energy-error, phase, condition, section; empty: orbit where there is one, else phase
+/// @param kind see figure_kinds(); empty: usual_figure()
 /// @param file .svg, .pdf or .png   @throws Error when the run has no such figure   @throws FileError
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file);
 

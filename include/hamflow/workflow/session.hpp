@@ -26,10 +26,12 @@ class Session final : public Simulation {
   void restart();
   /// Another step length, a number expression. @throws Error when it is 0 or no number; then nothing has changed
   void set_step_length(const std::string& text);
-  /// Another method; what stays open of the options of cg is as it was. @throws Error when it cannot run here
+  /// Another method; of its options those that are not given are as they were set before, if they ever were.
+  /// @throws Error when it cannot run here
   void set_method(const MethodSpec& method);
-  /// The tolerance of an implicit method, or none. @throws Error when the method has none
-  void set_tolerance(std::optional<double> tolerance);
+  /// The tolerance of the method, a number expression, or "off" for the one that it has by itself.
+  /// @throws Error when it has none, or not this one
+  void set_tolerance(const std::string& text);
 
   /// The scenario with the present settings, its text included.
   Scenario present() const;
@@ -70,6 +72,7 @@ class Session final : public Simulation {
   Scenario scenario_;
   Request request_;  // with the present settings; of a later part, with the state in which it began
   std::unique_ptr<Simulation> simulation_;  // the present part; its steps and times count from where the part began
+  Texts options_;                           // of methods, as they were set last
   std::vector<SessionChange> changes_;
   bool reversed_ = false;
 

@@ -10,6 +10,8 @@
 
 namespace hamflow {
 
+inline constexpr int most_sweep_threads = 1024;
+
 struct SweepRequest {
   std::string text;                 // of the scenario
   std::string name;                 // stands in messages

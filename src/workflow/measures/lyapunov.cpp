@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "hamflow/methods/splitting.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
+#include "hamflow/run/splitting_named.hpp"
 #include "hamflow/verify/lyapunov_of.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
@@ -45,7 +45,7 @@ double largest_of(const Json& xs) {
   return largest;
 }
 
-std::string text(const Json& found) {
+std::string lyapunov_text(const Json& found) {
   constexpr std::size_t most_shown = 6;
   std::string line;
   for (std::size_t i = 0; i < std::min(found["exponents"].size(), most_shown); ++i) {
@@ -57,28 +57,16 @@ std::string text(const Json& found) {
   return line;
 }
 
-/// Any composition or splitting, its table known at run time.
-struct TableOf {
-  static constexpr bool implicit = false;
-  const MethodEntry& entry;
-  template <class P, class A>
-  Splitting<P, A, Shape::any> bind(const P&) const {
-    if (entry.splitting != nullptr) {
-      return {sequence_of<double>(*entry.splitting), detail::describe_splitting, entry.splitting};
-    }
-    return {sequence_of<double>(*entry.composition, entry.starts_with), detail::describe_kick_first, entry.composition};
-  }
-};
-
 /// The problem whose chaos is mapped most, by a kernel of its own: a quarter of the time that a StepMap takes.
 std::optional<double> exponent_of_henon_heiles(const Scenario& scenario) {
-  const MethodEntry& method = find_method(scenario.request.method.name);
   if (scenario.request.problem != "henon-heiles") return std::nullopt;
-  if (method.composition == nullptr && method.splitting == nullptr) return std::nullopt;
+  const std::optional<AnySplitting> method = splitting_named(scenario.request.method.name);
+  if (!method) return std::nullopt;
   const HenonHeiles<double> problem{Parameters<double>(scenario.request.parameters)};
   const std::vector<double>& q = scenario.start_q;
   const std::vector<double>& p = scenario.start_p;
-  return largest_lyapunov(problem, TableOf{method}, {q[0], q[1]}, {p[0], p[1]}, scenario.dt, scenario.steps);
+  return largest_lyapunov(problem, TableRecipe<Shape::any>{*method}, {q[0], q[1]}, {p[0], p[1]}, scenario.dt,
+                          scenario.steps);
 }
 
 /// Without a run of its own; NaN when a step fails.
@@ -113,7 +101,7 @@ MeasureKind measure_lyapunov() {
           .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
             return std::make_unique<LyapunovMeasure>(scenario);
           },
-          .text = text,
+          .text = lyapunov_text,
           .columns = columns};
 }
 

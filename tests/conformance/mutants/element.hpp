@@ -7,7 +7,7 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/methods/element/context.hpp"
+#include "hamflow/methods/implicit/segment.hpp"
 
 namespace hamflow::mutants {
 
@@ -28,6 +28,7 @@ class Element {
   using Real = typename A::Real;
   using Base = Real;
   using Q = Vector<Real, n>;
+  using Unknowns = Vector<Real, 2 * n>;  // z1 - z0
   Element(const P& problem, ElementFaults faults)
       : faults_(std::move(faults)),
         rule_(gauss_rule<Real>(faults_.quadrature)),
@@ -43,6 +44,10 @@ class Element {
   }
 
   Outcome step(const P& problem, const Real& h, PhasePoint<A, n>& z) {
+    Unknowns unused;
+    return step(problem, h, z, unused);
+  }
+  Outcome step(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns& unknowns) {
     const Q q0 = z.positions();
     const Q p0 = z.momenta();
     Q d{};
@@ -86,12 +91,20 @@ class Element {
     } else {
       z.push(h, mean);
     }
+    const Q q1 = z.positions();
+    const Q p1 = z.momenta();
+    for (std::size_t i = 0; i < n; ++i) {
+      unknowns[i] = q1[i] - q0[i];
+      unknowns[n + i] = p1[i] - p0[i];
+    }
     return Outcome::done;
   }
 
   template <class S>
-  void equations(const P& problem, const Real& h, const Vector<S, n>& q0, const Vector<S, n>& p0,
-                 const Increment<S, n>& u, Increment<S, n>& r) const {
+  Vector<S, 2 * n> residual(const P& problem, const Real& h, const Vector<S, n>& q0, const Vector<S, n>& p0,
+                            const Vector<S, 2 * n>& unknowns) const {
+    const Increment<S, n> u = increment(unknowns);
+    Increment<S, n> r;
     Vector<S, n> mean{};
     for (std::size_t l = 0; l < rule_.b.size(); ++l) {
       Vector<S, n> q{};
@@ -108,6 +121,11 @@ class Element {
       r.q[i] = h * v[i] - u.q[i];
       r.p[i] = h * mean[i] - u.p[i];
     }
+    return detail::stacked(r.q, r.p);
+  }
+  template <class S>
+  static Increment<S, n> increment(const Vector<S, 2 * n>& unknowns) {
+    return detail::halves<n>(unknowns);
   }
 
   void invalidate() {}

@@ -1,5 +1,5 @@
 // Kahan's and Li's family of thirty-three Stoermer-Verlet steps, in Hairer's choice s33odr10c.
-// [KahanLi1997; s33odr10c]
+// [KahanLi1997, s33odr10c]
 // Order 10, 33 force evaluations per step, symplectic, symmetric. Digits refined to 40 from the order conditions
 // (tools/refine_coefficients.py): the nearest solution to the published ones.
 #pragma once
@@ -11,7 +11,7 @@ namespace hamflow::compositions {
 inline constexpr CompositionTable kahan_li10{
     .name = "kahan-li10",
     .order = 10,
-    .reference = "KahanLi1997; s33odr10c",
+    .reference = "KahanLi1997, s33odr10c",
     .half = {"0.1231352687098299408278156833477854367236", "0.7764498169693731051988329730121179808854",
              "0.1490549007956704561283570598595913855502", "-0.1725076121939374442025336041771433668857",
              "-0.5487124081880017794167252110096181183711", "0.1428976542184184210013387091989076042810",

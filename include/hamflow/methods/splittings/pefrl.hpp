@@ -1,6 +1,6 @@
 // Omelyan's, Mryglod's and Folk's optimised fourth order, "position extended Forest-Ruth like":
 // drifts xi, chi, 1 - 2 (chi + xi), chi, xi and kicks (1 - 2 lambda)/2, lambda, lambda, (1 - 2 lambda)/2.
-// [OmelyanMryglodFolk2002, Comput. Phys. Commun. 146, 188] An ordinary splitting, no gradient of the force.
+// [OmelyanMryglodFolk2002] An ordinary splitting, no gradient of the force.
 // Order 4, 4 force evaluations per step, symplectic, symmetric. Two conditions on three numbers: refined to 40 digits
 // is the (xi, lambda, chi) nearest to the published ones (tools/refine_coefficients.py).
 #pragma once

@@ -18,10 +18,14 @@ class Binomial {
             .formula = "V(r) = k/2 (r^2 - lambda)^2",
             .reference = "Gross1999, Sect. 2.11",
             .parameters = {{"k", "1", "strength"}, {"lambda", "1", "square of the radius of the minimum"}},
-            .starts = {{"bounded",
-                        {"r_per", "r_aph"},
-                        "at pericentre, lambda <= (r_per^2 + r_aph^2)/2, "
-                        "l = r_per r_aph sqrt(mu k (r_per^2 + r_aph^2 - 2 lambda))"}}};
+            .starts = {{.kind = "bounded",
+                        .keys = {"r_per", "r_aph"},
+                        .meaning = "at pericentre, lambda <= (r_per^2 + r_aph^2)/2, "
+                                   "l = r_per r_aph sqrt(mu k (r_per^2 + r_aph^2 - 2 lambda))",
+                        .example = {{"r_per", "1"}, {"r_aph", "3"}}},
+                       start_by_energy({{"energy", "0.5"}, {"angular_momentum", "1"}})},
+            .region = {.centre = {1.2, 0.3, -0.2, 0.9}, .step = 0.04},
+            .example = {.start = "bounded"}};
   }
 
   template <class S>

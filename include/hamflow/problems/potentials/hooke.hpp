@@ -15,18 +15,33 @@ class Hooke {
   explicit Hooke(const Parameters<R>& given) : Hooke(given["k"]) {}
 
   static ProblemInfo info() {
-    return {
-        .name = "hooke",
-        .formula = "V(r) = -k r^2/2",
-        .reference = "Gross1999, Sect. 2.9",
-        .parameters = {{"k", "1", "strength, k < 0 binds"}},
-        .starts = {{"circle", {"r0", "energy"}, "at (0, r0), k = -E/r0^2, l = r0 sqrt(mu E)", {"k"}},
-                   {"ellipse",
-                    {"r_per", "r_aph", "energy"},
-                    "at pericentre, k = -2 E/(r_per^2 + r_aph^2), l = r_per r_aph sqrt(-mu k)",
-                    {"k"}},
-                   {"line", {"r_per", "energy"}, "at pericentre, k = 0, l = r_per sqrt(2 mu E)", {"k"}},
-                   {"hyperbola", {"r_per", "energy"}, "at pericentre, k > 0, l = r_per sqrt(mu (2 E + k r_per^2))"}}};
+    return {.name = "hooke",
+            .formula = "V(r) = -k r^2/2",
+            .reference = "Gross1999, Sect. 2.9",
+            .parameters = {{"k", "1", "strength, k < 0 binds"}},
+            .starts = {{.kind = "circle",
+                        .keys = {"r0", "energy"},
+                        .meaning = "at (0, r0), k = -E/r0^2, l = r0 sqrt(mu E)",
+                        .derives = {"k"},
+                        .example = {{"r0", "1"}, {"energy", "0.5"}}},
+                       {.kind = "ellipse",
+                        .keys = {"r_per", "r_aph", "energy"},
+                        .meaning = "at pericentre, k = -2 E/(r_per^2 + r_aph^2), l = r_per r_aph sqrt(-mu k)",
+                        .derives = {"k"},
+                        .example = {{"r_per", "1"}, {"r_aph", "3"}, {"energy", "0.5"}}},
+                       {.kind = "line",
+                        .keys = {"r_per", "energy"},
+                        .meaning = "at pericentre, k = 0, l = r_per sqrt(2 mu E)",
+                        .derives = {"k"},
+                        .example = {{"r_per", "1"}, {"energy", "0.5"}}},
+                       {.kind = "hyperbola",
+                        .keys = {"r_per", "energy"},
+                        .meaning = "at pericentre, k > 0, l = r_per sqrt(mu (2 E + k r_per^2))",
+                        .example = {{"r_per", "1"}, {"energy", "-0.3"}},
+                        .example_parameters = {{"k", "1"}}},
+                       start_by_energy({{"energy", "1"}, {"angular_momentum", "1"}})},
+            .region = {.parameters = {{"k", "-1"}}, .centre = {1, 0.3, -0.2, 0.6}},
+            .example = {.start = "ellipse"}};
   }
 
   template <class S>

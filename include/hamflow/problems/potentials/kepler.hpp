@@ -16,13 +16,30 @@ class Kepler {
 
   static ProblemInfo info() {
     return {.name = "kepler",
+            .example_choices = {"potential"},
             .formula = "V(r) = -k/r",
             .reference = "Gross1999, Sect. 2.8",
             .parameters = {{"k", "1", "strength, k > 0 attracts"}},
-            .starts = {{"circle", {"r0"}, "at (0, r0), l = sqrt(mu k r0)"},
-                       {"ellipse", {"r_per", "r_aph"}, "at pericentre, l = sqrt(2 k mu r_per r_aph/(r_per + r_aph))"},
-                       {"parabola", {"r_per"}, "at pericentre, l = sqrt(2 mu k r_per)"},
-                       {"hyperbola", {"r_per", "angular_momentum"}, "at pericentre, l > sqrt(2 mu k r_per)"}}};
+            .starts = {{.kind = "circle",
+                        .keys = {"r0"},
+                        .meaning = "at (0, r0), l = sqrt(mu k r0)",
+                        .example = {{"r0", "1"}}},
+                       {.kind = "ellipse",
+                        .keys = {"r_per", "r_aph"},
+                        .meaning = "at pericentre, l = sqrt(2 k mu r_per r_aph/(r_per + r_aph))",
+                        .example = {{"r_per", "1"}, {"r_aph", "3"}}},
+                       {.kind = "parabola",
+                        .keys = {"r_per"},
+                        .meaning = "at pericentre, l = sqrt(2 mu k r_per)",
+                        .example = {{"r_per", "1"}}},
+                       {.kind = "hyperbola",
+                        .keys = {"r_per", "angular_momentum"},
+                        .meaning = "at pericentre, l > sqrt(2 mu k r_per)",
+                        .example = {{"r_per", "1"}, {"angular_momentum", "2"}}},
+                       start_by_energy({{"energy", "-0.3"}, {"angular_momentum", "1"}})},
+            // From r = 1 to r = 3; the time is a seventh of the period, 2 pi sqrt(8).
+            .region = {.centre = {1, 0, 0, sqrt(1.5)}},
+            .example = {.start = "ellipse"}};
   }
 
   template <class S>

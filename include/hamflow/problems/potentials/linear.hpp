@@ -17,10 +17,22 @@ class Linear {
             .formula = "V(r) = k r",
             .reference = "Gross1999, Sect. 2.10",
             .parameters = {{"k", "1", "strength, k > 0 binds"}},
-            .starts = {
-                {"circle", {"r0"}, "at (0, r0), k > 0, l = sqrt(k mu r0^3), E = 3 k r0/2"},
-                {"bounded", {"r_per", "r_aph"}, "at pericentre, k > 0, l = r_per r_aph sqrt(2 mu k/(r_per + r_aph))"},
-                {"unbounded", {"r_per", "energy"}, "at pericentre, k < 0, l = r_per sqrt(2 mu (E - k r_per))"}}};
+            .starts = {{.kind = "circle",
+                        .keys = {"r0"},
+                        .meaning = "at (0, r0), k > 0, l = sqrt(k mu r0^3), E = 3 k r0/2",
+                        .example = {{"r0", "1"}}},
+                       {.kind = "bounded",
+                        .keys = {"r_per", "r_aph"},
+                        .meaning = "at pericentre, k > 0, l = r_per r_aph sqrt(2 mu k/(r_per + r_aph))",
+                        .example = {{"r_per", "1"}, {"r_aph", "3"}}},
+                       {.kind = "unbounded",
+                        .keys = {"r_per", "energy"},
+                        .meaning = "at pericentre, k < 0, l = r_per sqrt(2 mu (E - k r_per))",
+                        .example = {{"r_per", "1"}, {"energy", "-0.3"}},
+                        .example_parameters = {{"k", "-1"}}},
+                       start_by_energy({{"energy", "2"}, {"angular_momentum", "1"}})},
+            .region = {.centre = {1, 0.3, -0.2, 0.9}},
+            .example = {.start = "bounded"}};
   }
 
   template <class S>

@@ -1,4 +1,4 @@
-// Sum of powers V(r) = sum_i a_i r^(n_i + 1), the force -(n_i + 1) a_i r^n_i.   [Gross1999, Sect. 2.5; spec: product]
+// Sum of powers V(r) = sum_i a_i r^(n_i + 1), the force -(n_i + 1) a_i r^n_i.   [Gross1999, Sect. 2.5]
 // n real, not -1. As a function of u = r^2: W(u) = sum a u^e with e = (n + 1)/2; whole and half exponents are products
 // and square roots, the others powers.
 #pragma once
@@ -19,17 +19,21 @@ class Power {
   explicit Power(const Parameters<R>& given) : Power(given.list("a"), given.list("n")) {}
 
   static ProblemInfo info() {
-    return {.name = "power",
-            .formula = "V(r) = sum_i a_i r^(n_i + 1)",
-            .reference = "Gross1999, Sect. 2.5",
-            .parameters = {{.name = "a",
-                            .meaning = "strengths, a number or a list as long as n",
-                            .kind = ParameterKind::number_or_list,
-                            .required = true},
-                           {.name = "n",
-                            .meaning = "exponents of the force, real, not -1",
-                            .kind = ParameterKind::number_or_list,
-                            .required = true}}};
+    return {
+        .name = "power",
+        .formula = "V(r) = sum_i a_i r^(n_i + 1)",
+        .reference = "Gross1999, Sect. 2.5",
+        .parameters = {{.name = "a",
+                        .meaning = "strengths, a number or a list as long as n",
+                        .type = OptionType::number_or_list,
+                        .required = true},
+                       {.name = "n",
+                        .meaning = "exponents of the force, real, not -1",
+                        .type = OptionType::number_or_list,
+                        .required = true}},
+        .starts = {start_by_energy({{"energy", "0.5"}, {"angular_momentum", "1"}})},
+        .region = {
+            .parameters = {{"a", "[0.5, -0.5]"}, {"n", "[2, -2.5]"}}, .centre = {1.2, 0.3, -0.2, 0.9}, .step = 0.04}};
   }
   /// What is wrong with the parameters, as key and message; both empty if nothing is.
   static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {

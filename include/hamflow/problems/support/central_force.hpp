@@ -11,6 +11,7 @@
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/problems/support/effective_potential.hpp"
 #include "hamflow/problems/support/energy_start.hpp"
+#include "hamflow/problems/support/potential.hpp"
 
 namespace hamflow {
 
@@ -24,14 +25,6 @@ template <class R>
 Start<R, 2> pericentre_start(const R& r_per, const R& l) {
   return {{r_per, R(0)}, {R(0), l / r_per}};
 }
-
-/// What a potential says of its two derivatives at u = r^2. Its slope(u, factor) is factor times the first: there the
-/// factor meets the constants of the potential, not what has just been computed from u.
-template <class S>
-struct CentralDerivatives {
-  S slope;      // 2 W'(u) = V'(r)/r
-  S curvature;  // 4 W''(u)
-};
 
 /// The entries of a summary's `orbit`.
 OrbitFacts facts_of(const CentralOrbit& orbit);
@@ -50,14 +43,19 @@ class CentralForce {
     ProblemInfo of_potential = Potential<R>::info();
     ProblemInfo all{.name = "central-force",
                     .variant = {{"potential", of_potential.name}, {"coordinates", "cartesian"}},
+                    .default_choices = {"coordinates"},
+                    .example_choices = of_potential.example_choices,
+                    .chart_key = "coordinates",
                     .formula = "H = |p|^2/(2 mu) + V(r), " + of_potential.formula,
                     .reference = "Gross1999, (2.45)-(2.60); " + of_potential.reference,
                     .coordinates = {"x", "y"},
                     .parameters = {{"mass", "1", "reduced mass mu", Range::positive}},
-                    .invariants = {{"angular_momentum", "q1 p2 - q2 p1"}},
-                    .starts = of_potential.starts};
-    all.starts.push_back(
-        {"", {"energy", "angular_momentum"}, "any orbit, at pericentre on the x-axis (circles on the y-axis)"});
+                    .invariants = {{"angular_momentum", "q1 p2 - q2 p1", Components::one, Terms::moments}},
+                    .starts = of_potential.starts,
+                    .two_bodies = true,
+                    .region = of_potential.region,
+                    .example = of_potential.example};
+    if (all.starts.empty() || !all.starts.back().kind.empty()) all.starts.push_back(start_by_energy({}));
     all.parameters.insert(all.parameters.end(), of_potential.parameters.begin(), of_potential.parameters.end());
     return all;
   }
@@ -87,18 +85,16 @@ class CentralForce {
   }
   /// Of potentials whose slope takes a factor.
   template <class F, class S>
-  void scaled_force(const F& factor, const Vector<S, 2>& q, Vector<S, 2>& f) const requires
-      requires(const Potential<R>& v, const S& u) {
-    v.slope(u, factor);
+  requires potentials::HasScaledSlope<Potential<R>, S, F>
+  void scaled_force(const F& factor, const Vector<S, 2>& q, Vector<S, 2>& f) const {
+    attract(potential_.slope(square(q), factor), q, f);
   }
-  { attract(potential_.slope(square(q), factor), q, f); }
   /// The force for FastKernel, of potentials that have a fast slope.
   template <class S, class F = R>
-  void fast_force(const Vector<S, 2>& q, Vector<S, 2>& f, const F& factor = F(1)) const requires
-      requires(const Potential<R>& v, const S& u) {
-    v.fast_slope(u, factor);
+  requires potentials::HasFastSlope<Potential<R>, S, F>
+  void fast_force(const Vector<S, 2>& q, Vector<S, 2>& f, const F& factor = F(1)) const {
+    attract(potential_.fast_slope(square(q), factor), q, f);
   }
-  { attract(potential_.fast_slope(square(q), factor), q, f); }
   template <class S>
   void force_and_hessian(const Vector<S, 2>& q, Vector<S, 2>& f, Matrix<S, 2>& hessian) const {
     const CentralDerivatives<S> d = potential_.derivatives(square(q));
@@ -109,13 +105,13 @@ class CentralForce {
     hessian[1][1] = d.slope + d.curvature * (q[1] * q[1]);
   }
   template <class S>
-  Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p) const {
+  Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p, const S& /*t*/) const {
     return {q[0] * p[1] - q[1] * p[0]};
   }
 
   /// What is wrong with the potential's parameters, as key and message.
   static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
-    if constexpr (requires { Potential<R>::refused_parameters(given); }) {
+    if constexpr (potentials::HasRefusedParameters<Potential<R>, R>) {
       return Potential<R>::refused_parameters(given);
     } else {
       return {};
@@ -123,7 +119,7 @@ class CentralForce {
   }
   /// Sets the parameters that follow from a start, for potentials whose strength is derived from the orbit.
   static void derive(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
-    if constexpr (requires { Potential<R>::derive(kind, orbit, given); }) Potential<R>::derive(kind, orbit, given);
+    if constexpr (potentials::HasDerive<Potential<R>, R>) Potential<R>::derive(kind, orbit, given);
   }
   /// A geometric start. @param conditions receives every inequality that the geometry has to meet
   static Start<R, 2> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
@@ -133,7 +129,7 @@ class CentralForce {
       const auto at = turning_point<Potential>(given, R(orbit["energy"]), l, conditions);
       return at.circle ? circular_start(at.radius, l) : pericentre_start(at.radius, l);
     }
-    if constexpr (requires { Potential<R>::start(kind, given["mass"], given, orbit, conditions); }) {
+    if constexpr (potentials::HasStart<Potential<R>, R>) {
       return Potential<R>::start(kind, given["mass"], given, orbit, conditions);
     } else {
       return {};
@@ -141,7 +137,7 @@ class CentralForce {
   }
   /// The exact orbit through (q, p) as r(phi), empty where it is not known in closed form.
   std::function<double(double)> exact_radius(const Vector<double, 2>& q, const Vector<double, 2>& p) const {
-    if constexpr (requires { potential_.exact_radius(1.0, q, p); }) {
+    if constexpr (potentials::HasExactRadius<Potential<R>>) {
       return potential_.exact_radius(static_cast<double>(mass_), q, p);
     } else {
       return {};
@@ -150,7 +146,7 @@ class CentralForce {
   /// The exact state after time t, where there is a way to compute it.
   std::optional<Start<long double, 2>> exact(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                              long double t) const {
-    if constexpr (requires { potential_.exact(t, q, p, t); }) {
+    if constexpr (potentials::HasExact<Potential<R>>) {
       return potential_.exact(static_cast<long double>(mass_), q, p, t);
     } else {
       return std::nullopt;

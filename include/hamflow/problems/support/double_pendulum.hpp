@@ -33,20 +33,30 @@ Matrix<S, 2> pendulum_inverse(const Matrix<S, 2>& mass, const S& determinant) {
           {-(mass[1][0] / determinant), mass[0][0] / determinant}};
 }
 
+/// What the models share. A period of the faster mode is 2 pi/sqrt(5.65 g/l) = 0.84 for unit rods.
 inline ProblemInfo double_pendulum_info(const char* model, Angles angles, const char* formula,
                                         std::vector<ParameterInfo> parameters) {
+  const bool absolute = angles == Angles::absolute;
   return {.name = "double-pendulum",
-          .variant = {{"model", model}, {"angles", angles == Angles::absolute ? "absolute" : "relative"}},
+          .variant = {{"model", model}, {"angles", absolute ? "absolute" : "relative"}},
+          .default_choices = absolute ? std::vector<std::string>{"angles"} : std::vector<std::string>{},
+          .chart_key = "angles",
           .formula = formula,
           .reference = "Gross1999, ch. 3",
           .coordinates = {"q1", "q2"},
-          .parameters = std::move(parameters)};
+          .angles = {"q1", "q2"},
+          .parameters = std::move(parameters),
+          .region = {.centre =
+                         absolute ? std::vector<double>{0.4, -0.3, 0.5, 0.2} : std::vector<double>{0.4, -0.7, 0.7, 0.2},
+                     .step = 0.013,
+                     .time = 0.7},
+          .example = {.dt = 0.01}};
 }
 
 }  // namespace detail
 
 template <class R, Angles angles>
-class DoublePendulumNonlinear {
+class DoublePendulumNonlinear : public PendulumChart<R, angles> {
  public:
   using Real = R;
   static constexpr std::size_t dimension = 2;
@@ -58,10 +68,16 @@ class DoublePendulumNonlinear {
   explicit DoublePendulumNonlinear(const Parameters<R>& given) : body_(given) {}
 
   static ProblemInfo info() {
-    return detail::double_pendulum_info("nonlinear", angles, "H = p^T M(q)^-1 p/2 + V(q)",
-                                        DoublePendulumBody<R>::parameters());
+    ProblemInfo all = detail::double_pendulum_info("nonlinear", angles, "H = p^T M(q)^-1 p/2 + V(q)",
+                                                   DoublePendulumBody<R>::parameters());
+    all.default_choices.push_back("model");
+    all.region.spread = 0.05;
+    all.region.step = 0.008;
+    return all;
   }
-  static std::string problem_with(const Parameters<R>& given) { return DoublePendulumBody<R>(given).problem_with(); }
+  static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
+    return {"", DoublePendulumBody<R>(given).allowed_instead()};
+  }
 
   template <class S>
   Matrix<S, 2> mass_matrix(const Vector<S, 2>& q) const {
@@ -178,7 +194,7 @@ class DoublePendulumNonlinear {
 };
 
 template <class R, Angles angles>
-class DoublePendulumLinear {
+class DoublePendulumLinear : public PendulumChart<R, angles> {
  public:
   using Real = R;
   static constexpr std::size_t dimension = 2;
@@ -194,7 +210,9 @@ class DoublePendulumLinear {
     return detail::double_pendulum_info("linear", angles, "H = p^T M^-1 p/2 + q^T C q/2, M and C = V'' at rest",
                                         DoublePendulumBody<R>::parameters());
   }
-  static std::string problem_with(const Parameters<R>& given) { return DoublePendulumBody<R>(given).problem_with(); }
+  static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
+    return {"", DoublePendulumBody<R>(given).allowed_instead()};
+  }
 
   const Matrix<R, 2>& mass_matrix() const { return mass_; }
   const Matrix<R, 2>& inverse_mass_matrix() const { return inverse_mass_; }

@@ -34,16 +34,16 @@ struct DoublePendulumBody {
                            given["gravity"]) {}
 
   static std::vector<ParameterInfo> parameters() {
-    return {{"masses", "[1, 1]", "m1, m2, in the middles of the rods", Range::positive, ParameterKind::list, 2},
-            {"half_lengths", "[1, 1]", "l1, l2: the rods have lengths 2 l", Range::positive, ParameterKind::list, 2},
+    return {{"masses", "[1, 1]", "m1, m2, in the middles of the rods", Range::positive, OptionType::list, 2},
+            {"half_lengths", "[1, 1]", "l1, l2: the rods have lengths 2 l", Range::positive, OptionType::list, 2},
             {"inertias", "[0, 0]", "theta1, theta2, of the rods about their middles", Range::not_negative,
-             ParameterKind::list, 2},
+             OptionType::list, 2},
             {"gravity", "9.81", "g"}};
   }
 
   /// What is allowed, if M is singular; else empty. det M > 0 for all positive masses and lengths, unless their
   /// products leave the range of R.
-  std::string problem_with() const {
+  std::string allowed_instead() const {
     if (least_determinant > R(0) && isfinite(least_determinant)) return {};
     return "masses, half_lengths and inertias whose mass matrix is regular to rounding";
   }

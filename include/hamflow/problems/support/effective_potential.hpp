@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/problems/support/potential.hpp"
 #include "hamflow/problems/support/radial_motion.hpp"
 
 namespace hamflow {
@@ -157,7 +158,7 @@ CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Ve
       orbit.type = orbit.closed ? OrbitType::bounded_closed : OrbitType::bounded_open;
     }
   }
-  if constexpr (requires { potential.conic(true, 0, true); }) {
+  if constexpr (potentials::HasConic<Potential>) {
     orbit.conic = potential.conic(motion.circular(), orbit.energy == 0 ? 0 : orbit.energy > 0 ? 1 : -1, l == 0);
   }
   return orbit;

@@ -91,12 +91,7 @@ TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const
     }
   }
   const auto root_between = [&](L a, L b) {
-    return bracketed_root(
-        [&](L r) {
-          return ValueAndSlope<L>{e - effective(r),
-                                  l * l / (mu * r * r * r) - r * static_cast<L>(potential.slope(r * r))};
-        },
-        a, b, effective(a) < e);
+    return bracketed_root([&](L r) { return e - effective(r); }, a, b, e - effective(a), e - effective(b));
   };
   std::optional<L> apocentre;
   for (std::size_t i = 0; i + 1 < radii.size(); ++i) {

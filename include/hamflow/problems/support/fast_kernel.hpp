@@ -11,12 +11,6 @@
 
 namespace hamflow {
 
-/// fast_force(q, f, factor): f = -factor dV/dq by other operations than force.
-template <class P>
-concept HasFastForce = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f) {
-  problem.fast_force(q, f, RealOf<P>(1));
-};
-
 template <HasFastForce P>
 class FastKernel : public P {
  public:

@@ -32,9 +32,9 @@ class Gravity {
     }
   }
   static std::vector<InvariantInfo> gravity_invariants() {
-    return {{"angular_momentum", "sum x_i x p_i", Components::rotations},
-            {"linear_momentum", "P = sum p_i", Components::space},
-            {"centre_of_mass", "sum m_i x_i/M - P t/M", Components::space}};
+    return {{"angular_momentum", "sum x_i x p_i", Components::rotations, Terms::moments},
+            {"linear_momentum", "P = sum p_i", Components::space, Terms::momenta},
+            {"centre_of_mass", "sum m_i x_i/M - P t/M", Components::space, Terms::centre_of_mass}};
   }
   std::size_t size() const { return masses_.size() * space_; }
   std::size_t space() const { return space_; }
@@ -128,12 +128,8 @@ class Gravity {
       for (std::size_t j = i + 1; j < masses_.size(); ++j) add_pair(q, i, j, hessian);
     }
   }
-  template <class S>
-  void potential_hessian(const Vector<S, dynamic>& q, Matrix<S, dynamic>& hessian) const {
-    Vector<S, dynamic> f = zeros_like(q);
-    force_and_hessian(q, f, hessian);
-  }
 
+  const R& total_mass() const { return total_mass_; }
   std::array<std::size_t, 3> invariant_sizes() const { return {space_ == 2 ? 1u : 3u, space_, space_}; }
   template <class S>
   Vector<S, dynamic> invariants(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, const S& t) const {

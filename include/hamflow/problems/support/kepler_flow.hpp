@@ -1,7 +1,7 @@
 // Exact motion in the potential V(r) = -k/r on every conic, by universal variables: with dt = r ds, kappa = k/mu,
 // beta = 2 kappa/r0 - v0^2 and eta = q0 . v0
 //     r(s) = r0 G0 + eta G1 + kappa G2,   t(s) = r0 G1 + eta G2 + kappa G3,   G_n = s^n c_n(beta s^2),
-// where c_n are Stumpff's functions.   [Danby 1988, Sect. 6.9; Rein, Tamayo 2015]   Nothing distinguishes ellipse,
+// where c_n are Stumpff's functions.   [Danby1988, Sect. 6.9; ReinTamayo2015]   Nothing distinguishes ellipse,
 // parabola and hyperbola; k < 0 repels. On a line (l = 0) the motion continues after the collision as the limit of
 // narrow ellipses does: it returns.
 #pragma once
@@ -45,8 +45,39 @@ Stumpff<R> stumpff(R z) {
 }
 
 namespace detail {
-template <class R>
-Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vector<R, 2>& p0, R t) {
+/// The motion as a function of the universal variable s.
+struct UniversalMotion {
+  using L = long double;
+  L r0, eta, kappa, beta;
+
+  L time(L s) const {
+    const Stumpff<L> c = stumpff(beta * s * s);
+    return s * (r0 * c.c1 + s * (eta * c.c2 + s * kappa * c.c3));
+  }
+};
+
+/// s at time t, at most half a period from 0. t(s) is monotone.
+inline long double universal_variable(const UniversalMotion& motion, long double t) {
+  using L = long double;
+  // The bracket: a whole period of s, or doubling, beginning where no exponential has grown yet.
+  const L sign = t < 0 ? -1 : 1;
+  L low = 0;
+  L high = sign * 2 * pi_value<L>() / sqrt(motion.beta);
+  if (!(motion.beta > 0)) {
+    high = t / motion.r0;
+    if (motion.beta < 0 && abs(high) * sqrt(-motion.beta) > 1) high = sign / sqrt(-motion.beta);
+    while (abs(motion.time(high)) < abs(t)) {
+      low = high;
+      high = 2 * high;
+    }
+  }
+  return bracketed_root([&](L s) { return motion.time(s) - t; }, low, high, motion.time(low) - t,
+                        motion.time(high) - t);
+}
+
+inline Start<long double, 2> universal_kepler_flow(long double k, long double mass, const Vector<long double, 2>& q0,
+                                                   const Vector<long double, 2>& p0, long double t) {
+  using R = long double;
   const R kappa = k / mass;
   const Vector<R, 2> v0{p0[0] / mass, p0[1] / mass};
   const R r0 = hypot(q0[0], q0[1]);
@@ -57,28 +88,7 @@ Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vec
     t -= period * nearbyint(t / period);
   }
   if (t == R(0)) return {q0, p0};
-
-  const R sign = t < R(0) ? R(-1) : R(1);
-  const auto radius = [&](R s) {
-    const Stumpff<R> c = stumpff(beta * s * s);
-    return r0 * c.c0 + s * (eta * c.c1 + s * kappa * c.c2);
-  };
-  const auto time = [&](R s) {
-    const Stumpff<R> c = stumpff(beta * s * s);
-    return s * (r0 * c.c1 + s * (eta * c.c2 + s * kappa * c.c3));
-  };
-  // t(s) is monotone. The bracket: a whole period of s, or doubling, beginning where no exponential has grown yet.
-  R low(0);
-  R high = sign * R(2) * pi_value<R>() / sqrt(beta);
-  if (!(beta > R(0))) {
-    high = t / r0;
-    if (beta < R(0) && abs(high) * sqrt(-beta) > R(1)) high = sign / sqrt(-beta);
-    while (abs(time(high)) < abs(t)) {
-      low = high;
-      high = R(2) * high;
-    }
-  }
-  const R s = bracketed_root([&](R x) { return ValueAndSlope<R>{time(x) - t, radius(x)}; }, low, high, sign < R(0));
+  const R s = universal_variable(UniversalMotion{r0, eta, kappa, beta}, t);
 
   const Stumpff<R> c = stumpff(beta * s * s);
   const R g1 = s * c.c1;
@@ -97,13 +107,13 @@ Start<R, 2> universal_kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vec
 }
 }  // namespace detail
 
-/// The state after time t. Computed in long double for the types below it.
+/// The state after time t, computed in long double.
 template <class R>
-Start<R, 2> kepler_flow(R k, R mass, const Vector<R, 2>& q0, const Vector<R, 2>& p0, R t) {
-  using Inner =
-      std::conditional_t<(std::numeric_limits<R>::digits < std::numeric_limits<long double>::digits), long double, R>;
-  const Start<Inner, 2> now = detail::universal_kepler_flow<Inner>(
-      static_cast<Inner>(k), static_cast<Inner>(mass), cast<Inner>(q0), cast<Inner>(p0), static_cast<Inner>(t));
+requires std::is_floating_point_v<R> Start<R, 2> kepler_flow(R k, R mass, const Vector<R, 2>& q0,
+                                                             const Vector<R, 2>& p0, R t) {
+  using L = long double;
+  const Start<L, 2> now = detail::universal_kepler_flow(static_cast<L>(k), static_cast<L>(mass), cast<L>(q0),
+                                                        cast<L>(p0), static_cast<L>(t));
   return {cast<R>(now.q), cast<R>(now.p)};
 }
 

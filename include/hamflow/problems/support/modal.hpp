@@ -4,10 +4,11 @@
 // unstable) or zero (a free motion).
 #pragma once
 
-#include <Eigen/Dense>
 #include <optional>
 
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/numerics/dense.hpp"
+#include "hamflow/numerics/normal_modes.hpp"
 #include "hamflow/problems/support/linear_oscillator.hpp"
 
 namespace hamflow {
@@ -17,69 +18,66 @@ class ModalSolution {
  public:
   using Coordinates = Vector<long double, N>;
 
-  ModalSolution(const Matrix<long double, N>& mass, const Matrix<long double, N>& stiffness)
-      : mass_(to_dense(mass)), solver_(to_dense(stiffness), mass_, Eigen::ComputeEigenvectors | Eigen::Ax_lBx) {}
+  ModalSolution(const Matrix<long double, N>& mass, const Matrix<long double, N>& stiffness) : mass_(mass) {
+    const std::vector<long double> m = rows_of(mass);
+    solved_ = normal_modes(m.data(), rows_of(stiffness).data(), N, eigenvalues_.begin(), vectors_.data());
+  }
 
   /// False when M is not positive or an entry is not finite.
-  bool solved() const {
-    return mass_.llt().info() == Eigen::Success && solver_.info() == Eigen::Success &&
-           solver_.eigenvectors().allFinite();
-  }
+  bool solved() const { return solved_; }
 
   /// lambda = omega^2, ascending.
-  Coordinates eigenvalues() const { return to_coordinates(solver_.eigenvalues()); }
+  const Coordinates& eigenvalues() const { return eigenvalues_; }
   /// The k-th eigenform, of unit generalised mass.
-  Coordinates form(std::size_t k) const { return to_coordinates(solver_.eigenvectors().col(static_cast<int>(k))); }
-  /// y = L^T M q.
-  Coordinates modal_position(const Coordinates& q) const {
-    return to_coordinates(solver_.eigenvectors().transpose() * (mass_ * to_dense(q)));
+  Coordinates form(std::size_t k) const {
+    Coordinates out{};
+    for (std::size_t i = 0; i < N; ++i) out[i] = vectors_[i * N + k];
+    return out;
   }
+  /// y = L^T M q.
+  Coordinates modal_position(const Coordinates& q) const { return modal_velocity(apply(mass_, q)); }
   /// y' = L^T p.
   Coordinates modal_velocity(const Coordinates& p) const {
-    return to_coordinates(solver_.eigenvectors().transpose() * to_dense(p));
+    Coordinates out{};
+    for (std::size_t k = 0; k < N; ++k) {
+      for (std::size_t i = 0; i < N; ++i) out[k] += vectors_[i * N + k] * p[i];
+    }
+    return out;
   }
 
   /// The state at time t. (3.33), (3.34)
   Start<long double, N> at(const Coordinates& q, const Coordinates& p, long double t) const {
     const Coordinates y = modal_position(q);
     const Coordinates rate = modal_velocity(p);
-    Column position;
-    Column velocity;
+    Coordinates position{};
+    Coordinates velocity{};
     for (std::size_t k = 0; k < N; ++k) {
-      const auto row = static_cast<int>(k);
-      const LinearMotion mode = linear_motion(y[k], rate[k], solver_.eigenvalues()[row], t);
-      position[row] = mode.position;
-      velocity[row] = mode.velocity;
+      const LinearMotion mode = linear_motion(y[k], rate[k], eigenvalues_[k], t);
+      position[k] = mode.position;
+      velocity[k] = mode.velocity;
     }
-    return {to_coordinates(solver_.eigenvectors() * position),
-            to_coordinates(mass_ * (solver_.eigenvectors() * velocity))};
+    return {sum_of_forms(position), apply(mass_, sum_of_forms(velocity))};
   }
 
  private:
-  static constexpr int size = static_cast<int>(N);
-  using Dense = Eigen::Matrix<long double, size, size>;
-  using Column = Eigen::Matrix<long double, size, 1>;
-
-  static Dense to_dense(const Matrix<long double, N>& m) {
-    Dense out;
+  static std::vector<long double> rows_of(const Matrix<long double, N>& m) {
+    std::vector<long double> all;
+    for (const auto& row : m) all.insert(all.end(), row.begin(), row.end());
+    return all;
+  }
+  /// L y.
+  Coordinates sum_of_forms(const Coordinates& y) const {
+    Coordinates out{};
     for (std::size_t i = 0; i < N; ++i) {
-      for (std::size_t j = 0; j < N; ++j) out(static_cast<int>(i), static_cast<int>(j)) = m[i][j];
+      for (std::size_t k = 0; k < N; ++k) out[i] += vectors_[i * N + k] * y[k];
     }
     return out;
   }
-  static Column to_dense(const Coordinates& x) {
-    Column out;
-    for (std::size_t i = 0; i < N; ++i) out[static_cast<int>(i)] = x[i];
-    return out;
-  }
-  static Coordinates to_coordinates(const Column& x) {
-    Coordinates out{};
-    for (std::size_t i = 0; i < N; ++i) out[i] = x[static_cast<int>(i)];
-    return out;
-  }
 
-  Dense mass_;
-  Eigen::GeneralizedSelfAdjointEigenSolver<Dense> solver_;
+  Matrix<long double, N> mass_;
+  Coordinates eigenvalues_{};
+  std::vector<long double> vectors_ = std::vector<long double>(N * N);  // the k-th eigenform is the k-th column
+  bool solved_ = false;
 };
 
 }  // namespace hamflow

@@ -3,7 +3,7 @@
 // transpose, so that p^T dq stays: the change is canonical.
 #pragma once
 
-#include "hamflow/core/vector.hpp"
+#include "hamflow/core/problem_info.hpp"
 
 namespace hamflow {
 
@@ -25,5 +25,14 @@ template <class S>
 constexpr Vector<S, 2> relative_momenta(const Vector<S, 2>& absolute) {
   return {absolute[0] + absolute[1], absolute[1]};
 }
+
+/// Absolute angles are the reference chart.
+template <class R, Angles>
+struct PendulumChart {};
+template <class R>
+struct PendulumChart<R, Angles::relative> {
+  static Start<R, 2> to_reference(const Start<R, 2>& s) { return {absolute_angles(s.q), absolute_momenta(s.p)}; }
+  static Start<R, 2> from_reference(const Start<R, 2>& s) { return {relative_angles(s.q), relative_momenta(s.p)}; }
+};
 
 }  // namespace hamflow

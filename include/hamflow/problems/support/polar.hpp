@@ -4,40 +4,29 @@
 #pragma once
 
 #include "hamflow/problems/support/central_force.hpp"
+#include "hamflow/problems/support/one_dimensional.hpp"
 
 namespace hamflow {
 
 /// The motion in r alone at angular momentum l: H = p_r^2/(2 mu) + V(r) + l^2/(2 mu r^2).   [Gross1999, (2.40)]
 template <class R, template <class> class Potential>
-class RadialHamiltonian {
+class RadialHamiltonian : public OneDimensional<R> {
  public:
-  using Real = R;
-  static constexpr std::size_t dimension = 1;
-  static constexpr bool quadratic_kinetic = true;
-
   RadialHamiltonian(R mass, Potential<R> potential, R angular_momentum)
-      : inverse_mass_(R(1) / mass), potential_(potential), momentum_squared_(angular_momentum * angular_momentum) {}
+      : OneDimensional<R>(R(1) / mass), potential_(potential), momentum_squared_(angular_momentum * angular_momentum) {}
 
-  template <class S>
-  S kinetic(const Vector<S, 1>& p) const {
-    return p[0] * p[0] * (inverse_mass_ / R(2));
-  }
   template <class S>
   S potential(const Vector<S, 1>& q) const {
     const S u = q[0] * q[0];
     S v = potential_.value(u);
-    if (momentum_squared_ != R(0)) v += (momentum_squared_ * inverse_mass_ / R(2)) / u;
+    if (momentum_squared_ != R(0)) v += (momentum_squared_ * this->inverse_mass() / R(2)) / u;
     return v;
-  }
-  template <class S>
-  void velocity(const Vector<S, 1>& p, Vector<S, 1>& v) const {
-    v[0] = p[0] * inverse_mass_;
   }
   template <class S>
   void force(const Vector<S, 1>& q, Vector<S, 1>& f) const {
     const S u = q[0] * q[0];
     f[0] = -(potential_.slope(u) * q[0]);
-    if (momentum_squared_ != R(0)) f[0] += momentum_squared_ * inverse_mass_ / (u * q[0]);
+    if (momentum_squared_ != R(0)) f[0] += momentum_squared_ * this->inverse_mass() / (u * q[0]);
   }
   template <class S>
   void force_and_hessian(const Vector<S, 1>& q, Vector<S, 1>& f, Matrix<S, 1>& hessian) const {
@@ -46,14 +35,13 @@ class RadialHamiltonian {
     f[0] = -(d.slope * q[0]);
     hessian[0][0] = d.slope + d.curvature * u;
     if (momentum_squared_ != R(0)) {
-      const S centrifugal = momentum_squared_ * inverse_mass_ / (u * q[0]);
+      const S centrifugal = momentum_squared_ * this->inverse_mass() / (u * q[0]);
       f[0] += centrifugal;
       hessian[0][0] += R(3) * centrifugal / q[0];
     }
   }
 
  private:
-  R inverse_mass_;
   Potential<R> potential_;
   R momentum_squared_;
 };
@@ -90,7 +78,12 @@ class PolarCentralForce {
     all.formula = "H = (p_r^2 + p_phi^2/r^2)/(2 mu) + V(r), " + Potential<R>::info().formula;
     all.reference = "Gross1999, (2.77)-(2.106); " + Potential<R>::info().reference;
     all.coordinates = {"r", "phi"};
-    all.invariants = {{"angular_momentum", "p_phi"}};
+    all.angles = {"phi"};
+    all.default_choices.clear();
+    all.invariants = {{"angular_momentum", "p_phi", Components::one, Terms::momentum}};
+    all.example = polar_example(all);
+    all.region.centre = {1.2, 0.3, -0.2, 0.9};
+    all.region.step *= 0.7;  // phi turns faster than the state in the plane
     return all;
   }
 
@@ -126,7 +119,7 @@ class PolarCentralForce {
     pp[1][1] = R(1) / (mass_ * u);
   }
   template <class S>
-  Vector<S, 1> invariants(const Vector<S, 2>&, const Vector<S, 2>& p) const {
+  Vector<S, 1> invariants(const Vector<S, 2>&, const Vector<S, 2>& p, const S& /*t*/) const {
     return {p[1]};
   }
 
@@ -137,12 +130,29 @@ class PolarCentralForce {
     return angular_momentum == R(0) ? R(0) : angular_momentum / (mass_ * q[0] * q[0]);
   }
 
+  static std::pair<std::string, std::string> refused_parameters(const Parameters<R>& given) {
+    return Cartesian::refused_parameters(given);
+  }
   static void derive(const std::string& kind, const Parameters<R>& orbit, Parameters<R>& given) {
     Cartesian::derive(kind, orbit, given);
   }
   static Start<R, 2> start(const std::string& kind, const Parameters<R>& given, const Parameters<R>& orbit,
                            Conditions& conditions) {
     return to_polar(Cartesian::start(kind, given, orbit, conditions));
+  }
+
+  // Cartesian coordinates are the reference chart.
+  static Start<R, 2> to_reference(const Start<R, 2>& s) {
+    if (s.q[0] == R(0) && s.p[1] != R(0)) {
+      throw Error("found r = 0 with p_phi = " + shortest(static_cast<double>(s.p[1])) + "; allowed r other than 0");
+    }
+    return to_cartesian(s);
+  }
+  static Start<R, 2> from_reference(const Start<R, 2>& s) {
+    if (s.q[0] == R(0) && s.q[1] == R(0)) {
+      throw Error("found the centre, r = 0, where there are no polar coordinates; allowed any other point");
+    }
+    return to_polar(s);
   }
 
   // What is known of the orbit is known in Cartesian coordinates.
@@ -166,6 +176,21 @@ class PolarCentralForce {
   }
 
  private:
+  /// The example of the Cartesian problem, or that of its region.
+  static ExampleInfo polar_example(const ProblemInfo& cartesian) {
+    ExampleInfo all = cartesian.example;
+    const std::vector<double>& z = cartesian.region.centre;
+    if (all.q.empty() && z.size() == 4) {
+      all.q = {z[0], z[1]};
+      all.p = {z[2], z[3]};
+    }
+    if (all.dt == 0) all.dt = cartesian.region.step;
+    if (all.q.empty()) return all;
+    const Start<double, 2> s = to_polar(Start<double, 2>{{all.q[0], all.q[1]}, {all.p[0], all.p[1]}});
+    all.q = {s.q[0], s.q[1]};
+    all.p = {s.p[0], s.p[1]};
+    return all;
+  }
   /// l = 0: phi stays, and r goes through zero where the potential lets it.
   std::optional<Start<long double, 2>> exact_on_line(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                                      long double t) const {

@@ -161,12 +161,7 @@ class RadialMotion {
   }
   void add_extremum(const Steepness& a, const Steepness& b) {
     if ((a.value > R(0)) == (b.value > R(0))) return;
-    const R root = bracketed_root(
-        [this](R r) {
-          const Steepness at = steepness(r);
-          return ValueAndSlope<R>{at.value, r * r * r * at.slope};
-        },
-        a.r, b.r, a.value > R(0));
+    const R root = bracketed_root([this](R r) { return steepness(r).value; }, a.r, b.r, a.value, b.value);
     extrema_.push_back({root, (b.value > R(0)) == (b.r > a.r)});
   }
   /// The extrema of V_eff within a factor of 2^300 of the radius, sought the more closely the nearer (steps of 19 % up
@@ -184,11 +179,7 @@ class RadialMotion {
         const Steepness b = steepness(r);
         if (!isfinite(b.value) || !isfinite(b.slope)) break;
         if ((a.slope > R(0)) != (b.slope > R(0))) {
-          const R cut = bracketed_root(
-              [this](R x) {
-                return ValueAndSlope<R>{steepness(x).slope, R(0)};
-              },
-              a.r, b.r, a.slope > R(0));
+          const R cut = bracketed_root([this](R x) { return steepness(x).slope; }, a.r, b.r, a.slope, b.slope);
           const Steepness c = steepness(cut);
           add_extremum(a, c);
           add_extremum(c, b);
@@ -209,8 +200,9 @@ class RadialMotion {
            abs(radial_velocity_) * mass_ <= R(16) * rounding_ * sqrt(p_square);
   }
 
+  /// Between a radius that is reached, where E - V_eff may be 0 to rounding, and one that is not.
   R root(R from, R to) const {
-    return bracketed_root([this](R r) { return ValueAndSlope<R>{above(r), -effective_slope(r)}; }, from, to, true);
+    return bracketed_root([this](R r) { return above(r); }, from, to, infinity, -infinity);
   }
   /// The first zero of E - V_eff from the radius of the state, outward or inward. Between extrema V_eff is monotone, so
   /// its signs there decide.
@@ -384,11 +376,8 @@ class RadialClock {
         factor = R(2) * factor;
       }
     }
-    return bracketed_root(
-        [&](R x) {
-          return ValueAndSlope<R>{time(x) - time_since_apsis, at(x).time};
-        },
-        low, high, false);
+    return bracketed_root([&](R x) { return time(x) - time_since_apsis; }, low, high, -motion_.infinity,
+                          motion_.infinity);
   }
 
  private:

@@ -1,4 +1,6 @@
 // The curves, axes and texts below the figures.
+#include "curves.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <numbers>
 
 #include "axis.hpp"
-#include "curves.hpp"
 #include "figure.hpp"
 #include "text.hpp"
 
@@ -182,8 +183,8 @@ TEST(Thinning, EnvelopeKeepsExtremesAndGaps) {
 TEST(Axis, LabelsStayReadable) {
   const Axis rounding = fit_axis({-1e-15, 1e-15}, 0, {6});
   EXPECT_EQ(rounding.exponent, -15);
-  EXPECT_EQ(rounding.ticks().front().second, "\u22121.0");
-  EXPECT_EQ(rounding.ticks().back().second, "1.0");
+  EXPECT_EQ(rounding.ticks().front().label, "\u22121.0");
+  EXPECT_EQ(rounding.ticks().back().label, "1.0");
   const Axis huge = fit_axis({-1.7e308, 1.7e308}, 0.05, {6});
   EXPECT_EQ(huge.exponent, 308);
   EXPECT_NEAR(huge.high, 1.87, 1e-9);

@@ -1,0 +1,142 @@
+// Prints docs/reference.md from the declarations of problems, methods and keys; ./dev docs writes the file, and a test
+// compares it with what this program prints.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <span>
+
+#include "figure_kinds.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/run/catalog.hpp"
+#include "method_keys.hpp"
+#include "run_keys.hpp"
+
+namespace {
+
+using namespace hamflow;
+
+/// A text inside a cell of a table.
+std::string cell(const std::string& text) {
+  std::string all;
+  for (const char c : text) all += c == '|' ? std::string("\\|") : std::string(1, c);
+  return all;
+}
+
+std::string rows(std::span<const OptionInfo> options, const std::string& before = "") {
+  std::string text;
+  for (const OptionInfo& option : options) {
+    std::string meaning = option.meaning;
+    if (!option.unit.empty()) meaning += ", in units of " + option.unit;
+    if (!option.condition.empty()) meaning += "; " + option.condition;
+    if (option.free_on_resume) meaning += "; free with --resume";
+    text += fmt::format("| `{}{}` | {} | {} | {} |\n", before, option.name, cell(allowed_text(option)),
+                        cell(default_text(option)), cell(meaning));
+    text += rows(option.keys, before + option.name + ".");
+  }
+  return text;
+}
+
+std::string table(std::span<const OptionInfo> options) {
+  return "| key | allowed | default | meaning |\n|---|---|---|---|\n" + rows(options) + "\n";
+}
+
+std::string flags(const MethodInfo& info) {
+  std::string text = info.explicit_step ? "explicit" : "implicit";
+  if (info.symplectic) text += ", symplectic";
+  if (info.symmetric) text += ", symmetric";
+  return text;
+}
+
+std::string starts(const ProblemInfo& info) {
+  if (info.starts.empty()) return "";
+  std::string text = info.start_key.empty() ? "Starts, `orbit = { kind = ..., direction = 1 or -1 }` with:\n\n"
+                                            : "Starts, `" + info.start_key + " = 1, ...` with:\n\n";
+  text += "| start | keys | meaning |\n|---|---|---|\n";
+  for (const StartInfo& start : info.starts) {
+    text += fmt::format("| {} | {} | {} |\n", start.kind.empty() ? "(without kind)" : "`" + start.kind + "`",
+                        joined(start.keys, [](const std::string& key) { return "`" + key + "`"; }), cell(start.meaning));
+  }
+  return text + "\n";
+}
+
+std::string problem(const ProblemEntry& entry) {
+  const ProblemInfo& info = entry.info;
+  const std::string variant =
+      joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
+  std::string text = fmt::format("### {}{}\n\n{}\n\n", info.name, variant.empty() ? "" : ", " + variant, info.formula);
+  text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n",
+                      entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
+                      joined(info.coordinates), info.reference);
+  if (!info.parameters.empty()) text += table(info.parameters);
+  text += starts(info);
+  if (info.two_bodies) {
+    text += "`bodies = [{ mass, position = [3], velocity = [3] }, { ... }]`: two bodies in space, reduced.\n\n";
+  }
+  text += "`initial = { q, p }` with canonical momenta, or `{ q, v }` with velocities";
+  if (!info.default_q.empty() && info.default_q.size() <= 4) {
+    text += fmt::format("; default q = [{}], p = [{}]", joined(info.default_q), joined(info.default_p));
+  } else if (!info.default_q.empty()) {
+    text += "; default: the problem's own";
+  }
+  text += ".\n\n";
+  for (const InvariantInfo& invariant : info.invariants) {
+    text += fmt::format("Conserved: {} = {}.\n\n", invariant.name, invariant.meaning);
+  }
+  return text;
+}
+
+std::string methods_of(const MethodFamily& family) {
+  std::string text = "### " + family.name + "\n\n| method | order | | |\n|---|---|---|---|\n";
+  for (std::size_t i = 0; i < family.methods.size(); ++i) {
+    const MethodInfo info = family.describe(i, {});
+    text += fmt::format("| `{}` | {} | {} | {} |\n", family.methods[i], info.order, flags(info), cell(info.summary));
+  }
+  text += "\n";
+  if (!family.options.empty()) text += table(family.options);
+  const auto by_position = [&] {
+    std::string names;
+    for (const OptionInfo& option : family.options) {
+      if (option.position > 0) names += (names.empty() ? "" : ", ") + option.name;
+    }
+    return names;
+  }();
+  if (!by_position.empty()) text += "By position: " + family.methods.front() + "(" + by_position + ").\n\n";
+  return text;
+}
+
+/// "run.dt" and so on, a line each: what tools/check_options.py looks for.
+std::string keys() {
+  std::string text;
+  for (const std::string& name : all_method_keys()) text += "method." + name + "\n";
+  for (const DeclaredTable& declared : declared_tables()) {
+    for (const OptionInfo& key : declared.keys) text += declared.name + "." + key.name + "\n";
+  }
+  return text;
+}
+
+std::string page() {
+  std::string text =
+      "# Reference\n\nMade by `./dev docs` from the declarations in the code; a test compares the two. Keys stand in "
+      "the tables of a\nscenario; numbers may be given as texts such as \"1/3\" or \"2*pi/100\".\n\n## [problem]\n\n";
+  for (const ProblemEntry& entry : problems()) text += problem(entry);
+  text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
+  for (const MethodFamily& family : method_families()) text += methods_of(family);
+  for (const DeclaredTable& declared : declared_tables()) text += "## [" + declared.name + "]\n\n" + table(declared.keys);
+  text += "## Figures\n\n| kind | what is drawn |\n|---|---|\n";
+  for (const FigureKindInfo& kind : figure_kinds()) text += "| `" + kind.name + "` | " + cell(kind.meaning) + " |\n";
+  text += "\n## Arithmetics\n\n" + joined(arithmetics()) + ".\n\n";
+  text += "## What --resume may change\n\n";
+  for (const DeclaredTable& declared : declared_tables()) {
+    for (const OptionInfo& key : declared.keys) {
+      if (key.free_on_resume) text += "- `" + declared.name + "." + key.name + "`\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::cout << (argc > 1 && std::string(argv[1]) == "--keys" ? keys() : page());
+  return 0;
+}

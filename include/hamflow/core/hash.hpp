@@ -1,0 +1,17 @@
+// **Hash** of bytes: equal states have equal hashes, and a damaged file has another one than it claims.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace hamflow {
+
+/// FNV-1a, 64 bits: finds damage, not malice.   [RFC9923]
+constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,158 @@
+// The functions that a problem may have besides its Hamiltonian, each with its one spelling. A concept below holds for
+// a problem that has the function; without it the default stands that its comment names. R is the type of the
+// parameters (P::Real), S that of the state: functions of the state are templates over S, so that dual numbers,
+// recordings and lanes pass through. Functions of several bodies or links that are summed pair by pair are in
+// core/concepts.hpp (PairwiseForces, PairwiseGradients), as are those of a cyclic coordinate (Cyclic) and of a charge
+// (ChargeInField).
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "hamflow/core/problem_info.hpp"
+
+namespace hamflow {
+
+template <class P>
+using RealOf = typename P::Real;
+/// Positions, momenta, velocities or forces.
+template <class P, class S = RealOf<P>>
+using VectorOf = Vector<S, P::dimension>;
+template <class P, class S = RealOf<P>>
+using MatrixOf = Matrix<S, P::dimension>;
+
+// Derivatives by hand. The defaults are dual numbers, which carry a fixed number of slopes: a problem of dynamic size
+// gives velocity and force, or gradient, and for implicit methods second derivatives.
+
+/// velocity(p, v): v = dT/dp.
+template <class P, class S = RealOf<P>>
+concept HasVelocity = requires(const P& problem, const VectorOf<P, S>& p, VectorOf<P, S>& v) {
+  problem.velocity(p, v);
+};
+/// force(q, f): f = -dV/dq.
+template <class P, class S = RealOf<P>>
+concept HasForce = requires(const P& problem, const VectorOf<P, S>& q, VectorOf<P, S>& f) {
+  problem.force(q, f);
+};
+/// scaled_velocity(factor, p, v): v = factor dT/dp. Default: the product.
+template <class P, class F, class S = RealOf<P>>
+concept HasScaledVelocity = requires(const P& problem, const F& factor, const VectorOf<P, S>& p, VectorOf<P, S>& v) {
+  problem.scaled_velocity(factor, p, v);
+};
+/// scaled_force(factor, q, f): f = -factor dV/dq. Default: the product.
+template <class P, class F, class S = RealOf<P>>
+concept HasScaledForce = requires(const P& problem, const F& factor, const VectorOf<P, S>& q, VectorOf<P, S>& f) {
+  problem.scaled_force(factor, q, f);
+};
+/// fast_force(q, f, factor): f = -factor dV/dq by other operations, for kernel = "fast". Default: there is none.
+template <class P>
+concept HasFastForce = requires(const P& problem, const VectorOf<P>& q, VectorOf<P>& f) {
+  problem.fast_force(q, f, RealOf<P>(1));
+};
+/// potential_hessian(q, out): out[i][j] = d^2 V/dq_i dq_j. Default: by force_and_hessian if that is by hand.
+template <class P, class S = RealOf<P>>
+concept HasPotentialHessian = requires(const P& problem, const VectorOf<P, S>& q, MatrixOf<P, S>& out) {
+  problem.potential_hessian(q, out);
+};
+/// force_and_hessian(q, f, out): both at once, where they share square roots and divisions. Default: one by one.
+template <class P, class S = RealOf<P>>
+concept HasForceAndHessian = requires(const P& problem, const VectorOf<P, S>& q, VectorOf<P, S>& f,
+                                      MatrixOf<P, S>& out) {
+  problem.force_and_hessian(q, f, out);
+};
+/// gradient(q, p, dq, dp): dq = dH/dq, dp = dH/dp. Default: by velocity and force of a separable problem.
+template <class P, class S = RealOf<P>>
+concept HasGradient = requires(const P& problem, const VectorOf<P, S>& x, VectorOf<P, S>& out) {
+  problem.gradient(x, x, out, out);
+};
+/// hessian(q, p, qq, qp, pp): qq[i][j] = d^2 H/dq_i dq_j, qp[i][j] = d^2 H/dq_i dp_j, pp[i][j] = d^2 H/dp_i dp_j.
+/// Default: by potential_hessian where T is quadratic.
+template <class P, class S = RealOf<P>>
+concept HasHessian = requires(const P& problem, const VectorOf<P, S>& x, MatrixOf<P, S>& out) {
+  problem.hessian(x, x, out, out, out);
+};
+
+// What is conserved besides H.
+
+/// invariants(q, p, t): all numbers of all invariants of info() in a row, as a Vector. Default: none.
+template <class P, class S = RealOf<P>>
+concept HasInvariants = requires(const P& problem, const VectorOf<P, S>& x, const S& t) {
+  problem.invariants(x, x, t);
+};
+/// invariant_sizes(): how many numbers each of them has. Default: one each.
+template <class P>
+concept HasInvariantSizes = requires(const P& problem) {
+  problem.invariant_sizes();
+};
+/// total_mass(): the M of an invariant whose terms are those of a centre of mass. Default: it is not judged.
+template <class P>
+concept HasTotalMass = requires(const P& problem) {
+  { problem.total_mass() } -> std::convertible_to<RealOf<P>>;
+};
+
+// What is known of the motion without integrating it. Defaults: nothing.
+
+/// exact(q, p, t): the state after time t, in long double; std::nullopt where it is not known.
+template <class P>
+concept HasExact = requires(const P& problem, const VectorOf<P, long double>& x, long double t) {
+  { problem.exact(x, x, t) } -> std::same_as<std::optional<Start<long double, P::dimension>>>;
+};
+/// exact_radius(q, p): r as a function of phi on the orbit through a planar state; an empty function where it is not
+/// known.
+template <class P>
+concept HasExactRadius = requires(const P& problem, const VectorOf<P, double>& x) {
+  { problem.exact_radius(x, x) } -> std::same_as<std::function<double(double)>>;
+};
+/// describe_orbit(q, p): the entries `orbit` of a summary.
+template <class P>
+concept HasOrbitFacts = requires(const P& problem, const VectorOf<P, double>& x) {
+  { problem.describe_orbit(x, x) } -> std::same_as<OrbitFacts>;
+};
+
+// Parameters and starts, all static. `given` are the parameters of [problem]. Defaults: everything is accepted, and
+// there are no geometric starts.
+
+/// refused_parameters(given): what is wrong with parameters of which each is in its range, as the key to blame and a
+/// message that begins with "allowed"; for several keys an empty key and what is allowed. Both empty: nothing is wrong.
+template <class P>
+concept HasRefusedParameters = requires(const Parameters<RealOf<P>>& given) {
+  { P::refused_parameters(given) } -> std::same_as<std::pair<std::string, std::string>>;
+};
+/// refused_size(given, size): what is allowed in place of `size` coordinates; empty: they are accepted. A problem of
+/// dynamic size has to have it.
+template <class P>
+concept HasRefusedSize = requires(const Parameters<RealOf<P>>& given, std::size_t size) {
+  { P::refused_size(given, size) } -> std::same_as<std::string>;
+};
+/// refused_start(given, q): what is wrong with a start, after the word "found"; empty: nothing is.
+template <class P>
+concept HasRefusedStart = requires(const Parameters<RealOf<P>>& given, const VectorOf<P>& q) {
+  { P::refused_start(given, q) } -> std::same_as<std::string>;
+};
+/// start(kind, given, orbit, conditions): the state of a geometric start of info(); `conditions` receives every
+/// inequality that the geometry has to meet.
+template <class P>
+concept HasStart = requires(const std::string& kind, const Parameters<RealOf<P>>& values, Conditions& conditions) {
+  { P::start(kind, values, values, conditions) } -> std::same_as<Start<RealOf<P>, P::dimension>>;
+};
+/// derive(kind, orbit, given): sets those of `given` that follow from a geometric start (StartInfo::derives).
+template <class P>
+concept HasDerive = requires(const std::string& kind, const Parameters<RealOf<P>>& orbit,
+                             Parameters<RealOf<P>>& given) {
+  P::derive(kind, orbit, given);
+};
+
+// Charts, both static: a canonical change of coordinates, which does not depend on parameters. One of the entries that
+// ProblemInfo::chart_key tells apart is the reference chart and has neither. They throw an Error where a chart does not
+// reach, saying what was found and what is allowed.
+
+/// to_reference(state), from_reference(state).
+template <class P>
+concept HasChart = requires(const Start<RealOf<P>, P::dimension>& state) {
+  { P::to_reference(state) } -> std::same_as<Start<RealOf<P>, P::dimension>>;
+  { P::from_reference(state) } -> std::same_as<Start<RealOf<P>, P::dimension>>;
+};
+
+}  // namespace hamflow

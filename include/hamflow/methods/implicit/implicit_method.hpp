@@ -1,0 +1,189 @@
+// A method out of the equations of its steps: the loop around Newton that is the same for all of them.
+#pragma once
+
+#include <string>
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/implicit/newton.hpp"
+
+namespace hamflow {
+
+/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2.
+template <class P, class Real, std::size_t N>
+double inverse_mass_condition(const P& problem, const Vector<Real, N>& q, const Vector<Real, N>& p) {
+  Matrix<Real, N> qq = zero_matrix(q);
+  Matrix<Real, N> qp = qq;
+  Matrix<Real, N> pp = qq;
+  hessian(problem, q, p, qq, qp, pp);
+  return static_cast<double>(condition_number(pp));
+}
+
+/// One step of the method that the equations E define. What Newton remembers, and what of E::Setup changes, is part of
+/// a run's state. Increments are added with compensation where the arithmetic has it.
+template <class P, Arithmetic A, class E>
+class ImplicitMethod {
+ public:
+  static_assert(detail::HasStepTypes<E>,
+                "hamflow: equations of a step need the types Problem, Real, Setup, Variables, Unknowns, Memory, Point "
+                "and the constant n, see methods/implicit/equations.hpp");
+  static_assert(detail::SolvableByNewton<E>,
+                "hamflow: equations of a step need last_state(), predicted(), started(memory), evaluate(x, at), "
+                "at.residual, tangent(at), norm(x, at), measure(x, at, correction), see "
+                "methods/implicit/equations.hpp");
+  static_assert(detail::EndsStep<E>,
+                "hamflow: equations of a step need taken(x, at), taken(x, at, correction), memory(x, taken), "
+                "unknowns(x, taken), see methods/implicit/equations.hpp");
+  static_assert(detail::Verifiable<E>,
+                "hamflow: equations of a step need residual(q0, p0, unknowns) and increment(unknowns), templates over "
+                "the number type, see methods/implicit/equations.hpp");
+  static_assert(detail::HasStepSetup<E>,
+                "hamflow: the Setup of equations needs info(), newton(), detail() and residual_name, see "
+                "methods/implicit/equations.hpp");
+  static_assert(
+      !A::exact_undo,
+      "hamflow: the lattice needs an explicit splitting method: an implicit step is no bijection of the lattice");
+  static constexpr std::size_t n = P::dimension;
+  using Real = typename A::Real;
+  using Base = Real;
+  using Unknowns = typename E::Unknowns;
+
+  /// @param options those of E::Setup
+  template <class Options>
+  ImplicitMethod(const P& problem, const Options& options) : setup_(problem, options), options_(setup_.newton()) {}
+
+  MethodInfo info() const { return setup_.info(); }
+
+  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) { return counted(problem, h, z, nullptr); }
+  /// The step, and its unknowns; of no use where effort() counts one more step that was halved.
+  Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z, Unknowns& unknowns) {
+    return counted(problem, h, z, &unknowns);
+  }
+
+  void invalidate() { newton_.forget(); }
+  Effort effort() const { return effort_; }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(effort_, diagnostics_, setup_, newton_);
+  }
+  const Newton<E>& newton() const { return newton_; }
+  /// Of the last step and over all of them; unset unless asked for.
+  StepDiagnostics diagnostics(const P& problem, const PhasePoint<A, n>& z) const {
+    StepDiagnostics d;
+    if (!options_.diagnostics) return d;
+    d = diagnostics_;
+    d.condition_inverse_mass = inverse_mass_condition(problem, z.positions(), z.momenta());  // at the start, too
+    return d;
+  }
+
+  /// Repeats the step that failed and reports every attempt. Changes nothing.
+  std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
+    ImplicitMethod again = *this;
+    PhasePoint<A, n> copy = z;
+    NewtonLog log;
+    again.options_.halve = false;
+    (void)again.attempt(problem, h, copy, 0, nullptr, &log);
+    if constexpr (requires { again.setup_.hopeless(); }) {
+      if (log.too_coarse()) return again.setup_.hopeless();
+    }
+    return "Newton did not converge in " + std::to_string(options_.max_iterations) +
+           (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + again.setup_.detail() +
+           (log.attempts() > 1 ? " from any of " + std::to_string(log.attempts()) + " starts" : "") +
+           (options_.halve ? ", nor in ten halvings of the step" : "") + "; " + E::Setup::residual_name +
+           " per iteration of the whole step " + log.text();
+  }
+
+  /// r(z0, U) and E(U), for any number type. The verification differentiates them.
+  template <class S, class U>
+  U residual(const P& problem, const Base& h, const Vector<S, n>& q0, const Vector<S, n>& p0, const U& unknowns) const {
+    const Vector<Real, n> nowhere = zeros<Real, n>(q0.size());
+    Effort unused;
+    return E(setup_, problem, h, nowhere, nowhere, unused).residual(q0, p0, unknowns);
+  }
+  template <class U>
+  static auto increment(const U& unknowns) {
+    return E::increment(unknowns);
+  }
+
+ private:
+  static constexpr int deepest_halving = 10;
+
+  Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {
+    const long long before = effort_.linear_solves;
+    const Outcome outcome = attempt(problem, h, z, 0, unknowns, nullptr);
+    if (outcome != Outcome::done) return outcome;
+    const long long solves = effort_.linear_solves - before;
+    effort_.solves_min = effort_.steps == 0 || solves < effort_.solves_min ? solves : effort_.solves_min;
+    effort_.solves_max = solves > effort_.solves_max ? solves : effort_.solves_max;
+    ++effort_.steps;
+    if (options_.diagnostics) diagnose(problem, z, solves);
+    return outcome;
+  }
+
+  /// The step, or, when it does not converge and halving is allowed, two steps of half its length.
+  Outcome attempt(const P& problem, const Real& h, PhasePoint<A, n>& z, int depth, Unknowns* unknowns, NewtonLog* log) {
+    const Vector<Real, n> q0 = z.positions();
+    const Vector<Real, n> p0 = z.momenta();
+    if (solve(problem, h, q0, p0, z, unknowns, log)) return Outcome::done;
+    if (!options_.halve || depth == deepest_halving) return Outcome::not_converged;
+    const PhasePoint<A, n> start = z;
+    invalidate();
+    for (int half = 0; half < 2; ++half) {
+      const Outcome outcome = attempt(problem, h / 2, z, depth + 1, unknowns, log);
+      if (outcome != Outcome::done) {
+        z = start;
+        return outcome;
+      }
+    }
+    if (depth == 0) ++effort_.halved;
+    invalidate();  // what was remembered belongs to another step length
+    return Outcome::done;
+  }
+
+  bool solve(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& p0, PhasePoint<A, n>& z,
+             Unknowns* unknowns, NewtonLog* log) {
+    const NewtonReport report{options_, effort_, diagnostics_, log};
+    typename Newton<E>::Solution found;
+    const E step(setup_, problem, h, q0, p0, effort_);
+    if (!newton_.solve(step, report, found)) return false;
+    if constexpr (requires { step.too_coarse(found.taken); }) {
+      if (setup_.automatic() && !refined(problem, h, q0, p0, report, found)) return false;
+    }
+    z.move(Real(1), found.taken.q);
+    z.push(Real(1), found.taken.p);
+    newton_.remember(step, found);
+    if (unknowns != nullptr) *unknowns = step.unknowns(found.x, found.taken);
+    return true;
+  }
+
+  /// Solves the step with finer equations until they are fine enough. Those of a step that was not taken do not count.
+  bool refined(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
+               const NewtonReport& report, typename Newton<E>::Solution& found) {
+    const auto before = setup_.mark();
+    while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.taken)) {
+      const bool finer = setup_.refine();
+      if (!finer && report.log != nullptr) report.log->note_too_coarse();
+      if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {
+        if (report.log == nullptr) setup_.return_to(before);  // a report names the last ones
+        return false;
+      }
+    }
+    return true;
+  }
+
+  [[gnu::noinline]] void diagnose(const P& problem, const PhasePoint<A, n>& z, long long solves) {
+    StepDiagnostics& d = diagnostics_;
+    d.iterations = static_cast<double>(solves);
+    d.condition_inverse_mass = inverse_mass_condition(problem, z.positions(), z.momenta());
+    d.extend(effort_.steps);
+  }
+
+  typename E::Setup setup_;
+  NewtonOptions options_;
+  Effort effort_{};
+  StepDiagnostics diagnostics_{};
+  Newton<E> newton_;
+};
+
+}  // namespace hamflow

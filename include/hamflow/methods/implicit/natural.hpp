@@ -1,0 +1,270 @@
+// cg(1) for H = p^T M^-1 p/2 + V(q) with constant M.   [Gross1999, (2.61)-(2.64), (2.71)-(2.76)]
+//     q1 - q0 = h M^-1 (p0 + p1)/2,      p1 - p0 = h F,     F = -int_0^1 V'(q0 + alpha d) dalpha,  d = q1 - q0.
+// p is eliminated: Newton runs in d alone, on r(d) = h M^-1 (p0 + h F/2) - d with the exact tangent
+//     K = I + (h^2/2) M^-1 int alpha V''(q0 + alpha d) dalpha.
+// p1 is p0 + h F, never 2 M d/h - p0, which would amplify rounding by 2 M/h.
+#pragma once
+
+#include "hamflow/methods/implicit/segment.hpp"
+
+namespace hamflow {
+
+/// The variables are d; impulses h F are remembered, from which the next is extrapolated.
+template <class P, class R>
+class NaturalElement : public SegmentEquations<P, R> {
+  using Base = SegmentEquations<P, R>;
+
+ public:
+  using typename Base::Real;
+  using typename Base::V;
+  static constexpr std::size_t n = P::dimension;
+  using Variables = V;
+  using Memory = V;
+
+  struct Setup : SegmentSetup<Real> {
+    Setup(const P& problem, const CgOptions& options)
+        : SegmentSetup<Real>(options),
+          inverse_mass_sizes(inverse_mass_matrix(problem)),
+          mass(inverse(inverse_mass_sizes)) {
+      for (std::size_t i = 0; i < mass.size(); ++i) {
+        for (std::size_t j = 0; j < mass.size(); ++j) inverse_mass_sizes[i][j] = abs(inverse_mass_sizes[i][j]);
+      }
+    }
+    Matrix<Real, n> inverse_mass_sizes;  // |M^-1| entry by entry
+    Matrix<Real, n> mass;
+  };
+  struct Point {
+    V residual{};
+    V impulse{};  // h F
+    V target{};   // what d should be, h M^-1 (p0 + h F/2)
+    Matrix<Real, n> stiffness{};
+  };
+
+  NaturalElement(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
+      : Base(problem, h, setup.rule()),
+        setup_(setup),
+        q0_(q0),
+        p0_(p0),
+        effort_(effort),
+        flight_(max_norm(terms_of_flight())) {}
+
+  V last_state() const { return zeros_like(q0_); }
+  V predicted() const {
+    V impulse = zeros_like(q0_);
+    force(problem_, q0_, impulse);
+    for (Real& x : impulse) x = h_ * x;
+    ++effort_.force;
+    return displacement(impulse);
+  }
+  V started(const V& impulse) const { return displacement(impulse); }
+
+  [[gnu::always_inline]] void evaluate(const V& d, Point& at) const {
+    at.stiffness = zero_matrix(q0_);
+    integrate(d, at.impulse, at.stiffness);
+    at.target = displacement(at.impulse);
+    at.residual = zeros_like(d);
+    for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] = at.target[i] - d[i];
+  }
+  Matrix<Real, n> tangent(const Point& at) const {
+    Matrix<Real, n> k = at.stiffness;
+    const Real factor = h_ * h_ / 2;
+    const std::size_t size = k.size();
+    V row = zeros<Real, n>(size);
+    V column = zeros<Real, n>(size);
+    for (std::size_t j = 0; j < size; ++j) {
+      for (std::size_t i = 0; i < size; ++i) row[i] = at.stiffness[j][i];
+      velocity(problem_, row, column);  // M^-1 applied to column j; stiffness is symmetric
+      for (std::size_t i = 0; i < size; ++i) k[i][j] = factor * column[i];
+      k[j][j] += Real(1);
+    }
+    return k;
+  }
+  /// The residual cannot be computed better than to epsilon |target|, however far p0 and the impulse cancel in it at a
+  /// turning point, and the terms of M^-1 p with each other: |h| |M^-1| |p0|.
+  Correction<Real> measure(const V& d, const Point& at, const V& correction) const {
+    V next = d;
+    for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
+    return {max_norm(correction), epsilon * (larger(flight_, max_norm(at.target)) + max_norm(next))};
+  }
+
+  Increment<Real, n> taken(V& d, const Point& at) const { return {d, at.impulse}; }
+  /// d + correction itself has just been rounded, mostly to the target of the *old* impulse: an error with the sign of
+  /// the correction, hence a drift (4e-20 a step at H = -0.25, measured). The new impulse gives d afresh.
+  Increment<Real, n> taken(V& d, const Point& at, const V& correction) const {
+    V impulse = at.impulse;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      Real change(0);
+      for (std::size_t j = 0; j < d.size(); ++j) change += at.stiffness[i][j] * correction[j];
+      impulse[i] -= h_ * change;
+    }
+    d = displacement(impulse);
+    return {d, impulse};
+  }
+  V memory(const V&, const Increment<Real, n>& taken) const { return taken.p; }
+
+  /// The 2-norm of the seed's residual (2.63), (2/h) M (d - h M^-1 (p0 + h F/2)). The seed's programs iterate in q1 and
+  /// form d = q1 - q0 anew, which is what limits their residual to about (2/h) M |q| epsilon; so does its criterion
+  /// here.
+  Real norm(const V& d, const Point& at) const {
+    V r = at.residual;
+    if (setup_.options().seed_criterion) {
+      for (std::size_t i = 0; i < d.size(); ++i) r[i] += d[i] - ((q0_[i] + d[i]) - q0_[i]);
+    }
+    const V scaled = apply(setup_.mass, r);
+    Real sum(0);
+    for (std::size_t i = 0; i < d.size(); ++i) sum += scaled[i] * scaled[i];
+    return abs(Real(2) / h_) * sqrt(sum);
+  }
+
+  /// Whether one more point changes the work done by the mean force, which is the energy error of the step, by more
+  /// than rounding can: two sums of at most s + 1 terms round by less than s + 4 units of |F| <= |F(middle)| + |V''|
+  /// |d|, the forces by what rounded coordinates make of them, |V''| |q| epsilon, three times that where terms cancel
+  /// as in a Lennard-Jones well. A bias of that size adds up to some tens of roundings of H over a part of an orbit,
+  /// however small h is; one in units of H would add up to 1/h of them.
+  bool too_coarse(const Increment<Real, n>& taken) const {
+    const V& d = taken.q;
+    const Real terms(rule_.points + 5);
+    const V middle = detail::midpoint<Real>(q0_, d);
+    V f = zeros_like(d);
+    Matrix<Real, n> second = zero_matrix(d);
+    force_and_hessian(problem_, middle, f, second);
+    ++effort_.force;
+    ++effort_.hessian;
+    const V flight = terms_of_flight();  // d itself rounds by these
+    Real rounding(0);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      Real units = terms * abs(f[i]);
+      for (std::size_t j = 0; j < d.size(); ++j) {
+        units += abs(second[i][j]) * (3 * abs(middle[j]) + terms * abs(d[j]) + 4 * flight[j]);
+      }
+      rounding += epsilon * abs(d[i]) * units;
+    }
+    return abs(finer_work(taken).gain) > rounding;
+  }
+  /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
+  bool believable(const Increment<Real, n>& taken) const {
+    if (rule_.points == 1) return true;
+    const Work work = finer_work(taken);
+    return Real(100) * abs(work.gain) <= work.size;
+  }
+
+ private:
+  using Base::h_;
+  using Base::problem_;
+  using Base::rule_;
+  static constexpr auto epsilon = Epsilon<Real>{};
+
+  /// What one more point sees: the energy gained, and the sizes of its terms.
+  struct Work {
+    Real gain{0};
+    Real size{0};
+  };
+  Work finer_work(const Increment<Real, n>& taken) const {
+    const GaussRule<Real>& finer = gauss_rule<Real>(rule_.points + 1);
+    const V& d = taken.q;
+    const V middle = detail::midpoint<Real>(q0_, d);
+    V f = zeros_like(d);
+    Work work;
+    for (std::size_t l = 0; l < finer.c.size(); ++l) {
+      force(problem_, detail::on_segment(middle, finer.offset[l], d), f);
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        work.gain += finer.b[l] * d[i] * (f[i] - taken.p[i] / h_);
+        work.size += abs(finer.b[l] * d[i] * f[i]);
+      }
+    }
+    effort_.force += finer.points;
+    return work;
+  }
+
+  /// |h| |M^-1| |p0|, coordinate by coordinate.
+  V terms_of_flight() const {
+    V sizes = zeros_like(p0_);
+    for (std::size_t i = 0; i < p0_.size(); ++i) {
+      for (std::size_t j = 0; j < p0_.size(); ++j) sizes[i] += setup_.inverse_mass_sizes[i][j] * abs(p0_[j]);
+      sizes[i] = abs(h_) * sizes[i];
+    }
+    return sizes;
+  }
+
+  /// impulse = -h int V'(q0_ + alpha d), stiffness = int alpha V''(q0_ + alpha d).
+  [[gnu::always_inline]] void integrate(const V& d, V& impulse, Matrix<Real, n>& stiffness) const {
+    if constexpr (n == dynamic) {
+      sum_points(d, impulse, stiffness);
+    } else {
+      sum_blocks(d, impulse, stiffness);
+    }
+    effort_.force += rule_.points;
+    effort_.hessian += rule_.points;
+  }
+  /// Large systems, point after point.
+  void sum_points(const V& d, V& impulse, Matrix<Real, n>& stiffness) const {
+    const V middle = detail::midpoint<Real>(q0_, d);
+    V f = zeros_like(d);
+    Matrix<Real, n> second = zero_matrix(d);
+    impulse = zeros_like(d);
+    for (std::size_t l = 0; l < rule_.c.size(); ++l) {
+      force_and_hessian(problem_, detail::on_segment(middle, rule_.offset[l], d), f, second);
+      const Real force_weight = h_ * rule_.b[l];
+      const Real weight = rule_.b[l] * (Real(0.5) + rule_.offset[l]);
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        impulse[i] += force_weight * f[i];
+        for (std::size_t j = 0; j < d.size(); ++j) stiffness[i][j] += weight * second[i][j];
+      }
+    }
+  }
+  /// The points of a block come first, side by side, so that the compiler can evaluate several at once in vector
+  /// registers; then the sums, point after point. h is multiplied into the weights, so that the increment of p is a
+  /// plain sum of the points' contributions.
+  [[gnu::always_inline]] void sum_blocks(const V& d, V& impulse, Matrix<Real, n>& stiffness) const {
+    constexpr std::size_t block = 32;  // more than a step commonly has; shorter ones get unrolled to no good
+    const auto s = static_cast<std::size_t>(rule_.points);
+    Real forces[n][block];
+    Real hessians[n][n][block];
+    V sum{};
+    const V middle = detail::midpoint<Real>(q0_, d);
+    constexpr Real half = Real(1) / Real(2);
+    for (std::size_t first = 0; first < s; first += block) {
+      const Real* offset = rule_.offset.data() + first;
+      const Real* b = rule_.b.data() + first;
+      const std::size_t count = s - first < block ? s - first : block;
+      for (std::size_t l = 0; l < count; ++l) {
+        V q{};
+        V f{};
+        Matrix<Real, n> second{};
+        for (std::size_t i = 0; i < n; ++i) q[i] = middle[i] + offset[l] * d[i];
+        force_and_hessian(problem_, q, f, second);
+        const Real force_weight = h_ * b[l];
+        const Real weight = b[l] * (half + offset[l]);
+        for (std::size_t i = 0; i < n; ++i) {
+          forces[i][l] = force_weight * f[i];
+          for (std::size_t j = 0; j < n; ++j) hessians[i][j][l] = weight * second[i][j];
+        }
+      }
+      for (std::size_t l = 0; l < count; ++l) {
+        for (std::size_t i = 0; i < n; ++i) {
+          sum[i] += forces[i][l];
+          for (std::size_t j = 0; j < n; ++j) stiffness[i][j] += hessians[i][j][l];
+        }
+      }
+    }
+    impulse = sum;
+  }
+
+  /// h M^-1 (p0 + impulse/2).
+  V displacement(const V& impulse) const {
+    V middle = zeros_like(p0_);
+    V v = zeros_like(p0_);
+    for (std::size_t i = 0; i < p0_.size(); ++i) middle[i] = p0_[i] + Real(0.5) * impulse[i];
+    velocity(problem_, middle, v);
+    for (std::size_t i = 0; i < p0_.size(); ++i) v[i] = h_ * v[i];
+    return v;
+  }
+
+  const Setup& setup_;
+  const V& q0_;
+  const V& p0_;
+  Effort& effort_;
+  Real flight_;
+};
+
+}  // namespace hamflow

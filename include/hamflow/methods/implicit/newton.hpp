@@ -1,0 +1,270 @@
+// Newton's iteration for the equations of a step, and where it starts.   [spec: methods, section 3]
+//
+// The first guess is extrapolated from the last steps; without memory it is the explicit predictor. Where it fails, the
+// predictor, the last state (as in the first thesis' programs) and a Newton whose steps are damped until the residual
+// shrinks are tried in turn, each with max_iterations of its own.
+//
+// Where h is longer than the fastest motion, a polynomial through the last steps says nothing about the next one.
+// Newton may yet converge from there, to a root on the other side of a singularity, say. So, where the first guess lies
+// farther from the solution than the whole step is long, it is in *doubt*: steps then start from the last state, until
+// three extrapolations in a row would have been nearer. As long as guesses are good nothing of this costs an
+// evaluation.
+#pragma once
+
+#include "hamflow/methods/implicit/equations.hpp"
+#include "hamflow/methods/implicit/extrapolation.hpp"
+#include "hamflow/methods/implicit/newton_log.hpp"
+#include "hamflow/numerics/dense.hpp"
+
+namespace hamflow {
+
+/// Whether Newton has come to where the rounding of the residual hides what is left. A correction below the noise is
+/// noise itself. With a rate theta of decrease, quadratic convergence predicts theta^2 |correction| for the next one.
+/// What is left undone has the same sign at the same phase of every orbit and adds up linearly, rounding only as a
+/// square root: it has to lie so far below the noise that 10^6 steps (a walk of 10^3 noises) do not show it, hence
+/// 1/1024. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, at a
+/// hundred-millionth of the unknowns, are noise too.
+/// @param size, before |correction| of this iteration and the one before, in the units of noise
+/// @param first there is no full correction before this one
+/// @param stalls corrections in a row that did not shrink; counted here
+template <class Real>
+constexpr bool newton_at_rounding(const Real& size, const Real& before, bool first, const Real& noise, int& stalls) {
+  const Real rate = !first && before > Real(0) ? size / before : Real(1);
+  stalls = !first && rate > Real(0.9) ? stalls + 1 : 0;
+  return size <= noise || (!first && rate * rate * size <= noise / 1024) || (rate > Real(0.5) && size <= 64 * noise) ||
+         (stalls >= 2 && size <= Real(1 << 26) * noise);
+}
+
+namespace detail {
+template <class Real, std::size_t N>
+[[gnu::noinline]] void note_tangent(const Matrix<Real, N>& tangent, StepDiagnostics& out) {
+  out.condition_tangent = static_cast<double>(condition_number(tangent));
+  out.determinant_tangent = static_cast<double>(determinant(tangent));
+}
+}  // namespace detail
+
+/// What Newton works with beside the equations: the options of a run, and what it reports.
+struct NewtonReport {
+  const NewtonOptions& options;
+  Effort& effort;
+  StepDiagnostics& diagnostics;
+  NewtonLog* log;  // null but for the report of a failure
+};
+
+template <StepEquations E>
+class Newton {
+ public:
+  using Real = typename E::Real;
+  using Variables = typename E::Variables;
+  using Point = typename E::Point;
+  struct Solution {
+    Variables x{};
+    Increment<Real, E::n> taken{};  // z1 - z0
+  };
+
+  /// Solves the step from its first guess, or from elsewhere. @return whether a solution was found
+  bool solve(const E& step, const NewtonReport& report, Solution& found) {
+    if (doubt_ > 0) [[unlikely]]
+      return from_elsewhere(step, report, found, Guess::extrapolated);
+    const Guess start = memory_.empty() ? Guess::predicted : Guess::extrapolated;
+    found.x = memory_.empty() ? step.predicted() : step.started(memory_.predicted());
+    Point at;
+    Course course;
+    if (report.log != nullptr) report.log->attempt(start);
+    const Ending ending = iterate<false>(step, report, found, at, course);
+    if (ending == Ending::converged && !course.missed) [[likely]]
+      return true;
+    return reconsider(step, report, found, start, ending);
+  }
+  /// Solves the step again, from its solution with coarser equations.
+  bool solve_refined(const E& step, const NewtonReport& report, Solution& found) {
+    Point at;
+    Course course;
+    if (report.log != nullptr) report.log->attempt(Guess::converged);
+    const Ending ending = iterate<false>(step, report, found, at, course);
+    if (ending != Ending::diverged) return ending == Ending::converged;
+    return from_elsewhere(step, report, found, Guess::converged);
+  }
+
+  /// After a step that was taken.
+  void remember(const E& step, const Solution& found) { memory_.remember(step.memory(found.x, found.taken)); }
+  /// What is remembered belongs to steps of one length in one direction.
+  void forget() {
+    memory_.forget();
+    doubt_ = 0;
+  }
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(memory_, doubt_);
+  }
+  /// How many steps were solved from there after the first guess had failed or was in doubt. No part of a run's state.
+  long long solved_from(Guess start) const { return solved_[static_cast<int>(start)]; }
+
+ private:
+  enum class Ending {
+    converged,
+    diverged,
+    refused  // at rounding level above the tolerance, which criterion "seed" calls an error: a solution was found
+  };
+  /// Of an iteration that converged.
+  struct Course {
+    bool missed = false;  // the first correction was larger than the terms of the step
+    Real noise{0};        // what the last correction was compared with
+  };
+  static constexpr int good_guesses_wanted = 3;  // as many as are extrapolated from
+  static constexpr auto epsilon = Epsilon<Real>{};
+
+  template <bool damped>
+  [[gnu::always_inline]] Ending iterate(const E& step, const NewtonReport& report, Solution& found, Point& at,
+                                        Course& course) const {
+    const NewtonOptions& options = report.options;
+    Variables& x = found.x;
+    Real previous(0);  // |correction| of the iteration before
+    Real first(0);
+    Real noise(0);
+    bool at_rounding = false;  // no further correction can be told from rounding
+    bool was_at_rounding = false;
+    bool shortened = false;  // by damping
+    bool evaluated = false;  // by damping, already
+    int stalls = 0;
+    for (int k = 0;; ++k) {
+      if (!damped || !evaluated) step.evaluate(x, at);
+      evaluated = false;
+      if (options.tolerance || report.log != nullptr || options.diagnostics) {
+        const Real norm = step.norm(x, at);
+        if (report.log != nullptr) report.log->residual(static_cast<double>(norm));
+        report.diagnostics.residual = static_cast<double>(norm);
+        if (options.tolerance) {
+          const bool small = norm < static_cast<Real>(*options.tolerance);
+          if (small || (at_rounding && !options.seed_criterion)) {
+            if (!small) ++report.effort.stagnated;
+            found.taken = step.taken(x, at);
+            course = {epsilon * first > noise, noise};
+            return Ending::converged;
+          }
+        }
+      }
+      if (k == options.max_iterations) {
+        if (!was_at_rounding) return Ending::diverged;
+        if (report.log != nullptr) report.log->remark("at rounding level, above the tolerance");
+        return Ending::refused;
+      }
+      const auto tangent = step.tangent(at);
+      if (options.diagnostics) detail::note_tangent(tangent, report.diagnostics);
+      const Variables correction = hamflow::solve(tangent, at.residual);
+      ++report.effort.linear_solves;
+      const Correction<Real> c = step.measure(x, at, correction);
+      noise = c.noise;
+      Real total = c.size;  // NaN and infinity do not get lost in a sum, as they do in a maximum
+      for (std::size_t i = 0; i < x.size(); ++i) total += abs(correction[i]);
+      if (!(total <= std::numeric_limits<Real>::max())) {
+        if (report.log != nullptr) report.log->remark("not finite");
+        return Ending::diverged;
+      }
+      if (k == 0) first = c.size;
+      at_rounding = newton_at_rounding(c.size, previous, k == 0 || shortened, noise, stalls);
+      was_at_rounding = was_at_rounding || at_rounding;
+      if (at_rounding && !options.tolerance) {
+        found.taken = step.taken(x, at, correction);
+        course = {epsilon * first > noise, noise};
+        return Ending::converged;
+      }
+      previous = c.size;
+      if constexpr (damped) {
+        if (!at_rounding) {
+          if (!shorten(step, x, at, correction, shortened)) {
+            if (report.log != nullptr) report.log->remark("no smaller residual along the correction");
+            return Ending::diverged;
+          }
+          evaluated = true;
+          continue;
+        }
+      }
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] += correction[i];
+    }
+  }
+
+  /// x and `at` after a part of the correction, the longest of 1, 1/2, 1/4 ... that shrinks the residual by a quarter
+  /// of what Newton's linear model says.
+  static bool shorten(const E& step, Variables& x, Point& at, const Variables& correction, bool& shortened) {
+    const Real now = step.norm(x, at);
+    Real part(1);
+    for (int halvings = 0; halvings <= 12; ++halvings) {
+      Variables trial = x;
+      for (std::size_t i = 0; i < x.size(); ++i) trial[i] += part * correction[i];
+      Point there;
+      step.evaluate(trial, there);
+      if (step.norm(trial, there) <= (Real(1) - part / 4) * now) {
+        x = trial;
+        at = there;
+        shortened = halvings > 0;
+        return true;
+      }
+      part = part / 2;
+    }
+    return false;
+  }
+
+  /// The first guess has failed, or has led to a root from far away.
+  [[gnu::cold, gnu::noinline]] bool reconsider(const E& step, const NewtonReport& report, Solution& found, Guess start,
+                                               Ending ending) {
+    if (ending == Ending::refused) return false;
+    if (ending == Ending::diverged) return from_elsewhere(step, report, found, start);
+    if (!believable(step, report, found)) {
+      const Solution far = found;
+      if (!from_elsewhere(step, report, found, start)) found = far;  // a solution of the equations after all
+    }
+    doubt_ = good_guesses_wanted;
+    return true;
+  }
+
+  /// @param tried the start that has failed already; `extrapolated` with doubt_ > 0: none
+  [[gnu::cold, gnu::noinline]] bool from_elsewhere(const E& step, const NewtonReport& report, Solution& found,
+                                                   Guess tried) {
+    const bool in_doubt = doubt_ > 0;
+    const Guess order[] = {in_doubt ? Guess::last_state : Guess::predicted,
+                           in_doubt ? Guess::predicted : Guess::last_state, Guess::damped};
+    for (const Guess start : order) {
+      if (start == tried) continue;
+      found.x = start == Guess::predicted ? step.predicted() : step.last_state();
+      if (report.log != nullptr) report.log->attempt(start);
+      Point at;
+      Course course;
+      const Ending ending = start == Guess::damped ? iterate<true>(step, report, found, at, course)
+                                                   : iterate<false>(step, report, found, at, course);
+      if (ending == Ending::refused) return false;
+      if (ending == Ending::diverged || !believable(step, report, found)) continue;
+      ++solved_[static_cast<int>(start)];
+      judge_extrapolation(step, found, at, course.noise);
+      return true;
+    }
+    return false;
+  }
+
+  static bool believable(const E& step, const NewtonReport& report, const Solution& found) {
+    if constexpr (requires { step.believable(found.taken); }) {
+      if (!step.believable(found.taken)) {
+        if (report.log != nullptr) report.log->remark("a root that does not keep the energy");
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether the extrapolated guess would have been nearer than the step is long.
+  void judge_extrapolation(const E& step, const Solution& found, const Point& at, const Real& noise) {
+    bool good = false;
+    if (doubt_ > 0 && !memory_.empty()) {
+      Variables difference = step.started(memory_.predicted());
+      for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= found.x[i];
+      good = epsilon * step.measure(found.x, at, difference).size <= noise;
+    }
+    doubt_ = good ? doubt_ - 1 : good_guesses_wanted;
+  }
+
+  Extrapolation<typename E::Memory> memory_;
+  int doubt_ = 0;  // good extrapolations still wanted before one is a first guess again
+  long long solved_[5] = {};
+};
+
+}  // namespace hamflow

@@ -1,0 +1,17 @@
+// What a user can choose about the Newton iteration of an implicit step, whatever the method.   [spec: methods, sect.
+// 3]
+#pragma once
+
+#include <optional>
+
+namespace hamflow {
+
+struct NewtonOptions {
+  std::optional<double> tolerance{};  // on the norm of the residual; unset: its rounding level
+  bool seed_criterion = false;        // stagnation above the tolerance is an error, as in the first thesis' programs
+  int max_iterations = 15;            // of each attempt
+  bool halve = false;                 // replace a step that does not converge by two half steps
+  bool diagnostics = false;           // condition and determinant of the tangent, condition of M^-1, at every step
+};
+
+}  // namespace hamflow

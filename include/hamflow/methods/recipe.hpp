@@ -1,0 +1,62 @@
+// **MethodRecipe**: what a user names, an object from which a stepper for a problem and an arithmetic is made.
+//     struct Verlet {
+//       static constexpr bool implicit = false;    // whether a step solves equations
+//       static constexpr bool bijective = true;    // whether every action of a step is one-to-one on a lattice
+//       template <class P>
+//       static constexpr bool accepts = Separable<P>;            // whether the problem has what the method needs
+//       template <class P, class A>
+//       using Stepper = VerletStep<P, A>;                        // info, step, effort, invalidate, archive
+//       template <class P, class A>
+//       Stepper<P, A> bind(const P& problem) const;
+//     };
+// It may declare `compensated` (increments are always added with compensation; by default those of implicit steps are),
+// `typed` (compiled with every problem of the catalogue in double, for what is bound by its step; by default it runs
+// behind virtual calls there), and `faces`, the sets of capabilities for which it is compiled there, the preferred one
+// first (src/catalog/visit_erased.hpp).
+#pragma once
+
+#include <concepts>
+
+#include "hamflow/core/capability.hpp"
+
+namespace hamflow {
+
+namespace detail {
+/// Stands for a problem where a concept asks whether a template has a member at all.
+struct AnyProblemAtAll {
+  using Real = double;
+  static constexpr std::size_t dimension = 1;
+};
+}  // namespace detail
+
+template <class M>
+concept MethodRecipe = std::copy_constructible<M> && requires {
+  { M::implicit } -> std::convertible_to<bool>;
+  { M::bijective } -> std::convertible_to<bool>;
+  { M::template accepts<detail::AnyProblemAtAll> } -> std::convertible_to<bool>;
+};
+
+/// Methods that conserve the energy add their increments with compensation in every arithmetic; the others compute in
+/// the plain type of the problem unless another is requested.
+template <class M>
+constexpr bool always_compensated() {
+  static_assert(MethodRecipe<M>,
+                "hamflow: a method is chosen by a MethodRecipe: implicit, bijective, accepts<P>, Stepper<P, A> and "
+                "bind<P, A>(problem); see methods/recipe.hpp");
+  if constexpr (requires { M::compensated; }) {
+    return M::compensated;
+  } else {
+    return M::implicit;
+  }
+}
+
+template <class M>
+constexpr bool has_typed_kernel() {
+  if constexpr (requires { M::typed; }) {
+    return M::typed;
+  } else {
+    return false;
+  }
+}
+
+}  // namespace hamflow

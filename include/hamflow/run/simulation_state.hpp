@@ -1,0 +1,215 @@
+// What a simulation is beside its method: problem, state, clock and probe, and what can be asked of them. Compiled once
+// for each problem, arithmetic and probe, and not for each method too.
+#pragma once
+
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "hamflow/core/archive.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/step_clock.hpp"
+#include "hamflow/run/probe.hpp"
+#include "hamflow/run/simulation.hpp"
+
+namespace hamflow {
+
+namespace detail {
+// The messages of saving and restoring, compiled once and not in every simulation.
+inline std::string arithmetic_kind(std::string_view name, int digits) {
+  return std::string(name) + " in " + std::to_string(digits) + " bits";
+}
+inline std::string kind_of(const std::string& problem, const std::vector<std::pair<std::string, std::string>>& variant,
+                           const std::string& method, const std::string& arithmetic) {
+  std::string text = problem;
+  for (const auto& [key, value] : variant) text += " " + key + " = " + value;
+  return text + ", " + method + ", " + arithmetic;
+}
+[[gnu::noinline]] inline void expect_same_kind(const std::string& found, const std::string& wanted) {
+  if (found != wanted) throw Error("the saved state is that of " + found + ", not of " + wanted);
+}
+[[gnu::noinline]] inline void expect_same_size(std::size_t found, std::size_t wanted) {
+  if (found != wanted) {
+    throw Error("the saved state has " + std::to_string(found) + " degrees of freedom, not " + std::to_string(wanted));
+  }
+}
+[[gnu::noinline]] inline void expect_same_step(bool same) {
+  if (!same) throw Error("the saved state was reached with another step length");
+}
+}  // namespace detail
+
+template <class P, Arithmetic A, class Probe>
+class SimulationState : public Simulation {
+ public:
+  using Real = typename A::Real;
+  static constexpr std::size_t n = P::dimension;
+
+  std::int64_t step() const final { return clock_.steps_taken(); }
+  const PhasePoint<A, n>& state() const { return z_; }
+  const P& problem() const { return problem_; }
+
+  void look(Frame& frame) const final { show(z_, clock_.time(), frame); }
+  [[gnu::cold]] Outcome look_ahead(const std::string& time, Frame& frame) const final {
+    const Real t = evaluate_number<Real>(time);
+    const Real part = t - clock_.time();
+    if (abs(part) <= 4 * std::numeric_limits<Real>::epsilon() * abs(t)) {  // t_n itself is a rounded product
+      look(frame);
+      return Outcome::done;
+    }
+    return show_after(part, t, frame);
+  }
+  [[gnu::cold]] Outcome look_part(double theta, Frame& frame) const final {
+    if (theta == 0) {
+      look(frame);
+      return Outcome::done;
+    }
+    const Real part = Real(theta) * clock_.step_length();
+    return show_after(part, clock_.time() + part, frame);
+  }
+
+  std::vector<std::byte> bits() const final {
+    Writer ar;
+    for (std::size_t i = 0; i < z_.q.size(); ++i) ar(z_.q[i]);
+    for (std::size_t i = 0; i < z_.p.size(); ++i) ar(z_.p[i]);
+    return ar.take();
+  }
+
+  Excursion energy() const final {
+    const Real now = hamflow::energy(problem_, z_.positions(), z_.momenta());
+    Excursion e{static_cast<double>(initial_energy_), static_cast<double>(now), 0};
+    if constexpr (requires { probe_.worst_energy_error(); })
+      e.max_error = static_cast<double>(probe_.worst_energy_error());
+    return e;
+  }
+  double energy_scale() const final { return static_cast<double>(scale_); }
+  std::vector<InvariantExcursion> invariants() const final {
+    std::vector<InvariantExcursion> all;
+    if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
+      const auto now = problem_.invariants(z_.positions(), z_.momenta(), clock_.time());
+      std::size_t i = 0;
+      for (const std::size_t size : detail::invariant_sizes(problem_)) {
+        InvariantExcursion e{{}, {}, static_cast<double>(probe_.worst(all.size()))};
+        for (const std::size_t end = i + size; i < end; ++i) {
+          e.initial.push_back(static_cast<double>(probe_.initial()[i]));
+          e.final.push_back(static_cast<double>(now[i]));
+        }
+        all.push_back(e);
+      }
+    }
+    return all;
+  }
+
+ protected:
+  SimulationState(P problem, const Vector<Real, n>& q, const Vector<Real, n>& p, Real h, A arithmetic, Real t0)
+      : problem_(std::move(problem)), clock_(t0, h) {
+    z_.arithmetic = arithmetic;
+    z_.store(q, p);
+    const auto stored_q = z_.positions();
+    const auto stored_p = z_.momenta();
+    probe_.start(problem_, stored_q, stored_p, t0);
+    initial_energy_ = hamflow::energy(problem_, stored_q, stored_p);
+    scale_ = abs(initial_energy_);
+    if constexpr (Separable<P>) {
+      scale_ = larger(scale_, Real(abs(problem_.kinetic(stored_p)) + abs(problem_.potential(stored_q))));
+    }
+  }
+
+  /// The state after one step of length `part`, which is at time t.
+  virtual Outcome show_after(const Real& part, const Real& t, Frame& frame) const = 0;
+
+  [[gnu::noinline]] void show(const PhasePoint<A, n>& z, const Real& time, Frame& frame) const {
+    const auto q = z.positions();
+    const auto p = z.momenta();
+    frame.step = clock_.steps_taken();
+    frame.time = static_cast<double>(time);
+    frame.q.assign(q.size(), 0);
+    frame.p.assign(p.size(), 0);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      frame.q[i] = static_cast<double>(q[i]);
+      frame.p[i] = static_cast<double>(p[i]);
+    }
+    frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
+    frame.invariants.clear();
+    if constexpr (HasInvariants<P, Real>) {
+      for (const Real& value : problem_.invariants(q, p, time))
+        frame.invariants.push_back(static_cast<double>(value));
+    }
+    frame.effort = effort();
+    frame.diagnostics = diagnostics();
+    if constexpr (requires(const Real& x) { written_digits(x); }) {
+      frame.digits.time = written_digits(time);
+      frame.digits.energy = written_digits(hamflow::energy(problem_, q, p));
+      frame.digits.initial_energy = written_digits(initial_energy_);
+      frame.digits.q.clear();
+      frame.digits.p.clear();
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        frame.digits.q.push_back(written_digits(q[i]));
+        frame.digits.p.push_back(written_digits(p[i]));
+      }
+    }
+  }
+
+  /// What may be restored here: the format's version, problem, method and arithmetic.
+  [[gnu::cold]] std::string kind() const {
+    const std::string arithmetic = detail::arithmetic_kind(A::name, std::numeric_limits<Real>::digits);
+    if constexpr (requires { P::info().variant; }) {
+      const auto info = P::info();
+      return detail::kind_of(info.name, info.variant, method().name, arithmetic);
+    } else {
+      return detail::kind_of("a problem", {}, method().name, arithmetic);
+    }
+  }
+
+  [[gnu::cold]] void save_state(Writer& ar) const {
+    ar(kind());
+    ar(z_, clock_, probe_, initial_energy_, scale_);
+  }
+  /// What was saved, but for the method: read as a whole before anything here changes.
+  struct Saved {
+    PhasePoint<A, n> z;
+    StepClock<Real> clock;
+    Probe probe;
+    Real initial_energy;
+    Real scale;
+  };
+  [[gnu::cold]] Saved read_state(Reader& ar) const {
+    std::string of;
+    ar(of);
+    detail::expect_same_kind(of, kind());
+    Saved saved{z_, clock_, probe_, initial_energy_, scale_};
+    ar(saved.z, saved.clock, saved.probe, saved.initial_energy, saved.scale);
+    return saved;
+  }
+  [[gnu::cold]] void expect_same(const Saved& saved) const {
+    detail::expect_same_size(saved.z.q.size(), z_.q.size());
+    detail::expect_same_size(saved.z.p.size(), z_.p.size());
+    detail::expect_same_step(saved.clock.step() == clock_.step());
+  }
+  [[gnu::cold]] void take(Saved&& saved) {
+    z_ = std::move(saved.z);
+    probe_ = std::move(saved.probe);
+    clock_ = saved.clock;
+    initial_energy_ = saved.initial_energy;
+    scale_ = saved.scale;
+  }
+
+  static bool is_finite(const P& problem, const PhasePoint<A, n>& z) {
+    const auto q = z.positions();
+    const auto p = z.momenta();
+    bool finite = abs(hamflow::energy(problem, q, p)) <= std::numeric_limits<Real>::max();
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      finite = finite && abs(q[i]) <= std::numeric_limits<Real>::max() && abs(p[i]) <= std::numeric_limits<Real>::max();
+    }
+    return finite;
+  }
+
+  P problem_;
+  PhasePoint<A, n> z_;
+  Probe probe_;
+  StepClock<Real> clock_;
+  Real initial_energy_{};
+  Real scale_{};
+};
+
+}  // namespace hamflow

@@ -1,0 +1,24 @@
+// The Boris push of a charge in a uniform magnetic field.
+#pragma once
+
+#include "hamflow/methods/boris.hpp"
+#include "hamflow/run/method_family.hpp"
+
+namespace hamflow::families {
+
+struct Boris {
+  static MethodFamily declared() {
+    return {.name = "boris",
+            .methods = {"boris"},
+            .rank = 2,
+            .not_on_lattice = "boris rotates velocities, which is no bijection of the lattice",
+            .describe = [](std::size_t, const Texts&) { return describe_boris(); },
+            .needs = [](std::size_t) { return "a charge in a uniform magnetic field (problem magnetic)"; }};
+  }
+  template <class F>
+  static auto visit(std::size_t, const Texts&, F&& f) {
+    return f(hamflow::Boris{});
+  }
+};
+
+}  // namespace hamflow::families

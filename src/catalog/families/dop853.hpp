@@ -1,0 +1,39 @@
+// The explicit Runge-Kutta method of Dormand and Prince of order 8 with sub-steps of its own.
+#pragma once
+
+#include "adaptive_family.hpp"
+#include "hamflow/methods/dop853.hpp"
+
+namespace hamflow::families {
+
+struct Dop853 {
+  static const BoundOptions<AdaptiveOptions>& options() {
+    static const auto all = adaptive_options(1);
+    return all;
+  }
+
+  static MethodFamily declared() {
+    MethodFamily family = adaptive_family("dop853", 3, options());
+    family.describe = [](std::size_t, const Texts& given) {
+      MethodInfo info = describe_dop853(read_options(options(), given));
+      info.name = canonical_name(info.name, options(), given);
+      return info;
+    };
+    family.needs = [](std::size_t) { return "a differentiable H"; };
+    family.digits = [](std::size_t) { return dop853::digits; };
+    family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance"; };
+    family.measurable = [](const Texts& given) {
+      Texts all = given;
+      all[options()[1].info.name] = "fixed";
+      return all;
+    };
+    return family;
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const Texts& given, F&& f) {
+    return f(hamflow::Dop853{read_options(options(), given)});
+  }
+};
+
+}  // namespace hamflow::families

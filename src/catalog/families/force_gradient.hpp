@@ -1,0 +1,32 @@
+// Splittings whose kicks carry the gradient of |V'|^2: every table of methods/force_gradient/.
+#pragma once
+
+#include "hamflow/methods/force_gradient.hpp"
+#include "splitting_shapes.hpp"
+
+namespace hamflow::families {
+
+struct ForceGradient {
+  static MethodFamily declared() {
+    MethodFamily family{.name = "force-gradient", .not_fast = "a force gradient needs the exact force"};
+    for (const ForceGradientTable* table : force_gradient_tables()) family.methods.emplace_back(table->name);
+    family.describe = [](std::size_t method, const Texts&) { return describe(*force_gradient_tables()[method]); };
+    family.needs = [](std::size_t) { return needs_separable(true) + ", V twice differentiable"; };
+    family.digits = [](std::size_t method) {
+      int digits = unlimited_digits;
+      for (const ForceGradientAction& action : force_gradient_tables()[method]->half) {
+        digits =
+            std::min({digits, known_digits(action.drift), known_digits(action.kick), known_digits(action.gradient)});
+      }
+      return digits;
+    };
+    return family;
+  }
+
+  template <class F>
+  static auto visit(std::size_t method, const Texts&, F&& f) {
+    return f(hamflow::ForceGradient{force_gradient_tables()[method]});
+  }
+};
+
+}  // namespace hamflow::families

@@ -1,0 +1,41 @@
+// Explicit Runge-Kutta methods with fixed steps: every tableau of methods/tableaus/.
+#pragma once
+
+#include "catalog_tables.hpp"  // generated from the folders of tables
+#include "hamflow/run/method_family.hpp"
+
+namespace hamflow::families {
+
+struct RungeKutta {
+  static MethodFamily declared() {
+    MethodFamily family{.name = "runge-kutta",
+                        .not_on_lattice =
+                            "an explicit Runge-Kutta step is no bijection of the lattice, so nothing would "
+                            "come back exactly; use a splitting method, e.g. stv4"};
+#define HAMFLOW_DECLARE_TABLEAU(table) family.methods.emplace_back(tableaus::table.name);
+    HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_DECLARE_TABLEAU)
+#undef HAMFLOW_DECLARE_TABLEAU
+    family.describe = [](std::size_t method, const Texts&) {
+      static const std::vector<MethodInfo> all{
+#define HAMFLOW_DESCRIBE_TABLEAU(table) describe(tableaus::table),
+          HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_DESCRIBE_TABLEAU)
+#undef HAMFLOW_DESCRIBE_TABLEAU
+      };
+      return all[method];
+    };
+    family.needs = [](std::size_t) { return "a differentiable H"; };
+    return family;
+  }
+
+  template <class F>
+  static auto visit(std::size_t method, const Texts&, F&& f) {
+    std::size_t at = 0;
+#define HAMFLOW_VISIT_TABLEAU(table) \
+  if (method == at++) return f(RungeKuttaBy<tableaus::table>{});
+    HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_VISIT_TABLEAU)
+#undef HAMFLOW_VISIT_TABLEAU
+    throw std::logic_error("hamflow: no such tableau");
+  }
+};
+
+}  // namespace hamflow::families

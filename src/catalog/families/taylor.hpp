@@ -1,0 +1,52 @@
+// Taylor series by automatic differentiation with sub-steps of its own.
+#pragma once
+
+#include "adaptive_family.hpp"
+#include "hamflow/methods/taylor.hpp"
+
+namespace hamflow::families {
+
+struct Taylor {
+  static const BoundOptions<AdaptiveOptions>& options() {
+    static const auto all = [] {
+      BoundOptions<AdaptiveOptions> list = adaptive_options(2);
+      list.insert(list.begin(), bind_number({.name = "order",
+                                             .meaning = "of the series",
+                                             .range = Range::whole_from(2, 200),
+                                             .unset = "the cheapest for the tolerance",
+                                             .example = "20",
+                                             .position = 1},
+                                            &AdaptiveOptions::order));
+      return list;
+    }();
+    return all;
+  }
+
+  static MethodFamily declared() {
+    MethodFamily family = adaptive_family("taylor", 4, options());
+    family.describe = [](std::size_t, const Texts& given) {
+      const AdaptiveOptions read = read_options(options(), given);
+      MethodInfo info = describe_taylor(read, taylor_order(read));
+      info.name = canonical_name(info.name, options(), given);
+      return info;
+    };
+    family.counts_forces = false;  // a sweep over a tape of series is no evaluation of a force
+    family.needs = [](std::size_t) { return "an H whose derivatives can be recorded"; };
+    family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance or another method.order"; };
+    // Of a series of order 15, the default, the error cannot be halved four times in any arithmetic at hand.
+    family.measurable = [](const Texts& given) {
+      Texts all = given;
+      all.try_emplace(options()[0].info.name, "8");
+      all[options()[2].info.name] = "fixed";
+      return all;
+    };
+    return family;
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const Texts& given, F&& f) {
+    return f(hamflow::Taylor{read_options(options(), given)});
+  }
+};
+
+}  // namespace hamflow::families

@@ -1,0 +1,73 @@
+// The closed list of methods, from the families that declare them.
+#include <algorithm>
+#include <optional>
+
+#include "hamflow/core/text.hpp"
+#include "hamflow/run/catalog.hpp"
+#include "hamflow/run/splitting_named.hpp"
+#include "recipes.hpp"
+
+namespace hamflow {
+
+std::span<const MethodFamily> method_families() {
+  static const std::vector<MethodFamily> all = families::All::declared();
+  return all;
+}
+
+std::span<const MethodEntry> methods() {
+  static const std::vector<MethodEntry> all = [] {
+    std::vector<MethodEntry> list;
+    for (const MethodFamily& family : method_families()) {
+      for (std::size_t i = 0; i < family.methods.size(); ++i) list.push_back({family.methods[i], &family, i});
+    }
+    // Tables by order and cost, then the rest.
+    const auto key = [](const MethodEntry& entry) {
+      if (entry.family->rank > 0) return 1000 * entry.family->rank;
+      const MethodInfo info = entry.family->describe(entry.index, {});
+      return 50 * info.order + info.forces_per_step;
+    };
+    std::stable_sort(list.begin(), list.end(),
+                     [&](const MethodEntry& a, const MethodEntry& b) { return key(a) < key(b); });
+    return list;
+  }();
+  return all;
+}
+
+const MethodEntry& find_method(const std::string& name) {
+  static const std::map<std::string, const MethodEntry*> by_name = [] {
+    std::map<std::string, const MethodEntry*> map;
+    for (const MethodEntry& entry : methods()) map[entry.name] = &entry;
+    return map;
+  }();
+  const auto found = by_name.find(name);
+  if (found != by_name.end()) return *found->second;
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : methods()) names.push_back(entry.name);
+  throw Error("method '" + name + "' is unknown" + suggestion(name, names) + " (list them with: hamflow list methods)");
+}
+
+std::size_t family_number(const MethodEntry& method) {
+  return static_cast<std::size_t>(method.family - method_families().data());
+}
+
+MethodInfo describe(const MethodSpec& spec) {
+  const MethodEntry& entry = find_method(spec.name);
+  return entry.family->describe(entry.index, spec.options);
+}
+
+std::string hint_after_divergence(const MethodSpec& spec) {
+  const MethodFamily& family = *find_method(spec.name).family;
+  return family.hint ? family.hint(spec.options) : std::string(hint(Outcome::not_converged));
+}
+
+std::optional<AnySplitting> splitting_named(const std::string& name) {
+  return visit_method(MethodSpec{.name = name}, [](const auto& recipe) -> std::optional<AnySplitting> {
+    if constexpr (requires { AnySplitting(recipe.method); }) {
+      return recipe.method;
+    } else {
+      return std::nullopt;
+    }
+  });
+}
+
+}  // namespace hamflow

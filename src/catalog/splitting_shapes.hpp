@@ -1,0 +1,50 @@
+// What the families of splitting methods share: the kernels among which a table chooses, and what is known of its
+// digits.
+#pragma once
+
+#include <algorithm>
+
+#include "catalog_tables.hpp"  // generated from the folders of tables
+#include "hamflow/methods/splitting.hpp"
+#include "hamflow/run/method_family.hpp"
+
+namespace hamflow::families {
+
+/// Calls f with a recipe: the common shapes have kernels of their own.
+template <class F>
+auto visit_shape(const AnySplitting& method, F&& f) {
+  switch (method.sequence<double>().shape()) {
+    case Shape::kick_drift_kick:
+      return f(TableRecipe<Shape::kick_drift_kick>{method});
+    case Shape::drift_kick_drift:
+      return f(TableRecipe<Shape::drift_kick_drift>{method});
+    case Shape::kick_drift:
+    case Shape::drift_kick:
+    case Shape::any:
+      break;
+  }
+  return f(TableRecipe<Shape::any>{method});
+}
+
+inline std::string needs_separable(bool nystroem) {
+  return std::string("a separable H = T(p) + V(q)") + (nystroem ? ", T quadratic in p with constant mass matrix" : "");
+}
+
+/// The decimal places to which a coefficient is known: all, where it is an expression or a short decimal.
+inline int known_digits(std::string_view coefficient) {
+  constexpr std::size_t longest_exact = 17;  // no set of the literature has decimals that long on purpose
+  if (coefficient.size() <= longest_exact || coefficient.find_first_not_of("-.0123456789") != std::string_view::npos) {
+    return unlimited_digits;
+  }
+  const std::size_t point = coefficient.find('.');
+  return point == std::string_view::npos ? unlimited_digits : static_cast<int>(coefficient.size() - point - 1);
+}
+/// The fewest among several.
+template <std::size_t count>
+int known_digits(const std::array<std::string_view, count>& coefficients) {
+  int digits = unlimited_digits;
+  for (const std::string_view text : coefficients) digits = std::min(digits, known_digits(text));
+  return digits;
+}
+
+}  // namespace hamflow::families

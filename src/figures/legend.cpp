@@ -1,0 +1,57 @@
+#include "legend.hpp"
+
+#include "hamflow/core/text.hpp"
+#include "text.hpp"
+
+namespace hamflow::figures {
+
+namespace {
+constexpr double line_height = 3.7;  // mm
+constexpr double text_points = 7;
+constexpr std::size_t most_in_one_column = 16;
+
+struct Shape {
+  std::size_t columns;
+  std::size_t rows;
+};
+
+Shape shape_of(const std::vector<LegendLine>& legend) {
+  const std::size_t columns = legend.size() > most_in_one_column ? 2 : 1;
+  return {columns, (legend.size() + columns - 1) / columns + columns};  // a heading is not left alone at the foot
+}
+}  // namespace
+
+double legend_height(const std::vector<LegendLine>& legend) {
+  return line_height * static_cast<double>(shape_of(legend).rows);
+}
+
+void draw_legend(Script& script, const std::vector<LegendLine>& legend, double left, double top, double width) {
+  script.line("unset label\nunset border\nunset tics\nunset grid\nset size noratio");
+  script.box(0, script.width(), 0, script.height());
+  script.line("set xrange [0:{:.6f}]\nset yrange [{:.6f}:0]", script.width(), script.height());
+  const Shape shape = shape_of(legend);
+  std::size_t at = 0;
+  std::vector<std::string> plots;
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const LegendLine& entry = legend[i];
+    if (entry.heading && at % shape.rows == shape.rows - 1) ++at;
+    const double x = left + width / static_cast<double>(shape.columns) * static_cast<double>(at / shape.rows);
+    const double y = top + 2 + line_height * static_cast<double>(at % shape.rows);
+    ++at;
+    if (entry.heading) {
+      script.label(entry.text, x, y, "left textcolor rgb '#555555'", text_points);
+      continue;
+    }
+    script.label(entry.text, x + 9, y, "left", text_points);
+    script.line("$mark{} << EOD\n{:.6f} {:.6f}\n{:.6f} {:.6f}\n{:.6f} {:.6f}\nEOD", i, x, y, x + 3.5, y, x + 7, y);
+    plots.push_back(fmt::format("$mark{} using 1:2 with lines linecolor rgb '{}' dashtype {} linewidth 0.6 notitle", i,
+                                entry.mark.colour, entry.mark.dash));
+    plots.push_back(fmt::format(
+        "$mark{} every ::1::1 using 1:2 with points linecolor rgb '{}' pointtype {} pointsize 0.5 linewidth "
+        "0.6 notitle",
+        i, entry.mark.colour, entry.mark.shape));
+  }
+  script.line("plot {}", joined(plots));
+}
+
+}  // namespace hamflow::figures

@@ -1,0 +1,65 @@
+#include "hdf5_text.hpp"
+
+#include <algorithm>
+
+namespace hamflow {
+
+void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+Hdf5Handle text_type(std::size_t length) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  check_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "size a text type");
+  check_hdf5(H5Tset_cset(type, H5T_CSET_UTF8), "set UTF-8");
+  return type;
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "create an attribute");
+  check_hdf5(H5Awrite(attribute, type, text.c_str()), "write attribute " + name);
+}
+
+std::string read_attribute(hid_t object, const std::string& name) {
+  if (H5Aexists(object, name.c_str()) <= 0) return {};
+  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open an attribute");
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read a type");
+  std::string text(H5Tget_size(type), '\0');
+  check_hdf5(H5Aread(attribute, type, text.data()), "read attribute " + name);
+  return text.substr(0, text.find('\0'));
+}
+
+void write_text_dataset(hid_t file, const std::string& name, const std::string& text) {
+  const Hdf5Handle type = text_type(text.size());
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+                           "create dataset " + name);
+  check_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write " + name);
+}
+
+std::string read_text_dataset(hid_t file, const std::string& name) {
+  const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
+  std::string text(H5Tget_size(type), '\0');
+  check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read " + name);
+  return text;
+}
+
+Hdf5Handle make_group(hid_t file, const std::string& name) {
+  return {H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + name};
+}
+
+Hdf5Handle create_hdf5(const std::filesystem::path& path) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "choose the file format");
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create " + path.string()};
+}
+
+Hdf5Handle open_to_read(const std::filesystem::path& path) {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open " + path.string()};
+}
+
+}  // namespace hamflow

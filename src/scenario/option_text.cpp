@@ -1,0 +1,31 @@
+#include "option_text.hpp"
+
+#include "hamflow/core/text.hpp"
+
+namespace hamflow {
+
+std::string explained(const OptionInfo& option) {
+  std::string text = option.meaning + "; " + allowed_text(option);
+  if (!option.condition.empty()) text += "; " + option.condition;
+  if (!option.unit.empty()) text += "; in units of " + option.unit;
+  return text;
+}
+
+std::string explained_with_default(const OptionInfo& option) {
+  const std::string text = explained(option);
+  if (option.required) return text + "; required";
+  if (!option.default_value.empty()) return text + "; default " + option.default_value;
+  return text + (option.unset.empty() ? "; not given by default" : "; by default " + option.unset);
+}
+
+std::string example_text(const OptionInfo& option) {
+  if (option.type == OptionType::table) {
+    return "{ " + joined(option.keys, [](const OptionInfo& key) { return key.name + " = " + example_text(key); }) + " }";
+  }
+  if (!option.example.empty()) return toml_text(option, option.example);
+  if (!option.default_value.empty()) return toml_text(option, option.default_value);
+  if (option.type == OptionType::word && !option.words.empty()) return toml_text(option, option.words.front());
+  return option.type == OptionType::list ? "[1]" : "1";
+}
+
+}  // namespace hamflow

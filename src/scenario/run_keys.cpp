@@ -1,0 +1,171 @@
+#include "run_keys.hpp"
+
+#include <algorithm>
+
+#include "figure_kinds.hpp"
+#include "hamflow/run/catalog.hpp"
+
+namespace hamflow {
+
+const LatticeKeys& lattice_keys() {
+  static const LatticeKeys keys{
+      .position = {.name = "position",
+                   .meaning = "spacing of positions, a power of two from 2^-1000 to 2^999",
+                   .range = Range::positive,
+                   .unset = "2^-52 of the largest of the start; of bodies that attract each other, of what is to come",
+                   .example = "2^-52"},
+      .momentum = {.name = "momentum",
+                   .meaning = "spacing of momenta, a power of two from 2^-1000 to 2^999",
+                   .range = Range::positive,
+                   .unset = "as for positions",
+                   .example = "2^-52"}};
+  return keys;
+}
+
+const SectionKeys& section_keys() {
+  static const SectionKeys keys{
+      .coordinate = {.name = "coordinate",
+                     .meaning = "a coordinate or momentum of the problem",
+                     .type = OptionType::word,
+                     .required = true},
+      .value = {.name = "value", .default_value = "0", .meaning = "of the coordinate on the section"},
+      .direction = {.name = "direction",
+                    .default_value = "1",
+                    .meaning = "1 upwards, -1 downwards, 0 both",
+                    .range = Range::whole_from(-1, 1)}};
+  return keys;
+}
+
+const RunKeys& run_keys() {
+  static const RunKeys keys{
+      .dt = {.name = "dt",
+             .meaning = "step length; negative: backwards in time",
+             .range = {.not_zero = true},
+             .required = true,
+             .unit = "time",
+             .example = "0.1"},
+      .steps = {.name = "steps",
+                .meaning = "how many",
+                .range = Range::whole_from(0, static_cast<double>(most_steps)),
+                .condition = "exactly one of steps, t_end",
+                .example = "1000",
+                .free_on_resume = true},
+      .t_end = {.name = "t_end",
+                .meaning = "the end, a whole number of dt",
+                .unit = "time",
+                .condition = "in place of steps",
+                .example = "100",
+                .free_on_resume = true},
+      .record_every = {.name = "record_every",
+                       .meaning = "steps from one sample to the next",
+                       .range = Range::whole_from(1, static_cast<double>(most_steps)),
+                       .unset = "so that at most 10000 samples are kept",
+                       .example = "1"},
+      .record = {.name = "record",
+                 .meaning = "times of the samples, in the order of the run, not only of steps",
+                 .type = OptionType::list,
+                 .unset = "samples by steps",
+                 .unit = "time",
+                 .condition = "in place of record_every",
+                 .example = "[0, 0.15]"},
+      .checkpoint_every = {.name = "checkpoint_every",
+                           .meaning = "steps from one checkpoint to the next",
+                           .range = Range::whole_from(1, static_cast<double>(most_steps)),
+                           .unset = "every 10 seconds",
+                           .example = "1000000",
+                           .free_on_resume = true},
+      .arithmetic = {.name = "arithmetic",
+                     .default_value = arithmetics().front(),
+                     .meaning = "in which steps are computed; mp(d) with d = 2 to 100000 decimal digits",
+                     .type = OptionType::word,
+                     .words = arithmetics()},
+      .lattice = {.name = "lattice",
+                  .meaning = "units",
+                  .type = OptionType::table,
+                  .unset = "as its keys say",
+                  .condition = "with arithmetic = \"lattice\"",
+                  .keys = {lattice_keys().position, lattice_keys().momentum}},
+      .kernel = {.name = "kernel",
+                 .default_value = "exact",
+                 .meaning = "fast: forces of bodies by an estimate and a series, other bits",
+                 .type = OptionType::word,
+                 .words = {"exact", "fast"}},
+      .threads = {.name = "threads",
+                  .default_value = "1",
+                  .meaning = "for the forces of one step; they change no bit",
+                  .range = Range::whole_from(1, most_threads),
+                  .condition = "more than 1 for bodies with arithmetic = \"lattice\"",
+                  .example = "2",
+                  .free_on_resume = true},
+      .lyapunov = {.name = "lyapunov",
+                   .default_value = "false",
+                   .meaning = "Lyapunov exponents: true for all, or how many of the largest",
+                   .range = Range::whole_from(1, static_cast<double>(most_steps)),
+                   .words = {"true", "false"},
+                   .condition = "in double",
+                   .example = "true"},
+      .eigenvalues = {.name = "eigenvalues",
+                      .default_value = "false",
+                      .meaning = "of the derivative of all steps",
+                      .type = OptionType::yes_no,
+                      .condition = "in double",
+                      .example = "true"},
+      .section = {.name = "section",
+                  .meaning = "a Poincare section",
+                  .type = OptionType::table,
+                  .unset = "none",
+                  .keys = {section_keys().coordinate, section_keys().value, section_keys().direction}}};
+  return keys;
+}
+
+const OutputKeys& output_keys() {
+  static const OutputKeys keys{.folder = {.name = "folder",
+                                          .meaning = "of the results",
+                                          .type = OptionType::text,
+                                          .unset = "the name of the scenario's file with .run",
+                                          .example = "my.run",
+                                          .free_on_resume = true},
+                               .formats = {.name = "formats",
+                                           .default_value = "[h5]",
+                                           .meaning = "of the samples",
+                                           .type = OptionType::word_list,
+                                           .words = {"h5", "csv"},
+                                           .example = "[h5]"},
+                               .figures = {.name = "figures",
+                                           .default_value = "[]",
+                                           .meaning = "drawn at the end of the run",
+                                           .type = OptionType::word_list,
+                                           .words = figure_names(),
+                                           .condition = "with the format h5",
+                                           .example = "[energy-error]",
+                                           .free_on_resume = true}};
+  return keys;
+}
+
+const std::vector<DeclaredTable>& declared_tables() {
+  static const std::vector<DeclaredTable> tables = [] {
+    const RunKeys& r = run_keys();
+    const OutputKeys& o = output_keys();
+    return std::vector<DeclaredTable>{
+        {run_table,
+         {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.checkpoint_every,
+          r.arithmetic, r.lattice, r.threads, r.kernel}},
+        {output_table, {o.folder, o.formats, o.figures}}};
+  }();
+  return tables;
+}
+
+const DeclaredTable& declared_table(const std::string& name) {
+  return *std::find_if(declared_tables().begin(), declared_tables().end(),
+                       [&](const DeclaredTable& table) { return table.name == name; });
+}
+
+bool is_free_on_resume(const std::string& path) {
+  return std::any_of(declared_tables().begin(), declared_tables().end(), [&](const DeclaredTable& table) {
+    return std::any_of(table.keys.begin(), table.keys.end(), [&](const OptionInfo& key) {
+      return key.free_on_resume && path == table.name + "." + key.name;
+    });
+  });
+}
+
+}  // namespace hamflow

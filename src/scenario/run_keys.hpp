@@ -1,0 +1,52 @@
+// The keys of [run] and [output], each declared once. The reader, `new`, `show`, --resume and docs/reference.md are made
+// from these declarations; code that has to name a key takes its name from here.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hamflow/core/option_info.hpp"
+
+namespace hamflow {
+
+inline constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // t = n h needs n exact in double
+
+/// The keys of `run.lattice`.
+struct LatticeKeys {
+  OptionInfo position, momentum;
+};
+/// The keys of `run.section`. The words of `coordinate` are those of the problem.
+struct SectionKeys {
+  OptionInfo coordinate, value, direction;
+};
+struct RunKeys {
+  OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, kernel, threads, lyapunov,
+      eigenvalues, section;
+};
+struct OutputKeys {
+  OptionInfo folder, formats, figures;
+};
+
+const LatticeKeys& lattice_keys();
+const SectionKeys& section_keys();
+const RunKeys& run_keys();
+const OutputKeys& output_keys();
+
+inline constexpr const char* run_table = "run";
+inline constexpr const char* output_table = "output";
+
+/// A table of a scenario with all its keys, in the order in which they are shown.
+struct DeclaredTable {
+  std::string name;
+  std::vector<OptionInfo> keys;
+};
+/// [run] and [output].
+const std::vector<DeclaredTable>& declared_tables();
+const DeclaredTable& declared_table(const std::string& name);
+/// The dotted path of a key of [run], or of [output], as --set has it.
+inline std::string run_path(const OptionInfo& key) { return std::string(run_table) + "." + key.name; }
+inline std::string output_path(const OptionInfo& key) { return std::string(output_table) + "." + key.name; }
+/// Whether --resume takes another value of a key, e.g. "run.steps".
+bool is_free_on_resume(const std::string& path);
+
+}  // namespace hamflow

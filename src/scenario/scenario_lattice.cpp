@@ -1,0 +1,101 @@
+// The units of the lattice: those given, or those that fit the start.
+#include <algorithm>
+#include <cmath>
+
+#include "run_keys.hpp"
+#include "scenario_reader.hpp"
+
+namespace hamflow {
+
+/// 2^-52 of the largest number of the start, hence a range of 1024 times it. For most problems 2^-52 for numbers from
+/// 1/512 to 2 too, because a start near rest says little about what follows. Of bodies that attract each other the
+/// momenta to come are known: those with which the kinetic energy would be as large as the potential energy is now.
+void ScenarioReader::usual_units() {
+  const auto largest = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    return most;
+  };
+  const auto unit_for = [](double most, int coarsest) {
+    const int exponent = most > 0 && std::isfinite(most) ? std::clamp(std::ilogb(most), -900, 900) : 0;
+    return std::ldexp(1.0, -52 + (exponent < coarsest || exponent > 0 ? exponent : 0));
+  };
+  Request& request = scenario_.request;
+  if (scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
+    request.position_unit = unit_for(largest(scenario_.start_q), -9);
+    request.momentum_unit = unit_for(largest(scenario_.start_p), -9);
+    return;
+  }
+  // The start's momenta, or equal ones, times as much as makes T = |V|.
+  const double most = largest(scenario_.start_p);
+  const auto energy_with = [&](double factor) {
+    std::vector<double> p = scenario_.start_p;
+    for (double& x : p) x = factor * (most > 0 ? x / most : 1.0);
+    return scenario_.problem->energy(request.parameters, scenario_.start_q, p);
+  };
+  const double potential = energy_with(0);
+  double factor = 1;
+  while (energy_with(factor) - potential < 0x1p-20 * std::abs(potential) && factor < 0x1p400) factor *= 0x1p30;
+  const double to_come = factor * std::sqrt(std::abs(potential) / (energy_with(factor) - potential));
+  request.position_unit = unit_for(largest(scenario_.start_q), 0);
+  request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
+}
+
+void ScenarioReader::read_lattice(TomlTable& table) {
+  const bool on_lattice = scenario_.request.arithmetic == "lattice";
+  const std::string& key = run_keys().lattice.name;
+  if (table.has(key)) {
+    TomlTable lattice = table.table(key);
+    const auto read_unit = [&](const OptionInfo& unit, double& out) {
+      const auto value = lattice.number(unit);
+      if (!value) return;
+      int exponent = 0;
+      if (std::frexp(*value, &exponent) != 0.5 || std::abs(exponent) > 1000) {
+        lattice.complain(unit.name, lattice.found(unit.name) +
+                                        "; allowed a power of two from 2^-1000 to 2^999, such as \"2^-52\"");
+        return;
+      }
+      out = *value;
+    };
+    read_unit(lattice_keys().position, scenario_.request.position_unit);
+    read_unit(lattice_keys().momentum, scenario_.request.momentum_unit);
+    lattice.finish();
+    if (!on_lattice) {
+      table.complain(key, "found units for arithmetic \"" + scenario_.request.arithmetic +
+                                    "\"; allowed with arithmetic = \"lattice\"");
+    }
+  } else {
+    table.know(key);
+    if (on_lattice) usual_units();
+  }
+  if (!on_lattice) return;
+  const auto rounding = [](const std::vector<double>& values, double unit) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(std::remainder(x, unit)));
+    return most;
+  };
+  const double lost = std::max(rounding(scenario_.start_q, scenario_.request.position_unit),
+                               rounding(scenario_.start_p, scenario_.request.momentum_unit));
+  if (lost > 1e-12) scenario_.notes.push_back("the start is rounded to the lattice by up to " + shortest(lost));
+  const auto reach = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double x : values) most = std::max(most, std::abs(x));
+    return most;
+  };
+  const auto check = [&](const char* what, double largest, double unit) {
+    if (largest > 0 && largest < unit) {
+      table.complain(key, std::string("found ") + what + " of at most " + shortest(largest) +
+                                    " at the start, with a unit of " + shortest(unit) +
+                                    "; allowed units far below them");
+      return;
+    }
+    if (largest < unit * 0x1p62) return;
+    table.complain(key, std::string("found ") + what + " up to " + shortest(largest) +
+                                  " at the start, with a unit of " + shortest(unit) +
+                                  "; allowed below 2^62 units: choose a larger power of two");
+  };
+  check("positions", reach(scenario_.start_q), scenario_.request.position_unit);
+  check("momenta", reach(scenario_.start_p), scenario_.request.momentum_unit);
+}
+
+}  // namespace hamflow

@@ -1,0 +1,63 @@
+// [method]: its name, and the options that its family declares.
+#include <algorithm>
+
+#include "method_keys.hpp"
+#include "scenario_reader.hpp"
+
+namespace hamflow {
+
+void ScenarioReader::read_method(TomlTable& table) {
+  MethodSpec& spec = scenario_.request.method;
+  if (!read_method_name(table)) {
+    spec.name.clear();
+    table.know_all(all_method_keys());  // which method was meant is not known
+    table.finish();
+    return;
+  }
+  const std::vector<std::string> dropped = replaced_method_keys(table.node());
+  for (const std::string& key : dropped) {
+    table.know(key);
+    scenario_.notes.push_back(table.full(key) + " of the file is not used: " + table.full(method_name_key().name) +
+                              " is set to " + spec.name);
+  }
+  const Texts in_name = spec.options;
+  for (const OptionInfo& option : find_method(spec.name).family->options) {
+    if (std::find(dropped.begin(), dropped.end(), option.name) != dropped.end()) continue;
+    const auto text = table.text(option);
+    if (table.has(option.name) && in_name.contains(option.name)) {
+      table.complain(option.name, "found it beside the same option in " + table.full(method_name_key().name) +
+                                      "; allowed once");
+    } else if (text) {
+      spec.options[option.name] = *text;
+    }
+  }
+  if (const auto refused = refused_option(spec)) {
+    table.complain(table.has(refused->name) ? refused->name : method_name_key().name, refused->message);
+  }
+  if (scenario_.problem != nullptr) {
+    const std::string& key = method_name_key().name;
+    const std::string why_not = refusal(spec, *scenario_.problem);
+    if (!why_not.empty()) table.complain(key, table.found(key) + "; " + why_not);
+  }
+  table.finish();
+}
+
+/// False where there is none that is known.
+bool ScenarioReader::read_method_name(TomlTable& table) {
+  const OptionInfo& key = method_name_key();
+  const auto text = table.plain_string(key.name);
+  if (!text || !names_method_with_options(*text)) {
+    const auto name = table.text(key);
+    if (name) scenario_.request.method.name = *name;
+    return name.has_value();
+  }
+  try {
+    scenario_.request.method = parse_method(*text);
+    return true;
+  } catch (const Error& error) {
+    table.complain(key.name, error.what());
+    return false;
+  }
+}
+
+}  // namespace hamflow

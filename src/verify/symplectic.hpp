@@ -1,0 +1,30 @@
+// Private to hamflow_verify.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+namespace hamflow {
+
+/// The entries of M^T J M - J for a 2n x 2n matrix M by rows, J = ((0, I), (-I, 0)): all 0 where M is symplectic.
+/// Antisymmetric, to the last bit, so that the entries (a, b) with a > b are all there is.   [HLW2006, Def. VI.2.1]
+/// @param take is called with the absolute value of each entry and the sum of the absolute values of its terms
+template <class Take>
+void for_each_symplectic_defect(const std::vector<std::vector<double>>& m, Take take) {
+  const std::size_t n = m.size() / 2;
+  for (std::size_t a = 0; a < 2 * n; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      double value = a == b + n ? 1 : 0;  // -J_ab
+      double terms = 1;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double left = m[i][a] * m[n + i][b];
+        const double right = m[n + i][a] * m[i][b];
+        value += left - right;
+        terms += std::abs(left) + std::abs(right);
+      }
+      take(std::abs(value), terms);
+    }
+  }
+}
+
+}  // namespace hamflow

@@ -1,0 +1,159 @@
+// Pages: logarithmic axes, maps and legends of their own, and the two figures that are made of them.
+#include "page.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <regex>
+#include <sstream>
+
+#include "hamflow/core/error.hpp"
+#include "parameter_map.hpp"
+#include "work_precision.hpp"
+
+namespace hamflow::figures {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+class Pages : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("hamflow_pages_" + std::to_string(std::random_device{}()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  static std::string bytes_of(const fs::path& file) {
+    std::ostringstream bytes;
+    bytes << std::ifstream(file, std::ios::binary).rdbuf();
+    return bytes.str();
+  }
+  fs::path folder_;
+};
+
+TEST(LogAxis, PlacesNumbersByTheirLogarithm) {
+  Extent extent;
+  extent.include_positive(std::vector<double>{-1, 0, nan, 1e-3, 1e5});
+  EXPECT_EQ(extent.low, 1e-3);
+  const Axis axis = log_axis(extent);
+  EXPECT_EQ(axis.place(1000), 3);
+  EXPECT_TRUE(std::isnan(axis.place(0)));
+  EXPECT_TRUE(std::isnan(axis.place(-1)));
+  EXPECT_NEAR(axis.low, -3 - 0.04 * 8, 1e-14);
+  EXPECT_NEAR(axis.high, 5 + 0.04 * 8, 1e-14);
+}
+
+TEST(LogAxis, TicksArePowersOfTen) {
+  for (const auto& [low, high] : {std::pair{1e-16, 1e3}, {1e-3, 1e-1}, {2.0, 3.0}, {1e-300, 1e300}, {5.0, 5.0}}) {
+    const Axis axis = log_axis({low, high});
+    std::size_t labelled = 0;
+    for (const Tick& tick : axis.ticks()) {
+      EXPECT_GE(tick.at, axis.low - 1e-9);
+      EXPECT_LE(tick.at, axis.high + 1e-9);
+      labelled += tick.label.empty() ? 0 : 1;
+      if (tick.minor) continue;
+      const int power = static_cast<int>(std::lround(tick.at));
+      EXPECT_EQ(tick.label, fmt::format("10^{{{}{}}}", power < 0 ? "\u2212" : "", std::abs(power)));
+    }
+    EXPECT_GE(labelled, 1U) << low;
+    EXPECT_LE(labelled, 9U) << low;
+    EXPECT_LE(axis.widest_label(), 8U) << low;
+  }
+}
+
+TEST_F(Pages, ATerminalStandsInEveryScriptAndCountsMillimetres) {
+  Panel panel;
+  panel.x = plain_axis(0, 1, {7, 40});
+  panel.y = plain_axis(0, 1, {7});
+  panel.series.push_back({Ink::line, "", {{0, 1}, {0, 1}}});
+  for (const auto& [format, beginning] : {std::pair{Format::svg, "set terminal svg size 643,"},
+                                          {Format::pdf, "set terminal pdfcairo size 17.0000cm,"},
+                                          {Format::png, "set terminal pngcairo size 1285,"}}) {
+    EXPECT_TRUE(gnuplot_script({"title", {panel}, 1, two_columns}, format).starts_with(beginning));
+  }
+}
+
+TEST_F(Pages, FilesAreChosenByTheirExtension) {
+  EXPECT_EQ(format_of("a/b.svg"), Format::svg);
+  EXPECT_EQ(format_of("a/b.PDF"), Format::pdf);
+  EXPECT_EQ(format_of("a/b.png"), Format::png);
+  EXPECT_EQ(refused_figure_file("a.svg"), "");
+  EXPECT_EQ(refused_figure_file("a.gif"), "found 'a.gif'; allowed a file .svg, .pdf or .png");
+  EXPECT_THROW(format_of("a.gif"), Error);
+}
+
+/// Two methods, one with a run that failed.
+WorkPrecision two_methods() {
+  return {"henon-heiles",
+          {{"verlet", 2, true, {100, 200, 400}, {1e-5, 2e-5, 4e-5}, {1e-2, 2.5e-3, 6e-4}, {1e-3, 2.5e-4, 6e-5}},
+           {"cg(1,2)", 2, false, {300, 600, 900}, {1e-4, 2e-4, 3e-4}, {1e-2, nan, 1e-4}, {1e-15, 0, 1e-15}},
+           {"stv4", 4, true, {500, 1000}, {5e-5, 1e-4}, {1e-5, 6e-7}, {1e-6, 6e-8}}},
+          1e-5};
+}
+
+TEST_F(Pages, WorkPrecisionListsItsMethodsByOrder) {
+  const fs::path file = folder_ / "work.svg";
+  write_work_precision(two_methods(), file);
+  const std::string svg = bytes_of(file);
+  const auto text = [&](const std::string& words) { return svg.find(">" + words + "<"); };
+  EXPECT_LT(text("order 2"), text("verlet"));
+  EXPECT_LT(text("verlet"), text("cg(1,2)"));
+  EXPECT_LT(text("cg(1,2)"), text("order 4"));
+  EXPECT_LT(text("order 4"), text("stv4"));
+  ASSERT_NE(text("stv4"), std::string::npos);
+  static const std::regex level("stroke='rgb\\(170, 170, 170\\)'");
+  EXPECT_EQ(std::distance(std::sregex_iterator(svg.begin(), svg.end(), level), {}), 2)
+      << "the uncertainty of the reference, in the two panels of errors against it";
+  for (const char* extension : {".pdf", ".png"}) {
+    EXPECT_NO_THROW(write_work_precision(two_methods(), folder_ / (std::string("work") + extension)));
+  }
+}
+
+TEST_F(Pages, WorkPrecisionWithoutErrorsIsRefused) {
+  WorkPrecision data = two_methods();
+  for (WorkCurve& curve : data.curves) curve.error.assign(curve.error.size(), nan);
+  EXPECT_THROW(write_work_precision(data, folder_ / "a.svg"), Error);
+  EXPECT_THROW(write_work_precision(two_methods(), folder_ / "a.gif"), Error);
+}
+
+ParameterMap plane() {
+  ParameterMap map{"kepler, stv4", "run.dt", "problem.orbit.r_aph", "energy/max_error", {}, {}, {}};
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 5; ++k) {
+      map.x.push_back(0.01 + 0.03 * i);
+      map.y.push_back(2 + 0.25 * k);
+      map.value.push_back(i == 1 && k == 1 ? nan : std::pow(10.0, -8 + i + 0.1 * k));
+    }
+  }
+  return map;
+}
+
+TEST_F(Pages, AMapShowsWholeFieldsAndItsColours) {
+  const fs::path file = folder_ / "map.svg";
+  write_parameter_map(plane(), file);
+  const std::string svg = bytes_of(file);
+  EXPECT_NE(svg.find(">problem.orbit.r_aph<"), std::string::npos);
+  EXPECT_NE(svg.find(">energy/max_error<"), std::string::npos);
+  static const std::regex axis_label("<tspan[^>]*>10</tspan>|>10<");
+  EXPECT_GE(std::distance(std::sregex_iterator(svg.begin(), svg.end(), axis_label), {}), 3) << "powers of ten";
+  for (const char* extension : {".pdf", ".png"}) {
+    EXPECT_NO_THROW(write_parameter_map(plane(), folder_ / (std::string("map") + extension)));
+  }
+}
+
+TEST_F(Pages, ACurveOverOneKeyIsAPanel) {
+  ParameterMap map{"kepler, stv4", "run.dt", "", "energy/max_error", {0.1, 0.2, 0.3}, {}, {1, nan, 3}};
+  write_parameter_map(map, folder_ / "curve.svg");
+  EXPECT_NE(bytes_of(folder_ / "curve.svg").find(">run.dt<"), std::string::npos);
+  map.value = {nan, nan, nan};
+  EXPECT_THROW(write_parameter_map(map, folder_ / "nothing.svg"), Error);
+}
+
+}  // namespace
+}  // namespace hamflow::figures

@@ -1,0 +1,51 @@
+// Lists of names in messages, and the name that was probably meant.
+#include "hamflow/core/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+namespace hamflow {
+namespace {
+
+using Words = std::vector<std::string>;
+
+TEST(Text, ListsAreJoinedByCommas) {
+  EXPECT_EQ(joined(Words{}), "");
+  EXPECT_EQ(joined(Words{"a"}), "a");
+  EXPECT_EQ(joined(Words{"a", "b", "c"}), "a, b, c");
+  EXPECT_EQ(joined(Words{"", "b"}, "; "), "; b") << "an empty word is a word";
+}
+
+TEST(Text, ElementsOfAnyRangeAreJoinedByTheirTexts) {
+  const std::map<std::string, int> all{{"x", 1}, {"y", 2}};
+  const auto text_of = [](const auto& pair) { return pair.first + " = " + std::to_string(pair.second); };
+  EXPECT_EQ(joined(all, text_of), "x = 1, y = 2");
+  EXPECT_EQ(joined(all, text_of, " and "), "x = 1 and y = 2");
+}
+
+TEST(Text, TheNearestNameIsTheOneWithFewestEdits) {
+  const Words names{"verlet", "stv4", "suzuki4", "yoshida6"};
+  EXPECT_EQ(nearest("verlett", names), "verlet");
+  EXPECT_EQ(nearest("stv", names), "stv4");
+  EXPECT_EQ(nearest("yosida6", names), "yoshida6");
+  EXPECT_EQ(nearest("completely-different", names), "");
+  EXPECT_EQ(nearest("x", Words{}), "");
+  EXPECT_EQ(nearest("ab", Words{"ax", "ay"}), "ax") << "the first of equally near ones";
+}
+
+TEST(Text, AtMostHalfOfANameMayBeWrong) {
+  EXPECT_EQ(nearest("abcdef", Words{"abcxyz"}), "abcxyz");
+  EXPECT_EQ(nearest("abcdef", Words{"abwxyz"}), "");
+  EXPECT_EQ(nearest("ab", Words{"xy"}), "xy") << "of short names, two characters";
+  EXPECT_EQ(nearest("ab", Words{"xyz"}), "");
+}
+
+TEST(Text, SuggestionsEndASentence) {
+  EXPECT_EQ(suggestion("verlett", Words{"verlet"}), "; did you mean verlet?");
+  EXPECT_EQ(suggestion("completely-different", Words{"verlet"}), "");
+}
+
+}  // namespace
+}  // namespace hamflow
