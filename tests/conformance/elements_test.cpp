@@ -26,6 +26,9 @@ using Plane = CentralForce<double, Kepler>;
 template <class Element>
 struct CgBy {
   static constexpr bool implicit = true;
+  static constexpr bool bijective = false;
+  template <class P>
+  static constexpr bool accepts = Smooth<P>;
   CgOptions options{.quadrature = 5};
   template <class P, class A>
   using Stepper = ContinuousGalerkin<P, A, Element>;

@@ -166,7 +166,8 @@ TEST(EnergyBlocks, TheStateIsAllThereIs) {
   } copier;
   EnergyBlocks watch;
   (void)looked_at(100, watch);
-  watch.state().archive(copier);
+  EnergyBlockState state = watch.state();
+  state.archive(copier);
   EXPECT_EQ(copier.kept, (std::vector<double>{1, 101, 101, 4}));
 }
 

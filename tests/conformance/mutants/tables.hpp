@@ -14,6 +14,8 @@ namespace hamflow::mutants {
 struct Sequence {
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
+  template <class P>
+  static constexpr bool accepts = Separable<P>;
   std::vector<std::string> coefficients;
   MethodInfo claims;
   template <class P, class A>

@@ -56,6 +56,8 @@ class VerletKernel {
 struct VerletBy {
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
+  template <class P>
+  static constexpr bool accepts = Separable<P>;
   KernelFault fault;
   std::string name;
   template <class P, class A>
