@@ -1,4 +1,4 @@
-// What a sweep came to, as JSON and for people.   [spec: product, section 4]
+// What a sweep came to, as JSON and for people.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

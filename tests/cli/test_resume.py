@@ -110,9 +110,9 @@ class Resume(CommandCase):
                 self.expect_equal("whole", f"part{number}")
 
     def test_measures_after_an_interruption(self):
-        self.scenario(run="dt = 0.1\nsteps = 100_000\nrecord_every = 1007" + MEASURES, problem=CHAOS)
+        self.scenario(run="dt = 0.1\nsteps = 400_000\nrecord_every = 1007" + MEASURES, problem=CHAOS)
         self.run_to("whole")
-        status, summary = self.interrupted("part", after=0.3)
+        status, summary = self.interrupted("part", after=0.15)
         self.assertEqual((status, summary["status"]), (130, "interrupted"))
         self.run_to("part", "--resume")
         self.expect_equal("whole", "part")

@@ -350,7 +350,7 @@ TEST(Adaptive, more_digits_are_used) {
 /// Behind virtual calls (run/any_problem.hpp) the same bits, and dual numbers pass there, too.
 template <class P, class Recipe>
 void expect_same_behind_virtual_calls(const P& problem, const Recipe& recipe) {
-  using Any = AnyProblem<double, capability_of<P>(), Trace<double>, Dual<double, 1>>;
+  using Any = AnyProblem<double, capabilities_of<P>(), Trace<double>, Dual<double, 1>>;
   const auto typed = after(problem, recipe, {0.5, -0.3}, {1.0, 0.4}, 0.5);
   const auto erased = after(Any::of(problem), recipe, {0.5, -0.3}, {1.0, 0.4}, 0.5);
   using A = Plain<Dual<double, 1>>;

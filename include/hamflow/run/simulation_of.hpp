@@ -125,7 +125,7 @@ class SimulationOf final : public SimulationState<P, A, Probe> {
         return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
       }
     }
-    if (!State::is_finite(problem, z)) {  // without a probe nobody has looked yet
+    if (!is_finite(problem, z)) {  // without a probe nobody has looked yet
       return one_by_one(steps, h, taken, method_out, z_out, probe_out);
     }
     method_out = method;
@@ -153,6 +153,18 @@ class SimulationOf final : public SimulationState<P, A, Probe> {
       if (again != Outcome::done) return again;
     }
     return why;
+  }
+
+  /// Here and not in the base, where several methods would share it: what a call by reference gets cannot live in
+  /// registers.
+  static bool is_finite(const P& problem, const PhasePoint<A, n>& z) {
+    const auto q = z.positions();
+    const auto p = z.momenta();
+    bool finite = abs(hamflow::energy(problem, q, p)) <= std::numeric_limits<Real>::max();
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      finite = finite && abs(q[i]) <= std::numeric_limits<Real>::max() && abs(p[i]) <= std::numeric_limits<Real>::max();
+    }
+    return finite;
   }
 
   M method_;

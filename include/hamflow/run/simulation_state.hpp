@@ -194,16 +194,6 @@ class SimulationState : public Simulation {
     scale_ = saved.scale;
   }
 
-  static bool is_finite(const P& problem, const PhasePoint<A, n>& z) {
-    const auto q = z.positions();
-    const auto p = z.momenta();
-    bool finite = abs(hamflow::energy(problem, q, p)) <= std::numeric_limits<Real>::max();
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      finite = finite && abs(q[i]) <= std::numeric_limits<Real>::max() && abs(p[i]) <= std::numeric_limits<Real>::max();
-    }
-    return finite;
-  }
-
   P problem_;
   PhasePoint<A, n> z_;
   Probe probe_;

@@ -1,4 +1,4 @@
-// What `--json` prints in place of a summary.   [spec: product, section 3]
+// What `--json` prints in place of a summary.
 #pragma once
 
 #include <string>

@@ -39,7 +39,7 @@ class EigenvalueMeasure final : public Measure {
   MonodromyWatch watch_;
 };
 
-std::string text(const Json& found) {
+std::string eigenvalues_text(const Json& found) {
   if (found["values"].is_null()) return found["message"].get<std::string>();
   constexpr std::size_t most_shown = 6;
   std::string line;
@@ -62,7 +62,7 @@ MeasureKind measure_eigenvalues() {
           .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
             return std::make_unique<EigenvalueMeasure>(scenario);
           },
-          .text = text};
+          .text = eigenvalues_text};
 }
 
 }  // namespace hamflow

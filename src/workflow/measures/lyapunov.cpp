@@ -46,7 +46,7 @@ double largest_of(const Json& xs) {
   return largest;
 }
 
-std::string text(const Json& found) {
+std::string lyapunov_text(const Json& found) {
   constexpr std::size_t most_shown = 6;
   std::string line;
   for (std::size_t i = 0; i < std::min(found["exponents"].size(), most_shown); ++i) {
@@ -102,7 +102,7 @@ MeasureKind measure_lyapunov() {
           .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
             return std::make_unique<LyapunovMeasure>(scenario);
           },
-          .text = text,
+          .text = lyapunov_text,
           .columns = columns};
 }
 

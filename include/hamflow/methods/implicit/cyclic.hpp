@@ -40,14 +40,17 @@ class CyclicElement : public SegmentEquations<P, R> {
   Variables predicted() const { return rest_.predicted(); }
   Variables started(const Memory& memory) const { return rest_.started(memory); }
   [[gnu::always_inline]] void evaluate(const Variables& x, Point& at) const { rest_.evaluate(x, at); }
-  auto tangent(const Point& at) const { return rest_.tangent(at); }
+  [[gnu::always_inline]] auto tangent(const Point& at) const { return rest_.tangent(at); }
   Real norm(const Variables& x, const Point& at) const { return rest_.norm(x, at); }
-  Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
+  [[gnu::always_inline]] Correction<Real> measure(const Variables& x, const Point& at,
+                                                  const Variables& correction) const {
     return rest_.measure(x, at, correction);
   }
 
-  Increment<Real, n> taken(Variables& x, const Point& at) const { return closed(rest_.taken(x, at)); }
-  Increment<Real, n> taken(Variables& x, const Point& at, const Variables& correction) const {
+  [[gnu::always_inline]] Increment<Real, n> taken(Variables& x, const Point& at) const {
+    return closed(rest_.taken(x, at));
+  }
+  [[gnu::always_inline]] Increment<Real, n> taken(Variables& x, const Point& at, const Variables& correction) const {
     return closed(rest_.taken(x, at, correction));
   }
   Memory memory(const Variables&, const Increment<Real, n>& taken) const { return head(taken.p); }

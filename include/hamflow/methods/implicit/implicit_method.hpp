@@ -1,6 +1,7 @@
 // A method out of the equations of its steps: the loop around Newton that is the same for all of them.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "hamflow/core/derivatives.hpp"
@@ -141,14 +142,24 @@ class ImplicitMethod {
     return Outcome::done;
   }
 
+  using Solution = typename Newton<E>::Solution;
+
   bool solve(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& p0, PhasePoint<A, n>& z,
              Unknowns* unknowns, NewtonLog* log) {
-    const NewtonReport report{options_, effort_, diagnostics_, log};
-    typename Newton<E>::Solution found;
+    Solution found;
     const E step(setup_, problem, h, q0, p0, effort_);
-    if (!newton_.solve(step, report, found)) return false;
+    const auto verdict = newton_.solve(step, NewtonReport{options_, effort_, diagnostics_, log}, found);
+    if (!verdict.settled) [[unlikely]] {
+      const auto other = elsewhere(problem, h, q0, p0, verdict, found, log);
+      if (!other) return false;
+      found = *other;
+    }
     if constexpr (requires { step.too_coarse(found.taken); }) {
-      if (setup_.automatic() && !refined(problem, h, q0, p0, report, found)) return false;
+      if (setup_.automatic()) {
+        const auto finer = refined(problem, h, q0, p0, found, log);
+        if (!finer) return false;
+        found = *finer;
+      }
     }
     z.move(Real(1), found.taken.q);
     z.push(Real(1), found.taken.p);
@@ -157,19 +168,30 @@ class ImplicitMethod {
     return true;
   }
 
+  // Both take values and return one: what solve() works on stays in registers.
+  [[gnu::cold, gnu::noinline]] std::optional<Solution> elsewhere(const P& problem, const Real& h,
+                                                                 const Vector<Real, n> q0, const Vector<Real, n> p0,
+                                                                 const typename Newton<E>::Verdict verdict,
+                                                                 Solution found, NewtonLog* log) {
+    const NewtonReport report{options_, effort_, diagnostics_, log};
+    if (!newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), report, verdict, found)) return {};
+    return found;
+  }
+
   /// Solves the step with finer equations until they are fine enough. Those of a step that was not taken do not count.
-  bool refined(const P& problem, const Real& h, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
-               const NewtonReport& report, typename Newton<E>::Solution& found) {
+  [[gnu::noinline]] std::optional<Solution> refined(const P& problem, const Real& h, const Vector<Real, n> q0,
+                                                    const Vector<Real, n> p0, Solution found, NewtonLog* log) {
+    const NewtonReport report{options_, effort_, diagnostics_, log};
     const auto before = setup_.mark();
     while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.taken)) {
       const bool finer = setup_.refine();
-      if (!finer && report.log != nullptr) report.log->note_too_coarse();
+      if (!finer && log != nullptr) log->note_too_coarse();
       if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {
-        if (report.log == nullptr) setup_.return_to(before);  // a report names the last ones
-        return false;
+        if (log == nullptr) setup_.return_to(before);  // a report names the last ones
+        return {};
       }
     }
-    return true;
+    return found;
   }
 
   [[gnu::noinline]] void diagnose(const P& problem, const PhasePoint<A, n>& z, long long solves) {

@@ -56,7 +56,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     ++effort_.force;
     return displacement(impulse);
   }
-  V started(const V& impulse) const { return displacement(impulse); }
+  [[gnu::always_inline]] V started(const V& impulse) const { return displacement(impulse); }
 
   [[gnu::always_inline]] void evaluate(const V& d, Point& at) const {
     at.stiffness = zero_matrix(q0_);
@@ -65,7 +65,7 @@ class NaturalElement : public SegmentEquations<P, R> {
     at.residual = zeros_like(d);
     for (std::size_t i = 0; i < d.size(); ++i) at.residual[i] = at.target[i] - d[i];
   }
-  Matrix<Real, n> tangent(const Point& at) const {
+  [[gnu::always_inline]] Matrix<Real, n> tangent(const Point& at) const {
     Matrix<Real, n> k = at.stiffness;
     const Real factor = h_ * h_ / 2;
     const std::size_t size = k.size();
@@ -81,16 +81,16 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   /// The residual cannot be computed better than to epsilon |target|, however far p0 and the impulse cancel in it at a
   /// turning point, and the terms of M^-1 p with each other: |h| |M^-1| |p0|.
-  Correction<Real> measure(const V& d, const Point& at, const V& correction) const {
+  [[gnu::always_inline]] Correction<Real> measure(const V& d, const Point& at, const V& correction) const {
     V next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
     return {max_norm(correction), epsilon * (larger(flight_, max_norm(at.target)) + max_norm(next))};
   }
 
-  Increment<Real, n> taken(V& d, const Point& at) const { return {d, at.impulse}; }
+  [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at) const { return {d, at.impulse}; }
   /// d + correction itself has just been rounded, mostly to the target of the *old* impulse: an error with the sign of
   /// the correction, hence a drift (4e-20 a step at H = -0.25, measured). The new impulse gives d afresh.
-  Increment<Real, n> taken(V& d, const Point& at, const V& correction) const {
+  [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const V& correction) const {
     V impulse = at.impulse;
     for (std::size_t i = 0; i < d.size(); ++i) {
       Real change(0);
@@ -251,7 +251,7 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
 
   /// h M^-1 (p0 + impulse/2).
-  V displacement(const V& impulse) const {
+  [[gnu::always_inline]] V displacement(const V& impulse) const {
     V middle = zeros_like(p0_);
     V v = zeros_like(p0_);
     for (std::size_t i = 0; i < p0_.size(); ++i) middle[i] = p0_[i] + Real(0.5) * impulse[i];
