@@ -86,7 +86,8 @@ bool Range::contains(double x) const {
 std::string range_text(const Range& range) {
   const bool from = std::isfinite(range.least);
   const bool to = std::isfinite(range.most);
-  const auto text = [&](double x) {
+  const auto text = [&](double x) -> std::string {
+    if (x == 0x1p53) return "2^53";  // from where on a double is no longer every whole number
     return range.whole && std::abs(x) < 0x1p63 ? std::to_string(static_cast<long long>(x)) : shortest(x);
   };
   if (from && to && range.least == range.most) return text(range.least);

@@ -15,7 +15,8 @@ std::string explained_with_default(const OptionInfo& option) {
   const std::string text = explained(option);
   if (option.required) return text + "; required";
   if (!option.default_value.empty()) return text + "; default " + option.default_value;
-  return text + (option.unset.empty() ? "; not given by default" : "; by default " + option.unset);
+  if (!option.unset.empty()) return text + "; by default " + option.unset;
+  return option.condition.empty() ? text + "; not given by default" : text;
 }
 
 std::string example_text(const OptionInfo& option) {

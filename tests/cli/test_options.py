@@ -88,7 +88,7 @@ class Options(CommandCase):
         self.assertIn("stv4, which has no tolerance; allowed with cg, dop853, taylor", text)
 
     def test_saved_sessions_can_be_read(self):
-        self.shell("step 5\nsave a.run\n", "--set", "problem.initial={q=[2,0],p=[0,1]}", "--set", "problem.initial.q[0]=2.5")
+        self.shell("step 5\ndt 0.05\nstep 5\nsave a.run\n", "--set", "problem.initial={q=[2,0],p=[0,1]}", "--set", "problem.initial.q[0]=2.5")
         rows = self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()
         self.assertEqual(float(rows[1].split(",")[1]), 2.5)
         self.shell("step 5\nmethod taylor(order=20,tolerance=1e-9)\nstep 2\nsave b.run\n")
