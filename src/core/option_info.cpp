@@ -66,8 +66,8 @@ bool is_toml_number(const std::string& text) {
 }
 
 std::string refused_number(const OptionInfo& option, const std::string& text, const std::string& whole_text) {
-  // A word, where words are allowed, was meant to be one of them.
-  const bool meant_as_word = !option.words.empty() && text.find_first_of("0123456789(") == std::string::npos;
+  // A text without any number or function was meant to be a word, if there are some, and else is no formula.
+  const bool meant_as_word = text != "pi" && text.find_first_of("0123456789(") == std::string::npos;
   if (meant_as_word) return found(option, whole_text) + suggestion(text, option.words);
   try {
     return option.range.contains(evaluate_number<double>(text)) ? "" : found(option, whole_text);

@@ -196,9 +196,11 @@ std::optional<std::string> TomlTable::list_text(const toml::node& node, const Op
     complain(option.name, "found " + std::to_string(array->size()) + " entries" + allowed);
     return std::nullopt;
   }
+  OptionInfo one = option;  // an entry is judged as a number
+  one.type = OptionType::number;
   std::vector<std::string> all;
   for (const toml::node& entry : *array) {
-    auto text = number_text(entry, option, allowed);
+    auto text = number_text(entry, one, allowed);
     if (!text) return std::nullopt;
     all.push_back(std::move(*text));
   }

@@ -53,7 +53,7 @@ class Session final : public Simulation {
   std::vector<InvariantExcursion> invariants() const override;
   Effort effort() const override;
   StepDiagnostics diagnostics() const override { return simulation_->diagnostics(); }
-  MethodInfo method() const override { return simulation_->method(); }
+  MethodInfo method() const override { return describe(request_.method); }
   std::string failure() const override { return simulation_->failure(); }
   /// A session has no checkpoint and no copy: these three throw Error.
   std::vector<std::byte> save() const override;
