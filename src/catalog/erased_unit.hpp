@@ -41,8 +41,8 @@ class ErasedUnit : ProblemStart<Family> {
 
   template <class R>
   static ErasedFunctions<R> functions_of(const Family<R>& problem) {
-    ErasedFunctions<R> all{capabilities_of<Family<R>>(), degrees_of_freedom(problem),
-                           hamflow::functions_of<R>(problem), hamflow::functions_of<Trace<R>>(problem), nullptr};
+    ErasedFunctions<R> all{capabilities_of<Family<R>>(), degrees_of_freedom(problem), hamflow::functions_of<R>(problem),
+                           hamflow::functions_of<Trace<R>>(problem), nullptr};
     if constexpr (std::is_same_v<R, double>) {
       all.dual = hamflow::functions_of<Dual<double, 1>>(problem);
     }

@@ -132,8 +132,7 @@ class SimulationState : public Simulation {
     frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
     frame.invariants.clear();
     if constexpr (HasInvariants<P, Real>) {
-      for (const Real& value : problem_.invariants(q, p, time))
-        frame.invariants.push_back(static_cast<double>(value));
+      for (const Real& value : problem_.invariants(q, p, time)) frame.invariants.push_back(static_cast<double>(value));
     }
     frame.effort = effort();
     frame.diagnostics = diagnostics();
