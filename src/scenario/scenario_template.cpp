@@ -313,7 +313,7 @@ class TemplateWriter {
       } else if (key.name == keys.t_end.name) {
         key.example = shortest(example_.dt * static_cast<double>(example_.steps));
       } else if (key.name == keys.record.name) {
-        key.example = "[0, " + shortest(example_.dt * 1.5) + "]";
+        key.example = "[0, " + rounded(example_.dt * 1.5) + "]";
       } else if (key.name == keys.arithmetic.name) {
         key.words = arithmetics_here;
         set = true;

@@ -37,7 +37,7 @@ class Verify(CommandCase):
         for arguments, words in (
             (["stv5"], "did you mean stv4?"),
             (["verlet", "--problem", "pendulun"], "did you mean pendulum?"),
-            (["cg(1,0)"], "quadrature is a number of Gauss points"),
+            (["cg(1,0)"], "quadrature: found '0'; allowed a whole number from 1 to 64"),
             ([], "METHOD"),
         ):
             done = self.hamflow("verify", *arguments, status=2)
