@@ -189,19 +189,17 @@ TEST(Coefficients, OfSplittingsAreThoseOfThePublishedSets) {
 
 /// Omelyan, Mryglod and Folk give xi, lambda, chi; drifts and kicks follow.
 TEST(Coefficients, OfPefrlAreThoseOfThePaper) {
-  const SplittingTable& table = *find_method("pefrl").splitting;
+  const SplittingTable& table = splittings::pefrl;
   EXPECT_TRUE(agrees(std::string(table.coefficient(0)), "0.1786178958448091", 16, 1));
   EXPECT_TRUE(agrees(std::string(table.coefficient(2)), "-0.06626458266981849", 17, 1));
   EXPECT_TRUE(agrees(std::string(table.coefficient(3)), "-0.2123418310626054", 16, 1));
 }
 
-TEST(Coefficients, Yoshida8IsSolutionD) {
-  EXPECT_EQ(find_method("yoshida8").composition->half, find_method("yoshida8d").composition->half);
-}
+TEST(Coefficients, Yoshida8IsSolutionD) { EXPECT_EQ(compositions::yoshida8.half, compositions::yoshida8d.half); }
 
 TEST(Coefficients, AWrongDigitAtTheTwentiethPlaceIsSeen) {
   // What a coefficient typed as a double would be.
-  const std::string digits(find_method("yoshida6").composition->half[1]);
+  const std::string digits(compositions::yoshida6.half[1]);
   const std::string typed = shortest(std::strtod(digits.c_str(), nullptr));
   EXPECT_FALSE(agrees(typed, digits, 20, 1));
   EXPECT_TRUE(agrees(typed, digits, 15, 1));
