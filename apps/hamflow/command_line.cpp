@@ -47,7 +47,8 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
                  joined(names) + suggestion(name, names);
     }
   }
-  return message.empty() || error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) ? error.what() : message;
+  return message.empty() || error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) ? error.what()
+                                                                                                   : message;
 }
 
 }  // namespace hamflow::app
