@@ -486,7 +486,8 @@ TEST(Modal, FourDegreesOfFreedomWithStableAndUnstableModes) {
   int stable = 0;
   for (std::uint64_t seed = 81; seed < 86; ++seed) {
     const Chain chain(seed);
-    for (const Long x : ModalSolution<4>(chain.mass, chain.stiffness).eigenvalues()) ++(x < 0 ? unstable : stable);
+    const ModalSolution<4> solution(chain.mass, chain.stiffness);
+    for (const Long x : solution.eigenvalues()) ++(x < 0 ? unstable : stable);
     for (const Long t : {0.0L, 1.0L, -4.0L}) {
       const Start<Long, 4> start{{0.3L, -0.5L, 0.1L, 0.9L}, {-0.2L, 0.4L, 0.8L, -0.6L}};
       EXPECT_LE(distance_from_reference(chain, start, t), reference_units);

@@ -1,5 +1,5 @@
-// How a step, a block of steps, a run or a member of a sweep ended. Numerical trouble is a value, never an exception in a
-// loop. Its name, what it means and what helps stand here and nowhere else.
+// How a step, a block of steps, a run or a member of a sweep ended. Numerical trouble is a value, never an exception in
+// a loop. Its name, what it means and what helps stand here and nowhere else.
 #pragma once
 
 #include <string_view>

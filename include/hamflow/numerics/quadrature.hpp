@@ -1,6 +1,6 @@
 // Double exponential quadrature to rounding, for integrands that are analytic inside the interval; at its ends they may
-// be singular as long as they are integrable.   [TakahasiMori1974]   In long double, by Boost.Math, whose headers stay in
-// src/numerics/quadrature.cpp.
+// be singular as long as they are integrable.   [TakahasiMori1974]   In long double, by Boost.Math, whose headers stay
+// in src/numerics/quadrature.cpp.
 #pragma once
 
 #include <functional>

@@ -166,8 +166,9 @@ class EnsembleBlockOf final : public EnsembleBlock {
     w.worst_energy = larger(w.worst_energy, error);
     w.regular.keep_where_finite(error);
     if constexpr (has_invariants) {
-      static_assert(!HasInvariantSizes<P>,
-                    "hamflow: lanes know invariants of one component each; declare static constexpr bool lanes = false");
+      static_assert(
+          !HasInvariantSizes<P>,
+          "hamflow: lanes know invariants of one component each; declare static constexpr bool lanes = false");
       const Invariants values = invariants_of(problem, z);
       for (std::size_t k = 0; k < values.size(); ++k) {
         w.worst[k] = larger(w.worst[k], abs(values[k] - w.initial[k]));

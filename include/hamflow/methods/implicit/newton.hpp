@@ -1,4 +1,4 @@
-// Newton's iteration for the equations of a step, and where it starts.   [spec: methods, section 3]
+// Newton's iteration for the equations of a step, and where it starts.
 //
 // The first guess is extrapolated from the last steps; without memory it is the explicit predictor. Where it fails, the
 // predictor, the last state (as in the first thesis' programs) and a Newton whose steps are damped until the residual

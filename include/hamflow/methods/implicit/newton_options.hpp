@@ -1,5 +1,5 @@
-// What a user can choose about the Newton iteration of an implicit step, whatever the method.   [spec: methods, sect.
-// 3]
+// What a user can choose about the Newton iteration of an implicit step, whatever the method. How it is solved is in
+// newton.hpp.
 #pragma once
 
 #include <optional>
