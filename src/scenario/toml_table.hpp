@@ -44,7 +44,7 @@ class TomlTable {
   /// Whether the value came from the command line and not from the file.
   bool is_set(const std::string& key) const;
 
-  /// Complains about every key nobody asked for, naming the nearest that is known.
+  /// Complains about every key that no look-up has made known, and names the nearest that is.
   void finish();
 
   /// The text of a string; none where the value is another, which is not complained about.
