@@ -54,6 +54,11 @@ struct UniversalMotion {
     const Stumpff<L> c = stumpff(beta * s * s);
     return s * (r0 * c.c1 + s * (eta * c.c2 + s * kappa * c.c3));
   }
+  /// dt/ds, the distance from the centre.
+  L radius(L s) const {
+    const Stumpff<L> c = stumpff(beta * s * s);
+    return r0 * c.c0 + s * (eta * c.c1 + s * kappa * c.c2);
+  }
 };
 
 /// s at time t, at most half a period from 0. t(s) is monotone.
@@ -71,8 +76,11 @@ inline long double universal_variable(const UniversalMotion& motion, long double
       high = 2 * high;
     }
   }
-  return bracketed_root([&](L s) { return motion.time(s) - t; }, low, high, motion.time(low) - t,
-                        motion.time(high) - t);
+  const L s =
+      bracketed_root([&](L x) { return motion.time(x) - t; }, low, high, motion.time(low) - t, motion.time(high) - t);
+  // The bracket leaves up to two units of s, of which a step of Newton keeps what the rounding of t(s) leaves.
+  const L step = (motion.time(s) - t) / motion.radius(s);
+  return std::abs(step) <= 4 * std::numeric_limits<L>::epsilon() * std::abs(s) ? s - step : s;
 }
 
 inline Start<long double, 2> universal_kepler_flow(long double k, long double mass, const Vector<long double, 2>& q0,
