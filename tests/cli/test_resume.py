@@ -73,14 +73,14 @@ class Resume(CommandCase):
 
     def test_interrupt_and_resume(self):
         # One sample would stand at the interruption only: it has to be gone in the end.
-        self.scenario(run="dt = 0.01\nsteps = 3_000_000\nrecord_every = 1007")
+        self.scenario(run="dt = 0.01\nsteps = 20_000_000\nrecord_every = 10007")
         self.run_to("whole")
         status, summary = self.interrupted("part", after=0.15)
         self.assertEqual(status, 130)
         self.assertEqual(summary["status"], "interrupted")
         self.assertGreater(summary["steps"], 0)
         resumed = json.loads(self.run_to("part", "--resume").stdout)
-        self.assertEqual(resumed["steps"], 3_000_000)
+        self.assertEqual(resumed["steps"], 20_000_000)
         self.expect_equal("whole", "part")
 
     def test_more_steps(self):

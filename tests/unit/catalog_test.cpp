@@ -184,13 +184,14 @@ TEST(Catalog, RefusesWhatCannotBeRunAndSaysWhy) {
   request.arithmetic = "lattice";
   request.method = parse_method("rk4");
   const auto message = [&] { return test::message_of<Error>([&] { (void)make_simulation(request); }); };
-  EXPECT_NE(message().find("method rk4 cannot run in lattice: an explicit Runge-Kutta step is no bijection of the lattice"), std::string::npos)
+  EXPECT_NE(
+      message().find("method rk4 cannot run in lattice: an explicit Runge-Kutta step is no bijection of the lattice"),
+      std::string::npos)
       << message();
   request.method = parse_method("cg");
   EXPECT_NE(message().find("an implicit step is no bijection of the lattice"), std::string::npos) << message();
   request.arithmetic = "octuple";
-  EXPECT_NE(message().find("found 'octuple'; allowed double, compensated, double-double"),
-            std::string::npos);
+  EXPECT_NE(message().find("found 'octuple'; allowed double, compensated, double-double"), std::string::npos);
   request = pendulum_request();
   request.start.q = {"1", "2"};
   EXPECT_EQ(message(), "a state of this problem has 1 number for each of q and p, not 2");
