@@ -94,13 +94,9 @@ std::string methods_of(const MethodFamily& family) {
   }
   text += "\n";
   if (!family.options.empty()) text += table(family.options);
-  const auto by_position = [&] {
-    std::string names;
-    for (const OptionInfo& option : family.options) {
-      if (option.position > 0) names += (names.empty() ? "" : ", ") + option.name;
-    }
-    return names;
-  }();
+  std::vector<OptionInfo> with_position = family.options;
+  std::erase_if(with_position, [](const OptionInfo& option) { return option.position == 0; });
+  const std::string by_position = joined(option_names(with_position));
   if (!by_position.empty()) text += "By position: " + family.methods.front() + "(" + by_position + ").\n\n";
   return text;
 }

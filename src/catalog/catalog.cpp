@@ -31,8 +31,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
     throw Error("problem '" + name + "' is unknown" + suggestion(name, names) +
                 " (list them with: hamflow list problems)");
   }
-  std::string wanted;
-  for (const auto& [key, value] : variant) wanted += (wanted.empty() ? "" : ", ") + key + " = " + value;
+  const std::string wanted = joined(variant, [](const auto& choice) { return choice.first + " = " + choice.second; });
   throw Error("problem '" + name + "' has no variant with " + wanted + " (hamflow show " + name + ")");
 }
 
@@ -75,13 +74,12 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     if (problem.accepts(MethodSpec{.name = entry.name})) accepted.push_back(entry.name);
   }
   const bool many = accepted.size() > 12;
-  std::string all;
-  for (const std::string& name : accepted) {
-    if (!many || std::find(well_known.begin(), well_known.end(), name) != well_known.end()) {
-      all += (all.empty() ? "" : ", ") + name;
-    }
+  if (many) {
+    std::erase_if(accepted, [&](const std::string& name) {
+      return std::find(well_known.begin(), well_known.end(), name) == well_known.end();
+    });
   }
-  if (many) all += " and others (hamflow list methods)";
+  const std::string all = joined(accepted) + (many ? " and others (hamflow list methods)" : "");
   const MethodEntry& method = find_method(spec.name);
   const std::string needs = method.family->needs(method.index);
   return spec.name + " needs " + needs + ", and that of " + problem.info.name + " is none; allowed here: " + all;
@@ -89,13 +87,13 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
 
 std::string refused_fast_kernel(const Request& request, const ProblemEntry& problem) {
   if (!problem.has_fast_kernel) {
-    std::string all;
+    std::vector<std::string> all;
     for (const ProblemEntry& entry : problems()) {
       if (!entry.has_fast_kernel) continue;
-      all += (all.empty() ? "" : ", ") + entry.info.name;
-      for (const auto& [key, value] : entry.info.variant) all += " " + value;
+      all.push_back(entry.info.name);
+      for (const auto& [key, value] : entry.info.variant) all.back() += " " + value;
     }
-    return "there is no fast kernel for " + problem.info.name + "; there is for: " + all;
+    return "there is no fast kernel for " + problem.info.name + "; there is for: " + joined(all);
   }
   if (request.arithmetic == "lattice") return "on the lattice forces are exact; allowed exact";
   const std::string& not_fast = find_method(request.method.name).family->not_fast;
@@ -112,11 +110,11 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
     return "allowed a whole number from 1 to " + std::to_string(most_threads);
   }
   if (!problem.has_pairwise_forces) {
-    std::string all;
+    std::vector<std::string> all;
     for (const ProblemEntry& entry : problems()) {
-      if (entry.has_pairwise_forces) all += (all.empty() ? "" : ", ") + entry.info.name;
+      if (entry.has_pairwise_forces) all.push_back(entry.info.name);
     }
-    return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + all +
+    return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + joined(all) +
            " with arithmetic = \"lattice\")";
   }
   if (request.arithmetic != "lattice") {

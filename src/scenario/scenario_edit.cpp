@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/text.hpp"
 #include "method_keys.hpp"
 #include "toml_path.hpp"
 
@@ -62,8 +63,7 @@ std::string value_text(const toml::node& node) {
     return "{" + text + (text.empty() ? "}" : " }");
   }
   if (const auto* array = node.as_array()) {
-    for (const toml::node& value : *array) text += (text.empty() ? "" : ", ") + value_text(value);
-    return "[" + text + "]";
+    return "[" + joined(*array, value_text) + "]";
   }
   if (const auto* string = node.as_string()) return quoted(string->get());
   if (const auto* real = node.as_floating_point(); real != nullptr && std::isfinite(real->get())) {
@@ -126,10 +126,6 @@ std::string edited_scenario(const std::string& text, const std::vector<ScenarioE
   return out;
 }
 
-std::string toml_list(const std::vector<double>& numbers) {
-  std::string text;
-  for (const double x : numbers) text += (text.empty() ? "" : ", ") + shortest(x);
-  return "[" + text + "]";
-}
+std::string toml_list(const std::vector<double>& numbers) { return "[" + joined(numbers, shortest) + "]"; }
 
 }  // namespace hamflow

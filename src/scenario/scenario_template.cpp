@@ -23,11 +23,7 @@ std::string rounded(double x) {
   (void)std::snprintf(buffer, sizeof buffer, "%.3g", x);
   return buffer;
 }
-std::string rounded_list(const std::vector<double>& numbers) {
-  std::string all;
-  for (const double x : numbers) all += (all.empty() ? "" : ", ") + rounded(x);
-  return "[" + all + "]";
-}
+std::string rounded_list(const std::vector<double>& numbers) { return "[" + joined(numbers, rounded) + "]"; }
 
 /// Lines of code with comments beside them, aligned within a block.
 class Page {
@@ -101,9 +97,10 @@ StartExample example_of(const ProblemEntry& problem, const Texts& parameters, co
 }
 
 std::string orbit_table(const StartInfo& info, const Texts& values) {
-  std::string text = info.kind.empty() ? "" : "kind = \"" + info.kind + "\"";
-  for (const std::string& key : info.keys) text += (text.empty() ? "" : ", ") + key + " = " + values.at(key);
-  return "{ " + text + " }";
+  std::vector<std::string> parts;
+  if (!info.kind.empty()) parts.push_back("kind = \"" + info.kind + "\"");
+  for (const std::string& key : info.keys) parts.push_back(key + " = " + values.at(key));
+  return "{ " + joined(parts) + " }";
 }
 
 bool derives(const StartExample& start, const std::string& parameter) {

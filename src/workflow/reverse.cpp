@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "hamflow/core/text.hpp"
 #include "summary.hpp"
 
 namespace hamflow {
@@ -88,12 +89,9 @@ std::string readable_reversal(const Json& s) {
     return fmt::format("{:<20}{}\n", label, text);
   };
   const auto list = [](const Json& xs) {
-    std::string all;
-    for (const Json& x : xs) {
-      all +=
-          (all.empty() ? "" : ", ") + (x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>()));
-    }
-    return all;
+    return joined(xs, [](const Json& x) {
+      return x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>());
+    });
   };
   std::string text = row("status", s["status"].get<std::string>()) + row("problem", s["problem"].get<std::string>());
   text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),

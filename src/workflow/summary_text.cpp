@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "certificate_json.hpp"
+#include "hamflow/core/text.hpp"
 #include "measures/measure.hpp"
 #include "number_text.hpp"
 #include "summary.hpp"
@@ -37,11 +38,7 @@ std::string readable(const Json& s) {
     if (x.is_string()) return x.get<std::string>();
     return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
   };
-  const auto list = [&](const Json& xs) {
-    std::string all;
-    for (const Json& x : xs) all += (all.empty() ? "" : ", ") + number(x);
-    return all;
-  };
+  const auto list = [&](const Json& xs) { return joined(xs, number); };
   const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
   const auto watched = [&](const Json& x) {
     return fmt::format("{} -> {}, at most {:.3g} off", shown(x["initial"]), shown(x["final"]),
