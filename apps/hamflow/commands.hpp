@@ -102,6 +102,5 @@ int shell_command(const ShellOptions& options);
 
 int list_command(const std::string& what, bool json);
 int show_command(const std::string& name);
-int cite_command(const std::string& name);
 
 }  // namespace hamflow::app

@@ -212,12 +212,6 @@ int main(int argc, char** argv) {
   show_command->add_option("name", name, "a problem or a method")->required()->type_name("NAME");
   show_command->callback([&] { status = hamflow::app::show_command(name); });
 
-  std::string cited;
-  CLI::App* cite_command = add(app, "cite", "Print the source of a problem or a method, a key of docs/references.bib",
-                               "  hamflow cite stv4\n  hamflow cite central-force\n");
-  cite_command->add_option("name", cited, "a problem or a method")->required()->type_name("NAME");
-  cite_command->callback([&] { status = hamflow::app::cite_command(cited); });
-
   try {
     reject_unknown_command(app, argc, argv);
     app.parse(argc, argv);
