@@ -114,12 +114,7 @@ const RunKeys& run_keys() {
                   .meaning = "a Poincare section",
                   .type = OptionType::table,
                   .unset = "none",
-                  .keys = {section_keys().coordinate, section_keys().value, section_keys().direction}},
-      .extent = {.name = "extent",
-                 .default_value = "false",
-                 .meaning = "the largest |q| of all steps, and when",
-                 .type = OptionType::yes_no,
-                 .example = "true"}};
+                  .keys = {section_keys().coordinate, section_keys().value, section_keys().direction}}};
   return keys;
 }
 
@@ -157,11 +152,10 @@ const std::vector<DeclaredTable>& declared_tables() {
   static const std::vector<DeclaredTable> tables = [] {
     const RunKeys& r = run_keys();
     const OutputKeys& o = output_keys();
-    return std::vector<DeclaredTable>{
-        {run_table,
-         {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.extent,
-          r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
-        {output_table, {o.folder, o.formats, o.figures, o.figure_formats}}};
+    return std::vector<DeclaredTable>{{run_table,
+                                       {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues,
+                                        r.section, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+                                      {output_table, {o.folder, o.formats, o.figures, o.figure_formats}}};
   }();
   return tables;
 }

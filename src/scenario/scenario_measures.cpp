@@ -36,7 +36,6 @@ void ScenarioReader::read_measures(TomlTable& table) {
                                              : static_cast<std::size_t>(number_value(*count));
   }
   scenario_.eigenvalues = table.yes_no(keys.eigenvalues).value_or(false);
-  scenario_.extent = table.yes_no(keys.extent).value_or(false);
   if (scenario_.lyapunov > 0) refuse_derivative(table, keys.lyapunov.name);
   if (scenario_.eigenvalues) refuse_derivative(table, keys.eigenvalues.name);
   read_section(table);

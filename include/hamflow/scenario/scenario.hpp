@@ -51,7 +51,6 @@ struct Scenario {
   std::size_t lyapunov = 0;          // exponents to be measured
   bool eigenvalues = false;          // of the derivative of all steps
   std::optional<Section> section{};  // whose points are recorded
-  bool extent = false;               // the largest |q|
   std::vector<std::string> notes;    // worth saying, but no errors
   std::optional<TwoBodies> bodies;   // of a start by two bodies in space
   std::vector<double> start_q;       // in double, canonical
