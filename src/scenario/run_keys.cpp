@@ -138,13 +138,7 @@ const OutputKeys& output_keys() {
                                            .words = figure_names(),
                                            .condition = "with the format h5",
                                            .example = "[energy-error]",
-                                           .free_on_resume = true},
-                               .figure_formats = {.name = "figure_formats",
-                                                  .default_value = "[svg, pdf, png]",
-                                                  .meaning = "the files of each figure",
-                                                  .type = OptionType::word_list,
-                                                  .words = {"svg", "pdf", "png"},
-                                                  .free_on_resume = true}};
+                                           .free_on_resume = true}};
   return keys;
 }
 
@@ -155,7 +149,7 @@ const std::vector<DeclaredTable>& declared_tables() {
     return std::vector<DeclaredTable>{{run_table,
                                        {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues,
                                         r.section, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
-                                      {output_table, {o.folder, o.formats, o.figures, o.figure_formats}}};
+                                      {output_table, {o.folder, o.formats, o.figures}}};
   }();
   return tables;
 }

@@ -24,7 +24,7 @@ struct RunKeys {
       eigenvalues, section;
 };
 struct OutputKeys {
-  OptionInfo folder, formats, figures, figure_formats;
+  OptionInfo folder, formats, figures;
 };
 
 const LatticeKeys& lattice_keys();

@@ -13,7 +13,6 @@ void ScenarioReader::read_output(TomlTable& table) {
   if (const auto folder = table.text(keys.folder)) scenario_.folder = *folder;
   if (const auto formats = table.words(keys.formats)) scenario_.formats = *formats;
   if (const auto figures = table.words(keys.figures)) scenario_.figures = *figures;
-  if (const auto formats = table.words(keys.figure_formats)) scenario_.figure_formats = *formats;
   const bool has_h5 = std::find(scenario_.formats.begin(), scenario_.formats.end(), "h5") != scenario_.formats.end();
   if (!scenario_.figures.empty() && !has_h5) {
     table.complain(key,

@@ -69,9 +69,7 @@ void draw_figures(const Scenario& scenario, const std::filesystem::path& folder)
   if (scenario.figures.empty()) return;
   std::filesystem::create_directories(folder / "figures");
   for (const std::string& kind : scenario.figures) {
-    for (const std::string& format : scenario.figure_formats) {
-      draw_figure(folder, kind, folder / "figures" / (kind + "." + format));
-    }
+    for (const char* format : {".svg", ".pdf", ".png"}) draw_figure(folder, kind, folder / "figures" / (kind + format));
   }
 }
 

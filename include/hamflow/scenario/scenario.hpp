@@ -47,7 +47,6 @@ struct Scenario {
   std::string folder;                      // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
-  std::vector<std::string> figure_formats{"svg", "pdf", "png"};
   std::size_t lyapunov = 0;          // exponents to be measured
   bool eigenvalues = false;          // of the derivative of all steps
   std::optional<Section> section{};  // whose points are recorded

@@ -13,8 +13,8 @@ namespace hamflow {
 /// @param file .svg, .pdf or .png   @throws Error when the run has no such figure   @throws FileError
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file);
 
-/// Draws those that the scenario requests in output.figures, each in the formats of output.figure_formats, into
-/// figures/ of the folder of its run.   @throws Error, FileError
+/// Draws those that the scenario requests in output.figures, each as .svg, .pdf and .png, into figures/ of the folder
+/// of its run.   @throws Error, FileError
 void draw_figures(const Scenario& scenario, const std::filesystem::path& folder);
 
 }  // namespace hamflow
