@@ -107,13 +107,13 @@ std::size_t Axis::widest_label() const {
   return widest;
 }
 
-Axis fit_axis(const Extent& extent, double padding, TickRoom room) {
+Axis fit_axis(const Extent& extent, double edge, TickRoom room) {
   if (extent.empty()) return plain_axis(-1, 1, room);
   const int exponent = common_exponent(extent.largest());
   const double low = scaled(extent.low, exponent);
   const double high = scaled(extent.high, exponent);
   const double size = std::max(std::abs(low), std::abs(high));
-  double margin = padding * (high - low);
+  double margin = edge * (high - low);
   if (high - low <= resolvable * size) margin = 0.5 * size;
   if (!(size > 0)) margin = 1;
   Axis axis = plain_axis(low - margin, high + margin, room);

@@ -54,9 +54,9 @@ struct TickRoom {
   std::size_t characters = 1000;
 };
 
-/// An axis that shows `extent` with `padding` (a fraction of its length) at either end. Where the numbers are all but
+/// An axis that shows `extent` with `edge` (a fraction of its length) at either end. Where the numbers are all but
 /// equal there is nothing to resolve: the axis then shows the size of the number.
-Axis fit_axis(const Extent& extent, double padding, TickRoom room);
+Axis fit_axis(const Extent& extent, double edge, TickRoom room);
 /// The same with a range that is already chosen: the ticks are as close as the room allows.
 Axis plain_axis(double low, double high, TickRoom room);
 /// A logarithmic axis over an extent of positive numbers, with some room at either end; 0.1 .. 10 where there are none.

@@ -23,7 +23,11 @@ std::set<std::string> files_of(const std::string& folder) {
 }
 
 TEST(Catalog, MethodsAreTheFilesOfTheFolders) {
-  std::set<std::string> expected{"cg", "boris", "dop853", "taylor"};
+  std::set<std::string> expected;  // of families without tables, what they declare
+  for (const MethodFamily& family : method_families()) {
+    if (family.rank > 0) expected.insert(family.methods.begin(), family.methods.end());
+  }
+  EXPECT_TRUE(expected.contains("cg") && expected.contains("boris"));
   for (const std::string& name : files_of("methods/compositions")) {
     expected.insert(name);
     expected.insert(name + "-dkd");

@@ -3,6 +3,7 @@
 
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/method_family.hpp"
+#include "newton_family.hpp"
 
 namespace hamflow::families {
 
@@ -31,25 +32,15 @@ struct Cg {
                    .default_value = "stagnation",
                    .meaning = "with seed stagnation above the tolerance is an error, as in the thesis' programs"},
                   &CgOptions::seed_criterion, {{"stagnation", false}, {"seed", true}}),
-        bind_number({.name = "max_iterations",
-                     .default_value = "15",
-                     .meaning = "Newton corrections a step may take",
-                     .range = Range::whole_from(1, 1000)},
-                    &CgOptions::max_iterations),
+        max_iterations_option<CgOptions>(),
         {{.name = "iteration",
           .default_value = "newton",
           .meaning = "how the equations of a step are solved",
           .type = OptionType::word,
           .words = {"newton"}},
          [](CgOptions&, const std::string&) {}},
-        bind_word({.name = "on_divergence",
-                   .default_value = "error",
-                   .meaning = "halve: two half steps in place of one that does not converge"},
-                  &CgOptions::halve, {{"error", false}, {"halve", true}}),
-        bind_yes_no({.name = "diagnostics",
-                     .default_value = "false",
-                     .meaning = "condition and determinant of the tangent, condition of M^-1, at every step"},
-                    &CgOptions::diagnostics)};
+        divergence_option<CgOptions>(),
+        diagnostics_option<CgOptions>()};
     return all;
   }
 
