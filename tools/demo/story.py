@@ -1,0 +1,59 @@
+"""The story of the demo: five promises of hamflow, each shown by commands that anybody can run again.
+
+Commands stand as they can be copied, with the folders that ./dev demo uses."""
+
+import dataclasses
+
+KEPLER = "examples/kepler_ellipse.toml"
+CHAOS = "examples/henon_heiles.toml --set 'problem.initial={q=[0,-0.15],p=[0.54,0.1]}'"
+
+
+@dataclasses.dataclass
+class Figure:
+    caption: str
+    commands: list[str]
+    image: str = ""  # in the report; without one what the last command prints is shown
+
+
+@dataclasses.dataclass
+class Chapter:
+    title: str
+    text: str
+    figures: list[Figure]
+    alone: bool = False  # run when nothing else is: what measures time
+
+
+STORY = [
+    Chapter("An ellipse on its conic",
+            "A planet on an ellipse, and the conic that Kepler promised. The dots are computed, 4000 steps; the line is exact. The energy "
+            "is kept by construction: cg steps are finite elements in time.",
+            [Figure("computed (dots) and exact (line)", [f"build/release/hamflow run {KEPLER} --force --out build/demo/ellipse.run"], "ellipse.run/figures/orbit.svg"),
+             Figure("energy error, relative", ["build/release/hamflow plot build/demo/ellipse.run --kind energy-error -o build/demo/kept.svg"], "kept.svg")]),
+    Chapter("Energy lost and kept",
+            "The same ellipse over 10^4 periods, about 100 steps each. The classical Runge-Kutta method loses a little energy in each step, and "
+            "the orbit shrinks; a symplectic method of the same order oscillates about the right energy as long as one looks.",
+            [Figure("rk4: lost", [f"build/release/hamflow run {KEPLER} --set method.name=rk4 --set run.dt=0.25 --set run.steps=1e6 --set 'output.figures=[]' --force --out build/demo/rk4.run",
+                                  "build/release/hamflow plot build/demo/rk4.run --kind energy-error -o build/demo/lost.svg"], "lost.svg"),
+             Figure("stv4: kept", [f"build/release/hamflow run {KEPLER} --set method.name=stv4 --set run.dt=0.25 --set run.steps=1e6 --set 'output.figures=[]' --force --out build/demo/stv4.run",
+                                   "build/release/hamflow plot build/demo/stv4.run --kind energy-error -o build/demo/bounded.svg"], "bounded.svg")]),
+    Chapter("Bits that come back",
+            "On a lattice of integers a symmetric splitting is one-to-one: 10^7 steps forward, the momenta negated, 10^7 steps again, and "
+            "every bit is where it was. In floating point it is not.",
+            [Figure("on the lattice", [f"build/release/hamflow reverse {KEPLER} --set method.name=stv4 --set run.arithmetic=lattice --set run.steps=1e7 --quiet"]),
+             Figure("in double", [f"build/release/hamflow reverse {KEPLER} --set method.name=stv4 --set run.steps=1e7 --quiet"])]),
+    Chapter("A chaotic map",
+            "Stars in a galaxy, after Henon and Heiles. One orbit wanders through a sea of points; the map beside it shows for 7371 starts at rest how fast "
+            "neighbours part, the largest Lyapunov exponent: dark is chaos, light is order, white starts leave for ever.",
+            [Figure("one orbit, where it crosses q1 = 0",
+                    [f"build/release/hamflow run {CHAOS} --set 'run.section={{coordinate=\"q1\"}}' --set run.steps=200000 --set 'output.figures=[]' --force --out build/demo/chaos.run",
+                     "build/release/hamflow plot build/demo/chaos.run --kind section -o build/demo/section.svg"], "section.svg"),
+             Figure("largest Lyapunov exponent of 7371 starts at rest",
+                    ["build/release/hamflow sweep examples/henon_heiles.toml --set 'problem.initial={q=[0,0],p=[0,0]}' "
+                     "--vary 'problem.initial.q[0]=-0.9:0.9:91' --vary 'problem.initial.q[1]=-0.55:1.05:81' --set run.steps=4000 "
+                     "--set run.lyapunov=1 --force --out build/demo/chaos.sweep --quiet --figure build/demo/map.svg --colour observables/lyapunov1"],
+                    "map.svg")]),
+    Chapter("As fast as a loop by hand",
+            "Problem, method and arithmetic are types, so that the compiler sees one loop. Measured just now, in turns, the best of 15: "
+            "Stoermer-Verlet on the ellipse, and the same to the last bit.",
+            [Figure("a step of 0.1", ["build/release/examples/example_hand_loop"])], alone=True),
+]
