@@ -23,15 +23,26 @@ struct SeparableFunctions {
   & > S potential(const Vector<S, N>& q) const { return potential_function(q); }
 };
 
+namespace detail {
+template <std::size_t N, class T, class V>
+constexpr void expect_generic() {
+  static_assert(std::is_invocable_v<T, const Vector<Dual<double, N>, N>&> &&
+                    std::is_invocable_v<V, const Vector<Dual<double, N>, N>&>,
+                "hamflow: T and V are called with dual numbers too: write [](const auto& p) and [](const auto& q)");
+}
+}  // namespace detail
+
 /// H = T(p) + V(q) with N degrees of freedom. @param kinetic, potential generic callables of a Vector<S, N>
 template <std::size_t N, class T, class V>
 auto separable(T kinetic, V potential) {
+  detail::expect_generic<N, T, V>();
   return SeparableFunctions<N, T, V, false>{kinetic, potential};
 }
 
 /// The same for T = p^T M^-1 p/2 with constant M, which implicit elements use to halve their unknowns.
 template <std::size_t N, class T, class V>
 auto natural(T kinetic, V potential) {
+  detail::expect_generic<N, T, V>();
   return SeparableFunctions<N, T, V, true>{kinetic, potential};
 }
 
@@ -49,6 +60,9 @@ struct HamiltonianFunction {
 /// Any H(q, p). Methods that need H = T + V refuse it at compile time.
 template <std::size_t N, class H>
 auto hamiltonian(H function) {
+  using Both = Vector<Dual<double, 2 * N>, N>;
+  static_assert(std::is_invocable_v<H, const Both&, const Both&>,
+                "hamflow: H is called with dual numbers too: write [](const auto& q, const auto& p)");
   return HamiltonianFunction<N, H>{function};
 }
 
