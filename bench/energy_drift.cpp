@@ -1,7 +1,7 @@
-// The drift of cg's energy a step, as a fraction of |T| + |V| at the start: over 32 starts of four problems, each way to
-// solve a step among them. Energies are of all the digits that are stored, in quad.
-//     energy_drift [steps [problem [start]]]      steps of each start, default 10^7; in 256 blocks, whose increments give
-//     the standard error of one start; that of the mean is the scatter of the starts
+// The drift of cg's energy a step, as a fraction of |T| + |V| at the start: over 32 starts of four problems, each way
+// to solve a step among them. Energies are of all the digits that are stored, in quad.
+//     energy_drift [steps [problem [start]]]      steps of each start, default 10^7; in 256 blocks, whose increments
+//     give the standard error of one start; that of the mean is the scatter of the starts
 // A random walk of w a step hides all below w/sqrt(32 steps): 1e-22 takes 10^8 steps and hours.
 #include <algorithm>
 #include <cmath>
@@ -105,8 +105,8 @@ void row(const char* name, const P& problem, const Q& in_quad, int points, doubl
     squares += t * t / static_cast<double>(starts);
     worst = std::max(worst, std::abs(t));
   }
-  std::printf("%-24s %10.2e +- %.1e   one start +- %.1e   mean t^2 %6.2f   largest |t| %5.1f\n", name, all.mean, all.error,
-              estimate(errors).mean, squares, worst);
+  std::printf("%-24s %10.2e +- %.1e   one start +- %.1e   mean t^2 %6.2f   largest |t| %5.1f\n", name, all.mean,
+              all.error, estimate(errors).mean, squares, worst);
   std::fflush(stdout);
 }
 
@@ -117,10 +117,13 @@ int main(int argc, char** argv) {
   const std::string wanted = argc > 2 ? argv[2] : "";
   const int only = argc > 3 ? std::atoi(argv[3]) : -1;
   const auto asked = [&](const char* name) { return wanted.empty() || wanted == name; };
-  std::printf("energy gained a step, of the scale: mean over %d starts of %ld steps\n", static_cast<int>(starts), steps);
+  std::printf("energy gained a step, of the scale: mean over %d starts of %ld steps\n", static_cast<int>(starts),
+              steps);
   if (asked("pendulum")) {
-    // The first is the one on which a drift was found; librations of every amplitude (in a rotation q and its roundings grow).
-    row("pendulum", Pendulum<double>(), Pendulum<Quad>(), 8, 1.0,
+    // The first is the one on which a drift was found; librations of every amplitude (in a rotation q and its roundings
+    // grow).
+    row(
+        "pendulum", Pendulum<double>(), Pendulum<Quad>(), 8, 1.0,
         [](std::uint64_t s) -> Begin {
           if (s == 0) return {{2.749591}, {0.1062}, 0.0575444};
           return {{between(0.3, 2.8, s, 0)}, {between(0, 0.3, s, 1)}, between(0.03, 0.1, s, 2)};
@@ -128,7 +131,8 @@ int main(int argc, char** argv) {
         steps, only);
   }
   if (asked("kepler")) {
-    row("kepler", CentralForce<double, Kepler>(1, Kepler<double>(1)), CentralForce<Quad, Kepler>(1, Kepler<Quad>(1)), 8,
+    row(
+        "kepler", CentralForce<double, Kepler>(1, Kepler<double>(1)), CentralForce<Quad, Kepler>(1, Kepler<Quad>(1)), 8,
         1.0,
         [](std::uint64_t s) -> Begin {
           // The ellipse r = 1 .. 3, turned.
@@ -141,7 +145,8 @@ int main(int argc, char** argv) {
         steps, only);
   }
   if (asked("kepler-polar")) {
-    row("kepler, polar", PolarCentralForce<double, Kepler>(1, Kepler<double>(1)),
+    row(
+        "kepler, polar", PolarCentralForce<double, Kepler>(1, Kepler<double>(1)),
         PolarCentralForce<Quad, Kepler>(1, Kepler<Quad>(1)), 8, 1.0,
         [](std::uint64_t s) -> Begin {
           return {{1, 0}, {0, between(1.15, 1.3, s, 0)}, between(0.05, 0.15, s, 1)};
@@ -149,7 +154,8 @@ int main(int argc, char** argv) {
         steps, only);
   }
   if (asked("henon-heiles")) {
-    row("henon-heiles", HenonHeiles<double>(), HenonHeiles<Quad>(), 2, 0.1,
+    row(
+        "henon-heiles", HenonHeiles<double>(), HenonHeiles<Quad>(), 2, 0.1,
         [](std::uint64_t s) -> Begin {
           return {{between(-0.3, 0.3, s, 0), between(-0.2, 0.3, s, 1)},
                   {between(0, 0.3, s, 2), between(0, 0.3, s, 3)},
@@ -158,7 +164,8 @@ int main(int argc, char** argv) {
         steps, only);
   }
   if (asked("double-pendulum")) {
-    row("double pendulum", DoublePendulumNonlinearAbsolute<double>(), DoublePendulumNonlinearAbsolute<Quad>(), 8, 30.0,
+    row(
+        "double pendulum", DoublePendulumNonlinearAbsolute<double>(), DoublePendulumNonlinearAbsolute<Quad>(), 8, 30.0,
         [](std::uint64_t s) -> Begin {
           return {{between(-0.8, 0.8, s, 0), between(-0.8, 0.8, s, 1)},
                   {between(0, 1, s, 2), between(0, 1, s, 3)},

@@ -32,7 +32,8 @@ template <class R>
     const detail::Halves<R> y(b);
     const R lost = ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low;
     const R sum = product + (lost + c);
-    if (sum == sum) [[likely]] return sum;  // no half has overflown
+    if (sum == sum) [[likely]]
+      return sum;  // no half has overflown
   }
   return product + c;
 }
