@@ -28,14 +28,24 @@ struct Compensated {
     static constexpr const Real& read(const Stored& s) { return s.high; }
     /// s <- s + r: the error of high + (r + low) is found exactly (two-sum, no assumption on magnitudes) and kept.
     static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
+    /// The same with r + low exact as well: what is lost there is mostly half a unit, decided by the last bits of the
+    /// summands, and those are not random where increments grow from turning points.
+    static constexpr void add_keeping(Stored& s, const Real& r) {
+      const R increment = r + s.low;
+      const R of_low = increment - r;
+      const R lost = (r - (increment - of_low)) + (s.low - of_low);
+      settle(s, begin_with(s, increment));
+      s.low += lost;
+    }
     /// What `begin` leaves to `settle`.
     struct Pending {
       R before{};
       R increment{};
     };
     /// The first half of add, which others wait for: high is the sum already, low not yet its error.
-    static constexpr Pending begin(Stored& s, const Real& r) {
-      const Pending pending{s.high, r + s.low};
+    static constexpr Pending begin(Stored& s, const Real& r) { return begin_with(s, r + s.low); }
+    static constexpr Pending begin_with(Stored& s, const R& increment) {
+      const Pending pending{s.high, increment};
       s.high = pending.before + pending.increment;
       return pending;
     }

@@ -26,6 +26,7 @@ class GeneralElement : public SegmentEquations<P, R> {
   };
   struct Point {
     Z residual{};
+    Z sum{};     // kappa int J grad H
     Z target{};  // what u should be, h int J grad H
     Z noise{};   // what the target rounds by, in units of epsilon, coordinate by coordinate
     Matrix<Real, m> tangent{};
@@ -46,10 +47,12 @@ class GeneralElement : public SegmentEquations<P, R> {
   Z started(const Z& extrapolated) const { return extrapolated; }
 
   void evaluate(const Z& x, Point& at) const {
-    at.target = last_state();
-    at.noise = at.target;
+    at.sum = last_state();
+    at.noise = at.sum;
     at.tangent = zero_matrix(x);
-    integrate(detail::halves<n>(x), at.target, at.noise, at.tangent);
+    integrate(detail::halves<n>(x), at.sum, at.noise, at.tangent);
+    at.target = at.sum;
+    for (Real& t : at.target) t = unit_ * t;
     at.residual = at.target;
     for (std::size_t i = 0; i < x.size(); ++i) at.residual[i] = at.target[i] - x[i];
   }
@@ -71,14 +74,13 @@ class GeneralElement : public SegmentEquations<P, R> {
     x = at.target;
     return detail::halves<n>(x);
   }
-  /// The target at u + correction to second order: correction - K correction is what it changes by. u + correction
-  /// itself would be rounded with the sign of the correction.
+  /// The target at u + correction to second order: correction - K correction is what it changes by. Added to what is
+  /// rounded already it would mostly be lost, with the sign of the correction, as in natural.hpp.
   Increment<Real, n> taken(Z& x, const Point& at, const Z& correction) const {
-    x = at.target;
     for (std::size_t i = 0; i < x.size(); ++i) {
       Real change = correction[i];
       for (std::size_t j = 0; j < x.size(); ++j) change -= at.tangent[i][j] * correction[j];
-      x[i] += change;
+      x[i] = product_plus_small(unit_, at.sum[i], change);
     }
     return detail::halves<n>(x);
   }
@@ -139,6 +141,7 @@ class GeneralElement : public SegmentEquations<P, R> {
   using Base::h_;
   using Base::problem_;
   using Base::rule_;
+  using Base::unit_;
   static constexpr auto epsilon = Epsilon<Real>{};
 
   /// What one more point sees: the energy gained, and the sizes of its terms.
@@ -165,9 +168,9 @@ class GeneralElement : public SegmentEquations<P, R> {
     return work;
   }
 
-  /// target = h int J grad H; k_t the tangent; noise the sum of the absolute values of what enters the target, with
+  /// sum = kappa int J grad H; k_t the tangent; noise the sum of the absolute values of what enters the target, with
   /// what coordinates rounded to epsilon change in it.
-  void integrate(const Increment<Real, n>& u, Z& target, Z& noise, Matrix<Real, m>& k_t) const {
+  void integrate(const Increment<Real, n>& u, Z& sum, Z& noise, Matrix<Real, m>& k_t) const {
     const std::size_t size = q0_.size();
     const V middle_q = detail::midpoint<Real>(q0_, u.q);
     const V middle_p = detail::midpoint<Real>(p0_, u.p);
@@ -181,11 +184,12 @@ class GeneralElement : public SegmentEquations<P, R> {
       const V p = detail::on_segment(middle_p, rule_.offset[l], u.p);
       gradient(problem_, q, p, dq, dp);
       hessian(problem_, q, p, qq, qp, pp);
+      const Real part = detail::golden<Real>() * rule_.b[l];
       const Real weight = h_ * rule_.b[l];
       const Real slope = weight * (Real(0.5) + rule_.offset[l]);
       for (std::size_t i = 0; i < size; ++i) {
-        target[i] += weight * dp[i];
-        target[size + i] -= weight * dq[i];
+        sum[i] += part * dp[i];
+        sum[size + i] -= part * dq[i];
         Real of_q = abs(dp[i]);
         Real of_p = abs(dq[i]);
         for (std::size_t j = 0; j < size; ++j) {

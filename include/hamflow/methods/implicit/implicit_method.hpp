@@ -161,11 +161,22 @@ class ImplicitMethod {
         found = *finer;
       }
     }
-    z.move(Real(1), found.taken.q);
-    z.push(Real(1), found.taken.p);
+    for (std::size_t i = 0; i < z.q.size(); ++i) {
+      add(z.arithmetic.position, z.q[i], found.taken.q[i]);
+      add(z.arithmetic.momentum, z.p[i], found.taken.p[i]);
+    }
     newton_.remember(step, found);
     if (unknowns != nullptr) *unknowns = step.unknowns(found.x, found.taken);
     return true;
+  }
+
+  /// With all the digits that the arithmetic can keep.
+  static void add(const typename A::Axis& axis, typename A::Stored& s, const Real& r) {
+    if constexpr (requires { axis.add_keeping(s, r); }) {
+      axis.add_keeping(s, r);
+    } else {
+      axis.add(s, r);
+    }
   }
 
   // Both take values and return one: what solve() works on stays in registers.

@@ -9,6 +9,7 @@
 #include "hamflow/methods/cg_options.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/numerics/dense.hpp"
+#include "hamflow/numerics/exact_product.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"
 
 namespace hamflow {
@@ -29,6 +30,15 @@ Vector<S, N> on_segment(const Vector<S, N>& middle, const Real& offset, const Ve
   Vector<S, N> x = zeros_like(middle);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = middle[i] + offset * d[i];
   return x;
+}
+
+/// Sums over the Gauss points are taken of kappa b_l, and multiplied by h/kappa in the end. The rounding of that
+/// product decides whether the last correction of Newton, which is mostly smaller, counts or is lost; so that it counts
+/// on average, what is rounded has to have random digits, whatever h is. With h = 1/8 alone there would be none. The
+/// golden ratio is the number whose multiples are spread most evenly.
+template <class Real>
+inline Real golden() {
+  return Real(1.6180339887498949);
 }
 
 /// (q, p) in one vector, as unknowns of a step, and back.
@@ -141,10 +151,11 @@ class SegmentEquations {
 
  protected:
   SegmentEquations(const P& problem, const Real& h, const GaussRule<Real>& rule)
-      : problem_(problem), h_(h), rule_(rule) {}
+      : problem_(problem), h_(h), unit_(h / detail::golden<Real>()), rule_(rule) {}
 
   const P& problem_;
   const Real h_;
+  const Real unit_;  // h/kappa
   const GaussRule<Real>& rule_;
 };
 
