@@ -39,19 +39,20 @@ std::vector<ComparisonWinner> winners(const Comparison& comparison) {
   const double floor = comparison.reference.uncertainty.log10;
   const double told = floor + std::log10(4.0);
   std::vector<Curve> methods;
-  double highest = -1e300;
-  double lowest = 1e300;
+  // Powers of ten, within what mp(100000) can hold: an error of exactly 0 is none of them.
+  int highest = -100000;
+  int lowest = 400;
   for (const ComparisonPoint& p : comparison.points) {
     if (methods.empty() || methods.back().method != p.method) methods.push_back({p.method, {}});
     if (!p.done() || !(p.error.log10 < 400)) continue;
     methods.back().points.push_back(&p);
-    highest = std::max(highest, std::floor(std::max(p.error.log10, floor)));
-    lowest = std::min(lowest, std::ceil(std::max(p.error.log10, told)));
+    const double error = std::max({p.error.log10, floor, -100000.0});
+    highest = std::max(highest, static_cast<int>(std::floor(error)));
+    lowest = std::min(lowest, static_cast<int>(std::ceil(std::max(error, told))));
   }
   std::vector<ComparisonWinner> all;
-  if (!(lowest > -1e300) || !(highest < 1e300)) return all;
   for (const bool by_time : {false, true}) {
-    for (int level = static_cast<int>(highest); level >= static_cast<int>(lowest); --level) {
+    for (int level = highest; level >= lowest; --level) {
       std::vector<std::pair<double, std::string>> ranking;
       for (const Curve& method : methods) {
         if (const auto work = work_for(method, level, by_time, floor)) ranking.emplace_back(*work, method.method);

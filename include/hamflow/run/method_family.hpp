@@ -34,6 +34,7 @@ struct MethodFamily {
   std::string not_on_lattice;                // why it is no bijection of the lattice; empty: it is one
   std::string not_fast;                      // why kernel = "fast" is refused; empty: it is not
   std::vector<std::string> representatives;  // the forms that `verify --all` measures; none: each method as it is
+  bool counts_forces = true;                 // its work is counted in evaluations of a force, or of a gradient
 
   /// Each of these takes the number of the method in `methods`.
   std::function<MethodInfo(std::size_t method, const Texts& options)> describe;

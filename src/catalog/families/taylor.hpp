@@ -30,6 +30,7 @@ struct Taylor {
       info.name = canonical_name(info.name, options(), given);
       return info;
     };
+    family.counts_forces = false;  // a sweep over a tape of series is no evaluation of a force
     family.needs = [](std::size_t) { return "an H whose derivatives can be recorded"; };
     family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance or another method.order"; };
     // Of a series of order 15, the default, the error cannot be halved four times in any arithmetic at hand.
