@@ -10,7 +10,6 @@
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "progress.hpp"
-#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -23,6 +22,7 @@ class RequestReader {
     read_methods(options.methods);
     request.request = scenario.request;
     request.t_end = scenario.dt * static_cast<double>(scenario.steps);
+    request.t_end_text = "(" + scenario.request.dt + ")*" + std::to_string(scenario.steps);
     if (!(std::abs(request.t_end) > 0)) {
       complain("run", "found a run of no time; allowed one with at least a step");
     } else {
@@ -44,11 +44,6 @@ class RequestReader {
   }
 
   void read_methods(const std::string& text) {
-    if (digits_beyond_double(scenario_.request.arithmetic) > 0) {
-      complain(run_path(run_keys().arithmetic), "found \"" + scenario_.request.arithmetic +
-                                                    "\", whose errors are below those of the reference here; allowed " +
-                                                    "double, compensated, lattice");
-    }
     for (const std::string& name : split_list(text)) {
       try {
         const MethodSpec method = parse_method(name);
@@ -105,9 +100,9 @@ class RequestReader {
 
 ComparisonReport carry_out(const ComparisonRequest& request, const CompareOptions& options) {
   catch_interrupts();
-  Progress progress(0, static_cast<std::int64_t>(request.methods.size() * request.steps.size()), options.quiet);
-  return compare_methods(request, [&](std::size_t done) {
-    progress.show(static_cast<std::int64_t>(done));
+  Progress progress(0, 0, options.quiet);
+  return compare_methods(request, [&](const ComparisonProgress& now) {
+    progress.show(now.part, now.seconds_left, fmt::format("{} of {} runs", now.done, now.runs));
     return !interrupted();
   });
 }
@@ -118,6 +113,7 @@ int compare(const CompareOptions& options) {
   if (!reader.complaints.empty()) throw Rejection(reader.complaints);
   print_notes(scenario.notes, options.quiet);
   print_notes(reader.notes, options.quiet);
+  print_notes(comparison_notes(reader.request), options.quiet);
   const bool writes = !options.out.empty() && options.out != "none";
   if (writes) make_comparison_folder(options.out, options.force);
   const ComparisonReport report = carry_out(reader.request, options);

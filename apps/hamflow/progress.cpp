@@ -33,20 +33,35 @@ Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::show(std::int64_t step) {
-  if (!visible_ || steps_ == 0) return;
+bool Progress::is_due() {
+  if (!visible_) return false;
   const Clock::time_point now = Clock::now();
-  if (std::chrono::duration<double>(now - last_).count() < 0.1) return;
+  if (std::chrono::duration<double>(now - last_).count() < 0.1) return false;
   last_ = now;
-  const double seconds = std::chrono::duration<double>(now - begin_).count();
-  const double part = static_cast<double>(step) / static_cast<double>(steps_);
-  const double rate = static_cast<double>(step - first_) / seconds;
+  return true;
+}
+
+void Progress::draw(double part, const std::string& text) {
   constexpr int width = 30;
   const auto filled = static_cast<std::size_t>(part * width);
-  fmt::print(stderr, "\r[{:<{}}] {:5.1f} %  {:.3g} steps/s  {:.0f} s left\033[K", std::string(filled, '='), width,
-             100 * part, rate, static_cast<double>(steps_ - step) / rate);
+  fmt::print(stderr, "\r[{:<{}}] {:5.1f} %  {}\033[K", std::string(filled, '='), width, 100 * part, text);
   std::fflush(stderr);
   drawn_ = true;
+}
+
+void Progress::show(std::int64_t step) {
+  if (steps_ == 0 || !is_due()) return;
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  const double rate = static_cast<double>(step - first_) / seconds;
+  const double part = static_cast<double>(step) / static_cast<double>(steps_);
+  // Before the first step there is no rate to tell the time left from.
+  draw(part, rate > 0 ? fmt::format("{:.3g} steps/s  {:.0f} s left", rate, static_cast<double>(steps_ - step) / rate)
+                      : std::string("before the first step"));
+}
+
+void Progress::show(double part, std::optional<double> seconds_left, const std::string& what) {
+  if (!is_due()) return;
+  draw(part, seconds_left ? fmt::format("{}  {:.0f} s left", what, *seconds_left) : what);
 }
 
 }  // namespace hamflow::app

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 namespace hamflow::app {
 
@@ -17,8 +19,12 @@ class Progress {
   ~Progress();
   /// Redraws at most ten times a second.
   void show(std::int64_t step);
+  /// The same of work that is not steps. @param part of the time, in [0, 1]   @param what e.g. "run 3 of 66"
+  void show(double part, std::optional<double> seconds_left, const std::string& what);
 
  private:
+  bool is_due();
+  void draw(double part, const std::string& text);
   using Clock = std::chrono::steady_clock;
   std::int64_t first_;
   std::int64_t steps_;

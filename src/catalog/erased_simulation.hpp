@@ -3,13 +3,14 @@
 
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/run/simulation_of.hpp"
+#include "hamflow/verify/extrapolated_midpoint.hpp"
 #include "visit_erased.hpp"
 
 namespace hamflow {
 
 template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
-  return visit_erased(run.functions.capability, request.method, [&]<Capability c, class M>(const M& recipe) {
+  const auto simulate = [&]<Capability c, class M>(const M& recipe) {
     const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
       const auto problem = run.functions.template as<c>();
       using P = std::remove_const_t<decltype(problem)>;
@@ -34,7 +35,15 @@ std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Reque
       }
       return build(Plain<R>{});
     }
-  });
+  };
+  if constexpr (!std::is_same_v<R, double>) {
+    if (request.method.name == ExtrapolatedMidpoint::name) {
+      const double tolerance = number_value(request.method.options.at(tolerance_option));
+      return detail::visit_face<ExtrapolatedMidpoint, 0>(run.functions.capability,
+                                                         ExtrapolatedMidpoint{{.tolerance = tolerance}}, simulate);
+    }
+  }
+  return visit_erased(run.functions.capability, request.method, simulate);
 }
 
 }  // namespace hamflow

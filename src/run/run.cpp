@@ -46,7 +46,7 @@ Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* 
             const std::function<bool(std::int64_t)>& pulse) {
   using Clock = std::chrono::steady_clock;
   constexpr double wanted_seconds = 0.02;  // between looks at the clock: quick to stop, far too rare to cost anything
-  std::int64_t block = 256;
+  std::int64_t block = 1;                  // a step in many digits can take a second
   std::int64_t since_pulse = 0;
   Clock::time_point pulsed = Clock::now();
   Frames frames;
@@ -60,7 +60,7 @@ Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* 
     if (outcome != Outcome::done) return outcome;
     if (since_pulse >= block) {
       const double seconds = std::chrono::duration<double>(Clock::now() - pulsed).count();
-      if (seconds < wanted_seconds / 2) block = std::min(block * 2, std::int64_t{1} << 30);
+      if (seconds < wanted_seconds / 2) block = std::min(block * (block < 256 ? 16 : 2), std::int64_t{1} << 30);
       if (seconds > wanted_seconds * 2) block = std::max(block / 2, std::int64_t{1});
       pulsed = Clock::now();
       since_pulse = 0;

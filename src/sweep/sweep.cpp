@@ -163,6 +163,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   }
   group.members.push_back(member);
   total_steps_ += scenario.steps;
+  beyond_double_ = beyond_double_ || digits_beyond_double(request.arithmetic) > 0;
   if (group.lanes > 0) {
     ++in_lanes_;
     lane_count_ = group.lanes;
@@ -246,6 +247,7 @@ class Sweep::Worker {
     row.t = frame.time;
     row.q = frame.q;
     row.p = frame.p;
+    row.digits = frame.digits;
     row.energy = simulation->energy();
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();

@@ -23,6 +23,7 @@ struct MemberRow {
   double t = 0;
   std::vector<double> q;
   std::vector<double> p;
+  FrameDigits digits;  // the same with all digits, in arithmetic beyond double
   Excursion energy;
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;
@@ -63,6 +64,8 @@ class Sweep {
   /// Members that run in lanes.
   std::size_t members_in_lanes() const { return in_lanes_; }
   std::int64_t total_steps() const { return total_steps_; }
+  /// Whether a member has more digits than double.
+  bool beyond_double() const { return beyond_double_; }
 
   /// Runs all members. @param pulse called several times a second with the steps taken by all; false stops
   void run(const std::function<bool(std::int64_t)>& pulse);
@@ -106,6 +109,7 @@ class Sweep {
   std::size_t in_lanes_ = 0;
   std::size_t lane_count_ = 0;
   std::int64_t total_steps_ = 0;
+  bool beyond_double_ = false;
   std::atomic<bool> stop_{false};
   std::atomic<std::int64_t> steps_taken_{0};
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 
@@ -70,6 +71,32 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   }
 }
 
+/// All digits of a row. Of a member in double, where others have more, those that read back as the same double.
+FrameDigits digits_of(const MemberRow& row) {
+  if (!row.digits.q.empty() || row.q.empty()) return row.digits;
+  FrameDigits all{shortest(row.t), {}, {}, shortest(row.energy.final), shortest(row.energy.initial)};
+  for (const double x : row.q) all.q.push_back(shortest(x));
+  for (const double x : row.p) all.p.push_back(shortest(x));
+  return all;
+}
+
+void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& columns) {
+  const auto add = [&](const char* name, std::size_t width, bool scalar, const auto& value) {
+    SweepColumn column{name, width, scalar};
+    for (const MemberRow& row : sweep.rows()) {
+      const std::vector<std::string> texts = value(digits_of(row));
+      for (std::size_t i = 0; i < width; ++i) column.texts.push_back(i < texts.size() ? texts[i] : "");
+    }
+    columns.push_back(std::move(column));
+  };
+  using List = std::vector<std::string>;
+  add("digits/final/t", 1, true, [](const FrameDigits& d) { return List{d.time}; });
+  add("digits/final/q", n, false, [](const FrameDigits& d) { return d.q; });
+  add("digits/final/p", n, false, [](const FrameDigits& d) { return d.p; });
+  add("digits/energy/initial", 1, true, [](const FrameDigits& d) { return List{d.initial_energy}; });
+  add("digits/energy/final", 1, true, [](const FrameDigits& d) { return List{d.energy}; });
+}
+
 void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memory, int rank, const hsize_t* size,
                    const void* values) {
   const Hdf5Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose, "make a data space");
@@ -81,9 +108,8 @@ void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memo
 }
 
 void write_column(hid_t file, const SweepColumn& column) {
-  const hsize_t rows = !column.texts.empty()
-                           ? column.texts.size()
-                           : (!column.counts.empty() ? column.counts.size() : column.numbers.size()) / column.width;
+  const std::size_t values = std::max({column.texts.size(), column.counts.size(), column.numbers.size()});
+  const hsize_t rows = values / column.width;
   const hsize_t size[2] = {rows, column.width};
   const int rank = column.scalar ? 1 : 2;
   if (!column.texts.empty()) {
@@ -92,7 +118,7 @@ void write_column(hid_t file, const SweepColumn& column) {
     std::string all;
     for (const std::string& text : column.texts) all += text + std::string(longest - text.size(), '\0');
     const Hdf5Handle type = text_type(longest);
-    write_dataset(file, column.name, type, type, 1, size, all.data());
+    write_dataset(file, column.name, type, type, rank, size, all.data());
   } else if (!column.counts.empty()) {
     write_dataset(file, column.name, H5T_STD_I64LE, H5T_NATIVE_INT64, rank, size, column.counts.data());
   } else {
@@ -129,6 +155,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
       return i < row.observables.size() ? row.observables[i] : nothing;
     }));
   }
+  if (sweep.beyond_double()) add_digits(sweep, n, columns);
   return columns;
 }
 
@@ -150,7 +177,15 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
 void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
   std::ofstream out(file);
   if (!out) throw FileError("cannot write " + file.string());
-  const std::vector<SweepColumn> columns = columns_of(sweep);
+  // Each column with all its digits, where there are more than those of a double.
+  std::vector<SweepColumn> columns = columns_of(sweep);
+  const std::string beyond_double = "digits/";
+  for (SweepColumn& column : columns) {
+    for (const SweepColumn& other : columns) {
+      if (other.name == beyond_double + column.name) column.texts = other.texts;
+    }
+  }
+  std::erase_if(columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
   const auto quoted = [](const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string all = "\"";
@@ -170,7 +205,7 @@ void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
     for (const SweepColumn& column : columns) {
       for (std::size_t i = 0; i < column.width; ++i) {
         if (!column.texts.empty()) {
-          cells.push_back(quoted(column.texts[row]));
+          cells.push_back(quoted(column.texts[row * column.width + i]));
         } else if (!column.counts.empty()) {
           cells.push_back(std::to_string(column.counts[row]));
         } else {

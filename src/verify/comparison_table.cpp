@@ -1,6 +1,7 @@
 // A comparison for people and for spreadsheets.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "aligned.hpp"
@@ -24,6 +25,14 @@ std::string field(const std::string& text) {
 }
 
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : ""; }
+std::string number(const Magnitude& x) { return x.text.empty() ? number(x.value) : x.text; }
+
+/// An error that is not above what the reference is uncertain by may be twice that, or nothing.
+std::string error_text(const ComparisonPoint& p, const Magnitude& uncertainty) {
+  if (!p.below_uncertainty) return readable(p.error, 2);
+  return "< " + readable(Magnitude(2 * uncertainty.value));
+}
+bool is_series(const ComparisonPoint& p) { return p.method.starts_with("taylor"); }
 }  // namespace
 
 std::string comparison_table(const Comparison& c) {
@@ -38,8 +47,8 @@ std::string comparison_table(const Comparison& c) {
     if (p.done()) {
       const double per_step = p.evaluations() / static_cast<double>(p.steps);
       for (const std::string& text : {fmt::format("{:.4g}", per_step), fmt::format("{:.0f}", p.evaluations()),
-                                      fmt::format("{:.2e}", p.error), fmt::format("{:.1e}", p.max_energy_error),
-                                      fmt::format("{:.1e}", p.end_energy_error), time_text(p.seconds)}) {
+                                      error_text(p, c.reference.uncertainty), readable(p.max_energy_error),
+                                      readable(p.end_energy_error), time_text(p.seconds)}) {
         line.push_back(text);
       }
     } else {
@@ -47,17 +56,18 @@ std::string comparison_table(const Comparison& c) {
     }
     lines.push_back(line);
   }
-  std::string text = fmt::format("{}, t = {}, {} arithmetic\nreference: {}; uncertain by {:.1e}\n\n", c.problem,
-                                 shortest(c.t_end), c.arithmetic, c.reference.description, c.reference.uncertainty);
+  std::string text =
+      fmt::format("{}, t = {}, {} arithmetic\nreference: {}; uncertain by {}\n\n", c.problem, shortest(c.t_end),
+                  c.arithmetic, c.reference.description, readable(c.reference.uncertainty));
   text += aligned(lines);
   Lines best{{"error", "fewest evaluations", "", "", "least time", "", ""}};
   const std::vector<ComparisonWinner> all = winners(c);
   for (const ComparisonWinner& w : all) {
     if (w.by != "evaluations") continue;
-    std::vector<std::string> line{fmt::format("{:.0e}", w.error), w.method, fmt::format("{:.3g}", w.work),
+    std::vector<std::string> line{readable(w.error, 0), w.method, fmt::format("{:.3g}", w.work),
                                   w.second.empty() ? "" : fmt::format("(then {}, {:.3g})", w.second, w.second_work)};
     for (const ComparisonWinner& t : all) {
-      if (t.by != "seconds" || t.error != w.error) continue;
+      if (t.by != "seconds" || t.error.log10 != w.error.log10) continue;
       line.push_back(t.method);
       line.push_back(time_text(t.work));
       line.push_back(t.second.empty() ? "" : fmt::format("(then {}, {})", t.second, time_text(t.second_work)));
@@ -65,19 +75,26 @@ std::string comparison_table(const Comparison& c) {
     best.push_back(line);
   }
   if (best.size() > 1) text += "\n" + aligned(best);
+  if (std::any_of(c.points.begin(), c.points.end(), [](const ComparisonPoint& p) { return is_series(p); })) {
+    text +=
+        "\nAn evaluation of taylor is one coefficient of its series: one pass over the operations of the gradient, "
+        "each\n"
+        "of them a sum of as many products as coefficients are there; the time shows what that takes.\n";
+  }
   return text;
 }
 
 std::string comparison_csv(const Comparison& c) {
   std::string text =
       "method,order,dt,tolerance,steps,status,force,gradient,hessian,linear_solves,error,max_energy_error,"
-      "end_energy_error,seconds,reason\n";
+      "end_energy_error,seconds,reason,below_uncertainty\n";
   for (const ComparisonPoint& p : c.points) {
-    const auto measured = [&](double x) { return p.done() ? number(x) : std::string(); };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(p.method), p.order, number(p.dt),
+    const auto measured = [&](const auto& x) { return p.done() ? number(x) : std::string(); };
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(p.method), p.order, number(p.dt),
                         p.tolerance ? number(*p.tolerance) : "", p.steps, p.done() ? "done" : "failed", p.force,
                         p.gradient, p.hessian, p.linear_solves, measured(p.error), measured(p.max_energy_error),
-                        measured(p.end_energy_error), measured(p.seconds), field(p.failure));
+                        measured(p.end_energy_error), measured(p.seconds), field(p.failure),
+                        p.done() ? (p.below_uncertainty ? "true" : "false") : "");
   }
   return text;
 }

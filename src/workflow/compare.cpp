@@ -18,6 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+/// A number too small for a double is a text.
+Json json_of(const Magnitude& x) { return x.text.empty() ? Json(x.value) : Json(x.text); }
+
 Json row_of(const ComparisonPoint& p) {
   Json row{
       {"method", p.method},
@@ -28,19 +31,31 @@ Json row_of(const ComparisonPoint& p) {
       {"evaluations",
        {{"force", p.force}, {"gradient", p.gradient}, {"hessian", p.hessian}, {"linear_solves", p.linear_solves}}}};
   if (p.tolerance) row["tolerance"] = *p.tolerance;
-  const auto measured = [&](double x) { return p.done() ? Json(x) : Json(nullptr); };
+  const auto measured = [&](const Magnitude& x) { return p.done() ? json_of(x) : Json(nullptr); };
   row["error"] = measured(p.error);
   row["max_energy_error"] = measured(p.max_energy_error);
   row["end_energy_error"] = measured(p.end_energy_error);
   row["seconds"] = measured(p.seconds);
   row["wall_seconds"] = measured(p.wall_seconds);
-  if (!p.done()) row["reason"] = p.failure;
+  if (p.below_uncertainty) row["below_uncertainty"] = true;
+  if (!p.done()) {
+    row["kind"] = std::string(name(p.outcome));
+    row["reason"] = p.failure;
+  }
   return row;
 }
 
 Json json_of(const Comparison& c, const std::string& status) {
+  // More digits than a JSON number may be read with: texts.
   const std::size_t n = c.reference.end.size() / 2;
-  const auto middle = c.reference.end.begin() + static_cast<std::ptrdiff_t>(n);
+  const auto part = [&](std::size_t first) {
+    Json numbers = Json::array();
+    for (std::size_t i = first; i < first + n; ++i) {
+      numbers.push_back(digits_beyond_double(c.arithmetic) > 0 ? Json(c.reference.digits[i])
+                                                               : Json(c.reference.end[i]));
+    }
+    return numbers;
+  };
   Json all{{"status", status},
            {"problem", c.problem},
            {"arithmetic", c.arithmetic},
@@ -48,14 +63,14 @@ Json json_of(const Comparison& c, const std::string& status) {
            {"reference",
             {{"kind", c.reference.kind},
              {"description", c.reference.description},
-             {"q", State<double>(c.reference.end.begin(), middle)},
-             {"p", State<double>(middle, c.reference.end.end())},
-             {"uncertainty", c.reference.uncertainty}}},
+             {"q", part(0)},
+             {"p", part(n)},
+             {"uncertainty", json_of(c.reference.uncertainty)}}},
            {"rows", Json::array()},
            {"winners", Json::array()}};
   for (const ComparisonPoint& p : c.points) all["rows"].push_back(row_of(p));
   for (const ComparisonWinner& w : winners(c)) {
-    all["winners"].push_back({{"error", w.error}, {"by", w.by}, {"method", w.method}, {"work", w.work}});
+    all["winners"].push_back({{"error", json_of(w.error)}, {"by", w.by}, {"method", w.method}, {"work", w.work}});
     if (w.second.empty()) continue;
     all["winners"].back()["second"] = w.second;
     all["winners"].back()["second_work"] = w.second_work;
@@ -65,7 +80,8 @@ Json json_of(const Comparison& c, const std::string& status) {
 
 }  // namespace
 
-ComparisonReport compare_methods(const ComparisonRequest& request, const std::function<bool(std::size_t)>& progress) {
+ComparisonReport compare_methods(const ComparisonRequest& request,
+                                 const std::function<bool(const ComparisonProgress&)>& progress) {
   ComparisonReport report;
   report.comparison = compare(request, progress);
   const std::vector<ComparisonPoint>& points = report.comparison.points;
@@ -82,7 +98,7 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   WorkPrecision data;
   data.title = fmt::format("{}, t = {}, {} arithmetic", c.problem, shortest(c.t_end), c.arithmetic);
-  data.floor = c.reference.uncertainty;
+  data.floor = c.reference.uncertainty.value;
   std::string last;
   for (const ComparisonPoint& p : c.points) {
     if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});
@@ -90,8 +106,8 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
     WorkCurve& curve = data.curves.back();
     curve.evaluations.push_back(p.evaluations());
     curve.seconds.push_back(p.done() ? p.seconds : nothing);
-    curve.error.push_back(p.done() ? p.error : nothing);
-    curve.energy_error.push_back(p.done() ? p.max_energy_error : nothing);
+    curve.error.push_back(p.done() ? p.error.value : nothing);
+    curve.energy_error.push_back(p.done() ? p.max_energy_error.value : nothing);
   }
   write_work_precision(data, file);
 }

@@ -50,6 +50,11 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
                     {"final", row.energy.final},
                     {"max_error", row.energy.max_error},
                     {"scale", row.energy_scale}};
+  if (!row.digits.q.empty()) {  // more digits than a JSON number may be read with: texts
+    json["final"] = {{"t", row.digits.time}, {"q", row.digits.q}, {"p", row.digits.p}};
+    json["energy"]["initial"] = row.digits.initial_energy;
+    json["energy"]["final"] = row.digits.energy;
+  }
   json["invariants"] = Json::object();
   const std::vector<InvariantInfo>& declared = sweep.common().problem->info.invariants;
   for (std::size_t i = 0; i < row.invariants.size(); ++i) {
@@ -86,6 +91,7 @@ Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
   s["instruction_set"] = std::string(name(sweep.lanes()));
   s["lanes"] = sweep.members_in_lanes() > 0 ? sweep.lane_count() : 1;
   s["members_in_lanes"] = sweep.members_in_lanes();
+  if (sweep.beyond_double()) s["note"] = "members beyond double run one by one on the threads: lanes are for double";
   s["threads"] = sweep.threads();
   s["failures"] = Json::array();
   for (std::size_t member = 0; member < sweep.members() && s["failures"].size() < most_failures; ++member) {
@@ -118,6 +124,7 @@ std::string readable_sweep(const Json& s) {
   line("lanes", fmt::format("{} ({}), {} members in lanes, threads {}", s["lanes"].get<std::size_t>(),
                             s["instruction_set"].get<std::string>(), s["members_in_lanes"].get<std::size_t>(),
                             s["threads"].get<int>()));
+  if (s.contains("note")) line("note", s["note"].get<std::string>());
   line("wall time", fmt::format("{:.3g} s, {:.4g} member steps/s, {:.4g} members/s", s["wall_seconds"].get<double>(),
                                 s["member_steps_per_second"].get<double>(), s["members_per_second"].get<double>()));
   return text;

@@ -1,8 +1,12 @@
 """hamflow compare: orders, references, rows, winners; the table, JSON, CSV and the figure say the same."""
 
 import csv
+import decimal
 import json
 import math
+import os
+import pty
+import re
 import signal
 import subprocess
 import time
@@ -54,10 +58,15 @@ class Compare(CommandCase):
         self.assertEqual(c["rows"][0]["max_energy_error"], s["energy"]["max_relative_error"])
         self.assertEqual(c["rows"][0]["evaluations"], s["evaluations"])
 
-    def test_extrapolation_where_there_is_no_closed_form(self):
+    def test_two_integrations_where_there_is_no_closed_form(self):
         c = self.compare("henon.toml", "--methods", "verlet,yoshida6,rk4")
-        self.assertEqual(c["reference"]["kind"], "extrapolation")
-        self.assertLess(c["reference"]["uncertainty"], 1e-16)
+        self.assertEqual(c["reference"]["kind"], "integration")
+        for word in ("Taylor series", "extrapolated midpoint", "differs by", "double-double"):
+            self.assertIn(word, c["reference"]["description"])
+        # Two digits below those of double, carried over ten units of time; never less than what a tolerance promises.
+        size = max(abs(x) for x in c["reference"]["q"] + c["reference"]["p"])
+        self.assertLess(c["reference"]["uncertainty"], 1e-17)
+        self.assertGreaterEqual(c["reference"]["uncertainty"], 0.99e-18 * size)
         for first, order in ((0, 2), (12, 4)):
             for slope in self.slopes(c["rows"][first + 1:first + 6], "error"):
                 self.assertAlmostEqual(slope, order, delta=0.15)
@@ -68,6 +77,82 @@ class Compare(CommandCase):
         fine = self.compare("henon.toml", "--methods", "yoshida6", "--dt", "0.003125", "--set",
                             "run.arithmetic=compensated")
         self.assertLess(fine["rows"][0]["error"], 4 * 2.0**-52)
+
+    def test_the_uncertainty_bounds_the_distance_of_both_kinds_of_reference(self):
+        """The closed form of Kepler's problem against the same motion of two bodies, for which none is known here."""
+        start = "q=[0.5,0,-0.5,0],p=[0,0.5,0,-0.5]"
+        self.write("bodies.toml", "[problem]\nname='n-body'\nmasses=[1,1]\ninitial={%s}\n" % start +
+                   "[method]\nname='stv4'\n[run]\ndt=0.1\nsteps=200\n")
+        self.write("reduced.toml", "[problem]\nname='central-force'\npotential='kepler'\nk=1\nmass=0.5\n"
+                   "initial={q=[1,0],p=[0,0.5]}\n[method]\nname='stv4'\n[run]\ndt=0.1\nsteps=200\n")
+        bodies = self.compare("bodies.toml", "--methods", "verlet", "--dt", "0.1")["reference"]
+        reduced = self.compare("reduced.toml", "--methods", "verlet", "--dt", "0.1")["reference"]
+        self.assertEqual((bodies["kind"], reduced["kind"]), ("integration", "closed form"))
+        # q = q1 - q2, p = (p1 - p2)/2; the reference is printed in double.
+        printed = 4 * 2.0**-53
+        for i in range(2):
+            self.assertLessEqual(abs(bodies["q"][i] - bodies["q"][i + 2] - reduced["q"][i]),
+                                 reduced["uncertainty"] + 2 * bodies["uncertainty"] + printed)
+            self.assertLessEqual(abs((bodies["p"][i] - bodies["p"][i + 2]) / 2 - reduced["p"][i]),
+                                 reduced["uncertainty"] + 2 * bodies["uncertainty"] + printed)
+
+    def test_an_error_below_the_uncertainty_is_not_told(self):
+        # e^(t) of the Lyapunov kind: after 600 units of a chaotic orbit no digit of any arithmetic here is left.
+        self.write("chaos.toml", "[problem]\nname='henon-heiles'\ninitial={q=[0,-0.25],p=[0.42,0]}\n"
+                   "[method]\nname='stv4'\n[run]\ndt=0.1\nsteps=20000\n")
+        c = self.compare("chaos.toml", "--methods", "stv4,yoshida6", "--dt", "0.1")
+        self.assertGreater(c["reference"]["uncertainty"], 1e-3)
+        for row in c["rows"]:
+            self.assertEqual(row.get("below_uncertainty", False), row["error"] <= c["reference"]["uncertainty"])
+        self.assertEqual([w for w in c["winners"] if w["error"] < 4 * c["reference"]["uncertainty"]], [])
+        if any("below_uncertainty" in row for row in c["rows"]):
+            self.assertIn("< ", self.hamflow("compare", "chaos.toml", "--methods", "stv4,yoshida6", "--dt", "0.1").stdout)
+
+    def test_more_digits(self):
+        """Orders go on far below the rounding of double; errors are those of the run's own digits."""
+        for arithmetic, floor in (("double-double", 1e-28), ("quad", 1e-30), ("mp(50)", 1e-46), ("mp(12)", 1e-9)):
+            c = self.compare("henon.toml", "--methods", "kahan-li8,gauss(4)", "--dt", "0.1,0.05,0.025", "--set",
+                             "run.steps=10", "--set", f"run.arithmetic={arithmetic}")
+            self.assertEqual(c["arithmetic"], arithmetic)
+            self.assertIsInstance(c["reference"]["q"][0], str)
+            self.assertLess(c["reference"]["uncertainty"], floor)
+            for method in ("kahan-li8", "gauss(4)"):
+                rows = [r for r in c["rows"] if r["method"] == method]
+                if arithmetic != "mp(12)":
+                    for slope in self.slopes(rows, "error"):
+                        self.assertAlmostEqual(slope, 8, delta=0.4)
+                self.assertGreater(rows[-1]["max_energy_error"], 0)
+                self.assertLessEqual(rows[-1]["end_energy_error"], rows[-1]["max_energy_error"] * (1 + 1e-12))
+        table = self.hamflow("compare", "henon.toml", "--methods", "kahan-li8", "--dt", "0.1", "--set", "run.steps=10",
+                             "--set", "run.arithmetic=quad", "--csv", "t.csv", "--figure", "f.svg").stdout
+        self.assertIn("quad arithmetic", table)
+        self.assertGreater((self.folder / "f.svg").stat().st_size, 1000)
+
+    def test_more_digits_are_those_of_a_run(self):
+        c = self.compare("henon.toml", "--methods", "verlet", "--dt", "0.1", "--set", "run.steps=7", "--set",
+                         "run.arithmetic=quad")
+        run = self.summary("henon.toml", "--set", "method.name=verlet", "--set", "run.steps=7", "--set",
+                           "run.arithmetic=quad")
+        with decimal.localcontext() as context:
+            context.prec = 60
+            D = decimal.Decimal
+            ends = [abs(D(a) - D(b)) for key in ("q", "p") for a, b in zip(run["final"][key], c["reference"][key])]
+            energy = abs(D(run["energy"]["final"]) - D(run["energy"]["initial"])) / D(run["energy"]["scale"])
+        self.assertAlmostEqual(c["rows"][0]["error"] / float(max(ends)), 1, delta=1e-12)
+        self.assertAlmostEqual(c["rows"][0]["end_energy_error"] / float(energy), 1, delta=1e-12)
+
+    def test_errors_below_the_doubles_are_texts(self):
+        # One step of the first order over 1e-200: an error near 1e-400, that of the free fall exactly g h^2/2.
+        self.write("fall.toml", "[problem]\nname='harmonic'\ninitial={q=[1],p=[0]}\n[method]\nname='verlet'\n"
+                   "[run]\ndt='1e-110'\nsteps=1\narithmetic='mp(350)'\n")
+        c = self.compare("fall.toml", "--methods", "verlet", "--dt", "1e-110")
+        # p = -h + h^3/6 of the exact motion, -h + h^3/4 of verlet: the error is h^3/12.
+        error = c["rows"][0]["error"]
+        if isinstance(error, str):
+            mantissa, exponent = error.split("e")
+            self.assertAlmostEqual(float(mantissa), 10 / 12, delta=1e-9)
+            self.assertEqual(int(exponent), -331)
+        self.assertTrue(c["rows"][0].get("below_uncertainty"))
 
     def test_adaptive_methods_vary_their_tolerance(self):
         c = self.compare("henon.toml", "--methods", "dop853,taylor,stv4")
@@ -80,6 +165,22 @@ class Compare(CommandCase):
             for r in rows:  # the tolerance is that of a sub-step, of which there are some hundred
                 self.assertLess(r["error"], max(1e3 * r["tolerance"], 1e-13), r)
         self.assertTrue(all("tolerance" not in r for r in c["rows"] if r["method"] == "stv4"))
+        # They are ranked by evaluations like the others, and the table says what one of taylor is.
+        ranked = {name for w in c["winners"] if w["by"] == "evaluations" for name in (w["method"], w.get("second"))}
+        self.assertIn("taylor", ranked)
+        self.assertIn("coefficient", self.hamflow("compare", "henon.toml", "--methods", "taylor").stdout)
+
+    def test_a_tolerance_that_is_given_counts(self):
+        done = self.hamflow("compare", "henon.toml", "--methods", "dop853(tolerance=1e-12),dop853(1e-6),stv4", "--dt",
+                            "0.1,0.05", "--json")
+        rows = json.loads(done.stdout)["rows"]
+        self.assertEqual([r["method"] for r in rows], ["dop853(tolerance=1e-12)", "dop853(tolerance=1e-06)"] + 2 * ["stv4"])
+        self.assertEqual([r.get("tolerance") for r in rows], [1e-12, 1e-6, None, None])
+        self.assertLess(rows[0]["error"], 1e-10)
+        self.assertGreater(rows[1]["error"], 10 * rows[0]["error"])
+        self.assertIn("dop853(tolerance=1e-12) chooses its sub-steps by its tolerance: no dt changes them", done.stderr)
+        alone = self.compare("henon.toml", "--methods", "dop853,taylor", "--dt", "0.1")["rows"]
+        self.assertEqual([r["tolerance"] for r in alone], [1e-12, 1e-12])
 
     def test_winners_lie_between_rows(self):
         c = self.compare("henon.toml", "--methods", "verlet,stv4,yoshida6")
@@ -110,7 +211,7 @@ class Compare(CommandCase):
                          "--dt", "10,0.1")
         by = {(r["method"], r["steps"]): r for r in c["rows"]}
         bad = by["cg(1,5)", 30]
-        self.assertEqual(bad["status"], "failed")
+        self.assertEqual((bad["status"], bad["kind"]), ("failed", "not_converged"))
         self.assertIn("step", bad["reason"])
         self.assertIsNone(bad["error"])
         self.assertEqual(by["cg(1,5)", 3000]["status"], "done")
@@ -164,6 +265,29 @@ class Compare(CommandCase):
         out = self.hamflow("compare", "henon.toml", "--methods", "verlet,stv4").stdout
         for word in ("reference: ", "evaluations", "energy error", "fewest evaluations", "least time"):
             self.assertIn(word, out)
+
+    def test_progress_tells_a_time_left_that_is_a_number(self):
+        """On a terminal: runs that are done, and from the first look at every pace on the time left."""
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.chdir(self.folder)
+            os.execv(HAMFLOW, ["hamflow", "compare", "kepler.toml", "--methods", "verlet,gauss(4),taylor", "--set",
+                               "run.steps=20000", "--dt", "0.1,0.01", "--json"])
+        shown = b""
+        while True:
+            try:
+                part = os.read(terminal, 4096)
+            except OSError:  # how Linux ends a terminal whose other side is closed
+                break
+            if not part:
+                break
+            shown += part
+        self.assertEqual(os.waitpid(pid, 0)[1], 0)
+        text = shown.decode()
+        self.assertNotIn("inf", text)
+        self.assertNotIn("nan s", text)
+        parts = [float(word) for word in re.findall(r"\]\s+([0-9.]+) %", text)]
+        self.assertEqual(parts, sorted(parts))
 
     def test_ctrl_c(self):
         process = subprocess.Popen([HAMFLOW, "compare", "kepler.toml", "--methods", "stv4", "--set", "run.steps=100000000",

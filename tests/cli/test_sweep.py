@@ -10,6 +10,11 @@ import unittest
 
 from command import HAMFLOW, CommandCase
 
+try:
+    import h5py
+except ImportError:  # the tests that need it are left out
+    h5py = None
+
 KEPLER = """
 [problem]
 name = "central-force"
@@ -144,6 +149,45 @@ steps = 200
         self.write("p.toml", scenario('name = "central-force"\npotential = "power"\na = [1.0]\nn = [1.0]',
                                       "[1.0, 0.0]", "[0.0, 1.0]"))
         self.check("p.toml", "problem.a[0]=0.9:1.1:3", members=(0, 2), lanes=False)
+
+    def test_more_digits(self):
+        """Rows, files and CSV have the digits of the single runs; nothing is rounded to double on the way."""
+        self.write("k.toml", KEPLER + '[output]\nformats = ["h5", "csv"]\n')
+        for arithmetic in ("double-double", "quad", "mp(40)"):
+            more = ["--set", f"run.arithmetic={arithmetic}", "--set", "run.steps=20"]
+            sweep = self.sweep("k.toml", "--vary", "problem.k=0.9,'1/3'", *more)
+            self.assertEqual((sweep["arithmetic"], sweep["members_in_lanes"]), (arithmetic, 0))
+            self.assertIn("lanes are for double", sweep["note"])
+            runs = [self.single("k.toml", f"problem.k={k}", *more[1::2]) for k in ("0.9", "'1/3'")]
+            for row, run in zip(sweep["rows"], runs):
+                self.assertIsInstance(row["final"]["q"][0], str)
+                self.assert_same(row, run)
+            self.hamflow("sweep", "k.toml", "--vary", "problem.k=0.9,'1/3'", *more, "--out", "out", "--force")
+            table = list(csv.DictReader((self.folder / "out" / "sweep.csv").read_text().splitlines()))
+            for line, run in zip(table, runs):
+                self.assertEqual([line["final/t"], line["final/q1"], line["final/p2"], line["energy/initial"]],
+                                 [run["final"]["t"], run["final"]["q"][0], run["final"]["p"][1], run["energy"]["initial"]])
+            if h5py is None:
+                continue
+            with h5py.File(self.folder / "out" / "sweep.h5") as file:
+                for name, values in (("final/q", [run["final"]["q"] for run in runs]),
+                                     ("final/p", [run["final"]["p"] for run in runs]),
+                                     ("final/t", [run["final"]["t"] for run in runs]),
+                                     ("energy/initial", [run["energy"]["initial"] for run in runs]),
+                                     ("energy/final", [run["energy"]["final"] for run in runs])):
+                    texts = file["digits/" + name].asstr()[...].tolist()
+                    self.assertEqual(texts, values, name)
+                    # The doubles beside them are the same numbers, rounded.
+                    self.assertEqual(file[name][...].tolist(),
+                                     [[float(x) for x in v] if isinstance(v, list) else float(v) for v in values])
+
+    def test_digits_beside_doubles(self):
+        self.write("k.toml", KEPLER + '[output]\nformats = ["csv"]\n')
+        self.hamflow("sweep", "k.toml", "--vary", "run.arithmetic=double,quad", "--set", "run.steps=5", "--out", "out")
+        table = list(csv.DictReader((self.folder / "out" / "sweep.csv").read_text().splitlines()))
+        runs = [self.single("k.toml", f"run.arithmetic={a}", "run.steps=5") for a in ("double", "quad")]
+        self.assertEqual(float(table[0]["final/q1"]), runs[0]["final"]["q"][0])
+        self.assertEqual(table[1]["final/q1"], runs[1]["final"]["q"][0])
 
     def test_product_in_order_and_methods_mixed(self):
         self.write("k.toml", KEPLER)

@@ -1,6 +1,6 @@
 // **Comparison** of methods on one run: what accuracy costs.
-// Each method goes the same way with several steps; the error at the end is measured against the closed form where
-// there is one, else against a method of another family.
+// Each method goes the same way with several steps, or tolerances; the error at the end is measured against a reference
+// whose uncertainty is stated (verify/reference_solution.hpp), in the digits of the run.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/step_map.hpp"
+#include "hamflow/verify/reference_solution.hpp"
 
 namespace hamflow {
 
@@ -20,14 +20,7 @@ struct ComparisonRequest {
   std::vector<MethodSpec> methods;
   double t_end = 0;
   std::vector<std::int64_t> steps;  // to t_end, one for each dt
-};
-
-/// The end state that errors are measured against.
-struct ReferenceSolution {
-  std::string kind;  // "closed form", "extrapolation"
-  std::string description;
-  State<double> end;       // q, then p
-  double uncertainty = 0;  // of its largest coordinate, estimated
+  std::string t_end_text{};         // with all its digits, a number expression; empty: that of t_end
 };
 
 /// One method with one dt, or one tolerance.
@@ -40,10 +33,11 @@ struct ComparisonPoint {
   std::optional<double> tolerance;  // of an adaptive method, which has it in place of dt
   Outcome outcome = Outcome::done;
   std::string failure;
-  double error = 0;                          // largest coordinate of the difference at the end
-  double max_energy_error = 0;               // over every step, relative to the energy's scale
-  double end_energy_error = 0;               // the same at the end
-  long long force = 0, gradient = 0;         // evaluations
+  Magnitude error;                           // largest coordinate of the difference at the end
+  bool below_uncertainty = false;            // of the reference: the error is no more than that it is small
+  Magnitude max_energy_error;                // over every step, relative to the energy's scale
+  Magnitude end_energy_error;                // the same at the end
+  long long force = 0, gradient = 0;         // evaluations; of taylor a coefficient of the series counts as one
   long long hessian = 0, linear_solves = 0;  //
   double seconds = 0;                        // of the bare steps, median of repeats: wall or processor, what is less
   double wall_seconds = 0;                   // by the clock on the wall
@@ -53,7 +47,7 @@ struct ComparisonPoint {
 
 /// The cheapest way to an error, by interpolation of log(work) over log(error) between the steps of a method.
 struct ComparisonWinner {
-  double error = 0;
+  Magnitude error;
   std::string by;  // "evaluations", "seconds"
   std::string method;
   double work = 0;
@@ -69,16 +63,26 @@ struct Comparison {
   bool stopped = false;
 };
 
+/// How far a comparison is, reference included.
+struct ComparisonProgress {
+  std::size_t done = 0;  // runs
+  std::size_t runs = 0;
+  double part = 0;                     // of the time, in [0, 1]; 0 until it can be told
+  std::optional<double> seconds_left;  // as soon as every method and the reference have shown their pace
+};
+
 /// Numbers of steps for twice, once, a half, ... of the given dt: `count` of them, without those that fall together.
 std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count = 6);
 
-/// @throws Error when there is none: the motion cannot be followed to the end
-ReferenceSolution reference_solution(const ComparisonRequest& asked, const std::function<bool()>& pulse = {});
+/// What one has to know about the rows of adaptive methods, a sentence each.
+std::vector<std::string> comparison_notes(const ComparisonRequest& asked);
 
-/// @param progress called before each point with how many are done; returns false to stop
-Comparison compare(const ComparisonRequest& asked, const std::function<bool(std::size_t done)>& progress = {});
+/// Stopped before the reference is there, it has no points.
+/// @param progress called several times a second; returns false to stop
+/// @throws Error when there is no reference: the motion cannot be followed to the end
+Comparison compare(const ComparisonRequest& asked, const std::function<bool(const ComparisonProgress&)>& progress = {});
 
-/// At every power of ten that at least one method reaches, for either kind of work.
+/// At every power of ten that at least one method reaches and the reference can tell, for either kind of work.
 std::vector<ComparisonWinner> winners(const Comparison& comparison);
 
 std::string comparison_table(const Comparison& comparison);

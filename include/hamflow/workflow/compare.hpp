@@ -16,9 +16,9 @@ struct ComparisonReport {
   std::string text;  // for people
 };
 
-/// @param progress called with the number of runs that are done; returns false to stop   @throws Error
+/// @param progress told how far the comparison is; returns false to stop   @throws Error
 ComparisonReport compare_methods(const ComparisonRequest& request,
-                                 const std::function<bool(std::size_t)>& progress = {});
+                                 const std::function<bool(const ComparisonProgress&)>& progress = {});
 /// The work-precision figure.   @param file .svg, .pdf or .png   @throws Error, FileError
 void draw_comparison(const Comparison& comparison, const std::filesystem::path& file);
 

@@ -1,0 +1,135 @@
+#include "comparison_jobs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hamflow {
+
+namespace {
+
+constexpr std::int64_t adaptive_steps = 32;  // few, as each cuts a sub-step short
+
+/// A tolerance for adaptive methods, in place of the k-th dt: in equal powers of ten from 1e-3 to three digits above
+/// the rounding; a single one is the default of the methods.
+double usual_tolerance(std::size_t k, std::size_t count, int digits) {
+  const int beyond = std::min(digits, 300);
+  if (count < 2) return std::pow(10.0, digits > 16 ? 4 - beyond : -12);
+  return std::pow(10.0, -3.0 - (beyond - 6) * static_cast<double>(k) / static_cast<double>(count - 1));
+}
+
+/// What a run costs beside the first one of its method: steps, or how a tolerance shortens sub-steps.
+double relative_work(const ComparisonPoint& first, const ComparisonPoint& point) {
+  if (!first.tolerance || !point.tolerance) {
+    return static_cast<double>(point.steps) / static_cast<double>(first.steps);
+  }
+  if (first.order != point.order) {  // of a series: as many steps, whose work is the square of the order
+    return static_cast<double>(point.order * point.order) / static_cast<double>(first.order * first.order);
+  }
+  return std::pow(*first.tolerance / *point.tolerance, 1.0 / point.order);
+}
+
+}  // namespace
+
+bool has_own_tolerance(const MethodSpec& method) {
+  return describe(method).own_substeps && method.options.contains(tolerance_option);
+}
+
+std::vector<ComparisonJob> comparison_jobs(const ComparisonRequest& asked) {
+  std::vector<ComparisonJob> jobs;
+  const int digits = digits_of(asked.request.arithmetic);
+  const std::string t_end = asked.t_end_text.empty() ? shortest(asked.t_end) : asked.t_end_text;
+  for (std::size_t m = 0; m < asked.methods.size(); ++m) {
+    const std::size_t first = jobs.size();
+    const bool own_tolerance = has_own_tolerance(asked.methods[m]);
+    for (std::size_t k = 0; k < (own_tolerance ? 1 : asked.steps.size()); ++k) {
+      ComparisonJob job{m, asked.request, {}};
+      job.request.method = asked.methods[m];
+      job.request.watch = true;
+      ComparisonPoint& point = job.point;
+      point.steps = asked.steps[k];
+      point.method = describe(asked.methods[m]).name;  // as requested: the tolerance varies like a step
+      if (describe(asked.methods[m]).own_substeps) {
+        if (!own_tolerance) {
+          job.request.method.options[tolerance_option] = shortest(usual_tolerance(k, asked.steps.size(), digits));
+        }
+        point.tolerance = number_value(job.request.method.options[tolerance_option]);
+        point.steps = adaptive_steps;
+      }
+      point.dt = asked.t_end / static_cast<double>(point.steps);
+      job.request.dt = digits_beyond_double(asked.request.arithmetic) > 0
+                           ? "(" + t_end + ")/" + std::to_string(point.steps)
+                           : shortest(point.dt);
+      const MethodInfo info = describe(job.request.method);
+      point.order = info.order;
+      point.explicit_step = info.explicit_step;
+      jobs.push_back(std::move(job));
+      jobs.back().work = relative_work(jobs[first].point, jobs.back().point);
+    }
+  }
+  return jobs;
+}
+
+double seconds_of_timing(double seconds, bool beyond_double) {
+  const double repeats = std::max(0.02, std::min(7 * seconds, std::max(seconds, 0.25)));
+  return beyond_double && seconds > 0.02 ? seconds : seconds + repeats;
+}
+
+void ComparisonClock::reference_spent(double seconds, double part) {
+  reference_seconds_ += seconds;
+  reference_part_ = part;
+}
+
+/// From the last run of the method that has come to its end.
+std::optional<double> ComparisonClock::expected(const ComparisonJob& job) const {
+  const ComparisonJob* known = nullptr;
+  for (const ComparisonJob& other : jobs_) {
+    if (other.method == job.method && other.finished) known = &other;
+  }
+  if (known == nullptr) return std::nullopt;
+  return seconds_of_timing(known->seconds * job.work / known->work, beyond_double_);
+}
+
+ComparisonProgress ComparisonClock::look(const ComparisonJob* running, double part) {
+  ComparisonProgress now;
+  now.runs = jobs_.size();
+  now.part = shown_;
+  double left = 0;
+  bool known = reference_part_ > 0;
+  if (known) left += reference_seconds_ / reference_part_ * (1 - reference_part_);
+  for (const ComparisonJob& job : jobs_) {
+    if (job.finished) {
+      ++now.done;
+      continue;
+    }
+    const std::optional<double> seconds = expected(job);
+    known = known && seconds;
+    if (seconds) left += *seconds * (&job == running ? 1 - part : 1);
+  }
+  if (!known) return now;
+  const double spent = std::chrono::duration<double>(Clock::now() - begin_).count();
+  shown_ = std::max(shown_, spent > 0 ? spent / (spent + left) : 0);  // an estimate that grows does not take back
+  now.part = shown_;
+  now.seconds_left = left;
+  return now;
+}
+
+std::vector<std::string> comparison_notes(const ComparisonRequest& asked) {
+  std::vector<std::string> notes;
+  for (const MethodSpec& method : asked.methods) {
+    const MethodInfo info = describe(method);
+    if (!info.own_substeps) continue;
+    const std::string why = info.name + " chooses its sub-steps by its tolerance: no dt changes them, ";
+    if (has_own_tolerance(method)) {
+      notes.push_back(why + "and it has one row, with the tolerance given");
+    } else if (asked.steps.size() > 1) {
+      notes.push_back(why + "and its rows differ in the tolerance");
+    } else {
+      notes.push_back(why + "and its row has the default tolerance");
+    }
+  }
+  return notes;
+}
+
+}  // namespace hamflow

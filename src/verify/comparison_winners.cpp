@@ -1,0 +1,78 @@
+// Which method comes to an error most cheaply, between the steps of each.
+#include <algorithm>
+#include <cmath>
+
+#include "hamflow/verify/comparison.hpp"
+
+namespace hamflow {
+
+namespace {
+
+struct Curve {
+  std::string method;
+  std::vector<const ComparisonPoint*> points;
+};
+
+/// log10(work) at which a method first reaches log10(error) = level, by the segments between its points.
+std::optional<double> work_for(const Curve& method, double level, bool by_time, double floor) {
+  std::vector<std::pair<double, double>> curve;  // work, error
+  for (const ComparisonPoint* p : method.points) {
+    const double work = by_time ? p->seconds : p->evaluations();
+    if (work > 0) curve.emplace_back(std::log10(work), std::max(p->error.log10, floor));
+  }
+  std::sort(curve.begin(), curve.end());
+  for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+    const auto [w0, e0] = curve[i];
+    const auto [w1, e1] = curve[i + 1];
+    if (e0 >= level && e1 <= level) return e0 == e1 ? w0 : w0 + (w1 - w0) * (e0 - level) / (e0 - e1);
+  }
+  return std::nullopt;
+}
+
+/// 10^level, as a text where the doubles end.
+Magnitude power_of_ten(int level) { return Magnitude("1e" + std::to_string(level)); }
+
+}  // namespace
+
+std::vector<ComparisonWinner> winners(const Comparison& comparison) {
+  // An error that is not well above the uncertainty of the reference is none.
+  const double floor = comparison.reference.uncertainty.log10;
+  const double told = floor + std::log10(4.0);
+  std::vector<Curve> methods;
+  // Powers of ten, within what mp(100000) can hold: an error of exactly 0 is none of them.
+  int highest = -100000;
+  int lowest = 400;
+  for (const ComparisonPoint& p : comparison.points) {
+    if (methods.empty() || methods.back().method != p.method) methods.push_back({p.method, {}});
+    if (!p.done() || !(p.error.log10 < 400)) continue;
+    methods.back().points.push_back(&p);
+    const double error = std::max({p.error.log10, floor, -100000.0});
+    highest = std::max(highest, static_cast<int>(std::floor(error)));
+    lowest = std::min(lowest, static_cast<int>(std::ceil(std::max(error, told))));
+  }
+  std::vector<ComparisonWinner> all;
+  for (const bool by_time : {false, true}) {
+    for (int level = highest; level >= lowest; --level) {
+      std::vector<std::pair<double, std::string>> ranking;
+      for (const Curve& method : methods) {
+        if (const auto work = work_for(method, level, by_time, floor)) ranking.emplace_back(*work, method.method);
+      }
+      if (ranking.empty()) continue;
+      std::sort(ranking.begin(), ranking.end());
+      ComparisonWinner w{power_of_ten(level),
+                         by_time ? "seconds" : "evaluations",
+                         ranking[0].second,
+                         std::pow(10.0, ranking[0].first),
+                         "",
+                         0};
+      if (ranking.size() > 1) {
+        w.second = ranking[1].second;
+        w.second_work = std::pow(10.0, ranking[1].first);
+      }
+      all.push_back(w);
+    }
+  }
+  return all;
+}
+
+}  // namespace hamflow

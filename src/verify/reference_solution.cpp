@@ -1,0 +1,185 @@
+#include "hamflow/verify/reference_solution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hamflow/core/text.hpp"
+#include "hamflow/verify/extrapolated_midpoint.hpp"
+#include "rounding.hpp"
+#include "state_difference.hpp"
+
+namespace hamflow {
+
+namespace {
+
+State<double> joined_state(const Frame& frame) {
+  State<double> z = frame.q;
+  z.insert(z.end(), frame.p.begin(), frame.p.end());
+  return z;
+}
+
+std::vector<std::string> all_exact_digits(const std::vector<double>& x) {
+  std::vector<std::string> all;
+  for (const double number : x) all.push_back(exact_digits(number));
+  return all;
+}
+
+/// The same numbers, rounded to double like those of the run.
+Texts rounded(const Texts& parameters) {
+  Texts all = parameters;
+  for (auto& [name, text] : all) {
+    if (text.empty()) continue;
+    const std::vector<std::string> parts = list_parts(text);
+    const std::string numbers =
+        joined(parts, [](const std::string& part) { return exact_digits(evaluate_number<double>(part)); });
+    text = text.front() == '[' ? "[" + numbers + "]" : numbers;
+  }
+  return all;
+}
+
+/// The closed form is computed in long double from the start in double. Its uncertainty: the rounding of what it
+/// returns, and 32 roundings of long double in each coordinate of the start, as the motion carries them to the end.
+std::optional<ReferenceSolution> closed_form(const Request& request, const ProblemEntry& problem, double t_end) {
+  if (!problem.exact) return std::nullopt;
+  const Frame start = problem.start(request);
+  const Texts parameters = problem.derived(request.parameters, request.start);
+  const auto exact = problem.exact(parameters, start.q, start.p, t_end);
+  if (!exact) return std::nullopt;
+  ReferenceSolution found{"closed form", "the closed form of the problem, in double", joined_state(*exact), {}, {}};
+  found.digits = all_exact_digits(found.end);
+  double size = 0;
+  for (const double x : joined_state(start)) size = std::max(size, std::abs(x));
+  double moved_by = 0;
+  for (std::size_t i = 0; i < 2 * start.q.size(); ++i) {
+    Frame near = start;
+    double& x = i < start.q.size() ? near.q[i] : near.p[i - start.q.size()];
+    x += epsilon * (x != 0 ? x : size);
+    const auto moved = problem.exact(parameters, near.q, near.p, t_end);
+    if (!moved) continue;
+    const State<double> end = joined_state(*moved);
+    double most = 0;
+    for (std::size_t k = 0; k < end.size(); ++k) most = std::max(most, std::abs(end[k] - found.end[k]));
+    moved_by += most;
+  }
+  constexpr double share = 32 * 0x1p-11;  // of a rounding of double
+  found.uncertainty = epsilon / 2 * size_of(found.digits) + share * moved_by;
+  return found;
+}
+
+}  // namespace
+
+int digits_of(const std::string& arithmetic) {
+  const int digits = digits_beyond_double(arithmetic);
+  return digits > 0 ? digits : 16;
+}
+
+std::string reference_arithmetic(const std::string& arithmetic) {
+  const int digits = digits_of(arithmetic);
+  if (digits <= 18) return "double-double";
+  // Ten digits to carry errors of the end, a sixth more for what extrapolation with many columns loses.
+  return fmt::format("mp({})", digits + 10 + digits / 6);
+}
+
+class ReferenceRun::Impl {
+ public:
+  Impl(const Request& request, const std::string& t_end, std::int64_t steps) {
+    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+    Request full = request;
+    full.parameters = complete(problem.info, request.parameters);
+    const bool beyond_double = digits_beyond_double(request.arithmetic) > 0;
+    if (!beyond_double) {
+      if (auto exact = closed_form(full, problem, evaluate_number<double>(t_end))) {
+        solution_ = std::move(*exact);
+        return;
+      }
+      const Frame start = problem.start(full);
+      full.parameters = rounded(problem.derived(full.parameters, full.start));
+      full.start = {.q = all_exact_digits(start.q), .p = all_exact_digits(start.p)};
+    }
+    full.arithmetic = reference_arithmetic(request.arithmetic);
+    full.kernel = "exact";
+    full.threads = 1;
+    // Pieces cut sub-steps short: not many more of them than sub-steps.
+    pieces_ = std::clamp<std::int64_t>(steps / 50, 4, 4096);
+    const std::string end = beyond_double ? t_end : exact_digits(evaluate_number<double>(t_end));
+    full.dt = "(" + end + ")/" + std::to_string(pieces_);
+    const int digits = std::min(digits_of(request.arithmetic), 290);  // tolerances are doubles
+    const MethodSpec taylor{"taylor", {{tolerance_option, fmt::format("1e-{}", digits + 3)}}};
+    const bool recordable = problem.accepts(taylor);
+    first_tolerance_ = std::pow(10.0, -digits - 3);
+    second_tolerance_ = std::pow(10.0, recordable ? -digits - 2 : -digits);
+    full.method = recordable ? taylor : extrapolated(first_tolerance_);
+    first_name_ = recordable ? "Taylor series of order " + std::to_string(describe(taylor).order)
+                             : extrapolation_name(first_tolerance_);
+    first_ = recordable ? make_simulation(full) : problem.simulate_erased(full);
+    full.method = extrapolated(second_tolerance_);
+    second_ = problem.simulate_erased(full);
+    arithmetic_ = full.arithmetic;
+  }
+
+  void advance() {
+    for (Simulation* one : {first_.get(), second_.get()}) {
+      if (one == nullptr) continue;
+      const Outcome outcome = one->advance(1);
+      if (outcome != Outcome::done) {
+        const std::string why = one->failure().empty() ? std::string(message(outcome)) : one->failure();
+        Frame frame;
+        one->look(frame);
+        throw Error("there is no reference: the motion cannot be followed beyond t = " + shortest(frame.time) + ": " +
+                    why);
+      }
+    }
+    if (finished()) compare();
+  }
+  bool finished() const { return first_ == nullptr || first_->step() == pieces_; }
+  double part() const {
+    return first_ == nullptr ? 1 : static_cast<double>(first_->step()) / static_cast<double>(pieces_);
+  }
+  const ReferenceSolution& solution() const { return solution_; }
+
+ private:
+  static MethodSpec extrapolated(double tolerance) {
+    return {ExtrapolatedMidpoint::name, {{tolerance_option, shortest(tolerance)}}};
+  }
+  static std::string extrapolation_name(double tolerance) {
+    return fmt::format("extrapolated midpoint rule of order {}", 2 * extrapolation_columns(tolerance));
+  }
+
+  void compare() {
+    Frame frame;
+    first_->look(frame);
+    solution_.kind = "integration";
+    solution_.end = joined_state(frame);
+    solution_.digits = state_digits(frame);
+    second_->look(frame);
+    const int digits = digits_of(arithmetic_);
+    const Magnitude difference = largest_difference(solution_.digits, state_digits(frame), digits + 10);
+    // Not less than the tolerance of the coarser one: two errors can meet by chance.
+    const Magnitude least = second_tolerance_ * size_of(solution_.digits);
+    const Magnitude twice = difference.text.empty() ? Magnitude(2 * difference.value) : difference;
+    solution_.uncertainty = twice < least ? least : twice;
+    solution_.description = fmt::format("{}, tolerance {:.0e}, in {}; it differs by {} from the {}, tolerance {:.0e}",
+                                        first_name_, first_tolerance_, arithmetic_, readable(difference),
+                                        extrapolation_name(second_tolerance_), second_tolerance_);
+  }
+
+  std::unique_ptr<Simulation> first_;  // null: a closed form
+  std::unique_ptr<Simulation> second_;
+  std::int64_t pieces_ = 0;
+  double first_tolerance_ = 0;
+  double second_tolerance_ = 0;
+  std::string first_name_;
+  std::string arithmetic_;
+  ReferenceSolution solution_;
+};
+
+ReferenceRun::ReferenceRun(const Request& request, const std::string& t_end, std::int64_t steps)
+    : impl_(std::make_unique<Impl>(request, t_end, steps)) {}
+ReferenceRun::~ReferenceRun() = default;
+void ReferenceRun::advance() { impl_->advance(); }
+double ReferenceRun::part() const { return impl_->part(); }
+const ReferenceSolution& ReferenceRun::solution() const { return impl_->solution(); }
+
+}  // namespace hamflow
