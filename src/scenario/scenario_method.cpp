@@ -14,11 +14,15 @@ void ScenarioReader::read_method(TomlTable& table) {
     table.finish();
     return;
   }
-  const std::vector<std::string> dropped = replaced_method_keys(table.node());
+  const std::vector<std::string> dropped = replaced_method_keys(table.node(), file_method_);
   for (const std::string& key : dropped) {
     table.know(key);
-    scenario_.notes.push_back(table.full(key) + " of the file is not used: " + table.full(method_name_key().name) +
-                              " is set to " + spec.name);
+    scenario_.notes.push_back(
+        table.full(key) + " of the file is not used: " + table.full(method_name_key().name) + " is set to " +
+        spec.name +
+        (find_option(find_method(spec.name).family->options, key) != nullptr && !spec.options.contains(key)
+             ? ", which means something else by it"
+             : ""));
   }
   const Texts in_name = spec.options;
   for (const OptionInfo& option : find_method(spec.name).family->options) {

@@ -81,6 +81,7 @@ void Session::restart() {
   reference_ = start.invariants;
   offset_.assign(start.invariants.size(), 0);
   worst_invariants_.assign(sizes_.size(), 0);
+  turns_ = TurnWatch(evaluate_number<double>(request_.dt), !simulation_->method().own_substeps);
 }
 
 void Session::set_step_length(const std::string& text) {
@@ -156,6 +157,7 @@ void Session::change(const Request& next, const std::string& what) {
   simulation_ = std::move(other);
   request_ = from_here;
   changes_.push_back({step_before_, time_before_, what});
+  turns_.restart(step_before_, evaluate_number<double>(request_.dt), !simulation_->method().own_substeps);
 }
 
 Scenario Session::present() const {
@@ -234,6 +236,7 @@ void Session::negate_momenta() {
   look(scratch_);
   reference_ = scratch_.invariants;
   reversed_ = true;
+  turns_.restart(scratch_.step, turns_.step_length(), turns_.is_active());  // q goes back along its way
   changes_.push_back({scratch_.step, scratch_.time, "momenta negated"});
 }
 

@@ -14,6 +14,7 @@
 #include "sweep_report.hpp"
 #include "sweep_table.hpp"
 #include "terminal.hpp"
+#include "toml_path.hpp"
 
 namespace hamflow {
 
@@ -104,7 +105,18 @@ std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std:
   }
   for (std::size_t i = 0; i < varied.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (varied[i].path == varied[j].path) wrong.push_back("--vary: error: found " + varied[i].path + " twice");
+      if (varied[i].path == varied[j].path) {
+        wrong.push_back("--vary: error: found " + varied[i].path + " twice");
+      } else if (is_part_of_other(varied[i].path, varied[j].path)) {
+        wrong.push_back("--vary: error: found " + varied[j].path + " beside " + varied[i].path +
+                        ", of which one replaces the other; allowed one of them");
+      }
+    }
+    for (const std::string& set : request.sets) {
+      const std::string path = parsed_set(set).first;
+      if (!is_part_of_other(path, varied[i].path) || path.size() < varied[i].path.size()) continue;
+      wrong.push_back("--set: error: found " + path + ", which --vary " + varied[i].path +
+                      " replaces; allowed one of them");
     }
   }
   try_to("--vary: error: ", [&] { (void)member_count(varied); });

@@ -7,6 +7,7 @@
 
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "hamflow/verify/turns.hpp"
 
 namespace hamflow {
 
@@ -40,6 +41,10 @@ class Session final : public Simulation {
   const std::vector<SessionChange>& changes() const { return changes_; }
   /// Whether momenta were negated: the state is then not on the orbit of the start at the session's time.
   bool reversed() const { return reversed_; }
+
+  /// Watches for steps that are too long: whoever runs the session wakes it with the other observers.
+  TurnWatch& turns() { return turns_; }
+  const TurnWatch& turns() const { return turns_; }
 
   Outcome advance(std::int64_t steps) override;
   std::int64_t step() const override;
@@ -90,6 +95,7 @@ class Session final : public Simulation {
   std::vector<double> offset_;              // of invariants with time in them, whose parts begin at time 0
   std::vector<double> worst_invariants_;    // one for each invariant
   Frame scratch_;
+  TurnWatch turns_{0, false};
 };
 
 /// Keeps the start, every n-th step and, after keep(), the present one. When they become too many every second one is
@@ -117,6 +123,8 @@ struct SessionOutcome {
   double wall_seconds = 0;  // of all steps
 };
 
+/// What is plainly nonsense about the session so far, "kind: message" each.
+std::vector<std::string> session_warnings(const Session& session, const SessionOutcome& last);
 /// The summary of a session, as JSON: that of a run, and what was changed on the way.
 std::string session_summary(const Session& session, const SessionOutcome& last);
 /// What went wrong in the last steps, and what can be done; both empty where nothing did.
