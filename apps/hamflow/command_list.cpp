@@ -133,7 +133,7 @@ void print_methods() {
   std::cout << "Begin with one of these (hamflow show NAME says more):\n\n";
   for (const std::string& name : first) {
     const MethodInfo info = describe(MethodSpec{.name = name});
-    std::cout << fmt::format("  {:<10} order {:<3} {}\n", name, info.order, advice(MethodSpec{.name = name}).purpose);
+    std::cout << fmt::format("{:<10} order {:<3} {}\n", name, info.order, advice(MethodSpec{.name = name}).purpose);
   }
   std::cout << "\nAll others (each with a line: hamflow list methods --all):\n";
   for (const MethodFamily& family : method_families()) {
@@ -147,9 +147,9 @@ void print_methods() {
 
 void print_all_methods() {
   for (const MethodFamily& family : method_families()) {
-    std::cout << family.name << ": " << family.meaning << '\n';
+    std::cout << (&family == method_families().data() ? "" : "\n") << family.name << ": " << family.meaning << '\n';
     for (const MethodEntry& entry : methods()) {
-      if (entry.family == &family) std::cout << "  " << method_row(entry);
+      if (entry.family == &family) std::cout << method_row(entry);
     }
   }
 }

@@ -83,7 +83,10 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     return method.family->needs(method.index);
   };
   std::string text = spec.name + " needs " + needs(spec.name) + ", and that of " + problem.info.name + " is none; ";
-  if (!first.empty()) text += first.front() + " takes " + needs(first.front()) + "; ";
+  if (!first.empty()) {
+    const std::string what = needs(first.front());  // "a separable H ...", "an H ..."
+    text += first.front() + " takes any" + what.substr(std::min(what.find(' '), what.size())) + "; ";
+  }
   return text + "allowed here: " + all;
 }
 

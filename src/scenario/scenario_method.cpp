@@ -50,6 +50,18 @@ void ScenarioReader::read_method(TomlTable& table) {
 bool ScenarioReader::read_method_name(TomlTable& table) {
   const OptionInfo& key = method_name_key();
   const auto text = table.plain_string(key.name);
+  const auto allowed = [&] {
+    const std::vector<std::string> first = first_methods();
+    return joined(first) + " and " + std::to_string(key.words.size() - first.size()) + " others (hamflow list methods)";
+  };
+  if (!table.has(key.name)) {
+    table.missing(key.name, allowed());
+    return false;
+  }
+  if (text && !names_method_with_options(*text) && !refused_value(key, *text).empty()) {
+    table.complain(key.name, "found \"" + *text + "\"; allowed " + allowed() + suggestion(*text, key.words));
+    return false;
+  }
   if (!text || !names_method_with_options(*text)) {
     const auto name = table.text(key);
     if (name) scenario_.request.method.name = *name;

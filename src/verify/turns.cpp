@@ -46,12 +46,15 @@ std::optional<double> median_period(const std::vector<double>& series, double no
 
 void TurnWatch::restart(std::int64_t step, double dt, bool active) {
   found_ = fastest();
+  longest_ = longest_step();
   samples_.clear();
   first_ = step;
   last_ = step - 1;
   dt_ = dt;
   active_ = active;
 }
+
+double TurnWatch::longest_step() const { return last_ > first_ ? std::max(longest_, std::abs(dt_)) : longest_; }
 
 std::int64_t TurnWatch::next_due(std::int64_t step) const {
   if (!active_) return never;

@@ -56,7 +56,7 @@ class ScenarioRun {
       : scenario_(scenario),
         settings_(settings),
         simulation_(make_simulation(scenario.request)),
-        turns_(scenario.dt, !describe(scenario.request.method).own_substeps) {
+        turns_(scenario.dt, !simulation_->method().own_substeps) {
     if (from != nullptr) {
       restore(*simulation_, *from);
       seconds_before_ = from->wall_seconds;

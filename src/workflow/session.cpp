@@ -55,8 +55,8 @@ std::string methods_with(const std::string& option) {
 
 }  // namespace
 
-Session::Session(const Scenario& scenario)
-    : scenario_(scenario), request_(scenario.request), options_(scenario.request.method.options) {
+Session::Session(const Scenario& scenario) : scenario_(scenario), request_(scenario.request) {
+  remember(request_.method);
   restart();
 }
 
@@ -96,16 +96,27 @@ void Session::set_method(const MethodSpec& method) {
   Request next = request_;
   next.method = method;
   for (const OptionInfo& option : find_method(method.name).family->options) {
-    const auto before = options_.find(option.name);
+    const auto before = std::find_if(options_.begin(), options_.end(),
+                                     [&](const auto& set) { return same_option(*set.first, option); });
     if (before != options_.end() && refused_value(option, before->second).empty()) {
-      next.method.options.insert(*before);
+      next.method.options.emplace(option.name, before->second);
     }
   }
   if (const auto refused = refused_option(next.method)) {
     throw Error(method.name + ": " + refused->name + ": " + refused->message);
   }
   change(next, "method = " + describe(next.method).name);
-  for (const auto& [name, text] : next.method.options) options_[name] = text;
+  remember(next.method);
+}
+
+/// The options of a method, for methods to come that mean the same by them.
+void Session::remember(const MethodSpec& method) {
+  for (const OptionInfo& option : find_method(method.name).family->options) {
+    const auto text = method.options.find(option.name);
+    if (text == method.options.end()) continue;
+    std::erase_if(options_, [&](const auto& set) { return same_option(*set.first, option); });
+    options_.emplace_back(&option, text->second);
+  }
 }
 
 void Session::set_tolerance(const std::string& text) {
@@ -125,8 +136,8 @@ void Session::set_tolerance(const std::string& text) {
     next.method.options[option->name] = text;
   }
   change(next, option->name + " = " + text);
-  if (text == "off") options_.erase(option->name);
-  if (text != "off") options_[option->name] = text;
+  std::erase_if(options_, [&](const auto& set) { return same_option(*set.first, *option); });
+  remember(request_.method);
 }
 
 void Session::change(const Request& next, const std::string& what) {

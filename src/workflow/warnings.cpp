@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/run/state_names.hpp"
 
 namespace hamflow {
 
@@ -18,15 +19,16 @@ constexpr double steps_per_period = 10;
 Json warning(const char* kind, const std::string& message) { return {{"kind", kind}, {"message", message}}; }
 
 /// |q dH/dq| + |p dH/dp|: for homogeneous T and V about T and V without their constants.
-double virial(const ProblemEntry& problem, const Texts& parameters, const Frame& at) {
+double virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+              const std::vector<double>& p) {
   constexpr double part = 0x1p-20;
   const auto slope = [&](double of_q, double of_p) {
     const auto energy = [&](double sign) {
-      std::vector<double> q = at.q;
-      std::vector<double> p = at.p;
-      for (double& x : q) x *= 1 + sign * of_q;
-      for (double& x : p) x *= 1 + sign * of_p;
-      return problem.energy(parameters, q, p);
+      std::vector<double> moved_q = q;
+      std::vector<double> moved_p = p;
+      for (double& x : moved_q) x *= 1 + sign * of_q;
+      for (double& x : moved_p) x *= 1 + sign * of_p;
+      return problem.energy(parameters, moved_q, moved_p);
     };
     return std::abs(energy(1) - energy(-1)) / (2 * part);
   };
@@ -34,9 +36,7 @@ double virial(const ProblemEntry& problem, const Texts& parameters, const Frame&
 }
 
 std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
-  const std::vector<std::string>& names = scenario.problem->info.coordinates;
-  if (scenario.problem->dimension > 0 && coordinate < names.size()) return names[coordinate];
-  return "coordinate " + std::to_string(coordinate + 1);
+  return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);
 }
 
 /// The time from one turn of a Cartesian coordinate to the next but one, or of the radius where that is longer; 0 where
@@ -51,7 +51,7 @@ double period_of_orbit(const Json& orbit) {
 
 void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns, Json& all) {
   const auto seen = turns.fastest();
-  double dt = std::abs(scenario.dt);
+  double dt = turns.longest_step();
   double period = 0;
   std::string whose;
   if (seen) {
@@ -67,15 +67,44 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
                                                  dt, whose, period / (2 * steps_per_period))));
 }
 
+/// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.
+double radial(const ProblemEntry& problem, const std::vector<double>& q, const std::vector<double>& p) {
+  Frame at;
+  at.q = q;
+  at.p = p;
+  if (problem.to_reference) at = problem.to_reference(q, p);
+  double sum = 0;
+  for (std::size_t i = 0; i < at.q.size(); ++i) sum += at.q[i] * at.p[i];
+  return sum;
+}
+
+/// Whether an orbit that falls into the centre has done so by then. It is half a radial period from its apocentre to
+/// the centre; a closed form may go on beyond it, outwards.
+bool has_fallen(const Scenario& scenario, double period, double t) {
+  const ProblemEntry& problem = *scenario.problem;
+  const auto exact = [&](double time) {
+    return problem.exact(scenario.request.parameters, scenario.start_q, scenario.start_p, time);
+  };
+  const auto end = exact(t);
+  if (!end) return exact(0).has_value();  // where it is not known at the start either nobody can say
+  const double sense = t < 0 ? -1 : 1;
+  const bool goes_out = sense * radial(problem, scenario.start_q, scenario.start_p) > 0;
+  const double least = goes_out ? period / 2 : 0;  // no earlier
+  const double most = goes_out ? period : period / 2;
+  return std::abs(t) >= most || (std::abs(t) > least && sense * radial(problem, end->q, end->p) > 0);
+}
+
 }  // namespace
 
-bool is_energy_nonsense(const ProblemEntry& problem, const Texts& parameters, const Excursion& energy, double scale,
-                        const Frame& start, const Frame& end) {
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end) {
   if (!(energy.max_error > scale)) return false;
-  // A start at which T and V vanish by chance (a pendulum held level) has a scale of rounding: there the virial at the
-  // start says what is large, and an error that is small beside the virial at the end is none.
-  return !(energy.max_error <= virial(problem, parameters, start) / 4 ||
-           energy.max_error <= 0.01 * virial(problem, parameters, end));
+  // Of a pendulum held level T and V are nothing but rounding: there the virial at the start says what is large, and an
+  // error that is small beside the virial at the end is none.
+  const auto of = [&](const std::vector<double>& q, const std::vector<double>& p) {
+    return virial(*scenario.problem, scenario.request.parameters, q, p);
+  };
+  return !(energy.max_error <= of(scenario.start_q, scenario.start_p) / 4 ||
+           energy.max_error <= 0.01 * of(end.q, end.p));
 }
 
 Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns) {
@@ -84,25 +113,18 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation
   const double scale = simulation.energy_scale();
   Frame end;
   simulation.look(end);
-  Frame start;
-  start.q = scenario.start_q;
-  start.p = scenario.start_p;
-  const Texts& parameters = scenario.request.parameters;
-  if (is_energy_nonsense(*scenario.problem, parameters, energy, scale, start, end)) {
+  if (is_energy_nonsense(scenario, energy, scale, end)) {
     all.push_back(
         warning("energy_error", fmt::format("the energy was off by {:.3g}, more than its scale, {:.3g}: this is "
                                             "no motion of {}; try a smaller dt",
                                             energy.max_error, scale, scenario.request.problem)));
   }
-  if (turns != nullptr && turns->is_active()) add_long_step(scenario, summary, *turns, all);
-  if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() && !summary.contains("exact")) {
-    // Known at the start, and at the end no more. Where it is not known at the start, nobody can say.
-    if (scenario.problem->exact(parameters, scenario.start_q, scenario.start_p, 0)) {
-      all.push_back(
-          warning("falls_into_centre",
-                  "the orbit ends in the centre, where H has no finite value, before the run does: what comes "
-                  "after is no motion; stop earlier, or give the start some angular momentum"));
-    }
+  if (turns != nullptr) add_long_step(scenario, summary, *turns, all);
+  if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
+      has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {
+    all.push_back(warning("falls_into_centre",
+                          "the orbit ends in the centre, where H has no finite value, before the run does: what comes "
+                          "after is no motion; stop earlier, or give the start some angular momentum"));
   }
   return all;
 }

@@ -21,9 +21,8 @@ nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ord
 /// "kind: message" of each, for the terminal; none of a summary without the key.
 std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 
-/// Whether an energy error is more than the energy can account for.
-/// @param start, end the states in double
-bool is_energy_nonsense(const ProblemEntry& problem, const Texts& parameters, const Excursion& energy, double scale,
-                        const Frame& start, const Frame& end);
+/// Whether an energy error is more than the energy can account for: above its scale, and not only because the scale is
+/// that of a start at which T and V vanish by chance.   @param end the last state
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end);
 
 }  // namespace hamflow

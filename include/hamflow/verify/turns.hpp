@@ -36,6 +36,8 @@ class TurnWatch final : public Observer {
 
   bool is_active() const { return active_; }
   double step_length() const { return dt_; }
+  /// The longest step taken, without its sign; 0 before the first.
+  double longest_step() const;
   /// From this step on with another step length; what was seen before stays.
   void restart(std::int64_t step, double dt, bool active);
   /// The fewest steps a period; none where no coordinate was seen to oscillate in 64 steps.
@@ -49,12 +51,13 @@ class TurnWatch final : public Observer {
  private:
   template <class Archive>
   void fields(Archive& ar) {
-    ar(first_, last_, stride_, width_, samples_, found_);
+    ar(longest_, first_, last_, stride_, width_, samples_, found_);
   }
   std::optional<FastestTurns> in_window() const;
 
   double dt_;
   bool active_;
+  double longest_ = 0;           // of the step lengths before the present one
   std::int64_t first_ = 0;       // the step from which windows are counted
   std::int64_t last_ = -1;       // the last one seen
   std::uint64_t stride_ = 1;     // from one coordinate watched to the next

@@ -68,6 +68,7 @@ class Session final : public Simulation {
   Outcome look_part(double theta, Frame& frame) const override;
 
  private:
+  void remember(const MethodSpec& method);
   void change(const Request& next, const std::string& what);
   void watch_from_here();
   void watch(const Frame& frame);
@@ -77,7 +78,8 @@ class Session final : public Simulation {
   Scenario scenario_;
   Request request_;  // with the present settings; of a later part, with the state in which it began
   std::unique_ptr<Simulation> simulation_;  // the present part; its steps and times count from where the part began
-  Texts options_;                           // of methods, as they were set last
+  /// Of methods, as they were set last, each with its declaration: another family may mean something else by a name.
+  std::vector<std::pair<const OptionInfo*, std::string>> options_;
   std::vector<SessionChange> changes_;
   bool reversed_ = false;
 
