@@ -25,6 +25,26 @@ std::string flags(const MethodInfo& info) {
   return text;
 }
 
+/// Words on lines of at most 110 characters, two deeper from the second line on.
+std::string filled(const std::string& text, std::size_t indent = 2) {
+  constexpr std::size_t widest = 110;
+  std::string all;
+  std::string row(indent, ' ');
+  std::size_t words = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    if (words > 0 && row.size() + 1 + end - at > widest) {
+      all += row + "\n";
+      row.assign(indent + 2, ' ');
+      words = 0;
+    }
+    row += (words > 0 ? " " : "") + text.substr(at, end - at);
+    ++words;
+    at = end + 1;
+  }
+  return all + row + "\n";
+}
+
 std::string option_row(const OptionInfo& option, const std::string& indent = "    ") {
   std::string text = fmt::format("{}{:<18} {:<12} {}\n", indent, option.name, default_text(option), explained(option));
   for (const OptionInfo& key : option.keys) text += option_row(key, indent + "  ");
@@ -59,8 +79,9 @@ void show_problem(const ProblemEntry& entry) {
                            info.variant.empty() ? "" : " with " + variant_text(info), info.formula,
                            entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
                            info.reference);
-  if (!info.parameters.empty()) std::cout << "  keys of [problem]:\n";
+  if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
   for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
+  if (!info.frame.name.empty()) std::cout << option_row(info.frame);
   if (!info.start_key.empty()) {
     std::cout << fmt::format("  {} = 1, ..., {}, each with its keys beside it:\n", info.start_key, info.starts.size());
   } else if (!info.starts.empty()) {
@@ -87,46 +108,105 @@ void show_method(const MethodSpec& spec) {
   std::cout << fmt::format("{}\n  {}\n  order {}, {}\n  source: {}\n", info.name, info.summary, info.order, flags(info),
                            info.reference);
   if (info.forces_per_step > 0) std::cout << fmt::format("  force evaluations per step: {}\n", info.forces_per_step);
-  const std::vector<OptionInfo>& options = find_method(spec.name).family->options;
+  const MethodEntry& entry = find_method(spec.name);
+  std::cout << "  needs " << entry.family->needs(entry.index) << "\n";
+  const MethodAdvice said = advice(spec);
+  if (!said.purpose.empty()) std::cout << filled("for " + said.purpose);
+  if (!said.take.empty()) std::cout << filled("take it where " + said.take);
+  if (!said.avoid.empty()) std::cout << filled("not where " + said.avoid);
+  const std::vector<OptionInfo>& options = entry.family->options;
   if (!options.empty()) std::cout << "  keys of [method]:\n";
   for (const OptionInfo& option : options) std::cout << option_row(option);
   std::cout << "  measured properties: hamflow verify " << (info.name == spec.name ? info.name : "'" + info.name + "'")
             << "\n";
 }
 
+/// The first line of what a list says of a method.
+std::string method_row(const MethodEntry& entry) {
+  const MethodInfo info = describe(MethodSpec{.name = entry.name});
+  return fmt::format("{:<16} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
+}
+
+/// The few with which to begin, and for what; then the names of all others, family by family.
+void print_methods() {
+  const std::vector<std::string> first = first_methods();
+  std::cout << "Begin with one of these (hamflow show NAME says more):\n\n";
+  for (const std::string& name : first) {
+    const MethodInfo info = describe(MethodSpec{.name = name});
+    std::cout << fmt::format("{:<10} order {:<3} {}\n", name, info.order, advice(MethodSpec{.name = name}).purpose);
+  }
+  std::cout << "\nAll others (each with a line: hamflow list methods --all):\n";
+  for (const MethodFamily& family : method_families()) {
+    std::vector<std::string> others;
+    for (const std::string& name : family.methods) {
+      if (std::find(first.begin(), first.end(), name) == first.end()) others.push_back(name);
+    }
+    if (!others.empty()) std::cout << '\n' << filled(family.name + ": " + family.meaning) << filled(joined(others), 4);
+  }
+}
+
+void print_all_methods() {
+  for (const MethodFamily& family : method_families()) {
+    std::cout << (&family == method_families().data() ? "" : "\n") << family.name << ": " << family.meaning << '\n';
+    for (const MethodEntry& entry : methods()) {
+      if (entry.family == &family) std::cout << method_row(entry);
+    }
+  }
+}
+
+nlohmann::ordered_json methods_json() {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const MethodEntry& entry : methods()) {
+    const MethodSpec spec{.name = entry.name};
+    const MethodInfo info = describe(spec);
+    const MethodAdvice said = advice(spec);
+    all.push_back({{"name", entry.name},
+                   {"order", info.order},
+                   {"explicit", info.explicit_step},
+                   {"symplectic", info.symplectic},
+                   {"symmetric", info.symmetric},
+                   {"summary", info.summary},
+                   {"family", entry.family->name},
+                   {"begin_with", !said.purpose.empty()},
+                   {"purpose", said.purpose},
+                   {"take", said.take},
+                   {"avoid", said.avoid}});
+  }
+  return all;
+}
+
+nlohmann::ordered_json problems_json() {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const ProblemEntry& entry : problems()) {
+    all.push_back({{"name", entry.info.name},
+                   {"variant", entry.info.variant},
+                   {"formula", entry.info.formula},
+                   {"degrees_of_freedom", entry.dimension}});
+  }
+  return all;
+}
+
+void print_problems() {
+  for (const ProblemEntry& entry : problems()) {
+    std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
+                             entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
+  }
+}
+
 }  // namespace
 
-int list_command(const std::string& what, bool json) {
+int list_command(const std::string& what, bool all, bool json) {
   return guarded(json, [&] {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    if (what == "methods") {
-      for (const MethodEntry& entry : methods()) {
-        const MethodInfo info = describe(MethodSpec{.name = entry.name});
-        if (json) {
-          all.push_back({{"name", entry.name},
-                         {"order", info.order},
-                         {"explicit", info.explicit_step},
-                         {"symplectic", info.symplectic},
-                         {"symmetric", info.symmetric},
-                         {"summary", info.summary}});
-        } else {
-          std::cout << fmt::format("{:<14} order {:<3} {:<34} {}\n", entry.name, info.order, flags(info), info.summary);
-        }
-      }
+    const bool of_methods = what == "methods";
+    if (json) {
+      std::cout << (of_methods ? methods_json() : problems_json()).dump(2) << '\n';
+    } else if (!of_methods) {
+      print_problems();
+    } else if (all) {
+      print_all_methods();
     } else {
-      for (const ProblemEntry& entry : problems()) {
-        if (json) {
-          all.push_back({{"name", entry.info.name},
-                         {"variant", entry.info.variant},
-                         {"formula", entry.info.formula},
-                         {"degrees_of_freedom", entry.dimension}});
-        } else {
-          std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
-                                   entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
-        }
-      }
+      print_methods();
     }
-    if (json) std::cout << all.dump(2) << '\n';
     return exit_done;
   });
 }

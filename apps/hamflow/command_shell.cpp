@@ -141,6 +141,7 @@ class Shell {
       alone();
       session_.restart();
       samples_.clear();
+      warned_.clear();
       outcome_ = Outcome::done;
       seconds_ = 0;
     } else if (word == "reverse") {
@@ -174,7 +175,7 @@ class Shell {
     catch_interrupts();
     const std::int64_t first = session_.step();
     const auto began = std::chrono::steady_clock::now();
-    Observer* const observers[] = {&samples_};
+    Observer* const observers[] = {&samples_, &session_.turns()};
     Outcome outcome = Outcome::done;
     const std::int64_t spacing = samples_.every();
     {
@@ -189,6 +190,7 @@ class Shell {
       std::cerr << "note: so many samples do not fit; from now on every " << samples_.every() << "th step is kept\n";
     }
     outcome_ = Outcome::done;
+    warn();
     if (outcome == Outcome::done) return exit_done;
     if (outcome == Outcome::stopped) {
       std::cerr << fmt::format("stopped by Ctrl-C at step {}\n", session_.step());
@@ -199,6 +201,18 @@ class Shell {
     const auto [message, hint] = session_failure(session_, last());
     print_error(message, hint);
     return exit_failed;
+  }
+
+  /// Of each kind once, until the session starts anew.
+  void warn() {
+    std::vector<std::string> fresh;
+    for (const std::string& warning : session_warnings(session_, last())) {
+      const std::string kind = warning.substr(0, warning.find(':'));
+      if (std::find(warned_.begin(), warned_.end(), kind) != warned_.end()) continue;
+      warned_.push_back(kind);
+      fresh.push_back(warning);
+    }
+    print_warnings(fresh);
   }
 
   SessionOutcome last() const { return {outcome_, seconds_}; }
@@ -310,6 +324,7 @@ class Shell {
   bool quit_ = false;
   Outcome outcome_ = Outcome::done;  // of the last step command
   double seconds_ = 0;
+  std::vector<std::string> warned_;  // kinds of warnings printed
 };
 
 }  // namespace

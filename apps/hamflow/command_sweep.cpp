@@ -35,6 +35,7 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
   if (writes && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder_for(options).string());
   }
+  print_warnings(report.warnings);
   if (report.status != "failed") print_notes(report.failures, options.quiet);
   if (report.status != "failed") return;
   for (const std::string& failure : report.failures) print_error(failure);

@@ -100,7 +100,7 @@ struct ShellOptions {
 };
 int shell_command(const ShellOptions& options);
 
-int list_command(const std::string& what, bool json);
+int list_command(const std::string& what, bool all, bool json);
 int show_command(const std::string& name);
 
 }  // namespace hamflow::app

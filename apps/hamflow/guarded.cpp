@@ -56,6 +56,10 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
   for (const std::string& note : notes) std::cerr << "note: " << note << '\n';
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+}
+
 void print_error(const std::string& message, const std::string& hint) {
   std::cerr << "error: " << message << '\n';
   if (!hint.empty()) std::cerr << "hint: " << hint << '\n';

@@ -22,6 +22,8 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
 
 /// Notes and errors on stderr, a line each.
 void print_notes(const std::vector<std::string>& notes, bool quiet);
+/// Also with --quiet: "warning: ..." each.
+void print_warnings(const std::vector<std::string>& warnings);
 void print_error(const std::string& message, const std::string& hint = {});
 
 /// Writes a text file that an option names.   @throws FileError

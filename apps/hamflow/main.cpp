@@ -200,11 +200,14 @@ int main(int argc, char** argv) {
   convert_command->callback([&] { status = hamflow::app::convert_command(convert); });
 
   std::string what;
+  bool list_all = false;
   bool list_json = false;
-  CLI::App* list_command = add(app, "list", "List the catalogue", "  hamflow list methods\n  hamflow list problems\n");
+  CLI::App* list_command = add(app, "list", "List the catalogue",
+                               "  hamflow list methods\n  hamflow list methods --all\n  hamflow list problems\n");
   list_command->add_option("what", what, "methods or problems")->required()->check(one_of({"methods", "problems"}));
-  list_command->add_flag("--json", list_json, "print JSON");
-  list_command->callback([&] { status = hamflow::app::list_command(what, list_json); });
+  list_command->add_flag("--all", list_all, "each method with a line of its own");
+  list_command->add_flag("--json", list_json, "print JSON, always of all");
+  list_command->callback([&] { status = hamflow::app::list_command(what, list_all, list_json); });
 
   std::string name;
   CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",

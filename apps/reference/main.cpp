@@ -68,7 +68,9 @@ std::string problem(const ProblemEntry& entry) {
   text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n",
                       entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
                       joined(info.coordinates), info.reference);
-  if (!info.parameters.empty()) text += table(info.parameters);
+  std::vector<OptionInfo> keys = info.parameters;
+  if (!info.frame.name.empty()) keys.push_back(info.frame);
+  if (!keys.empty()) text += table(keys);
   text += starts(info);
   if (info.two_bodies) {
     text += "`bodies = [{ mass, position = [3], velocity = [3] }, { ... }]`: two bodies in space, reduced.\n\n";

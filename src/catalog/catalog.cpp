@@ -67,22 +67,27 @@ Texts complete(const ProblemInfo& info, const Texts& given) {
 
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
   if (problem.accepts(spec)) return {};
-  // All of them, or, of the many, the best known.
-  const std::vector<std::string> well_known{"verlet", "stv4", "yoshida6", "kahan-li8", "cg", "rk4", "dop853", "taylor"};
+  // All of them, or, of the many, those with which to begin.
   std::vector<std::string> accepted;
+  std::vector<std::string> first;
   for (const MethodEntry& entry : methods()) {
-    if (problem.accepts(MethodSpec{.name = entry.name})) accepted.push_back(entry.name);
+    const MethodSpec other{.name = entry.name};
+    if (!problem.accepts(other)) continue;
+    accepted.push_back(entry.name);
+    if (!advice(other).purpose.empty()) first.push_back(entry.name);
   }
   const bool many = accepted.size() > 12;
-  if (many) {
-    std::erase_if(accepted, [&](const std::string& name) {
-      return std::find(well_known.begin(), well_known.end(), name) == well_known.end();
-    });
+  const std::string all = many ? joined(first) + " and others (hamflow list methods --all)" : joined(accepted);
+  const auto needs = [](const std::string& name) {
+    const MethodEntry& method = find_method(name);
+    return method.family->needs(method.index);
+  };
+  std::string text = spec.name + " needs " + needs(spec.name) + ", and that of " + problem.info.name + " is none; ";
+  if (!first.empty()) {
+    const std::string what = needs(first.front());  // "a separable H ...", "an H ..."
+    text += first.front() + " takes any" + what.substr(std::min(what.find(' '), what.size())) + "; ";
   }
-  const std::string all = joined(accepted) + (many ? " and others (hamflow list methods)" : "");
-  const MethodEntry& method = find_method(spec.name);
-  const std::string needs = method.family->needs(method.index);
-  return spec.name + " needs " + needs + ", and that of " + problem.info.name + " is none; allowed here: " + all;
+  return text + "allowed here: " + all;
 }
 
 std::string refused_fast_kernel(const Request& request, const ProblemEntry& problem) {

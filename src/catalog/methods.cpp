@@ -55,6 +55,19 @@ MethodInfo describe(const MethodSpec& spec) {
   return entry.family->describe(entry.index, spec.options);
 }
 
+MethodAdvice advice(const MethodSpec& spec) {
+  const MethodEntry& entry = find_method(spec.name);
+  return entry.family->advice ? entry.family->advice(entry.index) : MethodAdvice{};
+}
+
+std::vector<std::string> first_methods() {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : methods()) {
+    if (!advice(MethodSpec{.name = entry.name}).purpose.empty()) names.push_back(entry.name);
+  }
+  return names;
+}
+
 std::string hint_after_divergence(const MethodSpec& spec) {
   const MethodFamily& family = *find_method(spec.name).family;
   return family.hint ? family.hint(spec.options) : std::string(hint(Outcome::not_converged));

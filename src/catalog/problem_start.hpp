@@ -74,6 +74,9 @@ struct ProblemStart {
     fill(spec.q, s.q);
     fill(spec.v.empty() ? spec.p : spec.v, s.p);
     if (!spec.v.empty()) s.p = momenta_of(make<R>(parameters_of<R>(request), s.q.size()), s.q, s.p);
+    if constexpr (HasBarycentre<P>) {
+      if (spec.barycentric) make<R>(parameters_of<R>(request), s.q.size()).to_barycentre(s.q, s.p);
+    }
     return s;
   }
 

@@ -30,6 +30,21 @@ inline std::string needs_separable(bool nystroem) {
   return std::string("a separable H = T(p) + V(q)") + (nystroem ? ", T quadratic in p with constant mass matrix" : "");
 }
 
+/// What a table says of itself, and beside it what holds for all of its kind.
+inline MethodAdvice advice_of(const TableAdvice& own, const MethodInfo& info, bool nystroem) {
+  MethodAdvice advice{std::string(own.purpose), std::string(own.take), std::string(own.avoid)};
+  if (advice.take.empty()) {
+    advice.take = "order " + std::to_string(info.order) +
+                  " is wanted and hamflow compare ranks it before the others of that order on your problem";
+  }
+  if (advice.avoid.empty()) {
+    advice.avoid = std::string(nystroem ? "H is not p^T M^-1 p/2 + V(q) with constant M" : "H is not T(p) + V(q)") +
+                   ": cg takes any H";
+    if (!info.symmetric) advice.avoid += "; the run has to be reversible: verlet, stv4, kahan-li8 are";
+  }
+  return advice;
+}
+
 /// The decimal places to which a coefficient is known: all, where it is an expression or a short decimal.
 inline int known_digits(std::string_view coefficient) {
   constexpr std::size_t longest_exact = 17;  // no set of the literature has decimals that long on purpose

@@ -6,20 +6,31 @@
 namespace hamflow {
 
 namespace {
-/// The least number of characters to insert, delete or replace (one row of the matrix of [WagnerFischer1974]).
+/// The least number of characters to insert, delete or replace, or of neighbours to exchange, no part of the text twice
+/// ([WagnerFischer1974] with the exchange of neighbours).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1);  // the row before the last
+  std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    before.swap(last);
+    last.swap(row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+      row[j] = std::min({row[j - 1] + 1, last[j] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row.back();
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
 }
 }  // namespace
 
@@ -48,16 +59,22 @@ std::vector<std::string> split_list(const std::string& text) {
 }
 
 std::string nearest(const std::string& name, std::span<const std::string> candidates) {
+  const std::string wanted = lower_case(name);
   std::string best;
-  std::size_t least = std::max<std::size_t>(name.size() / 2, 2) + 1;
+  std::size_t least = std::max<std::size_t>((name.size() + 1) / 3, 1) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < least) {
+    const std::size_t distance = edit_distance(wanted, lower_case(candidate));
+    const bool nothing_in_common = distance >= std::max(name.size(), candidate.size());
+    if (distance < least && !nothing_in_common && !name.empty()) {
       least = distance;
       best = candidate;
     }
   }
-  return best;
+  if (!best.empty() || name.size() < 3) return best;
+  const auto begun = std::find_if(candidates.begin(), candidates.end(), [&](const std::string& candidate) {
+    return lower_case(candidate).starts_with(wanted);
+  });
+  return begun == candidates.end() ? "" : *begun;
 }
 
 std::string suggestion(const std::string& name, std::span<const std::string> candidates) {

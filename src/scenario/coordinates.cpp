@@ -100,12 +100,21 @@ CanonicalState StateConverter::operator()(const CanonicalState& state) {
     throw Error("found " + std::to_string(state.q.size()) + " coordinates and " + std::to_string(state.p.size()) +
                 " momenta; allowed " + std::to_string(size) + " of each");
   }
+  const auto is_finite = [](const std::vector<double>& x) {
+    return std::all_of(x.begin(), x.end(), [](double number) { return std::isfinite(number); });
+  };
+  if (!is_finite(state.q) || !is_finite(state.p))
+    throw Error("found a state that is not finite; allowed finite numbers");
   if (coordinates_of(*from_) == coordinates_of(*to_)) return state;
   Frame now;
   now.q = state.q;
   now.p = state.p;
   if (from_->to_reference) now = from_->to_reference(now.q, now.p);
   if (to_->from_reference) now = to_->from_reference(now.q, now.p);
+  if (!is_finite(now.q) || !is_finite(now.p)) {
+    throw Error("found a state whose " + coordinates_of(*to_) +
+                " coordinates double cannot hold; allowed numbers whose squares and products are finite");
+  }
   const double turn = 2 * pi_value<double>();
   for (const std::size_t i : turning_) {
     if (last_.empty()) break;

@@ -44,7 +44,19 @@ bool names_method_with_options(const std::string& text) {
   return contains(method_name_key().words, end == std::string::npos ? "" : text.substr(0, end + 1));
 }
 
-std::vector<std::string> replaced_method_keys(const toml::table& method) {
+std::string method_named_in(const toml::table& root) {
+  const auto text = root["method"][method_name_key().name].value<std::string>();
+  if (!text) return {};
+  const auto end = text->find_last_not_of(" \t", text->find('(') - 1);
+  return end == std::string::npos ? "" : text->substr(0, end + 1);
+}
+
+bool same_option(const OptionInfo& a, const OptionInfo& b) {
+  return a.name == b.name && a.meaning == b.meaning && a.type == b.type && a.words == b.words &&
+         a.range.least == b.range.least && a.range.most == b.range.most;
+}
+
+std::vector<std::string> replaced_method_keys(const toml::table& method, const std::string& file_method) {
   const toml::node* name = method.get(method_name_key().name);
   if (name == nullptr || !is_set(*name)) return {};
   MethodSpec spec;
@@ -53,12 +65,19 @@ std::vector<std::string> replaced_method_keys(const toml::table& method) {
   } catch (const Error&) {
     return {};  // the reader complains about it
   }
-  const std::vector<std::string> own = option_names(find_method(spec.name).family->options);
+  const std::vector<OptionInfo>& own = find_method(spec.name).family->options;
+  const bool is_known = contains(method_name_key().words, file_method);
+  const std::vector<OptionInfo>& meant = is_known ? find_method(file_method).family->options : own;
+  const auto applies = [&](const std::string& option) {
+    const OptionInfo* const here = find_option(own, option);
+    const OptionInfo* const there = find_option(meant, option);
+    return here != nullptr && (there == nullptr || same_option(*here, *there));
+  };
   std::vector<std::string> replaced;
   for (const auto& [key, node] : method) {
     const std::string option(key.str());
     if (is_set(node) || !contains(all_method_keys(), option)) continue;
-    if (!contains(own, option) || spec.options.contains(option)) replaced.push_back(option);
+    if (!applies(option) || spec.options.contains(option)) replaced.push_back(option);
   }
   return replaced;
 }

@@ -16,8 +16,14 @@ const OptionInfo& method_name_key();
 const std::vector<std::string>& all_method_keys();
 /// Whether the text is the name of a method with something in parentheses behind it.
 bool names_method_with_options(const std::string& text);
+/// The name of the method in a document, without options; empty where there is none.
+std::string method_named_in(const toml::table& root);
+/// Whether two families mean the same by an option, so that a value for the one is one for the other: the tolerance of
+/// a series is none of a Newton iteration.
+bool same_option(const OptionInfo& a, const OptionInfo& b);
 /// The keys of [method] in the file that do not apply because a method was set from outside (--set, --vary): options
-/// that it does not have, and options that its name carries.
-std::vector<std::string> replaced_method_keys(const toml::table& method);
+/// that it does not have or means otherwise than the file's own method, and options that its name carries.
+/// @param file_method the name of the file's own, method_named_in() before anything was set
+std::vector<std::string> replaced_method_keys(const toml::table& method, const std::string& file_method);
 
 }  // namespace hamflow

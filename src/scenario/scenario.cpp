@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "method_keys.hpp"
 #include "scenario_family.hpp"
 #include "scenario_reader.hpp"
 #include "toml_path.hpp"
@@ -48,9 +49,10 @@ std::int64_t default_record_every(std::int64_t steps) {
   return every;
 }
 
-std::optional<toml::table> parsed_document(const std::string& text, const std::string& name,
-                                           const std::vector<std::string>& sets, std::vector<Complaint>& complaints) {
-  toml::table root;
+std::optional<Document> parsed_document(const std::string& text, const std::string& name,
+                                        const std::vector<std::string>& sets, std::vector<Complaint>& complaints) {
+  Document document;
+  toml::table& root = document.root;
   try {
     root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -59,12 +61,13 @@ std::optional<toml::table> parsed_document(const std::string& text, const std::s
                           "found no valid TOML: " + std::string(error.description())});
     return std::nullopt;
   }
+  document.file_method = method_named_in(root);
   for (const std::string& set : sets) {
     const auto [path, wrong] = apply_set(root, set);
     if (!wrong.empty()) complaints.push_back({name, 0, 0, path, wrong});
   }
   drop_excluded(root);
-  return root;
+  return document;
 }
 
 std::string with_sets(const std::string& text, const std::vector<std::string>& sets) {
@@ -75,11 +78,11 @@ std::string with_sets(const std::string& text, const std::vector<std::string>& s
 
 Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
   Reading reading;
-  const std::optional<toml::table> root = parsed_document(text, name, sets, reading.complaints);
-  if (!root) return reading;
-  Scenario scenario = ScenarioReader(*root, name, reading.complaints).read();
+  const std::optional<Document> document = parsed_document(text, name, sets, reading.complaints);
+  if (!document) return reading;
+  Scenario scenario = ScenarioReader(*document, name, reading.complaints).read();
   scenario.text = with_sets(text, sets);
-  list_settings(*root, "", scenario.settings);
+  list_settings(document->root, "", scenario.settings);
   // In the order of the file, so that a reader can walk through it.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });

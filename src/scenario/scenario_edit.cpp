@@ -91,12 +91,13 @@ std::vector<std::string> sets_of(const std::string& text) {
 
 std::string edited_scenario(const std::string& text, const std::vector<ScenarioEdit>& edits) {
   toml::table root = toml::parse(text);
+  const std::string file_method = method_named_in(root);
   for (const std::string& set : sets_of(text)) {
     (void)apply_set(root, set);  // of a scenario that was read: nothing is wrong with it
   }
   drop_excluded(root);
   if (toml::table* const method = root["method"].as_table()) {
-    for (const std::string& key : replaced_method_keys(*method)) method->erase(key);
+    for (const std::string& key : replaced_method_keys(*method, file_method)) method->erase(key);
   }
   for (const ScenarioEdit& edit : edits) {
     if (edit.value) {

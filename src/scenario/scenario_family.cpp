@@ -12,7 +12,7 @@ namespace hamflow {
 struct ScenarioFamily::Impl {
   std::string name;
   std::string text;
-  toml::table root;
+  Document document;
   std::vector<toml::table> values;
   std::vector<Complaint> complaints;
 };
@@ -21,7 +21,7 @@ ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name,
     : impl_(std::make_unique<Impl>()) {
   impl_->name = name;
   impl_->text = with_sets(text, sets);
-  if (auto root = parsed_document(text, name, sets, impl_->complaints)) impl_->root = std::move(*root);
+  if (auto document = parsed_document(text, name, sets, impl_->complaints)) impl_->document = std::move(*document);
 }
 
 ScenarioFamily::~ScenarioFamily() = default;
@@ -37,12 +37,12 @@ std::size_t ScenarioFamily::add_value(const std::string& text) {
 Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values) {
   Reading reading;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::string wrong = assign(impl_->root, paths[i], *impl_->values[values[i]].get("value"));
+    const std::string wrong = assign(impl_->document.root, paths[i], *impl_->values[values[i]].get("value"));
     if (!wrong.empty()) reading.complaints.push_back({impl_->name, 0, 0, paths[i], wrong});
   }
   if (!reading.complaints.empty()) return reading;
-  drop_excluded(impl_->root);  // the same keys for every member
-  Scenario scenario = ScenarioReader(impl_->root, impl_->name, reading.complaints).read();
+  drop_excluded(impl_->document.root);  // the same keys for every member
+  Scenario scenario = ScenarioReader(impl_->document, impl_->name, reading.complaints).read();
   if (reading.complaints.empty()) reading.scenario = std::move(scenario);
   return reading;
 }

@@ -14,11 +14,15 @@ void ScenarioReader::read_method(TomlTable& table) {
     table.finish();
     return;
   }
-  const std::vector<std::string> dropped = replaced_method_keys(table.node());
+  const std::vector<std::string> dropped = replaced_method_keys(table.node(), file_method_);
   for (const std::string& key : dropped) {
     table.know(key);
-    scenario_.notes.push_back(table.full(key) + " of the file is not used: " + table.full(method_name_key().name) +
-                              " is set to " + spec.name);
+    scenario_.notes.push_back(
+        table.full(key) + " of the file is not used: " + table.full(method_name_key().name) + " is set to " +
+        spec.name +
+        (find_option(find_method(spec.name).family->options, key) != nullptr && !spec.options.contains(key)
+             ? ", which means something else by it"
+             : ""));
   }
   const Texts in_name = spec.options;
   for (const OptionInfo& option : find_method(spec.name).family->options) {
@@ -46,6 +50,18 @@ void ScenarioReader::read_method(TomlTable& table) {
 bool ScenarioReader::read_method_name(TomlTable& table) {
   const OptionInfo& key = method_name_key();
   const auto text = table.plain_string(key.name);
+  const auto allowed = [&] {
+    const std::vector<std::string> first = first_methods();
+    return joined(first) + " and " + std::to_string(key.words.size() - first.size()) + " others (hamflow list methods)";
+  };
+  if (!table.has(key.name)) {
+    table.missing(key.name, allowed());
+    return false;
+  }
+  if (text && !names_method_with_options(*text) && !refused_value(key, *text).empty()) {
+    table.complain(key.name, "found \"" + *text + "\"; allowed " + allowed() + suggestion(*text, key.words));
+    return false;
+  }
   if (!text || !names_method_with_options(*text)) {
     const auto name = table.text(key);
     if (name) scenario_.request.method.name = *name;

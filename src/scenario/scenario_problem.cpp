@@ -52,6 +52,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   }
   if (info.two_bodies) read_bodies(table);
   read_initial(table);
+  read_frame(table);
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);
@@ -90,6 +91,7 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
       optional.required = false;
       (void)table.text(optional, " (" + parameter.meaning + ")");
     }
+    if (!entry.info.frame.name.empty()) (void)table.text(entry.info.frame);
     for (const StartInfo& start : entry.info.starts) {
       if (std::find(kinds.begin(), kinds.end(), start.kind) == kinds.end()) kinds.push_back(start.kind);
       orbit_keys.insert(orbit_keys.end(), start.keys.begin(), start.keys.end());

@@ -6,17 +6,22 @@
 
 namespace hamflow {
 
+struct Document {
+  toml::table root;
+  std::string file_method;  // its name in the file, before anything was set
+};
+
 /// A text as a document in which each --set is carried out; none where it is no TOML, which is complained about.
-std::optional<toml::table> parsed_document(const std::string& text, const std::string& name,
-                                           const std::vector<std::string>& sets, std::vector<Complaint>& complaints);
+std::optional<Document> parsed_document(const std::string& text, const std::string& name,
+                                        const std::vector<std::string>& sets, std::vector<Complaint>& complaints);
 /// The text with a comment line for each --set.
 std::string with_sets(const std::string& text, const std::vector<std::string>& sets);
 
 /// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
 class ScenarioReader {
  public:
-  ScenarioReader(const toml::table& root, const std::string& file, std::vector<Complaint>& complaints)
-      : root_(&root, "", file, complaints), complaints_(complaints) {
+  ScenarioReader(const Document& document, const std::string& file, std::vector<Complaint>& complaints)
+      : root_(&document.root, "", file, complaints), complaints_(complaints), file_method_(document.file_method) {
     scenario_.file = file;
   }
 
@@ -44,6 +49,7 @@ class ScenarioReader {
   void read_bodies(TomlTable& table);
   bool check_size(TomlTable& table);
   void read_initial(TomlTable& table);
+  void read_frame(TomlTable& table);
   void check_start(TomlTable& table);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
@@ -62,6 +68,7 @@ class ScenarioReader {
 
   TomlTable root_;
   std::vector<Complaint>& complaints_;
+  std::string file_method_;
   Scenario scenario_;
 };
 

@@ -85,12 +85,13 @@ void ScenarioReader::read_length(TomlTable& table) {
                      table.found(end_key) + " with dt = " + shortest(scenario_.dt) + "; allowed the sign of dt");
     } else if (whole > static_cast<double>(most_steps)) {
       table.complain(end_key, table.found(end_key) + "; allowed at most 2^53 steps of dt");
-    } else if (std::abs(ratio - whole) > std::max(1e-9, 4 * whole * 0x1p-52)) {  // the quotient itself rounds
+    } else if (std::abs(ratio - whole) > std::max(1e-9, 4 * whole * 0x1p-52) ||  // the quotient itself rounds
+               (whole == 0 && *t_end != 0)) {
       const double fitting = std::max(whole, 1.0);
       table.complain(end_key, table.found(end_key) + ", which is " + shortest(ratio) +
                                   " steps of dt = " + shortest(scenario_.dt) +
                                   "; allowed a whole number of steps, nearest dt = " + shortest(*t_end / fitting) +
-                                  " or " + end_key + " = " + shortest(whole * scenario_.dt));
+                                  " or " + end_key + " = " + shortest(fitting * scenario_.dt));
     } else {
       scenario_.steps = static_cast<std::int64_t>(whole);
     }

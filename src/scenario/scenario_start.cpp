@@ -147,6 +147,15 @@ void ScenarioReader::read_initial(TomlTable& table) {
   initial.finish();
 }
 
+/// A start by `initial` is meant as it is given, unless the scenario says otherwise.
+void ScenarioReader::read_frame(TomlTable& table) {
+  const OptionInfo& key = scenario_.problem->info.frame;
+  if (key.name.empty()) return;
+  const auto frame = table.text(key);
+  const std::string usual = table.has("initial") ? StartFrames::given : key.default_value;
+  scenario_.request.start.barycentric = frame.value_or(usual) == StartFrames::barycentric;
+}
+
 /// Where the size of the problem follows from the start.
 bool ScenarioReader::check_size(TomlTable& table) {
   const StartSpec& spec = scenario_.request.start;

@@ -230,6 +230,7 @@ class TemplateWriter {
       }
     }
     write_state();
+    if (!info_.frame.name.empty()) write_option(info_.frame, false);
     if (info_.two_bodies) {
       page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
       page_.line("# bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },");

@@ -148,6 +148,16 @@ void erase(toml::table& root, const std::string& path) {
   }
 }
 
+bool is_part_of_other(const std::string& a, const std::string& b) {
+  const std::vector<Part> x = parts_of(a);
+  const std::vector<Part> y = parts_of(b);
+  const std::size_t common = std::min(x.size(), y.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (x[i].is_index != y[i].is_index || x[i].index != y[i].index || x[i].name != y[i].name) return false;
+  }
+  return common > 0;
+}
+
 std::pair<std::string, std::string> parsed_set(const std::string& set) {
   const auto equals = set.find('=');
   if (equals == std::string::npos) return {};

@@ -21,6 +21,8 @@ void erase(toml::table& root, const std::string& path);
 std::pair<std::string, std::string> parsed_set(const std::string& set);
 /// Carries out --set PATH=VALUE. @return the path, and what is wrong; empty if nothing is
 std::pair<std::string, std::string> apply_set(toml::table& root, const std::string& set);
+/// Whether one of two paths is the other or leads to it: problem.orbit and problem.orbit.r0.
+bool is_part_of_other(const std::string& a, const std::string& b);
 /// Removes the keys of the file that a key set from outside excludes: t_end where steps is set, and so on.
 void drop_excluded(toml::table& root);
 

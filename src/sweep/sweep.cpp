@@ -227,6 +227,7 @@ class Sweep::Worker {
       if (complete && sweep_.options_.observables.observe) {
         row.observables = sweep_.options_.observables.observe(scenario_of(members[lane]));
       }
+      if (complete && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(members[lane]), row);
     }
   }
 
@@ -255,6 +256,11 @@ class Sweep::Worker {
     if (outcome == Outcome::done && sweep_.options_.observables.observe) {
       row.observables = sweep_.options_.observables.observe(scenario);
     }
+    if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
+  }
+
+  bool is_suspect(const MemberRow& row) const {
+    return sweep_.options_.is_nonsense && row.energy.max_error > row.energy_scale;
   }
 
   /// Read anew: 10^5 scenarios at once would fill the memory.

@@ -28,7 +28,8 @@ struct MemberRow {
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
-  std::string message;  // of a failure
+  std::string message;    // of a failure
+  bool nonsense = false;  // done, but its energy is off by more than it can be
 };
 
 /// Further columns, e.g. an exponent: numbers computed for each member from its scenario, on the member's thread.
@@ -41,6 +42,8 @@ struct SweepOptions {
   int threads = 0;  // 0: all cores
   LaneSet lanes = LaneSet::none;
   MemberObservables observables{};
+  /// Asked of members that are done with an energy error above their scale.
+  std::function<bool(const Scenario&, const MemberRow&)> is_nonsense{};
 };
 
 class Sweep {

@@ -10,6 +10,7 @@
 #include "resume.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
+#include "warnings.hpp"
 
 namespace hamflow {
 
@@ -52,7 +53,10 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
 class ScenarioRun {
  public:
   ScenarioRun(const Scenario& scenario, const RunSettings& settings, const Checkpoint* from)
-      : scenario_(scenario), settings_(settings), simulation_(make_simulation(scenario.request)) {
+      : scenario_(scenario),
+        settings_(settings),
+        simulation_(make_simulation(scenario.request)),
+        turns_(scenario.dt, !simulation_->method().own_substeps) {
     if (from != nullptr) {
       restore(*simulation_, *from);
       seconds_before_ = from->wall_seconds;
@@ -69,6 +73,7 @@ class ScenarioRun {
     measures_.emplace(scenario_, *simulation_, recorder_.get());
     std::vector<NamedObserver> archived = measures_->observers();
     archived.push_back({"energy_blocks", &blocks_});
+    archived.push_back({"turns", &turns_});
     for (std::size_t i = 0; i < settings.observers.size(); ++i) {
       archived.push_back({"observer " + std::to_string(i + 1), settings.observers[i]});
     }
@@ -90,7 +95,7 @@ class ScenarioRun {
     result.steps_taken = simulation_->step();
     RunReport report;
     report.certificate = certify(scenario_.request, *scenario_.problem, *simulation_, blocks_, result.steps_taken);
-    const Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_);
+    const Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
     report.file_trouble = result.file_trouble;
     report.outcome = result.outcome;
     report.wall_seconds = result.wall_seconds;
@@ -148,6 +153,7 @@ class ScenarioRun {
     report.energy = simulation_->energy();
     report.energy_scale = simulation_->energy_scale();
     report.invariants = simulation_->invariants();
+    report.warnings = warning_lines(summary);
     report.text = readable(summary);
   }
 
@@ -170,6 +176,7 @@ class ScenarioRun {
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;
   EnergyBlocks blocks_;
+  TurnWatch turns_;
   std::optional<Measures> measures_;
   std::vector<Observer*> observers_;
 };

@@ -55,8 +55,8 @@ std::string methods_with(const std::string& option) {
 
 }  // namespace
 
-Session::Session(const Scenario& scenario)
-    : scenario_(scenario), request_(scenario.request), options_(scenario.request.method.options) {
+Session::Session(const Scenario& scenario) : scenario_(scenario), request_(scenario.request) {
+  remember(request_.method);
   restart();
 }
 
@@ -81,6 +81,7 @@ void Session::restart() {
   reference_ = start.invariants;
   offset_.assign(start.invariants.size(), 0);
   worst_invariants_.assign(sizes_.size(), 0);
+  turns_ = TurnWatch(evaluate_number<double>(request_.dt), !simulation_->method().own_substeps);
 }
 
 void Session::set_step_length(const std::string& text) {
@@ -95,16 +96,27 @@ void Session::set_method(const MethodSpec& method) {
   Request next = request_;
   next.method = method;
   for (const OptionInfo& option : find_method(method.name).family->options) {
-    const auto before = options_.find(option.name);
+    const auto before = std::find_if(options_.begin(), options_.end(),
+                                     [&](const auto& set) { return same_option(*set.first, option); });
     if (before != options_.end() && refused_value(option, before->second).empty()) {
-      next.method.options.insert(*before);
+      next.method.options.emplace(option.name, before->second);
     }
   }
   if (const auto refused = refused_option(next.method)) {
     throw Error(method.name + ": " + refused->name + ": " + refused->message);
   }
   change(next, "method = " + describe(next.method).name);
-  for (const auto& [name, text] : next.method.options) options_[name] = text;
+  remember(next.method);
+}
+
+/// The options of a method, for methods to come that mean the same by them.
+void Session::remember(const MethodSpec& method) {
+  for (const OptionInfo& option : find_method(method.name).family->options) {
+    const auto text = method.options.find(option.name);
+    if (text == method.options.end()) continue;
+    std::erase_if(options_, [&](const auto& set) { return same_option(*set.first, option); });
+    options_.emplace_back(&option, text->second);
+  }
 }
 
 void Session::set_tolerance(const std::string& text) {
@@ -124,8 +136,8 @@ void Session::set_tolerance(const std::string& text) {
     next.method.options[option->name] = text;
   }
   change(next, option->name + " = " + text);
-  if (text == "off") options_.erase(option->name);
-  if (text != "off") options_[option->name] = text;
+  std::erase_if(options_, [&](const auto& set) { return same_option(*set.first, *option); });
+  remember(request_.method);
 }
 
 void Session::change(const Request& next, const std::string& what) {
@@ -156,6 +168,7 @@ void Session::change(const Request& next, const std::string& what) {
   simulation_ = std::move(other);
   request_ = from_here;
   changes_.push_back({step_before_, time_before_, what});
+  turns_.restart(step_before_, evaluate_number<double>(request_.dt), !simulation_->method().own_substeps);
 }
 
 Scenario Session::present() const {
@@ -234,6 +247,7 @@ void Session::negate_momenta() {
   look(scratch_);
   reference_ = scratch_.invariants;
   reversed_ = true;
+  turns_.restart(scratch_.step, turns_.step_length(), turns_.is_active());  // q goes back along its way
   changes_.push_back({scratch_.step, scratch_.time, "momenta negated"});
 }
 

@@ -7,6 +7,7 @@
 #include "run_description.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
+#include "warnings.hpp"
 
 namespace hamflow {
 
@@ -20,7 +21,7 @@ Json summary(const Session& session, const SessionOutcome& last) {
   if (last.outcome == Outcome::not_converged) result.failure = session.failure();
   result.wall_seconds = last.wall_seconds;
   result.steps_taken = session.step();
-  Json all = summary_of(session.present(), session, result);
+  Json all = summary_of(session.present(), session, result, nullptr, nullptr, &session.turns());
   if (session.changes().empty()) return all;
   all["changes"] = Json::array();
   for (const SessionChange& c : session.changes()) {
@@ -37,6 +38,10 @@ Json summary(const Session& session, const SessionOutcome& last) {
 
 std::string session_summary(const Session& session, const SessionOutcome& last) {
   return json_text(summary(session, last));
+}
+
+std::vector<std::string> session_warnings(const Session& session, const SessionOutcome& last) {
+  return warning_lines(summary(session, last));
 }
 
 std::pair<std::string, std::string> session_failure(const Session& session, const SessionOutcome& last) {

@@ -11,6 +11,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "measures/measures.hpp"
+#include "warnings.hpp"
 
 namespace hamflow {
 
@@ -31,6 +32,10 @@ Json parameters_of(const Scenario& scenario) {
     parameters[parameter.name] = single && parameter.range.whole ? Json(static_cast<std::int64_t>(list[0]))
                                  : single                        ? Json(list[0])
                                                                  : Json(list);
+  }
+  if (!scenario.problem->info.frame.name.empty()) {
+    parameters[scenario.problem->info.frame.name] =
+        scenario.request.start.barycentric ? StartFrames::barycentric : StartFrames::given;
   }
   return parameters;
 }
@@ -128,7 +133,7 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
 std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
 
 Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                const RunCertificate* certificate, const Measures* measures) {
+                const RunCertificate* certificate, const Measures* measures, const TurnWatch* turns) {
   Frame frame;
   simulation.look(frame);
   const Effort effort = simulation.effort();
@@ -189,6 +194,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["events"] = Json::object();
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);
+  s["warnings"] = warnings_of(scenario, s, simulation, turns);
   s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;

@@ -6,6 +6,7 @@
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
+#include "hamflow/verify/turns.hpp"
 
 namespace hamflow {
 
@@ -23,8 +24,10 @@ struct RunResult {
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
 /// @param certificate null where nobody has watched   @param measures null where nothing was measured
+/// @param turns null where nobody has watched for long steps
 nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
-                                  const RunCertificate* certificate = nullptr, const Measures* measures = nullptr);
+                                  const RunCertificate* certificate = nullptr, const Measures* measures = nullptr,
+                                  const TurnWatch* turns = nullptr);
 /// The same summary for people.
 std::string readable(const nlohmann::ordered_json& summary);
 /// JSON as text, also of strings that are no UTF-8: names of files may be anything.

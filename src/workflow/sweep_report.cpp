@@ -17,6 +17,21 @@ std::size_t count(const Sweep& sweep, Outcome status) {
                                                 [&](const MemberRow& row) { return row.status == status; }));
 }
 
+/// Of all members together. That dt is long, or an orbit falls into the centre, is said by a run of a single member.
+Json sweep_warnings(const Sweep& sweep) {
+  const auto is_nonsense = [](const MemberRow& row) { return row.nonsense; };
+  const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_nonsense);
+  const auto count = std::count_if(first, sweep.rows().end(), is_nonsense);
+  Json all = Json::array();
+  if (count == 0) return all;
+  all.push_back(
+      {{"kind", "energy_error"},
+       {"message", fmt::format("the energy of {} of {} members was off by more than its scale, first of member "
+                               "{}: they are done, but no motion of {}; try a smaller dt",
+                               count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}});
+  return all;
+}
+
 Json varied_of(const Sweep& sweep) {
   Json varied = Json::object();
   for (const Vary& vary : sweep.varied()) {
@@ -93,6 +108,7 @@ Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
   s["members_in_lanes"] = sweep.members_in_lanes();
   if (sweep.beyond_double()) s["note"] = "members beyond double run one by one on the threads: lanes are for double";
   s["threads"] = sweep.threads();
+  s["warnings"] = sweep_warnings(sweep);
   s["failures"] = Json::array();
   for (std::size_t member = 0; member < sweep.members() && s["failures"].size() < most_failures; ++member) {
     const MemberRow& row = sweep.rows()[member];

@@ -10,10 +10,13 @@
 #include "parameter_map.hpp"
 #include "run_description.hpp"
 #include "run_folder.hpp"
+#include "run_keys.hpp"
 #include "summary.hpp"
 #include "sweep_report.hpp"
 #include "sweep_table.hpp"
 #include "terminal.hpp"
+#include "toml_path.hpp"
+#include "warnings.hpp"
 
 namespace hamflow {
 
@@ -84,6 +87,15 @@ void draw(const Sweep& sweep, const fs::path& file, const std::string& colour) {
   write_parameter_map(map, file);
 }
 
+/// Whether a key decides nothing but what a run writes, and when.
+bool belongs_to_single_runs(const std::string& path) {
+  const RunKeys& keys = run_keys();
+  const std::vector<std::string> all{output_table, run_path(keys.checkpoint_every), run_path(keys.record_every),
+                                     run_path(keys.record)};
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& key) { return is_part_of_other(key, path) && path.size() >= key.size(); });
+}
+
 /// What is wrong with the request beside its scenario goes into `wrong`, a line each.
 std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
   std::vector<Vary> varied;
@@ -102,9 +114,26 @@ std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std:
   for (const std::string& vary : request.varied) {
     try_to("--vary: error: ", [&] { varied.push_back(parse_vary(vary)); });
   }
+  for (const Vary& vary : varied) {
+    if (!belongs_to_single_runs(vary.path)) continue;
+    wrong.push_back(
+        "--vary: error: found " + vary.path +
+        ", on which no number of a sweep depends; allowed keys of [problem], [method] and the others of [run]");
+  }
   for (std::size_t i = 0; i < varied.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (varied[i].path == varied[j].path) wrong.push_back("--vary: error: found " + varied[i].path + " twice");
+      if (varied[i].path == varied[j].path) {
+        wrong.push_back("--vary: error: found " + varied[i].path + " twice");
+      } else if (is_part_of_other(varied[i].path, varied[j].path)) {
+        wrong.push_back("--vary: error: found " + varied[j].path + " beside " + varied[i].path +
+                        ", of which one replaces the other; allowed one of them");
+      }
+    }
+    for (const std::string& set : request.sets) {
+      const std::string path = parsed_set(set).first;
+      if (!is_part_of_other(path, varied[i].path) || path.size() < varied[i].path.size()) continue;
+      wrong.push_back("--set: error: found " + path + ", which --vary " + varied[i].path +
+                      " replaces; allowed one of them");
     }
   }
   try_to("--vary: error: ", [&] { (void)member_count(varied); });
@@ -121,6 +150,12 @@ class ScenarioSweep::Impl {
     const std::vector<Vary> varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
     how.observables = columns_of_measures(request, varied);
+    how.is_nonsense = [](const Scenario& scenario, const MemberRow& row) {
+      Frame end;
+      end.q = row.q;
+      end.p = row.p;
+      return is_energy_nonsense(scenario, row.energy, row.energy_scale, end);
+    };
     sweep.emplace(request.text, request.name, request.sets, varied, how);
     complaints = sweep->complaints();
   }
@@ -168,6 +203,7 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
   report.status = summary["status"].get<std::string>();
   report.json = json_text(summary);
   report.text = readable_sweep(summary);
+  report.warnings = warning_lines(summary);
   for (const Json& failure : summary["failures"]) {
     report.failures.push_back(fmt::format("member {}, step {}: {}", failure["member"].get<std::size_t>(),
                                           failure["step"].get<std::int64_t>(), failure["message"].get<std::string>()));

@@ -73,8 +73,10 @@ class Options(CommandCase):
         self.assertEqual(name, "taylor(order=30)")
         self.assertEqual({key: here[key] for key in ("t", "q", "p")}, final)
         self.assertNotEqual(final, self.final("method={name='taylor',order=4}", "run.steps=20")[0])
-        # What stays open is as it was set before, where the new method has it.
+        # What stays open is as it was set before, where the new method means the same by it.
         here = self.shell("tol 1e-7\nmethod taylor\nshow settings\n")[-1]
+        self.assertEqual((here["method"], here["tolerance"]), ("taylor", 1e-12))
+        here = self.shell("method dop853\ntol 1e-7\nmethod taylor\nshow settings\n")[-1]
         self.assertEqual((here["method"], here["tolerance"]), ("taylor(tolerance=1e-07)", 1e-7))
 
     def test_the_shell_sets_the_tolerance_of_every_method_that_has_one(self):

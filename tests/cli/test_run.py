@@ -104,7 +104,7 @@ class Run(CommandCase):
         self.assertTrue(all(math.isfinite(x) for x in s["final"]["q"] + s["final"]["p"]))
 
     def test_list_and_show(self):
-        names = self.hamflow("list", "methods").stdout
+        names = self.hamflow("list", "methods", "--all").stdout
         for name in ("euler", "euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "stv4-dkd", "suzuki4", "yoshida6",
                      "rk4", "cg"):
             self.assertRegex(names, rf"(?m)^{name} ")

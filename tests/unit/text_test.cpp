@@ -35,11 +35,27 @@ TEST(Text, TheNearestNameIsTheOneWithFewestEdits) {
   EXPECT_EQ(nearest("ab", Words{"ax", "ay"}), "ax") << "the first of equally near ones";
 }
 
-TEST(Text, AtMostHalfOfANameMayBeWrong) {
-  EXPECT_EQ(nearest("abcdef", Words{"abcxyz"}), "abcxyz");
-  EXPECT_EQ(nearest("abcdef", Words{"abwxyz"}), "");
-  EXPECT_EQ(nearest("ab", Words{"xy"}), "xy") << "of short names, two characters";
-  EXPECT_EQ(nearest("ab", Words{"xyz"}), "");
+TEST(Text, AtMostAThirdOfANameMayBeWrong) {
+  EXPECT_EQ(nearest("abcdef", Words{"abcdxy"}), "abcdxy");
+  EXPECT_EQ(nearest("abcdef", Words{"abcxyz"}), "");
+  EXPECT_EQ(nearest("foo", (Words{"log", "for"})), "for") << "of short names, one character";
+  EXPECT_EQ(nearest("foo", Words{"log"}), "");
+  EXPECT_EQ(nearest("ab", Words{"xy"}), "");
+  EXPECT_EQ(nearest("q", (Words{"x", "q1"})), "q1") << "not all of it";
+  EXPECT_EQ(nearest("", (Words{"x", "cg"})), "");
+  EXPECT_EQ(nearest("", (Words{"x", "y"})), "x") << "one character is missing";
+}
+
+TEST(Text, NeighboursExchangedAreOneMistake) {
+  EXPECT_EQ(nearest("tiem", (Words{"mass", "time"})), "time");
+  EXPECT_EQ(nearest("rk4", (Words{"r4k", "xyz"})), "r4k");
+}
+
+TEST(Text, LargeLettersAreNoMistake) { EXPECT_EQ(nearest("KEPLER", (Words{"hooke", "kepler"})), "kepler"); }
+
+TEST(Text, TheBeginningOfANameIsEnough) {
+  EXPECT_EQ(nearest("central", (Words{"duffing", "central-force"})), "central-force");
+  EXPECT_EQ(nearest("ce", Words{"central-force"}), "") << "three characters at least";
 }
 
 TEST(Text, SuggestionsEndASentence) {

@@ -92,6 +92,12 @@ concept HasTotalMass = requires(const P& problem) {
   { problem.total_mass() } -> std::convertible_to<RealOf<P>>;
 };
 
+/// to_barycentre(q, p): moves a state so that its centre of mass stands at the origin, at rest. Default: there is none.
+template <class P, class S = RealOf<P>>
+concept HasBarycentre = requires(const P& problem, VectorOf<P, S>& x) {
+  problem.to_barycentre(x, x);
+};
+
 // What is known of the motion without integrating it. Defaults: nothing.
 
 /// exact(q, p, t): the state after time t, in long double; std::nullopt where it is not known.

@@ -50,6 +50,12 @@ struct StartInfo {
   Texts example_parameters{};          // that the example needs; empty: those of the problem's example
 };
 
+/// The frames in which a start can be: as it is given, and that of the centre of mass.
+struct StartFrames {
+  static constexpr const char* given = "given";
+  static constexpr const char* barycentric = "barycentric";
+};
+
 /// Where `hamflow verify` measures a method: states in which the motion is bounded, regular and, where the problem is,
 /// nonlinear, far from turning points and apsides, where defects are largest. Missing parameters take their defaults.
 struct RegionInfo {
@@ -91,6 +97,10 @@ struct ProblemInfo {
   std::string start_key{};
   std::vector<std::string> default_q{};  // number expressions; empty: a scenario has to give a start
   std::vector<std::string> default_p{};
+  /// The key that moves the centre of mass of a start to the origin and to rest (its words are those of
+  /// StartFrames), with its default; a start by `initial` stays as it is given unless the key says otherwise.
+  /// Without a name there is none. A problem that has it has to_barycentre() (core/optional_functions.hpp).
+  OptionInfo frame{};
   bool two_bodies =
       false;  // a planar relative motion: `bodies` may give two bodies in space, from which `mass` follows
   RegionInfo region{};

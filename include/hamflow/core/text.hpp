@@ -30,8 +30,9 @@ std::string joined(const Range& range, const TextOf& text_of, std::string_view s
 /// split.
 std::vector<std::string> split_list(const std::string& text);
 
-/// The candidate nearest to `name` by edit distance (Levenshtein), the first of several; empty if none is near, that is
-/// if more than half of the name, and more than two characters, would have to change.
+/// The candidate nearest to `name` by edit distance, large and small letters alike, the first of several; else the
+/// first that begins with `name`, of three characters at least. Empty if none is near, that is if more than a third of
+/// the name (of four characters one), or all of it, would have to change.
 std::string nearest(const std::string& name, std::span<const std::string> candidates);
 
 /// "; did you mean NAME?" with the nearest candidate, or nothing if none is near.

@@ -9,6 +9,13 @@
 
 namespace hamflow {
 
+/// What `list methods` and `show` say of a table, where there is more to say than of all of its kind.
+struct TableAdvice {
+  std::string_view purpose{};  // of one of the few methods with which the list begins: for what
+  std::string_view take{};     // when to take it
+  std::string_view avoid{};    // when not, and what is better then
+};
+
 /// Psi_h = StV(gamma_s h) o ... o StV(gamma_1 h), gamma palindromic, StV the Stoermer-Verlet step.
 /// `half` lists gamma_1 .. up to, not including, the middle one, which is 1 - 2 sum(half): consistency is exact.
 struct CompositionTable {
@@ -18,6 +25,7 @@ struct CompositionTable {
   std::string_view reference;
   std::array<std::string_view, most> half{};
   std::array<std::string_view, most> closed_half{};  // expressions, where there are, for any number of digits
+  TableAdvice advice{};
 
   constexpr int half_count() const {
     int count = 0;
@@ -40,6 +48,7 @@ struct SplittingTable {
   bool symmetric = false;
   bool nystroem = false;  // has its order for T = p^T M^-1 p/2 with constant M only
   std::array<std::string_view, most> coefficients{};
+  TableAdvice advice{};
 
   /// How many coefficients are listed.
   constexpr int listed() const {

@@ -26,6 +26,7 @@ class NBody : public Gravity<R> {
                            {"gravitational_constant", "1", "G"},
                            {"softening", "0", "length", Range::not_negative}},
             .invariants = Gravity<R>::gravity_invariants(),
+            .frame = Gravity<R>::frame_key(StartFrames::given),
             // Softened, so that close encounters, to which the elements come in time, do no harm.
             .region = {.parameters = {{"masses", "[1, 0.3, 0.2]"}, {"softening", "0.2"}},
                        .centre = {0, 0, 1, 0, 0, -1.5, 0, -0.1, 0, 0.3, 0.16, 0},

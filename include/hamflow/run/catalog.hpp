@@ -28,6 +28,7 @@ struct StartSpec {
   std::vector<std::string> q;
   std::vector<std::string> p;
   std::vector<std::string> v;
+  bool barycentric = false;  // the centre of mass is moved to the origin, to rest
   bool geometric() const { return !kind.empty() || !orbit.empty(); }
 };
 
@@ -121,6 +122,10 @@ const ProblemEntry& usual_problem(const std::string& name, const std::map<std::s
 /// The parameters of a problem with defaults for those not given.
 Texts complete(const ProblemInfo& info, const Texts& given);
 MethodInfo describe(const MethodSpec& spec);
+/// For what a method is, when to take it and when not.
+MethodAdvice advice(const MethodSpec& spec);
+/// The few methods with which to begin, those whose advice has a purpose, in the order of methods().
+std::vector<std::string> first_methods();
 /// "stv4", "cg(2,6)", "cg(degree=2,quadrature=6)".
 /// @throws Error naming the option, what was found and what is allowed
 MethodSpec parse_method(const std::string& text);

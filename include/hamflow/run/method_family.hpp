@@ -21,6 +21,13 @@ struct MethodSpec {
   friend bool operator==(const MethodSpec&, const MethodSpec&) = default;
 };
 
+/// What a user should know before taking a method.
+struct MethodAdvice {
+  std::string purpose{};  // for what, where it is one of the few with which `list methods` begins; else empty
+  std::string take{};     // when to take it
+  std::string avoid{};    // when not, and what is better then
+};
+
 /// The option that stands for the accuracy of a step, in every family that has one.
 inline constexpr const char* tolerance_option = "tolerance";
 
@@ -28,6 +35,7 @@ inline constexpr int unlimited_digits = std::numeric_limits<int>::max();
 
 struct MethodFamily {
   std::string name;
+  std::string meaning{};                     // of the whole family, for the headings of lists
   std::vector<std::string> methods;          // their names
   std::vector<OptionInfo> options;           // the keys of [method] beside `name`
   int rank = 0;                              // in lists: 0 by order and cost, then 1, 2, ...
@@ -40,6 +48,7 @@ struct MethodFamily {
   std::function<MethodInfo(std::size_t method, const Texts& options)> describe;
   /// What H has to be, in words: "a separable H = T(p) + V(q)".
   std::function<std::string(std::size_t method)> needs;
+  std::function<MethodAdvice(std::size_t method)> advice;
   /// The decimal digits beyond which its coefficients would cap its order.
   std::function<int(std::size_t method)> digits;
   /// The option to blame, and what is wrong with options that do not go together: "found ...; allowed ...".

@@ -35,11 +35,12 @@ struct RunSettings {
 
 /// What a run came to.
 struct RunReport {
-  std::string status;         // "done", "interrupted", "failed"
-  std::string message;        // of a run that failed: what happened, a sentence
-  std::string hint;           // and what can be done
-  std::string file_trouble;   // why not everything could be written; empty: it was. The numbers hold all the same
-  bool was_complete = false;  // resumed, and there was nothing to do
+  std::string status;        // "done", "interrupted", "failed"
+  std::string message;       // of a run that failed: what happened, a sentence
+  std::string hint;          // and what can be done
+  std::string file_trouble;  // why not everything could be written; empty: it was. The numbers hold all the same
+  std::vector<std::string> warnings{};  // what is plainly nonsense about it, "kind: message" each
+  bool was_complete = false;            // resumed, and there was nothing to do
   Outcome outcome = Outcome::done;
   Frame final;
   Excursion energy;

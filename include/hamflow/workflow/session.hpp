@@ -7,6 +7,7 @@
 
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "hamflow/verify/turns.hpp"
 
 namespace hamflow {
 
@@ -41,6 +42,10 @@ class Session final : public Simulation {
   /// Whether momenta were negated: the state is then not on the orbit of the start at the session's time.
   bool reversed() const { return reversed_; }
 
+  /// Watches for steps that are too long: whoever runs the session wakes it with the other observers.
+  TurnWatch& turns() { return turns_; }
+  const TurnWatch& turns() const { return turns_; }
+
   Outcome advance(std::int64_t steps) override;
   std::int64_t step() const override;
   void look(Frame& frame) const override;
@@ -63,6 +68,7 @@ class Session final : public Simulation {
   Outcome look_part(double theta, Frame& frame) const override;
 
  private:
+  void remember(const MethodSpec& method);
   void change(const Request& next, const std::string& what);
   void watch_from_here();
   void watch(const Frame& frame);
@@ -72,7 +78,8 @@ class Session final : public Simulation {
   Scenario scenario_;
   Request request_;  // with the present settings; of a later part, with the state in which it began
   std::unique_ptr<Simulation> simulation_;  // the present part; its steps and times count from where the part began
-  Texts options_;                           // of methods, as they were set last
+  /// Of methods, as they were set last, each with its declaration: another family may mean something else by a name.
+  std::vector<std::pair<const OptionInfo*, std::string>> options_;
   std::vector<SessionChange> changes_;
   bool reversed_ = false;
 
@@ -90,6 +97,7 @@ class Session final : public Simulation {
   std::vector<double> offset_;              // of invariants with time in them, whose parts begin at time 0
   std::vector<double> worst_invariants_;    // one for each invariant
   Frame scratch_;
+  TurnWatch turns_{0, false};
 };
 
 /// Keeps the start, every n-th step and, after keep(), the present one. When they become too many every second one is
@@ -117,6 +125,8 @@ struct SessionOutcome {
   double wall_seconds = 0;  // of all steps
 };
 
+/// What is plainly nonsense about the session so far, "kind: message" each.
+std::vector<std::string> session_warnings(const Session& session, const SessionOutcome& last);
 /// The summary of a session, as JSON: that of a run, and what was changed on the way.
 std::string session_summary(const Session& session, const SessionOutcome& last);
 /// What went wrong in the last steps, and what can be done; both empty where nothing did.

@@ -52,6 +52,7 @@ struct Cg {
 
   static MethodFamily declared() {
     return {.name = "cg",
+            .meaning = "finite elements in time that conserve the energy, for any twice differentiable H",
             .methods = {"cg"},
             .options = declarations_of(options()),
             .rank = 1,
@@ -60,6 +61,15 @@ struct Cg {
             .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"},
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
             .needs = [](std::size_t) { return "a twice differentiable H"; },
+            .advice =
+                [](std::size_t) {
+                  return MethodAdvice{
+                      .purpose = "any twice differentiable H; keeps the energy to rounding, whatever dt is",
+                      .take = "H is not T(p) + V(q), the energy has to be exact, or the motion is stiff",
+                      .avoid =
+                          "many cheap steps do for H = T(p) + V(q): verlet, kahan-li8; bits have to come back "
+                          "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
+                },
             .refused = refused,
             .hint =
                 [](const Texts& given) {

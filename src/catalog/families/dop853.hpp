@@ -19,6 +19,13 @@ struct Dop853 {
       info.name = canonical_name(info.name, options(), given);
       return info;
     };
+    family.meaning = "an explicit Runge-Kutta method of order 8 with sub-steps of its own, for reference solutions";
+    family.advice = [](std::size_t) {
+      return MethodAdvice{.take = "a reference is wanted over few periods, of any differentiable H",
+                          .avoid =
+                              "the run is long, its energy drifts: kahan-li8, rkn8-s19, cg; digits beyond 16 are "
+                              "wanted: taylor"};
+    };
     family.needs = [](std::size_t) { return "a differentiable H"; };
     family.digits = [](std::size_t) { return dop853::digits; };
     family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance"; };

@@ -8,10 +8,12 @@ namespace hamflow::families {
 
 struct RungeKutta {
   static MethodFamily declared() {
-    MethodFamily family{.name = "runge-kutta",
-                        .not_on_lattice =
-                            "an explicit Runge-Kutta step is no bijection of the lattice, so nothing would "
-                            "come back exactly; use a splitting method, e.g. stv4"};
+    MethodFamily family{
+        .name = "runge-kutta",
+        .meaning = "explicit Runge-Kutta methods with fixed steps, to compare with; their energy drifts",
+        .not_on_lattice =
+            "an explicit Runge-Kutta step is no bijection of the lattice, so nothing would "
+            "come back exactly; use a splitting method, e.g. stv4"};
 #define HAMFLOW_DECLARE_TABLEAU(table) family.methods.emplace_back(tableaus::table.name);
     HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_DECLARE_TABLEAU)
 #undef HAMFLOW_DECLARE_TABLEAU
@@ -22,6 +24,12 @@ struct RungeKutta {
 #undef HAMFLOW_DESCRIBE_TABLEAU
       };
       return all[method];
+    };
+    family.advice = [](std::size_t) -> MethodAdvice {
+      return {.take = "the point is what a method that is not symplectic does, or the run is a fraction of a period",
+              .avoid =
+                  "the run is long, its energy drifts: verlet, stv4 for H = T(p) + V(q), cg for any H; for a "
+                  "reference: taylor, dop853"};
     };
     family.needs = [](std::size_t) { return "a differentiable H"; };
     return family;

@@ -31,6 +31,15 @@ struct Taylor {
       return info;
     };
     family.counts_forces = false;  // a sweep over a tape of series is no evaluation of a force
+    family.meaning = "Taylor series with sub-steps of its own, for reference solutions in any number of digits";
+    family.advice = [](std::size_t) {
+      return MethodAdvice{
+          .purpose = "reference solutions, in any number of digits (arithmetic quad, mp(d)); any analytic H",
+          .take = "the solution itself has to be right to many digits, over a time that is not too long",
+          .avoid =
+              "the run is long, nothing is conserved by construction: kahan-li8, rkn8-s19 for H = T(p) + V(q), cg "
+              "for any H"};
+    };
     family.needs = [](std::size_t) { return "an H whose derivatives can be recorded"; };
     family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance or another method.order"; };
     // Of a series of order 15, the default, the error cannot be halved four times in any arithmetic at hand.

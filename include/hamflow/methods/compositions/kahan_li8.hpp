@@ -14,6 +14,11 @@ inline constexpr CompositionTable kahan_li8{
     .half = {"0.1302024830888900808788176320967005223572", "0.5611629817751083845619644077001505672662",
              "-0.3894749626448472864080785982352483888361", "0.1588419065551556008962107457071524814121",
              "-0.3959038941332375773362315393479389360268", "0.1845396409783157070918325415333754628190",
-             "0.2583743876863220472939791099949394718131", "0.2950117236093102988709662402182281129765"}};
+             "0.2583743876863220472939791099949394718131", "0.2950117236093102988709662402182281129765"},
+    .advice = {.purpose = "H = T(p) + V(q): high accuracy over long times",
+               .take = "nine digits and more are wanted of a smooth H = T(p) + V(q), over millions of steps",
+               .avoid =
+                   "T is quadratic with constant mass matrix: rkn8-s19 is more accurate for its forces; few digits "
+                   "do: verlet, stv4; H is not T(p) + V(q): cg takes any H"}};
 
 }  // namespace hamflow::compositions

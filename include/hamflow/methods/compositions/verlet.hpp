@@ -7,6 +7,11 @@
 namespace hamflow::compositions {
 
 inline constexpr CompositionTable verlet{
-    .name = "verlet", .order = 2, .reference = "Sonnleitner2010, p. 52; HLW2006, Sect. I.1.4"};
+    .name = "verlet",
+    .order = 2,
+    .reference = "Sonnleitner2010, p. 52; HLW2006, Sect. I.1.4",
+    .advice = {.purpose = "H = T(p) + V(q): the first try; the cheapest step, also where V is not smooth",
+               .take = "a relative accuracy of some 1e-4 does, forces are expensive or not smooth, walls are hit",
+               .avoid = "more digits are wanted: stv4, kahan-li8; H is not T(p) + V(q): cg takes any H"}};
 
 }  // namespace hamflow::compositions

@@ -36,6 +36,15 @@ class Gravity {
             {"linear_momentum", "P = sum p_i", Components::space, Terms::momenta},
             {"centre_of_mass", "sum m_i x_i/M - P t/M", Components::space, Terms::centre_of_mass}};
   }
+  /// @param usual the frame of a start that the scenario does not give itself
+  static OptionInfo frame_key(const char* usual) {
+    return {.name = "frame",
+            .default_value = usual,
+            .meaning = "barycentric: the centre of mass of the start is moved to the origin, to rest",
+            .type = OptionType::word,
+            .words = {StartFrames::given, StartFrames::barycentric},
+            .condition = "of a start by initial: given"};
+  }
   std::size_t size() const { return masses_.size() * space_; }
   std::size_t space() const { return space_; }
 
@@ -130,6 +139,24 @@ class Gravity {
   }
 
   const R& total_mass() const { return total_mass_; }
+  /// q_i <- q_i - sum m q/M, p_i <- p_i - m_i P/M. Done twice: what rounding leaves of the first is taken by the
+  /// second.
+  void to_barycentre(Vector<R, dynamic>& q, Vector<R, dynamic>& p) const {
+    for (int pass = 0; pass < 2; ++pass) {
+      for (std::size_t k = 0; k < space_; ++k) {
+        R moment(0);
+        R momentum(0);
+        for (std::size_t i = 0; i < masses_.size(); ++i) {
+          moment += masses_[i] * q[i * space_ + k];
+          momentum += p[i * space_ + k];
+        }
+        for (std::size_t i = 0; i < masses_.size(); ++i) {
+          q[i * space_ + k] -= moment / total_mass_;
+          p[i * space_ + k] -= masses_[i] * (momentum / total_mass_);
+        }
+      }
+    }
+  }
   std::array<std::size_t, 3> invariant_sizes() const { return {space_ == 2 ? 1u : 3u, space_, space_}; }
   template <class S>
   Vector<S, dynamic> invariants(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, const S& t) const {

@@ -1,0 +1,141 @@
+#include "warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/run/state_names.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double steps_per_period = 10;
+
+Json warning(const char* kind, const std::string& message) { return {{"kind", kind}, {"message", message}}; }
+
+/// |q dH/dq| + |p dH/dp|: for homogeneous T and V about T and V without their constants.
+double virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+              const std::vector<double>& p) {
+  constexpr double part = 0x1p-20;
+  const auto slope = [&](double of_q, double of_p) {
+    const auto energy = [&](double sign) {
+      std::vector<double> moved_q = q;
+      std::vector<double> moved_p = p;
+      for (double& x : moved_q) x *= 1 + sign * of_q;
+      for (double& x : moved_p) x *= 1 + sign * of_p;
+      return problem.energy(parameters, moved_q, moved_p);
+    };
+    return std::abs(energy(1) - energy(-1)) / (2 * part);
+  };
+  return slope(part, 0) + slope(0, part);
+}
+
+std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
+  return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);
+}
+
+/// The time from one turn of a Cartesian coordinate to the next but one, or of the radius where that is longer; 0 where
+/// it is not known.
+double period_of_orbit(const Json& orbit) {
+  if (orbit["falls_into_centre"].get<bool>()) return 0;
+  const double radial = orbit["radial_period"].get<double>();
+  const double angle = orbit["apsidal_angle"].get<double>();
+  const double round = angle > 0 ? radial * pi_value<double>() / angle : radial;
+  return std::isfinite(round) && std::isfinite(radial) ? std::max(radial, round) : 0;
+}
+
+void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns, Json& all) {
+  const auto seen = turns.fastest();
+  double dt = turns.longest_step();
+  double period = 0;
+  std::string whose;
+  if (seen) {
+    dt = std::abs(seen->dt);
+    period = seen->period;
+    whose = fmt::format("shortest period seen, {:.3g} (of {})", period, name_of(scenario, seen->coordinate));
+  } else if (summary.contains("orbit")) {
+    period = period_of_orbit(summary["orbit"]);
+    whose = fmt::format("period of the orbit, {:.3g}", period);
+  }
+  if (period == 0 || steps_per_period * dt <= period) return;
+  all.push_back(warning("long_step", fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less",
+                                                 dt, whose, period / (2 * steps_per_period))));
+}
+
+/// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.
+double radial(const ProblemEntry& problem, const std::vector<double>& q, const std::vector<double>& p) {
+  Frame at;
+  at.q = q;
+  at.p = p;
+  if (problem.to_reference) at = problem.to_reference(q, p);
+  double sum = 0;
+  for (std::size_t i = 0; i < at.q.size(); ++i) sum += at.q[i] * at.p[i];
+  return sum;
+}
+
+/// Whether an orbit that falls into the centre has done so by then. It is half a radial period from its apocentre to
+/// the centre; a closed form may go on beyond it, outwards.
+bool has_fallen(const Scenario& scenario, double period, double t) {
+  const ProblemEntry& problem = *scenario.problem;
+  const auto exact = [&](double time) {
+    return problem.exact(scenario.request.parameters, scenario.start_q, scenario.start_p, time);
+  };
+  const auto end = exact(t);
+  if (!end) return exact(0).has_value();  // where it is not known at the start either nobody can say
+  const double sense = t < 0 ? -1 : 1;
+  const bool goes_out = sense * radial(problem, scenario.start_q, scenario.start_p) > 0;
+  const double least = goes_out ? period / 2 : 0;  // no earlier
+  const double most = goes_out ? period : period / 2;
+  return std::abs(t) >= most || (std::abs(t) > least && sense * radial(problem, end->q, end->p) > 0);
+}
+
+}  // namespace
+
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end) {
+  if (!(energy.max_error > scale)) return false;
+  // Of a pendulum held level T and V are nothing but rounding: there the virial at the start says what is large, and an
+  // error that is small beside the virial at the end is none.
+  const auto of = [&](const std::vector<double>& q, const std::vector<double>& p) {
+    return virial(*scenario.problem, scenario.request.parameters, q, p);
+  };
+  return !(energy.max_error <= of(scenario.start_q, scenario.start_p) / 4 ||
+           energy.max_error <= 0.01 * of(end.q, end.p));
+}
+
+Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns) {
+  Json all = Json::array();
+  const Excursion energy = simulation.energy();
+  const double scale = simulation.energy_scale();
+  Frame end;
+  simulation.look(end);
+  if (is_energy_nonsense(scenario, energy, scale, end)) {
+    all.push_back(
+        warning("energy_error", fmt::format("the energy was off by {:.3g}, more than its scale, {:.3g}: this is "
+                                            "no motion of {}; try a smaller dt",
+                                            energy.max_error, scale, scenario.request.problem)));
+  }
+  if (turns != nullptr) add_long_step(scenario, summary, *turns, all);
+  if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
+      has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {
+    all.push_back(warning("falls_into_centre",
+                          "the orbit ends in the centre, where H has no finite value, before the run does: what comes "
+                          "after is no motion; stop earlier, or give the start some angular momentum"));
+  }
+  return all;
+}
+
+std::vector<std::string> warning_lines(const Json& summary) {
+  std::vector<std::string> lines;
+  if (!summary.contains("warnings")) return lines;
+  for (const Json& each : summary["warnings"]) {
+    lines.push_back(each["kind"].get<std::string>() + ": " + each["message"].get<std::string>());
+  }
+  return lines;
+}
+
+}  // namespace hamflow

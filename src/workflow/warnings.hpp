@@ -1,0 +1,28 @@
+// What is plainly nonsense about a run that came to its end all the same.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "hamflow/run/simulation.hpp"
+#include "hamflow/scenario/scenario.hpp"
+#include "hamflow/verify/turns.hpp"
+
+namespace hamflow {
+
+/// [{kind, message}, ...] of
+/// - energy_error: the largest energy error is above the scale of the energy;
+/// - long_step: dt is above a tenth of the shortest period seen, or known of the orbit where none was seen;
+/// - falls_into_centre: the orbit ends in a singular centre before the run does.
+/// @param summary its energy, orbit, exact and final   @param turns null where nobody has watched
+nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
+                                   const Simulation& simulation, const TurnWatch* turns);
+/// "kind: message" of each, for the terminal; none of a summary without the key.
+std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
+
+/// Whether an energy error is more than the energy can account for: above its scale, and not only because the scale is
+/// that of a start at which T and V vanish by chance.   @param end the last state
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end);
+
+}  // namespace hamflow
