@@ -48,6 +48,7 @@ int print(const RunReport& report, const std::string& folder, const RunOptions& 
   } else if (!report.file_trouble.empty()) {
     print_error(report.file_trouble);
   }
+  if (report.drawing_stopped) return exit_interrupted;
   return report.file_trouble.empty() ? exit_status(report.status) : exit_file;
 }
 

@@ -1,11 +1,14 @@
 #include "guarded.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <new>
 
+#include "gnuplot.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
+#include "progress.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow::app {
 
@@ -32,12 +35,15 @@ std::string joined(const std::vector<std::string>& lines) {
 }  // namespace
 
 int guarded(bool json, const std::function<int()>& body, const std::string& failure) {
+  const figures::WhileDrawing watch([] { return !interrupted(); });
   try {
     return body();
   } catch (const Rejection& rejection) {
     return rejected(json, rejection.what(), rejection_json(rejection.complaints));
   } catch (const RejectedLines& rejection) {
     return rejected(json, joined(rejection.lines), rejection_json(rejection.lines));
+  } catch (const figures::DrawingStopped& error) {
+    return failed(json, "interrupted", error.what(), exit_interrupted);
   } catch (const FileError& error) {
     return failed(json, "file", error.what(), exit_file);
   } catch (const std::filesystem::filesystem_error& error) {
@@ -46,7 +52,9 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     if (!failure.empty()) return failed(json, failure, error.what(), exit_failed);
     const std::string line = std::string("error: ") + error.what();
     return rejected(json, line, rejection_json(std::vector<std::string>{line}));
-  } catch (const std::exception& error) {  // no memory, say
+  } catch (const std::bad_alloc&) {
+    return failed(json, "memory", "out of memory", exit_failed);
+  } catch (const std::exception& error) {
     return failed(json, "error", error.what(), exit_failed);
   }
 }
@@ -62,10 +70,8 @@ void print_error(const std::string& message, const std::string& hint) {
 }
 
 void write_file(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  out.flush();
-  if (!out) throw FileError("cannot write " + file);
+  hamflow::WholeFile whole(file);
+  hamflow::write_whole(whole, text);
 }
 
 int exit_status(const std::string& status) {

@@ -5,6 +5,7 @@
 
 #include "scenario_family.hpp"
 #include "scenario_reader.hpp"
+#include "toml_depth.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {
@@ -51,6 +52,10 @@ std::int64_t default_record_every(std::int64_t steps) {
 std::optional<toml::table> parsed_document(const std::string& text, const std::string& name,
                                            const std::vector<std::string>& sets, std::vector<Complaint>& complaints) {
   toml::table root;
+  if (const auto deep = too_deep(text)) {
+    complaints.push_back({name, deep->line, deep->column, "syntax", deep->message});
+    return std::nullopt;
+  }
   try {
     root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
