@@ -1,5 +1,7 @@
 #include "guarded.hpp"
 
+#include <sys/mman.h>
+
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -32,11 +34,21 @@ std::string joined(const std::vector<std::string>& lines) {
   return all;
 }
 
+/// Libraries that read and write crash where a small allocation fails. A command begins only with so much at hand that
+/// it is the large ones that fail, which are ours.
+void require_memory() {
+  constexpr std::size_t at_hand = std::size_t{64} << 20;
+  void* const trial = mmap(nullptr, at_hand, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (trial == MAP_FAILED) throw std::bad_alloc();
+  munmap(trial, at_hand);
+}
+
 }  // namespace
 
 int guarded(bool json, const std::function<int()>& body, const std::string& failure) {
   const figures::WhileDrawing watch([] { return !interrupted(); });
   try {
+    require_memory();
     return body();
   } catch (const Rejection& rejection) {
     return rejected(json, rejection.what(), rejection_json(rejection.complaints));

@@ -111,6 +111,7 @@ struct RunFile::Impl {
   std::size_t section_waiting = 0;
   std::vector<Column<double>> time;  // last: its length tells how many rows are complete
   std::size_t waiting = 0;
+  bool failed = false;
   std::size_t most_waiting = batch_rows;
   std::uint64_t rows = 0;
   std::uint64_t section_rows = 0;
@@ -213,6 +214,9 @@ RunFile::~RunFile() {
     flush();
   } catch (const FileError&) {  // NOLINT: a destructor cannot report; flush() was called before where it matters
   }
+  // After a failed write HDF5 holds metadata of what is not in the file. Closed, it would write them: the file is left
+  // as a kill would leave it, which readers can open.
+  if (impl_->failed) (void)impl_.release();
 }
 
 void RunFile::append(const Frame& frame) {
@@ -244,13 +248,18 @@ void RunFile::append(const SectionPoint& point) {
 }
 
 void RunFile::flush() {
-  if (impl_->section_waiting > 0) {
-    const std::size_t points = std::exchange(impl_->section_waiting, 0);
-    for (auto& column : impl_->section) column.write(points);
-  }
-  if (impl_->waiting == 0) return;
+  if (impl_->failed) throw FileError("HDF5: a write has failed before");
+  const std::size_t points = std::exchange(impl_->section_waiting, 0);
   const std::size_t rows = std::exchange(impl_->waiting, 0);
-  impl_->for_each_column([&](auto& column) { column.write(rows); });
+  impl_->failed = true;  // until all is written
+  for (auto& column : impl_->section) {
+    if (points > 0) column.write(points);
+  }
+  impl_->for_each_column([&](auto& column) {
+    if (rows > 0) column.write(rows);
+  });
+  impl_->failed = false;
+  if (rows == 0) return;
   impl_->flushed = Clock::now();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -52,6 +53,31 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
   } catch (const Error& error) {
     throw FileError(std::string("the checkpoint cannot be used: ") + error.what());
   }
+}
+
+/// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
+/// stop.
+void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, RunReport& report) {
+  constexpr double patience = 5;
+  const bool asked_before = report.status == "interrupted";
+  const auto begin = std::chrono::steady_clock::now();
+  const figures::WhileDrawing watch([&] {
+    if (!asked_before) return !settings.pulse || settings.pulse(step);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
+  });
+  try {
+    draw_figures(scenario, settings.folder);
+  } catch (const figures::DrawingStopped& stopped) {
+    report.file_trouble = stopped.what();
+    report.drawing_stopped = true;
+  }
+}
+
+bool has_its_figures(const Scenario& scenario, const fs::path& folder) {
+  return std::all_of(scenario.figures.begin(), scenario.figures.end(), [&](const std::string& kind) {
+    return fs::exists(folder / "figures" / (kind + ".svg")) && fs::exists(folder / "figures" / (kind + ".pdf")) &&
+           fs::exists(folder / "figures" / (kind + ".png"));
+  });
 }
 
 /// One run, from where it begins or goes on to where it ends.
@@ -172,28 +198,9 @@ class ScenarioRun {
       write_text(settings_.folder / "summary.json", report.json);
       checkpoints_.reset();
       recorder_.reset();  // closes run.h5, from which the figures are drawn
-      if (report.status != "failed") draw(report);
+      if (report.status != "failed") draw(scenario_, settings_, simulation_->step(), report);
     } catch (const std::exception& error) {  // the run itself is done
       report.file_trouble = error.what();
-    }
-  }
-
-  /// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
-  /// stop.
-  void draw(RunReport& report) {
-    constexpr double patience = 5;
-    const std::int64_t step = simulation_->step();
-    const bool asked_before = report.status == "interrupted";
-    const auto begin = std::chrono::steady_clock::now();
-    const figures::WhileDrawing watch([&] {
-      if (!asked_before) return !settings_.pulse || settings_.pulse(step);
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
-    });
-    try {
-      draw_figures(scenario_, settings_.folder);
-    } catch (const figures::DrawingStopped& stopped) {
-      report.file_trouble = stopped.what();
-      report.drawing_stopped = true;
     }
   }
 
@@ -223,10 +230,17 @@ RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
   }
   const auto summary = own_summary(*from, settings.folder);
   if (summary && is_complete(requested, *from, *summary)) {
-    note(settings, "the run is complete: there is nothing to do");
     RunSettings to_look = settings;
     to_look.folder.clear();
-    return ScenarioRun(requested, to_look, &*from).complete(*summary);
+    RunReport report = ScenarioRun(requested, to_look, &*from).complete(*summary);
+    if (has_its_figures(requested, settings.folder)) {
+      note(settings, "the run is complete: there is nothing to do");
+    } else {
+      note(settings, "the run is complete: its figures are drawn");
+      const FolderLock lock(settings.folder);
+      draw(requested, settings, from->step, report);
+    }
+    return report;
   }
   const Scenario scenario = with_spacing_of(*from, requested, settings);
   return ScenarioRun(scenario, settings, &*from).carry_out();

@@ -89,7 +89,9 @@ void clear(const fs::path& folder, FolderOf what) {
 }  // namespace
 
 std::string left_in(const fs::path& folder, FolderOf what) {
-  return joined(found_in(folder, what), [](const fs::path& name) { return name.string(); });
+  Names found = found_in(folder, what);
+  std::erase_if(found, [](const fs::path& name) { return name.extension() == ".new"; });  // nothing that was finished
+  return joined(found, [](const fs::path& name) { return name.string(); });
 }
 
 void make_folder(const fs::path& folder, FolderOf what, bool force) {
