@@ -36,7 +36,7 @@ RunReport carry_out(const Scenario& scenario, const RunOptions& options) {
 int print(const RunReport& report, const std::string& folder, const RunOptions& options) {
   std::cout << (options.json ? report.json : report.text);
   print_warnings(report.warnings);
-  if (report.was_complete) return exit_done;
+  if (report.was_complete && report.file_trouble.empty()) return exit_done;
   if (!folder.empty() && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder);
     if (report.status == "interrupted") std::cout << fmt::format("{:<20}the same command with --resume\n", "to go on");
@@ -49,6 +49,7 @@ int print(const RunReport& report, const std::string& folder, const RunOptions& 
   } else if (!report.file_trouble.empty()) {
     print_error(report.file_trouble);
   }
+  if (report.drawing_stopped) return exit_interrupted;
   return report.file_trouble.empty() ? exit_status(report.status) : exit_file;
 }
 

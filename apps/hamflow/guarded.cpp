@@ -1,11 +1,16 @@
 #include "guarded.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <iostream>
+#include <sys/mman.h>
 
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+#include "gnuplot.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
+#include "progress.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow::app {
 
@@ -29,15 +34,28 @@ std::string joined(const std::vector<std::string>& lines) {
   return all;
 }
 
+/// Libraries that read and write crash where a small allocation fails. A command begins only with so much at hand that
+/// it is the large ones that fail, which are ours.
+void require_memory() {
+  constexpr std::size_t at_hand = std::size_t{64} << 20;
+  void* const trial = mmap(nullptr, at_hand, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (trial == MAP_FAILED) throw std::bad_alloc();
+  munmap(trial, at_hand);
+}
+
 }  // namespace
 
 int guarded(bool json, const std::function<int()>& body, const std::string& failure) {
+  const figures::WhileDrawing watch([] { return !interrupted(); });
   try {
+    require_memory();
     return body();
   } catch (const Rejection& rejection) {
     return rejected(json, rejection.what(), rejection_json(rejection.complaints));
   } catch (const RejectedLines& rejection) {
     return rejected(json, joined(rejection.lines), rejection_json(rejection.lines));
+  } catch (const figures::DrawingStopped& error) {
+    return failed(json, "interrupted", error.what(), exit_interrupted);
   } catch (const FileError& error) {
     return failed(json, "file", error.what(), exit_file);
   } catch (const std::filesystem::filesystem_error& error) {
@@ -46,7 +64,9 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     if (!failure.empty()) return failed(json, failure, error.what(), exit_failed);
     const std::string line = std::string("error: ") + error.what();
     return rejected(json, line, rejection_json(std::vector<std::string>{line}));
-  } catch (const std::exception& error) {  // no memory, say
+  } catch (const std::bad_alloc&) {
+    return failed(json, "memory", "out of memory", exit_failed);
+  } catch (const std::exception& error) {
     return failed(json, "error", error.what(), exit_failed);
   }
 }
@@ -66,10 +86,8 @@ void print_error(const std::string& message, const std::string& hint) {
 }
 
 void write_file(const std::string& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  out.flush();
-  if (!out) throw FileError("cannot write " + file);
+  hamflow::WholeFile whole(file);
+  hamflow::write_whole(whole, text);
 }
 
 int exit_status(const std::string& status) {

@@ -1,6 +1,7 @@
 // The command line: parse, call, print. No numerics.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 
 #include "command_line.hpp"
@@ -25,6 +26,7 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that reaches its limit is an error of writing, as a full disk is
   CLI::App app{"hamflow integrates Hamiltonian systems and shows which structure a method preserves."};
   app.name("hamflow");
   app.set_version_flag("--version", "hamflow " HAMFLOW_VERSION);

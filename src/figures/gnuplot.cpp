@@ -7,9 +7,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <thread>
 #include <vector>
 
 #include "hamflow/core/error.hpp"
@@ -94,7 +98,78 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 }
 }  // namespace
 
-std::string run_gnuplot(const std::string& script) {
+namespace {
+thread_local const std::function<bool()>* asked_while_drawing = nullptr;
+
+/// gnuplot, in a process group of its own: Ctrl-C in a terminal reaches whoever waits for it, and what it may have
+/// started ends with it.
+class Child {
+ public:
+  Child(std::FILE* input, std::FILE* output, std::FILE* errors) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(output), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(errors), STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    sigset_t usual;  // what this program ignores: a figure that is cut short by a limit has to be noticed
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGXFSZ);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    std::string program = "gnuplot";
+    std::string defaults = "-d";  // the user's start-up file must not change a figure
+    char* const arguments[] = {program.data(), defaults.data(), nullptr};
+    const int error = posix_spawnp(&id_, program.c_str(), &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error != 0) fail_to_start(error);
+  }
+  ~Child() {
+    if (ended_) return;
+    kill(-id_, SIGKILL);
+    while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Its status, once it has ended.
+  std::optional<int> ended() {
+    int status = 0;
+    const pid_t which = waitpid(id_, &status, WNOHANG);
+    if (which < 0 && errno != EINTR) throw FileError(fmt::format("gnuplot was lost: {}", std::strerror(errno)));
+    ended_ = which == id_;
+    return ended_ ? std::optional(status) : std::nullopt;
+  }
+
+ private:
+  pid_t id_ = 0;
+  bool ended_ = false;
+};
+
+int wait_for(Child& child, double longest) {
+  const auto begin = std::chrono::steady_clock::now();
+  while (true) {
+    if (const auto status = child.ended()) return *status;
+    if (asked_while_drawing != nullptr && *asked_while_drawing && !(*asked_while_drawing)()) {
+      throw DrawingStopped("stopped while gnuplot was drawing");
+    }
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > longest) {
+      throw FileError(fmt::format("gnuplot was ended: it did not finish within {:g} s", longest));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+}  // namespace
+
+WhileDrawing::WhileDrawing(std::function<bool()> go_on) : go_on_(std::move(go_on)), before_(asked_while_drawing) {
+  asked_while_drawing = &go_on_;
+}
+WhileDrawing::~WhileDrawing() { asked_while_drawing = before_; }
+
+std::string run_gnuplot(const std::string& script, double longest) {
   const File input = scratch_file();
   const File output = scratch_file();
   const File errors = scratch_file();
@@ -102,24 +177,8 @@ std::string run_gnuplot(const std::string& script) {
     throw FileError(fmt::format("the script for gnuplot could not be written: {}", std::strerror(errno)));
   }
   std::rewind(input.get());
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
-  std::string program = "gnuplot";
-  std::string defaults = "-d";  // the user's start-up file must not change a figure
-  char* const arguments[] = {program.data(), defaults.data(), nullptr};
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) fail_to_start(error);
-
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw FileError(fmt::format("gnuplot was lost: {}", std::strerror(errno)));
-  }
+  Child child(input.get(), output.get(), errors.get());
+  const int status = wait_for(child, longest);
   if (WIFSIGNALED(status)) throw FileError(fmt::format("gnuplot was ended by signal {}", WTERMSIG(status)));
   if (WEXITSTATUS(status) != 0) {
     throw FileError(

@@ -24,6 +24,7 @@ struct ObserverRecord {
 };
 
 struct Checkpoint {
+  std::string identity;           // of the run: the same in its run.h5
   std::string version;            // of hamflow
   std::string instruction_set;    // of kernel = "fast"
   std::vector<std::string> keys;  // the scenario's settings
@@ -34,14 +35,16 @@ struct Checkpoint {
   std::uint64_t rows = 0;          // of run.h5
   std::uint64_t section_rows = 0;  // of its section
   std::uint64_t csv_bytes = 0;     // of trajectory.csv
+  std::uint64_t csv_hash = 0;      // of these bytes
+  std::uint64_t summary_hash = 0;  // of summary.json; 0 while there is none
   double wall_seconds = 0;
-  std::vector<std::byte> simulation;      // Simulation::save()
+  std::vector<std::byte> simulation;      // Simulation::save(); empty where no step was saved yet
   std::vector<ObserverRecord> observers;  // of what is measured on the way
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, csv_bytes, wall_seconds,
-       simulation, observers);
+    ar(identity, version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, csv_bytes,
+       csv_hash, summary_hash, wall_seconds, simulation, observers);
   }
 };
 
@@ -49,8 +52,5 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 /// @throws FileError when it cannot be read, is damaged or of another format
 Checkpoint read_checkpoint(const std::filesystem::path& file);
-
-/// Until then a crash of the machine can lose what was written. @throws FileError
-void force_to_disk(const std::filesystem::path& file_or_folder);
 
 }  // namespace hamflow

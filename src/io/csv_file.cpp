@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "hamflow/core/error.hpp"
 
 namespace hamflow {
@@ -10,31 +13,33 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
                  const std::vector<std::pair<std::string, std::size_t>>& invariants)
     : path_(file), out_(file) {
   if (!out_) throw FileError("cannot write " + file.string());
-  out_ << "step,t";
+  std::string header = "step,t";
   for (const char* letter : {"q", "p"}) {
-    for (std::size_t i = 1; i <= dimension; ++i) out_ << ',' << letter << i;
+    for (std::size_t i = 1; i <= dimension; ++i) header += fmt::format(",{}{}", letter, i);
   }
-  out_ << ",energy";
+  header += ",energy";
   for (const auto& [name, size] : invariants) {
-    for (std::size_t k = 1; k <= size; ++k) out_ << ',' << name << (size == 1 ? "" : "_" + std::to_string(k));
+    for (std::size_t k = 1; k <= size; ++k) header += ',' + name + (size == 1 ? "" : "_" + std::to_string(k));
   }
-  out_ << '\n';
+  put(header + '\n');
 }
 
-CsvFile::CsvFile(const std::filesystem::path& file, std::uint64_t bytes) : path_(file) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw FileError("cannot go on with " + file.string() + ": " + error.message());
-  if (size < bytes) {
-    throw FileError("cannot go on with " + file.string() + ": it has " + std::to_string(size) + " bytes, not the " +
-                    std::to_string(bytes) + " that the checkpoint counts");
+CsvFile::CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash)
+    : path_(file), bytes_(bytes), hash_(hash) {
+  if (const std::string wrong = refused_csv(file, bytes, hash); !wrong.empty()) {
+    throw FileError("cannot go on with " + file.string() + ": " + wrong);
   }
+  std::error_code error;
   std::filesystem::resize_file(file, bytes, error);
   out_.open(file, std::ios::in | std::ios::out | std::ios::ate);
   if (error || !out_) throw FileError("cannot write " + file.string());
 }
 
-std::uint64_t CsvFile::bytes() { return static_cast<std::uint64_t>(out_.tellp()); }
+void CsvFile::put(std::string_view text) {
+  out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  bytes_ += text.size();
+  hash_ = fnv1a(std::as_bytes(std::span(text)), hash_);
+}
 
 void CsvFile::append(const Frame& frame) {
   fmt::memory_buffer line;
@@ -52,12 +57,31 @@ void CsvFile::append(const Frame& frame) {
   }
   for (const double x : frame.invariants) fmt::format_to(to, ",{:.17g}", x);
   line.push_back('\n');
-  out_.write(line.data(), static_cast<std::streamsize>(line.size()));
+  put({line.data(), line.size()});
 }
 
 void CsvFile::flush() {
   out_.flush();
   if (!out_) throw FileError("cannot write " + path_.string() + " (is the disk full?)");
+}
+
+std::string refused_csv(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "it is gone or cannot be read";
+  std::uint64_t found = fnv1a_of_nothing;
+  std::uint64_t left = bytes;
+  std::vector<char> part(std::size_t{1} << 16);
+  while (left > 0) {
+    in.read(part.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(left, part.size())));
+    const auto count = static_cast<std::size_t>(in.gcount());
+    if (count == 0) {
+      return "it has " + std::to_string(bytes - left) + " bytes, not the " + std::to_string(bytes) +
+             " that the checkpoint counts";
+    }
+    found = fnv1a(std::as_bytes(std::span(part.data(), count)), found);
+    left -= count;
+  }
+  return found == hash ? "" : "it holds other samples than the run wrote, or was changed";
 }
 
 }  // namespace hamflow

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "hamflow/core/hash.hpp"
 #include "hamflow/run/simulation.hpp"
 
 namespace hamflow {
@@ -17,17 +19,26 @@ class CsvFile {
   /// Columns step, t, q1.., p1.., energy and the invariants, each with its number of components. @throws FileError
   CsvFile(const std::filesystem::path& file, std::size_t dimension,
           const std::vector<std::pair<std::string, std::size_t>>& invariants);
-  /// Goes on after the first `bytes` bytes of a file that is there. @throws FileError
-  CsvFile(const std::filesystem::path& file, std::uint64_t bytes);
+  /// Goes on after the first `bytes` bytes of a file that is there, whose hash is `hash`. @throws FileError
+  CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash);
   /// Appended so far, written or not.
-  std::uint64_t bytes();
+  std::uint64_t bytes() const { return bytes_; }
+  /// Of these bytes: what somebody else wrote has another one.
+  std::uint64_t hash() const { return hash_; }
   void append(const Frame& frame);
   /// @throws FileError when the disk is full
   void flush();
 
  private:
+  void put(std::string_view text);
+
   std::filesystem::path path_;
   std::ofstream out_;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t hash_ = fnv1a_of_nothing;
 };
+
+/// Nothing, if a file begins with `bytes` bytes whose hash is `hash`; else what is wrong with it, a phrase.
+std::string refused_csv(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash);
 
 }  // namespace hamflow

@@ -28,6 +28,11 @@ class Hdf5Handle {
   ~Hdf5Handle() {
     if (id_ >= 0) close_(id_);
   }
+  /// Closes now, so that what cannot be written any more is an error. @throws FileError
+  void close_now(const std::string& what) {
+    const hid_t id = std::exchange(id_, -1);
+    if (id >= 0 && close_(id) < 0) throw FileError("HDF5: cannot " + what);
+  }
   operator hid_t() const { return id_; }  // NOLINT: so that it goes where the C API wants an identifier
 
  private:

@@ -4,7 +4,15 @@
 
 namespace hamflow {
 
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence_hdf5() {
+  static const bool once = [] {
+    // Closing at exit what a full disk kept from being closed crashes the library. Every file is closed where it ends.
+    H5dont_atexit();
+    return true;
+  }();
+  (void)once;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Hdf5Handle text_type(std::size_t length) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");

@@ -9,7 +9,7 @@
 
 namespace hamflow {
 
-/// HDF5 prints its error stack by default; our messages say what failed.
+/// HDF5 prints its error stack by default; our messages say what failed. To be called before anything else of HDF5.
 void silence_hdf5();
 
 /// A text of `length` bytes, at least one. Shorter texts end with a zero byte.

@@ -1,14 +1,17 @@
 #include "run_copy.hpp"
 
 #include <algorithm>
+#include <new>
+#include <stdexcept>
 
 #include "hdf5_text.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// The names of a file's attributes, or of the objects in its root.
+/// The names of an object's attributes, or of the objects in a group.
 std::vector<std::string> names_in(hid_t file, bool attributes) {
   std::vector<std::string> names;
   if (attributes) {
@@ -31,30 +34,136 @@ void copy_attribute(hid_t from, hid_t to, const char* name) {
   const Hdf5Handle source(H5Aopen(from, name, H5P_DEFAULT), H5Aclose, "open an attribute");
   const Hdf5Handle type(H5Aget_type(source), H5Tclose, "read a type");
   const Hdf5Handle space(H5Aget_space(source), H5Sclose, "open a data space");
-  std::vector<char> bytes(static_cast<std::size_t>(H5Aget_storage_size(source)));
+  const auto points = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0));
+  if (H5Tis_variable_str(type) != 0)
+    throw FileError(std::string("HDF5: attribute ") + name + " has a type that no run has");
+  std::vector<char> bytes(points * H5Tget_size(type));
   check_hdf5(H5Aread(source, type, bytes.data()), std::string("read attribute ") + name);
   const Hdf5Handle target(H5Acreate2(to, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "create an attribute");
   check_hdf5(H5Awrite(target, type, bytes.data()), std::string("write attribute ") + name);
 }
 
+/// Whose rows are no samples, or states in the coordinates that are left behind.
+constexpr const char* left_out[] = {"q", "p", "scenario", "section", "digits", "events/wall", "events/user"};
+
+/// One dataset of the source. H5Ocopy would be one call, but crashes on a damaged file, and on a disk that is full.
+struct Source {
+  std::string name;
+  Hdf5Handle dataset;
+  int rank = 0;
+  hsize_t size[2] = {0, 1};
+
+  Source(hid_t file, std::string path)
+      : name(std::move(path)), dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name) {
+    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
+    rank = H5Sget_simple_extent_ndims(space);
+    if (rank < 0 || rank > 2) throw FileError("HDF5: dataset " + name + " has too many dimensions");
+    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
+  }
+};
+
+struct Objects {
+  std::vector<std::string> groups;
+  std::vector<Source> datasets;
+};
+
+void collect(hid_t file, const std::string& group, Objects& objects) {
+  constexpr std::size_t most_objects = 10000;  // of a damaged file that goes in circles
+  const Hdf5Handle here(H5Gopen2(file, group.empty() ? "/" : group.c_str(), H5P_DEFAULT), H5Gclose,
+                        "open group " + group);
+  for (const std::string& name : names_in(here, false)) {
+    const std::string path = group.empty() ? name : group + "/" + name;
+    if (std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) continue;
+    const Hdf5Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
+    const H5I_type_t kind = H5Iget_type(object);
+    if (objects.groups.size() + objects.datasets.size() > most_objects)
+      throw FileError("HDF5: found no end of objects");
+    if (kind == H5I_DATASET) objects.datasets.emplace_back(file, path);
+    if (kind != H5I_GROUP) continue;
+    objects.groups.push_back(path);
+    collect(file, path, objects);
+  }
+}
+
+/// The first `rows` rows; some at a time, so that a long run does not fill the memory.
+void copy_rows(const Source& source, hid_t to, hsize_t rows) {
+  const std::string& name = source.name;
+  const Hdf5Handle type(H5Dget_type(source.dataset), H5Tclose, "read the type of " + name);
+  const H5T_class_t kind = H5Tget_class(type);
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER && kind != H5T_STRING) || H5Tis_variable_str(type) != 0) {
+    throw FileError("HDF5: dataset " + name + " has a type that no run has");
+  }
+  const Hdf5Handle plist(H5Dget_create_plist(source.dataset), H5Pclose, "read the chunks of " + name);
+  const hsize_t size[2] = {source.rank > 0 ? rows : 1, source.size[1]};
+  const hsize_t most[2] = {H5S_UNLIMITED, source.size[1]};
+  const bool grows = H5Pget_layout(plist) == H5D_CHUNKED;
+  const Hdf5Handle space(H5Screate_simple(source.rank, size, grows ? most : nullptr), H5Sclose, "make a data space");
+  const Hdf5Handle target(H5Dcreate2(to, name.c_str(), type, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
+                          "create dataset " + name);
+  for (const std::string& attribute : names_in(source.dataset, true)) {
+    copy_attribute(source.dataset, target, attribute.c_str());
+  }
+  constexpr std::size_t bytes_at_once = std::size_t{1} << 23;
+  const std::size_t row_bytes = H5Tget_size(type) * static_cast<std::size_t>(size[1]);
+  const hsize_t at_once = std::max<hsize_t>(bytes_at_once / std::max<std::size_t>(row_bytes, 1), 1);
+  std::vector<char> bytes;
+  for (hsize_t row = 0; row < size[0]; row += at_once) {
+    const hsize_t offset[2] = {row, 0};
+    const hsize_t count[2] = {std::min(at_once, size[0] - row), size[1]};
+    bytes.resize(static_cast<std::size_t>(count[0]) * row_bytes);
+    const Hdf5Handle part(H5Dget_space(source.dataset), H5Sclose, "open the space of " + name);
+    const Hdf5Handle memory(H5Screate_simple(source.rank, count, nullptr), H5Sclose, "make a data space");
+    if (source.rank > 0) {
+      for (const hid_t both : {hid_t(part), hid_t(space)}) {
+        check_hdf5(H5Sselect_hyperslab(both, H5S_SELECT_SET, offset, nullptr, count, nullptr),
+                   "select rows of " + name);
+      }
+    }
+    check_hdf5(H5Dread(source.dataset, type, memory, part, H5P_DEFAULT, bytes.data()), "read " + name);
+    check_hdf5(H5Dwrite(target, type, memory, space, H5P_DEFAULT, bytes.data()), "write " + name);
+  }
+}
+
 /// Rows of a sample each, chunked like those of a run.
-void write_states(hid_t file, const char* name, const std::vector<std::vector<double>>& by_coordinate) {
+void write_states(hid_t from, hid_t to, const char* name, const std::vector<std::vector<double>>& by_coordinate,
+                  std::size_t rows) {
   const std::size_t width = by_coordinate.size();
-  const std::size_t rows = by_coordinate.at(0).size();
   std::vector<double> all(width * rows);
   for (std::size_t i = 0; i < width; ++i) {
     for (std::size_t k = 0; k < rows; ++k) all[k * width + i] = by_coordinate[i][k];
   }
   const hsize_t size[2] = {rows, width};
   const hsize_t most[2] = {H5S_UNLIMITED, width};
-  const hsize_t chunk[2] = {std::max<hsize_t>(std::min<hsize_t>(rows, 8192), 16), width};
+  const Source same(from, name);
   const Hdf5Handle space(H5Screate_simple(2, size, most), H5Sclose, "make a data space");
-  const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_chunk(plist, 2, chunk), std::string("chunk ") + name);
-  const Hdf5Handle dataset(H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
+  const Hdf5Handle plist(H5Dget_create_plist(same.dataset), H5Pclose, std::string("read the chunks of ") + name);
+  const Hdf5Handle dataset(H5Dcreate2(to, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
                            std::string("create dataset ") + name);
   check_hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()),
              std::string("write ") + name);
+}
+
+void copy(const std::filesystem::path& source, const std::filesystem::path& target, const std::string& scenario,
+          const std::vector<std::vector<double>>& q, const std::vector<std::vector<double>>& p) {
+  const Hdf5Handle from = open_to_read(source);
+  Objects objects;
+  collect(from, "", objects);
+  hsize_t rows = q.at(0).size();  // a run that goes on, or was killed, has columns of different lengths
+  for (const Source& each : objects.datasets) {
+    if (each.rank > 0) rows = std::min(rows, each.size[0]);
+  }
+  WholeFile whole(target);
+  Hdf5Handle to = create_hdf5(whole.part());
+  for (const std::string& name : names_in(from, true)) {
+    if (name != "run") copy_attribute(from, to, name.c_str());  // nothing goes on with these samples
+  }
+  for (const std::string& group : objects.groups) (void)make_group(to, group);
+  for (const Source& each : objects.datasets) copy_rows(each, to, rows);
+  write_text_dataset(to, "scenario", scenario);
+  write_states(from, to, "q", q, rows);
+  write_states(from, to, "p", p, rows);
+  to.close_now("write " + target.string() + " (is the disk full?)");
+  whole.put_in_place();
 }
 
 }  // namespace
@@ -63,18 +172,13 @@ void copy_run_file(const std::filesystem::path& source, const std::filesystem::p
                    const std::string& scenario, const std::vector<std::vector<double>>& q,
                    const std::vector<std::vector<double>>& p) {
   silence_hdf5();
-  const Hdf5Handle from = open_to_read(source);
-  const Hdf5Handle to = create_hdf5(target);
-  for (const std::string& name : names_in(from, true)) copy_attribute(from, to, name.c_str());
-  for (const std::string& name : names_in(from, false)) {
-    if (name == "q" || name == "p" || name == "scenario") continue;
-    if (name == "section") continue;  // that of another coordinate
-    check_hdf5(H5Ocopy(from, name.c_str(), to, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "copy " + name);
+  try {
+    copy(source, target, scenario, q, p);
+  } catch (const std::bad_alloc&) {
+    throw FileError(source.string() + " cannot be copied: it claims a size that cannot be");
+  } catch (const std::length_error&) {
+    throw FileError(source.string() + " cannot be copied: it claims a size that cannot be");
   }
-  write_text_dataset(to, "scenario", scenario);
-  write_states(to, "q", q);
-  write_states(to, "p", p);
-  check_hdf5(H5Fflush(to, H5F_SCOPE_GLOBAL), "write " + target.string() + " (is the disk full?)");
 }
 
 }  // namespace hamflow

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <ctime>
 
-#include "checkpoint.hpp"
 #include "hdf5_text.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
@@ -111,6 +111,7 @@ struct RunFile::Impl {
   std::size_t section_waiting = 0;
   std::vector<Column<double>> time;  // last: its length tells how many rows are complete
   std::size_t waiting = 0;
+  bool failed = false;
   std::size_t most_waiting = batch_rows;
   std::uint64_t rows = 0;
   std::uint64_t section_rows = 0;
@@ -126,11 +127,12 @@ struct RunFile::Impl {
   }
 };
 
-RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description)
-    : impl_(std::make_unique<Impl>()) {
+std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file, const RunDescription& description) {
   silence_hdf5();
-  impl_->file = create_hdf5(file);
-  const hid_t id = impl_->file;
+  auto impl = std::make_unique<Impl>();
+  impl->file = create_hdf5(file);
+  const hid_t id = impl->file;
+  if (!description.identity.empty()) write_attribute(id, "run", description.identity);
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
   write_attribute(id, "problem", description.problem);
@@ -141,50 +143,61 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   write_text_dataset(id, "scenario", description.scenario);
   const Hdf5Handle groups[] = {make_group(id, "invariants"), make_group(id, "solver"), make_group(id, "events")};
   const std::size_t rows = description.samples > 0 ? description.samples : batch_rows;
-  impl_->vectors.emplace_back(id, "q", description.dimension, rows);
-  impl_->vectors.emplace_back(id, "p", description.dimension, rows);
-  impl_->scalars.emplace_back(id, "energy", 0, rows);
+  impl->vectors.emplace_back(id, "q", description.dimension, rows);
+  impl->vectors.emplace_back(id, "p", description.dimension, rows);
+  impl->scalars.emplace_back(id, "energy", 0, rows);
   for (const auto& [name, size] : description.invariants) {
-    impl_->invariants.emplace_back(id, "invariants/" + name, size == 1 ? 0 : size, rows);
-    impl_->invariant_sizes.push_back(size);
+    impl->invariants.emplace_back(id, "invariants/" + name, size == 1 ? 0 : size, rows);
+    impl->invariant_sizes.push_back(size);
   }
   for (const char* name : diagnostic_names) {
-    if (description.diagnostics) impl_->diagnostics.emplace_back(id, std::string("solver/") + name, 0, rows);
+    if (description.diagnostics) impl->diagnostics.emplace_back(id, std::string("solver/") + name, 0, rows);
   }
   for (const char* name : {"step", "solver/force", "solver/hessian", "solver/linear_solves", "events/halved"}) {
-    impl_->counts.emplace_back(id, name, 0, rows);
+    impl->counts.emplace_back(id, name, 0, rows);
   }
   if (description.section) {
     (void)make_group(id, "section");
-    impl_->section.emplace_back(id, "section/q", description.dimension, batch_rows);
-    impl_->section.emplace_back(id, "section/p", description.dimension, batch_rows);
-    impl_->section.emplace_back(id, "section/t", 0, batch_rows);
+    impl->section.emplace_back(id, "section/q", description.dimension, batch_rows);
+    impl->section.emplace_back(id, "section/p", description.dimension, batch_rows);
+    impl->section.emplace_back(id, "section/t", 0, batch_rows);
   }
-  impl_->time.emplace_back(id, "t", 0, rows);
+  impl->time.emplace_back(id, "t", 0, rows);
   std::size_t numbers = 0;
-  impl_->for_each_column([&](const auto& column) { numbers += column.numbers_a_row(); });
-  impl_->most_waiting = std::clamp<std::size_t>(batch_numbers / numbers, 1, batch_rows);
+  impl->for_each_column([&](const auto& column) { numbers += column.numbers_a_row(); });
+  impl->most_waiting = std::clamp<std::size_t>(batch_numbers / numbers, 1, batch_rows);
   // Every object has to exist before this; from here on readers may look in, and a crash leaves a readable file.
   check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
+  return impl;
+}
+
+RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description) {
+  try {
+    impl_ = create(next_name(file), description);
+    std::filesystem::rename(next_name(file), file);  // whoever sees it can read it; the open file keeps its identity
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(next_name(file), ignored);
+    throw;
+  }
 }
 
 RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
                  std::uint64_t section_rows) {
   silence_hdf5();
-  std::filesystem::path fresh = file;
-  fresh += ".new";
+  const std::filesystem::path fresh = next_name(file);
   try {
     const Hdf5Handle old = open_to_read(file);
     RunDescription same = description;
     same.created = read_attribute(old, "created");
-    RunFile copy(fresh, same);
-    copy.impl_->for_each_column([&](auto& column) { column.copy_from(old, rows, copy.impl_->most_waiting); });
-    for (auto& column : copy.impl_->section) column.copy_from(old, section_rows, copy.impl_->most_waiting);
-    copy.impl_->rows = rows;
-    copy.impl_->section_rows = section_rows;
+    auto copy = create(fresh, same);
+    copy->for_each_column([&](auto& column) { column.copy_from(old, rows, copy->most_waiting); });
+    for (auto& column : copy->section) column.copy_from(old, section_rows, copy->most_waiting);
+    copy->rows = rows;
+    copy->section_rows = section_rows;
     force_to_disk(fresh);
     std::filesystem::rename(fresh, file);  // the open file keeps its identity
-    impl_ = std::move(copy.impl_);
+    impl_ = std::move(copy);
   } catch (const FileError& error) {
     std::error_code ignored;
     std::filesystem::remove(fresh, ignored);
@@ -201,6 +214,9 @@ RunFile::~RunFile() {
     flush();
   } catch (const FileError&) {  // NOLINT: a destructor cannot report; flush() was called before where it matters
   }
+  // After a failed write HDF5 holds metadata of what is not in the file. Closed, it would write them: the file is left
+  // as a kill would leave it, which readers can open.
+  if (impl_->failed) (void)impl_.release();
 }
 
 void RunFile::append(const Frame& frame) {
@@ -232,13 +248,18 @@ void RunFile::append(const SectionPoint& point) {
 }
 
 void RunFile::flush() {
-  if (impl_->section_waiting > 0) {
-    const std::size_t points = std::exchange(impl_->section_waiting, 0);
-    for (auto& column : impl_->section) column.write(points);
-  }
-  if (impl_->waiting == 0) return;
+  if (impl_->failed) throw FileError("HDF5: a write has failed before");
+  const std::size_t points = std::exchange(impl_->section_waiting, 0);
   const std::size_t rows = std::exchange(impl_->waiting, 0);
-  impl_->for_each_column([&](auto& column) { column.write(rows); });
+  impl_->failed = true;  // until all is written
+  for (auto& column : impl_->section) {
+    if (points > 0) column.write(points);
+  }
+  impl_->for_each_column([&](auto& column) {
+    if (rows > 0) column.write(rows);
+  });
+  impl_->failed = false;
+  if (rows == 0) return;
   impl_->flushed = Clock::now();
 }
 

@@ -5,7 +5,8 @@
 // step, NaN at the start where there is none), and the totals since the start /solver/force, /solver/hessian,
 // /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps); beside them /scenario, the
 // scenario's text. Where asked for, the points of a Poincare section, a row each: /section/t, q, p. Root attributes:
-// hamflow (version), host, problem, method, arithmetic, kernel, created. A run that goes on copies the rows that stay
+// hamflow (version), host, problem, method, arithmetic, kernel, created, run (its
+// identity, run_mark.hpp). A run that goes on copies the rows that stay
 // into a fresh file, which then takes the place of the old one: only a reader can open what a crash leaves. Open a file
 // that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
 #pragma once
@@ -36,6 +37,7 @@ struct RunDescription {
   bool section = false;                                         // points of one are written
   std::size_t samples = 0;  // expected, so that a short run leaves a small file; 0: unknown
   std::string created;      // empty: now
+  std::string identity{};   // of the run, the attribute `run`; empty: none, nothing can go on in the file
 };
 
 /// Writes one row per sample.
@@ -60,6 +62,7 @@ class RunFile {
 
  private:
   struct Impl;
+  static std::unique_ptr<Impl> create(const std::filesystem::path& file, const RunDescription& description);
   std::unique_ptr<Impl> impl_;
 };
 

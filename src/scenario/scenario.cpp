@@ -6,6 +6,7 @@
 #include "method_keys.hpp"
 #include "scenario_family.hpp"
 #include "scenario_reader.hpp"
+#include "toml_depth.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {
@@ -53,6 +54,10 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
                                         const std::vector<std::string>& sets, std::vector<Complaint>& complaints) {
   Document document;
   toml::table& root = document.root;
+  if (const auto deep = too_deep(text)) {
+    complaints.push_back({name, deep->line, deep->column, "syntax", deep->message});
+    return std::nullopt;
+  }
   try {
     root = toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "run_keys.hpp"
+#include "toml_depth.hpp"
 
 namespace hamflow {
 
@@ -108,7 +109,7 @@ bool touched(const toml::node& node) {
 toml::table parsed_value(const std::string& text) {
   toml::table value;
   try {
-    value = toml::parse("value = " + text);
+    if (!too_deep(text)) value = toml::parse("value = " + text);
   } catch (const toml::parse_error&) {
     value.clear();
   }
@@ -122,6 +123,10 @@ toml::table parsed_value(const std::string& text) {
 std::string assign(toml::table& root, const std::string& path, const toml::node& value) {
   const std::vector<Part> parts = parts_of(path);
   if (parts.empty()) return "found no path; allowed names with dots between, and [0], [1], ... for entries of an array";
+  if (parts.size() > most_key_parts) {
+    return "found a path of " + std::to_string(parts.size()) + " parts; allowed at most " +
+           std::to_string(most_key_parts);
+  }
   Place place = walk(root, parts, true);
   if (!place.wrong.empty()) return place.wrong;
   const Part& last = parts.back();

@@ -4,17 +4,20 @@
 #include <chrono>
 #include <condition_variable>
 #include <limits>
+#include <system_error>
 #include <thread>
 
 #include "hamflow/run/observer.hpp"
+#include "memory.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// Each thread has its own copy of the scenario. An exception of a thread is passed on to the caller.
+/// Each thread has its own copy of the scenario. An exception of a thread is passed on to the caller. Where the system
+/// starts fewer threads, these do the work: it has the same bits. @return the number of threads, the caller included
 template <class Work>
-void on_threads(int threads, const Work& work) {
+int on_threads(int threads, const Work& work) {
   std::exception_ptr trouble;
   std::mutex mutex;
   const auto guarded = [&] {
@@ -25,12 +28,17 @@ void on_threads(int threads, const Work& work) {
       if (!trouble) trouble = std::current_exception();
     }
   };
+  int started = 1;
   {
     std::vector<std::jthread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(guarded);
+    try {
+      for (; started < threads; ++started) others.emplace_back(guarded);
+    } catch (const std::system_error&) {  // NOLINT: told by the number
+    }
     guarded();
   }
   if (trouble) std::rethrow_exception(trouble);
+  return started;
 }
 
 }  // namespace
@@ -42,11 +50,29 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   text_ = family.text();
   for (const Complaint& complaint : family.complaints()) complaints_.push_back(complaint.text());
   if (!complaints_.empty()) return;
-  rows_.resize(member_count(varied_));
+  const std::size_t members = member_count(varied_);
+  if (const std::string wrong = refused_members(members, coordinates_of_first(family), available_memory());
+      !wrong.empty()) {
+    complaints_.push_back("--vary: error: " + wrong);
+    return;
+  }
+  rows_.resize(members);
   starts_.resize(rows_.size());
   threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
   threads_ = std::max(threads_, 1);
   read_members(name);
+}
+
+/// 0 where it cannot be read, which is told later.
+std::size_t Sweep::coordinates_of_first(ScenarioFamily& family) const {
+  std::vector<std::string> paths;
+  std::vector<std::size_t> first;
+  for (const Vary& vary : varied_) {
+    paths.push_back(vary.path);
+    first.push_back(family.add_value(vary.texts.front()));
+  }
+  const Reading reading = family.read(paths, first);
+  return reading.scenario ? reading.scenario->start_q.size() : 0;
 }
 
 std::string Sweep::described(std::size_t member) const {
@@ -93,7 +119,7 @@ void Sweep::read_members(const std::string& name) {
       }
     }
   };
-  on_threads(rows_.size() > 4 * batch ? threads_ : 1, work);
+  (void)on_threads(rows_.size() > 4 * batch ? threads_ : 1, work);
   if (!found_.empty()) {
     report(found_);
     return;
@@ -302,22 +328,31 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse) {
   std::mutex mutex;
   std::condition_variable finished;
   bool over = false;
-  std::jthread watch([&] {
+  const auto look = [&] {
     std::unique_lock lock(mutex);
     while (!finished.wait_for(lock, std::chrono::milliseconds(20), [&] { return over; })) {
       if (pulse && !pulse(steps_taken_)) stop_ = true;
     }
-  });
+  };
+  std::jthread watch;
+  try {
+    watch = std::jthread(look);
+  } catch (const std::system_error& error) {
+    throw Error(std::string("a sweep needs one thread beside its own, and none can be started here (") +
+                error.code().message() + ")");
+  }
   const auto end = [&] {
     const std::lock_guard lock(mutex);
     over = true;
     finished.notify_all();
   };
   try {
-    on_threads(std::min<int>(threads_, static_cast<int>(std::max<std::size_t>(tasks.size(), 1))), [&] {
+    const int wanted = std::min<int>(threads_, static_cast<int>(std::max<std::size_t>(tasks.size(), 1)));
+    const int started = on_threads(wanted, [&] {
       Worker worker(*this);
       for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) worker.carry_out(tasks[i]);
     });
+    if (started < wanted) threads_ = started;
   } catch (...) {
     end();
     throw;

@@ -89,6 +89,7 @@ class Sweep {
   };
   class Worker;
 
+  std::size_t coordinates_of_first(ScenarioFamily& family) const;
   void read_members(const std::string& name);
   void add(std::size_t member, const Scenario& scenario);
   void check_alike(std::size_t member, const Scenario& scenario);

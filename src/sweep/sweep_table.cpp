@@ -8,6 +8,7 @@
 
 #include "hamflow/core/text.hpp"
 #include "hdf5_text.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
@@ -161,8 +162,9 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
 
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description) {
   silence_hdf5();
-  const Hdf5Handle id(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                      "create " + file.string());
+  WholeFile whole(file, next_name(file));
+  Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                "create " + file.string());
   const Request& request = sweep.common().request;
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
@@ -171,11 +173,13 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "kernel", request.kernel);
   write_text_dataset(id, "scenario", sweep.text());
   for (const SweepColumn& column : columns_of(sweep)) write_column(id, column);
-  check_hdf5(H5Fflush(id, H5F_SCOPE_GLOBAL), "write " + file.string() + " (is the disk full?)");
+  id.close_now("write " + file.string() + " (is the disk full?)");
+  whole.put_in_place();
 }
 
 void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
-  std::ofstream out(file);
+  WholeFile whole(file, next_name(file));
+  std::ofstream out(whole.part());
   if (!out) throw FileError("cannot write " + file.string());
   // Each column with all its digits, where there are more than those of a double.
   std::vector<SweepColumn> columns = columns_of(sweep);
@@ -215,8 +219,9 @@ void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
     }
     out << joined(cells, ",") << '\n';
   }
-  out.flush();
+  out.close();
   if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
+  whole.put_in_place();
 }
 
 }  // namespace hamflow

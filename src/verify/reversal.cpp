@@ -65,7 +65,13 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
 std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps) {
   Request plain = request;
   plain.watch = false;
-  const auto simulation = make_simulation(plain);
+  std::unique_ptr<Simulation> simulation;
+  try {
+    simulation = make_simulation(plain);
+  } catch (const Error&) {  // the run itself has all threads that can be started here: one gives the same bits
+    plain.threads = 1;
+    simulation = make_simulation(plain);
+  }
   const Reversal found = reverse(*simulation, steps);
   return found.outcome == Outcome::done ? std::optional<Reversal>(found) : std::nullopt;
 }

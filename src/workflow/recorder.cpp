@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "run_description.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
-Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder, const Checkpoint* from)
+Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder, const std::string& identity,
+                   const Checkpoint* from)
     : scenario_(scenario), folder_(folder) {
   const auto wants = [&](const char* format) {
     return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
@@ -21,7 +23,8 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
         scenario.record_steps.begin());
   }
   if (wants("h5")) {
-    const RunDescription description = description_of(scenario, static_cast<std::size_t>(sample_count(scenario)));
+    RunDescription description = description_of(scenario, static_cast<std::size_t>(sample_count(scenario)));
+    description.identity = identity;
     const std::filesystem::path file = folder / "run.h5";
     h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
                           : std::make_unique<RunFile>(file, description, from->rows, from->section_rows);
@@ -29,7 +32,7 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
   if (wants("csv")) {
     const std::filesystem::path file = folder / "trajectory.csv";
     csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), invariant_columns(scenario))
-                           : std::make_unique<CsvFile>(file, from->csv_bytes);
+                           : std::make_unique<CsvFile>(file, from->csv_bytes, from->csv_hash);
   }
 }
 
@@ -81,7 +84,9 @@ void Recorder::flush_if_due() {
   if (h5_) h5_->flush_if_due();
 }
 
-Recorder::Sizes Recorder::sizes() const { return {h5_ ? h5_->rows() : 0, csv_ ? csv_->bytes() : 0}; }
+Recorder::Sizes Recorder::sizes() const {
+  return {h5_ ? h5_->rows() : 0, csv_ ? csv_->bytes() : 0, csv_ ? csv_->hash() : 0};
+}
 
 void Recorder::mark(Checkpoint& checkpoint) {
   flush();
@@ -91,6 +96,7 @@ void Recorder::mark(Checkpoint& checkpoint) {
   checkpoint.rows = now.rows;
   checkpoint.section_rows = h5_ ? h5_->section_rows() : 0;  // a point of the section is there, however the run goes on
   checkpoint.csv_bytes = now.csv_bytes;
+  checkpoint.csv_hash = now.csv_hash;
 }
 
 std::optional<std::string> Recorder::failed_at(std::int64_t step) const {

@@ -15,8 +15,9 @@ namespace hamflow {
 
 class Recorder final : public Observer {
  public:
-  /// @param from where the run goes on; null: at its start   @throws FileError
-  Recorder(const Scenario& scenario, const std::filesystem::path& folder, const Checkpoint* from);
+  /// @param identity of the run   @param from where the run goes on; null: at its start   @throws FileError
+  Recorder(const Scenario& scenario, const std::filesystem::path& folder, const std::string& identity,
+           const Checkpoint* from);
 
   std::int64_t next_due(std::int64_t step) const override;
   std::span<const std::string> times(std::int64_t step) const override;
@@ -37,6 +38,7 @@ class Recorder final : public Observer {
   struct Sizes {
     std::uint64_t rows = 0;
     std::uint64_t csv_bytes = 0;
+    std::uint64_t csv_hash = 0;
   };
   bool by_times() const { return !scenario_.record.empty(); }
   Sizes sizes() const;

@@ -4,16 +4,30 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "csv_file.hpp"
+#include "hamflow/core/hash.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "run_keys.hpp"
+#include "run_mark.hpp"
 
 namespace hamflow {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double checkpoint_seconds = 10;
+const char* const what_to_do = "; give --out another folder, or --force to begin anew";
 
 std::string instruction_set() { return std::string(name(fast_kernel_instruction_set())); }
+
+std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
+
+std::optional<std::string> text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
 
 }  // namespace
 
@@ -22,8 +36,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   const auto complain = [&](const std::string& key, const std::string& message) {
     const auto found = scenario.settings.find(key);
     const Setting where = found == scenario.settings.end() ? Setting{{}, 1, 1} : found->second;
-    all.push_back({scenario.file, where.line, where.column, key,
-                   message + "; give --out another folder, or --force to begin anew"});
+    all.push_back({scenario.file, where.line, where.column, key, message + what_to_do});
   };
   std::map<std::string, std::string> before;
   for (std::size_t i = 0; i < checkpoint.keys.size(); ++i) before[checkpoint.keys[i]] = checkpoint.values[i];
@@ -59,15 +72,63 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   return all;
 }
 
-std::optional<std::string> finished_summary(const Scenario& scenario, const Checkpoint& checkpoint,
-                                            const std::filesystem::path& folder) {
-  if (checkpoint.step != scenario.steps || checkpoint.steps != scenario.steps) return std::nullopt;
-  std::ifstream in(folder / "summary.json");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const auto summary = nlohmann::json::parse(text, nullptr, false);
-  const bool done = summary.is_object() && summary.value("status", "") == "done" &&
-                    summary.value("steps", std::int64_t{-1}) == scenario.steps;
-  return done ? std::optional(text) : std::nullopt;
+Checkpoint beginning_of(const Scenario& scenario, const std::string& identity) {
+  Checkpoint checkpoint;
+  checkpoint.identity = identity;
+  checkpoint.version = HAMFLOW_VERSION;
+  checkpoint.instruction_set = instruction_set();
+  for (const auto& [key, setting] : scenario.settings) {
+    checkpoint.keys.push_back(key);
+    checkpoint.values.push_back(setting.text);
+  }
+  checkpoint.steps = scenario.steps;
+  checkpoint.record_every = scenario.record_every;
+  checkpoint.csv_hash = fnv1a_of_nothing;
+  return checkpoint;
+}
+
+void check_samples(const Scenario& scenario, const Checkpoint& checkpoint, const fs::path& folder) {
+  const bool begun = has_only_begun(checkpoint);
+  const auto check = [&](const char* format, const char* name, const auto& wrong_with) {
+    const auto& formats = scenario.formats;
+    const bool wanted = std::find(formats.begin(), formats.end(), format) != formats.end();
+    const fs::path file = folder / name;
+    std::error_code none;
+    if (!wanted || (begun && !fs::exists(file, none))) return;
+    if (const std::string wrong = wrong_with(file); !wrong.empty()) {
+      throw FileError("cannot go on with " + file.string() + ": " + wrong + what_to_do);
+    }
+  };
+  check("h5", "run.h5",
+        [&](const fs::path& file) { return refused_run_file(file, checkpoint.identity, checkpoint.rows); });
+  check("csv", "trajectory.csv",
+        [&](const fs::path& file) { return refused_csv(file, checkpoint.csv_bytes, checkpoint.csv_hash); });
+}
+
+std::optional<std::string> own_summary(const Checkpoint& checkpoint, const fs::path& folder) {
+  const auto text = text_of(folder / "summary.json");
+  return text && checkpoint.summary_hash == hash_of(*text) ? text : std::nullopt;
+}
+
+bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const std::string& summary) {
+  return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps &&
+         nlohmann::json::parse(summary).value("status", "") == "done";
+}
+
+void check_summary(const std::string& own, const fs::path& folder) {
+  const auto text = text_of(folder / "summary.json");
+  if (!text) return;
+  const auto refuse = [&](const std::string& why) {
+    throw FileError("the summary " + (folder / "summary.json").string() + " is not of this run: " + why +
+                    "; move it elsewhere" + what_to_do);
+  };
+  const auto found = nlohmann::json::parse(*text, nullptr, false);
+  if (!found.is_object()) refuse("it is no JSON object");
+  const auto expected = nlohmann::json::parse(own);
+  for (const char* key : {"problem", "method", "arithmetic", "kernel", "parameters", "dt"}) {
+    if (found.contains(key) && found[key] != expected[key]) refuse(std::string(key) + " differs");
+  }
+  if (!found.contains("problem") && !found.contains("method")) refuse("it names no problem and no method");
 }
 
 void restore_observers(const Checkpoint& checkpoint, const std::vector<NamedObserver>& observers) {
@@ -92,22 +153,19 @@ void restore_observers(const Checkpoint& checkpoint, const std::vector<NamedObse
 }
 
 CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& simulation, Recorder& recorder,
-                                   std::vector<NamedObserver> observers, const std::filesystem::path& folder,
-                                   double seconds_before)
+                                   std::vector<NamedObserver> observers, const fs::path& folder, Checkpoint last)
     : simulation_(simulation),
       recorder_(recorder),
       observers_(std::move(observers)),
       file_(folder / "checkpoint.bin"),
       every_(scenario.checkpoint_every),
-      seconds_before_(seconds_before) {
-  checkpoint_.version = HAMFLOW_VERSION;
-  checkpoint_.instruction_set = instruction_set();
-  for (const auto& [key, setting] : scenario.settings) {
-    checkpoint_.keys.push_back(key);
-    checkpoint_.values.push_back(setting.text);
-  }
-  checkpoint_.steps = scenario.steps;
-  checkpoint_.record_every = scenario.record_every;
+      checkpoint_(std::move(last)),
+      seconds_before_(checkpoint_.wall_seconds) {
+  // What the scenario may change when a run goes on.
+  const Checkpoint now = beginning_of(scenario, checkpoint_.identity);
+  checkpoint_.keys = now.keys;
+  checkpoint_.values = now.values;
+  checkpoint_.steps = now.steps;
 }
 
 void CheckpointWriter::archive_observers() {
@@ -136,12 +194,18 @@ void CheckpointWriter::write_if_due() {
 
 void CheckpointWriter::write() {
   recorder_.mark(checkpoint_);
+  checkpoint_.summary_hash = 0;
   checkpoint_.step = simulation_.step();
   checkpoint_.simulation = simulation_.save();
   archive_observers();
   checkpoint_.wall_seconds = seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
   write_checkpoint(file_, checkpoint_);
   last_ = Clock::now();
+}
+
+void CheckpointWriter::expect_summary(const std::string& text) {
+  checkpoint_.summary_hash = hash_of(text);
+  write_checkpoint(file_, checkpoint_);
 }
 
 }  // namespace hamflow

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gnuplot.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "resume.hpp"
 #include "run_folder.hpp"
+#include "run_mark.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
 
@@ -23,11 +26,15 @@ void note(const RunSettings& settings, const std::string& text) {
   if (settings.note) settings.note(text);
 }
 
-/// What the run in the folder left to go on from, if it left anything.
+/// What the run in the folder left to go on from, if there is one.
 std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
   const fs::path& folder = settings.folder;
   if (folder.empty() || settings.existing != Existing::resume || !fs::exists(folder)) return std::nullopt;
   if (fs::exists(folder / "checkpoint.bin")) return read_checkpoint(folder / "checkpoint.bin");
+  if (const std::string left = left_in(folder, FolderOf::run); !left.empty()) {
+    throw FileError("there is no checkpoint in " + folder.string() + " to go on from, but " + left +
+                    "; give --out another folder, or --force to replace what is there");
+  }
   note(settings, "there is no checkpoint in " + folder.string() + ": the run starts from the beginning");
   return std::nullopt;
 }
@@ -49,14 +56,41 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
   }
 }
 
+/// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
+/// stop.
+void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, RunReport& report) {
+  constexpr double patience = 5;
+  const bool asked_before = report.status == "interrupted";
+  const auto begin = std::chrono::steady_clock::now();
+  const figures::WhileDrawing watch([&] {
+    if (!asked_before) return !settings.pulse || settings.pulse(step);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
+  });
+  try {
+    draw_figures(scenario, settings.folder);
+  } catch (const figures::DrawingStopped& stopped) {
+    report.file_trouble = stopped.what();
+    report.drawing_stopped = true;
+  }
+}
+
+bool has_its_figures(const Scenario& scenario, const fs::path& folder) {
+  return std::all_of(scenario.figures.begin(), scenario.figures.end(), [&](const std::string& kind) {
+    return fs::exists(folder / "figures" / (kind + ".svg")) && fs::exists(folder / "figures" / (kind + ".pdf")) &&
+           fs::exists(folder / "figures" / (kind + ".png"));
+  });
+}
+
 /// One run, from where it begins or goes on to where it ends.
 class ScenarioRun {
  public:
-  ScenarioRun(const Scenario& scenario, const RunSettings& settings, const Checkpoint* from)
+  /// @param last what the folder's checkpoint says; null: the folder is to be made
+  ScenarioRun(const Scenario& scenario, const RunSettings& settings, const Checkpoint* last)
       : scenario_(scenario),
         settings_(settings),
         simulation_(make_simulation(scenario.request)),
         turns_(scenario.dt, !simulation_->method().own_substeps) {
+    const Checkpoint* const from = last != nullptr && !has_only_begun(*last) ? last : nullptr;
     if (from != nullptr) {
       restore(*simulation_, *from);
       seconds_before_ = from->wall_seconds;
@@ -66,9 +100,16 @@ class ScenarioRun {
         Writer probe;
         observer->archive(probe);
       }
-      if (from == nullptr) make_folder(settings.folder, settings.existing != Existing::refuse);
+      if (last == nullptr) make_folder(settings.folder, FolderOf::run, settings.existing != Existing::refuse);
       lock_.emplace(settings.folder);
-      recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, from);
+      if (last == nullptr) {  // from here on the folder is known as this run's, however early it is killed
+        begin_.emplace(beginning_of(scenario_, new_identity()));
+        write_checkpoint(settings.folder / "checkpoint.bin", *begin_);
+        last = &*begin_;
+      } else {
+        check_summary(json_text(summary_of(scenario_, *simulation_, RunResult{})), settings.folder);
+      }
+      recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, last->identity, from);
     }
     measures_.emplace(scenario_, *simulation_, recorder_.get());
     std::vector<NamedObserver> archived = measures_->observers();
@@ -80,9 +121,9 @@ class ScenarioRun {
     if (from != nullptr) restore_observers(*from, archived);
     for (const NamedObserver& each : archived) observers_.push_back(each.observer);
     if (!writes()) return;
-    fs::remove(settings.folder / "summary.json");  // of a run that was interrupted
+    fs::remove(settings.folder / "summary.json");  // of the part before
     checkpoints_ = std::make_unique<CheckpointWriter>(scenario_, *simulation_, *recorder_, std::move(archived),
-                                                      settings.folder, seconds_before_);
+                                                      settings.folder, *last);
     observers_.push_back(recorder_.get());
     observers_.push_back(checkpoints_.get());  // the last: what was seen at a step belongs to its checkpoint
   }
@@ -159,10 +200,11 @@ class ScenarioRun {
 
   void finish_folder(RunReport& report) {
     try {
+      checkpoints_->expect_summary(report.json);
       write_text(settings_.folder / "summary.json", report.json);
       checkpoints_.reset();
       recorder_.reset();  // closes run.h5, from which the figures are drawn
-      if (report.status != "failed") draw_figures(scenario_, settings_.folder);
+      if (report.status != "failed") draw(scenario_, settings_, simulation_->step(), report);
     } catch (const std::exception& error) {  // the run itself is done
       report.file_trouble = error.what();
     }
@@ -173,6 +215,7 @@ class ScenarioRun {
   std::unique_ptr<Simulation> simulation_;
   double seconds_before_ = 0;
   std::optional<FolderLock> lock_;
+  std::optional<Checkpoint> begin_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;
   EnergyBlocks blocks_;
@@ -187,11 +230,24 @@ RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
   const std::optional<Checkpoint> from = checkpoint_in(settings);
   if (!from) return ScenarioRun(requested, settings, nullptr).carry_out();
   if (auto complaints = differences(requested, *from); !complaints.empty()) throw Rejection(std::move(complaints));
-  if (const auto summary = finished_summary(requested, *from, settings.folder)) {
-    note(settings, "the run is complete: there is nothing to do");
+  check_samples(requested, *from, settings.folder);
+  if (has_only_begun(*from)) {
+    note(settings, "the run was stopped before its first checkpoint: it starts from the beginning");
+    return ScenarioRun(requested, settings, &*from).carry_out();
+  }
+  const auto summary = own_summary(*from, settings.folder);
+  if (summary && is_complete(requested, *from, *summary)) {
     RunSettings to_look = settings;
     to_look.folder.clear();
-    return ScenarioRun(requested, to_look, &*from).complete(*summary);
+    RunReport report = ScenarioRun(requested, to_look, &*from).complete(*summary);
+    if (has_its_figures(requested, settings.folder)) {
+      note(settings, "the run is complete: there is nothing to do");
+    } else {
+      note(settings, "the run is complete: its figures are drawn");
+      const FolderLock lock(settings.folder);
+      draw(requested, settings, from->step, report);
+    }
+    return report;
   }
   const Scenario scenario = with_spacing_of(*from, requested, settings);
   return ScenarioRun(scenario, settings, &*from).carry_out();

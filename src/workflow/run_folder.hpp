@@ -1,14 +1,23 @@
-// The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/.
+// The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/; that of a sweep: sweep.h5, sweep.csv.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hamflow {
 
-/// Makes the folder. With `force` an existing one is used, and what an earlier run left in it is removed, nothing else.
-/// @throws FileError when it exists or cannot be made
-void make_folder(const std::filesystem::path& folder, bool force);
+/// What leaves a folder. Each knows its own files, and takes no others away.
+enum class FolderOf { run, sweep };
+
+/// Makes the folder. With `force` an existing one is used, and what an earlier run (or sweep) left in it is removed,
+/// nothing else: of figures/ only the figures that hamflow draws.
+/// @throws FileError when it exists or cannot be made; with `force` when it is that of a sweep (or run)
+void make_folder(const std::filesystem::path& folder, FolderOf what, bool force);
+
+/// The names of what a run left in an existing folder, e.g. "run.h5, figures/orbit.svg"; empty if it left nothing.
+std::string left_in(const std::filesystem::path& folder, FolderOf what);
+
 /// Keeps other runs out of a folder while it lives: two writers would spoil each other's files.
 class FolderLock {
  public:
@@ -21,7 +30,8 @@ class FolderLock {
  private:
   int descriptor_;
 };
-/// Writes a text file. @throws FileError
+
+/// Writes a whole text file of the folder, or leaves the old one. @throws FileError
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace hamflow

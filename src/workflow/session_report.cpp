@@ -8,6 +8,7 @@
 #include "run_folder.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
@@ -52,18 +53,25 @@ std::pair<std::string, std::string> session_failure(const Session& session, cons
 
 void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,
                   const std::filesystem::path& folder, bool replace) {
-  make_folder(folder, replace);
+  make_folder(folder, FolderOf::run, replace);
+  const FolderLock lock(folder);
   const Scenario present = session.present();
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
   description.section = false;  // a session looks for none
-  RunFile h5(folder / "run.h5", description);
-  for (const Frame& sample : kept) h5.append(sample);
-  h5.flush();
+  WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));
+  {
+    RunFile h5(whole.part(), description);
+    for (const Frame& sample : kept) h5.append(sample);
+    h5.flush();
+  }
+  whole.put_in_place();
   if (std::find(present.formats.begin(), present.formats.end(), "csv") != present.formats.end()) {
-    CsvFile csv(folder / "trajectory.csv", present.start_q.size(), invariant_columns(present));
+    WholeFile text(folder / "trajectory.csv", next_name(folder / "trajectory.csv"));
+    CsvFile csv(text.part(), present.start_q.size(), invariant_columns(present));
     for (const Frame& sample : kept) csv.append(sample);
     csv.flush();
+    text.put_in_place();
   }
   write_text(folder / "summary.json", session_summary(session, last));
 }

@@ -228,11 +228,6 @@ void ScenarioSweep::draw(const fs::path& file, const std::string& column) const 
   hamflow::draw(*impl_->sweep, file, column);
 }
 
-void make_sweep_folder(const fs::path& folder, bool replace) {
-  make_folder(folder, replace);
-  std::error_code error;
-  for (const char* left : {"sweep.h5", "sweep.csv"}) fs::remove(folder / left, error);
-  if (error) throw FileError("cannot clear " + folder.string() + ": " + error.message());
-}
+void make_sweep_folder(const fs::path& folder, bool replace) { make_folder(folder, FolderOf::sweep, replace); }
 
 }  // namespace hamflow

@@ -162,11 +162,14 @@ class Resume(CommandCase):
         self.run_to("whole")
         self.run_to("new", "--resume")  # no folder at all
         self.expect_equal("whole", "new")
-        (self.folder / "new" / "checkpoint.bin").unlink()
-        done = self.run_to("new", "--resume")
+        (self.folder / "empty").mkdir()
+        (self.folder / "empty" / "checkpoint.bin.new").write_bytes(b"half")  # killed as it was written
+        (self.folder / "empty" / "notes.txt").write_text("mine")
+        done = self.run_to("empty", "--resume")
         self.assertIn("no checkpoint", done.stderr)
         self.assertIn("from the beginning", done.stderr)
-        self.expect_equal("whole", "new")
+        self.expect_equal("whole", "empty")
+        self.assertEqual((self.folder / "empty" / "notes.txt").read_text(), "mine")
 
     def test_another_scenario_is_refused(self):
         self.scenario()

@@ -7,9 +7,12 @@
 
 namespace hamflow {
 
+/// The hash of no bytes.
+constexpr std::uint64_t fnv1a_of_nothing = 0xcbf29ce484222325u;
+
 /// FNV-1a, 64 bits: finds damage, not malice.   [RFC9923]
-constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
+/// @param hash of what stands before these bytes
+constexpr std::uint64_t fnv1a(std::span<const std::byte> bytes, std::uint64_t hash = fnv1a_of_nothing) {
   for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
   return hash;
 }

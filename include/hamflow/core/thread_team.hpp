@@ -6,23 +6,33 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "hamflow/core/error.hpp"
 
 namespace hamflow {
 
 class ThreadTeam {
  public:
   /// @param size the number of workers, the caller of share() included
+  /// @throws Error when the system starts no more threads
   explicit ThreadTeam(std::size_t size) : size_(size) {
-    for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
+    threads_.reserve(size);
+    try {
+      for (std::size_t worker = 1; worker < size; ++worker) threads_.emplace_back([this, worker] { serve(worker); });
+    } catch (const std::system_error& error) {
+      const std::size_t started = threads_.size();
+      dismiss();  // those that were started sleep, and would be waited for in vain
+      throw Error("threads: found " + std::to_string(size) + "; allowed at most " + std::to_string(started + 1) +
+                  ", no more can be started here (" + error.code().message() + ")");
+    }
   }
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
-  ~ThreadTeam() {
-    leaving_.store(true, std::memory_order_relaxed);
-    wake();
-  }
+  ~ThreadTeam() { dismiss(); }
 
   std::size_t size() const { return size_; }
   static constexpr std::size_t most_blocks = (std::size_t{1} << 20) - 1;
@@ -64,6 +74,11 @@ class ThreadTeam {
     calls_.fetch_add(1, std::memory_order_release);
     calls_.notify_all();
   }
+  void dismiss() {
+    leaving_.store(true, std::memory_order_relaxed);
+    wake();
+    threads_.clear();
+  }
   void serve(std::size_t worker) {
     std::uint32_t seen = 0;
     while (true) {
@@ -100,7 +115,7 @@ class ThreadTeam {
   alignas(64) std::atomic<std::size_t> done_{0};
   alignas(64) std::atomic<std::uint32_t> calls_{0};  // what the sleeping wait for
   std::atomic<bool> leaving_{false};
-  std::vector<std::jthread> threads_;  // the last member: joined before the others go
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace hamflow

@@ -18,7 +18,7 @@ namespace hamflow {
 enum class Existing {
   refuse,   // FileError
   replace,  // what an earlier run left in it is removed, nothing else
-  resume    // the run in it goes on, bit for bit as if it had never stopped; without a checkpoint it starts anew
+  resume    // the run in it goes on, bit for bit as if it had never stopped; FileError where the files are not its own
 };
 
 /// How a scenario is carried out. None of it changes a bit of the trajectory.
@@ -40,6 +40,7 @@ struct RunReport {
   std::string hint;          // and what can be done
   std::string file_trouble;  // why not everything could be written; empty: it was. The numbers hold all the same
   std::vector<std::string> warnings{};  // what is plainly nonsense about it, "kind: message" each
+  bool drawing_stopped = false;         // the run ended, its figures were not drawn because pulse() said to stop
   bool was_complete = false;            // resumed, and there was nothing to do
   Outcome outcome = Outcome::done;
   Frame final;

@@ -1,0 +1,220 @@
+"""What is not this run's is neither removed nor mixed: --force, --resume and files of others in the folder."""
+
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import stat
+import subprocess
+import time
+import unittest
+
+from command import HAMFLOW, CommandCase
+
+SCENARIO = """
+[problem]
+name = "central-force"
+potential = "kepler"
+orbit = { kind = "ellipse", r_per = 1.0, r_aph = 3.0 }
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 600
+[output]
+formats = ["h5", "csv"]
+"""
+
+
+class OwnFiles(CommandCase):
+    def setUp(self):
+        super().setUp()
+        self.write("s.toml", SCENARIO)
+
+    def run_to(self, folder, *arguments, status=0, **options):
+        return self.hamflow("run", "s.toml", "--out", folder, "--json", *arguments, status=status, **options)
+
+    def contents(self, folder):
+        root = self.folder / folder
+        return {str(p.relative_to(root)): p.read_bytes() for p in root.rglob("*") if p.is_file()}
+
+    def refused(self, folder, *arguments, words=(), status=3):
+        """The folder is as it was, and the error names what to do, in JSON too."""
+        before = self.contents(folder)
+        done = self.run_to(folder, *arguments, status=status)
+        self.assertEqual(self.contents(folder), before)
+        message = json.loads(done.stdout)["error"]["message"]
+        self.assertIn(message, done.stderr)
+        for word in words:
+            self.assertIn(word, message)
+
+    def test_resume_without_a_checkpoint_is_refused(self):
+        self.run_to("r")
+        (self.folder / "r" / "checkpoint.bin").unlink()
+        self.refused("r", "--resume", words=("no checkpoint", "run.h5", "--force"))
+        for name in ("summary.json", "run.h5", "trajectory.csv", "figures/orbit.svg"):
+            other = self.folder / f"of_another_{name[:3]}"
+            (other / name).parent.mkdir(parents=True)
+            (other / name).write_text("mine")
+            self.refused(other.name, "--resume", words=(name,))
+        subprocess.run([HAMFLOW, "shell", "s.toml"], input="step 10\nsave saved\n", text=True, cwd=self.folder, check=True,
+                       capture_output=True)
+        self.refused("saved", "--resume", words=("no checkpoint", "run.h5"))
+
+    def test_force_removes_what_a_run_leaves(self):
+        self.run_to("r", "--set", "output.figures=['energy']")
+        folder = self.folder / "r"
+        mine = {"figures/mine.svg": "1", "figures/energy.txt": "2", "notes.txt": "3", "sweep.csv": "4", "run.h5.bak": "5"}
+        for name, text in mine.items():
+            (folder / name).write_text(text)
+        (folder / "checkpoint.bin.new").write_text("half")
+        self.run_to("r", "--force", "--set", "output.formats=['h5']")
+        self.assertEqual(sorted(self.contents("r")), sorted([*mine, "checkpoint.bin", "run.h5", "summary.json"]))
+        for name, text in mine.items():
+            self.assertEqual((folder / name).read_text(), text)
+
+    def test_force_follows_no_link_and_removes_no_folder(self):
+        elsewhere = self.folder / "elsewhere"
+        elsewhere.mkdir()
+        (elsewhere / "energy.svg").write_text("mine")
+        self.run_to("r")
+        (self.folder / "r" / "figures").symlink_to(elsewhere)
+        self.run_to("r", "--force")
+        self.assertEqual((elsewhere / "energy.svg").read_text(), "mine")
+        (self.folder / "s").mkdir()
+        (self.folder / "s" / "run.h5").mkdir()
+        (self.folder / "s" / "run.h5" / "mine").write_text("1")
+        self.refused("s", "--force", words=("is a folder",))
+
+    def test_a_run_and_a_sweep_do_not_replace_each_other(self):
+        self.run_to("r")
+        before = self.contents("r")
+        sweep = ("sweep", "s.toml", "--vary", "run.dt=0.01,0.02", "--json", "--force", "--out")
+        said = self.hamflow(*sweep, "r", status=3).stderr
+        self.assertIn("found a run", said)
+        self.assertEqual(self.contents("r"), before)
+        self.hamflow(*sweep, "w")
+        self.refused("w", "--force", words=("found a sweep",))
+
+    def test_files_of_another_run_are_not_gone_on_with(self):
+        self.run_to("a")
+        self.run_to("b")  # the same scenario
+        self.run_to("c", "--set", "method.name=verlet")
+        more = ("--resume", "--set", "run.steps=900")
+        for other, name, words in (("b", "run.h5", "of another run"), ("c", "run.h5", "of another run"),
+                                   ("c", "trajectory.csv", "other samples"), ("c", "summary.json", "method differs")):
+            for arguments in (more, ("--resume",)):
+                with self.subTest(other=other, name=name, arguments=arguments):
+                    shutil.rmtree(self.folder / "x", ignore_errors=True)
+                    shutil.copytree(self.folder / "a", self.folder / "x")
+                    shutil.copy(self.folder / other / name, self.folder / "x" / name)
+                    self.refused("x", *arguments, words=(words, "--force"))
+        self.run_to("a", *more)
+        self.run_to("whole", "--set", "run.steps=900")
+        self.assertEqual(self.contents("a")["trajectory.csv"], self.contents("whole")["trajectory.csv"])
+
+    def test_a_changed_summary_is_not_printed(self):
+        first = json.loads(self.run_to("a").stdout)
+        file = self.folder / "a" / "summary.json"
+        text = file.read_text()
+        for change in (text.replace('"done"', '"done "', 1), text.replace('"steps": 600', '"steps": 601'),
+                       json.dumps({k: v for k, v in first.items() if k != "energy"}),
+                       json.dumps({k: v for k, v in first.items() if k != "status"}),
+                       json.dumps({k: v for k, v in first.items() if k != "parameters"}), text[:-1]):
+            file.write_text(change)
+            again = json.loads(self.run_to("a", "--resume").stdout)
+            for key in first:
+                if "second" not in key:
+                    self.assertEqual(again[key], first[key])
+            self.assertEqual(json.loads(file.read_text()), again)
+        file.unlink()
+        self.run_to("a", "--resume")
+        for foreign in ("", "[]", "{}", text[:100], '{"mine": 1}'):
+            file.write_text(foreign)
+            self.refused("a", "--resume", words=("summary", "not of this run"))
+
+    def test_a_finished_run_whose_files_are_gone_is_not_complete(self):
+        self.run_to("a")
+        for name in ("run.h5", "trajectory.csv"):
+            file = self.folder / "a" / name
+            data = file.read_bytes()
+            file.unlink()
+            self.refused("a", "--resume", words=(name, "gone"))
+            file.write_bytes(data)
+        self.assertIn("nothing to do", self.run_to("a", "--resume").stderr)
+
+    def test_a_run_that_has_only_begun(self):
+        """What a kill in the first seconds leaves: the folder is the run's, and it starts from the beginning."""
+        self.run_to("whole")
+        process = subprocess.Popen([HAMFLOW, "run", "s.toml", "--out", "r", "--set", "run.steps=1_000_000_000"],
+                                   cwd=self.folder, stdout=subprocess.DEVNULL)
+        while not (self.folder / "r" / "run.h5").exists():
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+        begun = self.folder / "begun"
+        shutil.copytree(self.folder / "r", begun)
+        shutil.copy(self.folder / "whole" / "run.h5", begun / "run.h5")
+        self.refused("begun", "--resume", "--set", "run.steps=1_000_000_000", words=("of another run",))
+        self.hamflow("run", "s.toml", "--out", "r", "--resume", "--set", "run.dt=0.02", status=2)
+        said = self.run_to("r", "--resume")
+        self.assertIn("from the beginning", said.stderr)
+        self.assertEqual(self.contents("r")["trajectory.csv"], self.contents("whole")["trajectory.csv"])
+
+    def test_outputs_are_whole_or_as_they_were(self):
+        self.run_to("r", "--set", "run.steps=20000", "--set", "run.record_every=1")
+        limit = 100_000
+        for name in ("x.h5", "x.csv", "x.json"):
+            target = self.folder / name
+            target.write_text("old")
+            words = ["convert", "r", "--to", "polar", "-o", name, *(["--json"] if name == "x.json" else [])]
+            done = subprocess.run([HAMFLOW, *words], cwd=self.folder, capture_output=True, text=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertEqual(target.read_text(), "old")
+            self.hamflow(*words)
+            self.assertGreater(target.stat().st_size, limit)
+        link = self.folder / "link.csv"
+        link.symlink_to(self.folder / "x.csv")
+        self.hamflow("convert", "r", "--to", "polar", "-o", "link.csv")
+        self.assertTrue(link.is_symlink())
+        self.hamflow("convert", "r", "--to", "polar", "-o", "/dev/null", status=2)  # neither .h5 nor .csv
+        self.assertEqual([p.name for p in self.folder.iterdir() if p.name.endswith(".part")], [])
+
+    def hanging_gnuplot(self):
+        programs = self.folder / "bin"
+        programs.mkdir()
+        fake = programs / "gnuplot"
+        fake.write_text("#!/bin/sh\ntouch started\nsleep 1000\n")
+        fake.chmod(fake.stat().st_mode | stat.S_IXUSR)
+        return {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+
+    def test_a_gnuplot_that_hangs_is_ended(self):
+        environment = self.hanging_gnuplot()
+        self.run_to("whole")
+        for words in (["run", "s.toml", "--out", "r", "--set", "output.figures=['energy']"],
+                      ["plot", "whole", "-o", "x.svg"]):
+            for number in (signal.SIGTERM, signal.SIGINT):
+                with self.subTest(words=words, number=number):
+                    (self.folder / "started").unlink(missing_ok=True)
+                    if words[0] == "run":
+                        shutil.rmtree(self.folder / "r", ignore_errors=True)
+                    process = subprocess.Popen([HAMFLOW, *words], cwd=self.folder, env=environment, text=True,
+                                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                    while not (self.folder / "started").exists():
+                        time.sleep(0.005)
+                    process.send_signal(number)
+                    _, said = process.communicate(timeout=60)
+                    self.assertEqual(process.returncode, 130, said)
+                    self.assertIn("stopped while gnuplot was drawing", said)
+        self.assertEqual(json.loads((self.folder / "r" / "summary.json").read_text())["status"], "done")
+        more = ("r", "--resume", "--set", "output.figures=['energy']")
+        self.assertIn("figures are drawn", self.run_to(*more).stderr)
+        self.assertIn("figures/energy.pdf", self.contents("r"))
+        self.assertIn("nothing to do", self.run_to(*more).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
