@@ -1,8 +1,19 @@
 #include "hdf5_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <span>
+
+#include "hamflow/core/hash.hpp"
 
 namespace hamflow {
+
+namespace {
+/// A text is one piece without the checksums that chunks have; attributes have those of HDF5.
+constexpr const char* hash_attribute = "fnv1a";
+std::string hash_of(const std::string& text) { return fmt::format("{:016x}", fnv1a(std::as_bytes(std::span(text)))); }
+}  // namespace
 
 void silence_hdf5() {
   static const bool once = [] {
@@ -44,6 +55,7 @@ void write_text_dataset(hid_t file, const std::string& name, const std::string& 
   const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
                            "create dataset " + name);
   check_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write " + name);
+  write_attribute(dataset, hash_attribute, hash_of(text.empty() ? std::string(1, 0) : text));
 }
 
 std::string read_text_dataset(hid_t file, const std::string& name) {
@@ -51,6 +63,9 @@ std::string read_text_dataset(hid_t file, const std::string& name) {
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
   std::string text(H5Tget_size(type), '\0');
   check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read " + name);
+  const std::string hash = read_attribute(dataset, hash_attribute);
+  if (!hash.empty() && hash != hash_of(text))
+    throw FileError("HDF5: dataset " + name + " is damaged: its hash is wrong");
   return text;
 }
 

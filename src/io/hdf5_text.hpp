@@ -19,7 +19,7 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
 /// Empty where there is no such attribute.
 std::string read_attribute(hid_t object, const std::string& name);
 
-/// A dataset that holds one text.
+/// A dataset that holds one text, and its hash as the attribute `fnv1a`, by which damage is found when it is read.
 void write_text_dataset(hid_t file, const std::string& name, const std::string& text);
 std::string read_text_dataset(hid_t file, const std::string& name);
 
