@@ -22,7 +22,7 @@ class ConvertedRun::Impl {
  public:
   Impl(const fs::path& file, const std::string& to) : file_(file), to_(to), samples_(read_run_file(file)) {
     const std::string& text = samples_.description.scenario;
-    reading_ = read_scenario_text(text, file.string(), sets_of(text));
+    reading_ = read_scenario_text(text, file.string(), {});
     if (!reading_.scenario) {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
