@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "hdf5_text.hpp"
+#include "run_column.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {
@@ -124,44 +125,59 @@ void copy_rows(const Source& source, hid_t to, hsize_t rows) {
   }
 }
 
-/// Rows of a sample each, chunked like those of a run.
-void write_states(hid_t from, hid_t to, const char* name, const std::vector<std::vector<double>>& by_coordinate,
-                  std::size_t rows) {
-  const std::size_t width = by_coordinate.size();
-  std::vector<double> all(width * rows);
-  for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t k = 0; k < rows; ++k) all[k * width + i] = by_coordinate[i][k];
+template <class T>
+void write_rows(hid_t file, const char* name, hid_t type, const std::vector<std::vector<T>>& by_coordinate,
+                std::size_t rows, const ColumnText& text) {
+  Column column(file, name, type, by_coordinate.size(), rows, text);
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (const auto& coordinate : by_coordinate) column.add(coordinate[k]);
   }
-  const hsize_t size[2] = {rows, width};
-  const hsize_t most[2] = {H5S_UNLIMITED, width};
-  const Source same(from, name);
-  const Hdf5Handle space(H5Screate_simple(2, size, most), H5Sclose, "make a data space");
-  const Hdf5Handle plist(H5Dget_create_plist(same.dataset), H5Pclose, std::string("read the chunks of ") + name);
-  const Hdf5Handle dataset(H5Dcreate2(to, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
-                           std::string("create dataset ") + name);
-  check_hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()),
-             std::string("write ") + name);
+  column.write(rows);
 }
 
-void copy(const std::filesystem::path& source, const std::filesystem::path& target, const std::string& scenario,
-          const std::vector<std::vector<double>>& q, const std::vector<std::vector<double>>& p) {
+template <class T>
+void write_row_numbers(hid_t file, const char* name, hid_t type, const std::vector<T>& values, std::size_t rows,
+                       const ColumnText& text) {
+  Column column(file, name, type, 0, rows, text);
+  for (std::size_t k = 0; k < rows; ++k) column.add(values[k]);
+  column.write(rows);
+}
+
+void write_states(hid_t file, const ConvertedStates& states, std::size_t rows) {
+  const ColumnText of_q{states.coordinates, "coordinates, converted"};
+  const ColumnText of_p{states.momenta, "canonical momenta, converted"};
+  write_rows(file, "q", H5T_IEEE_F64LE, states.q, rows, of_q);
+  write_rows(file, "p", H5T_IEEE_F64LE, states.p, rows, of_p);
+  const RunDigits& digits = states.digits;
+  if (digits.t.empty()) return;
+  (void)make_group(file, "digits");
+  const Hdf5Handle type = digits_type(states.digits_length);
+  write_rows(file, "digits/q", type, digits.q, rows, of_q);
+  write_rows(file, "digits/p", type, digits.p, rows, of_p);
+  write_row_numbers(file, "digits/energy", type, digits.energy, rows, {{"energy"}, "H(q, p)"});
+  write_row_numbers(file, "digits/t", type, digits.t, rows, {{"t"}, "time"});
+}
+
+void copy(const std::filesystem::path& source, const std::filesystem::path& target, const ConvertedStates& states) {
   const Hdf5Handle from = open_to_read(source);
   Objects objects;
   collect(from, "", objects);
-  hsize_t rows = q.at(0).size();  // a run that goes on, or was killed, has columns of different lengths
+  hsize_t rows = states.q.at(0).size();  // a run that goes on, or was killed, has columns of different lengths
   for (const Source& each : objects.datasets) {
     if (each.rank > 0) rows = std::min(rows, each.size[0]);
   }
   WholeFile whole(target);
   Hdf5Handle to = create_hdf5(whole.part());
   for (const std::string& name : names_in(from, true)) {
-    if (name != "run") copy_attribute(from, to, name.c_str());  // nothing goes on with these samples
+    // Names are others, and no run goes on with these samples.
+    if (name != "coordinates" && name != "momenta" && name != "run") copy_attribute(from, to, name.c_str());
   }
+  if (!states.coordinates.empty()) write_attribute(to, "coordinates", states.coordinates);
+  if (!states.momenta.empty()) write_attribute(to, "momenta", states.momenta);
   for (const std::string& group : objects.groups) (void)make_group(to, group);
   for (const Source& each : objects.datasets) copy_rows(each, to, rows);
-  write_text_dataset(to, "scenario", scenario);
-  write_states(from, to, "q", q, rows);
-  write_states(from, to, "p", p, rows);
+  write_text_dataset(to, "scenario", states.scenario);
+  write_states(to, states, rows);
   to.close_now("write " + target.string() + " (is the disk full?)");
   whole.put_in_place();
 }
@@ -169,11 +185,10 @@ void copy(const std::filesystem::path& source, const std::filesystem::path& targ
 }  // namespace
 
 void copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                   const std::string& scenario, const std::vector<std::vector<double>>& q,
-                   const std::vector<std::vector<double>>& p) {
+                   const ConvertedStates& states) {
   silence_hdf5();
   try {
-    copy(source, target, scenario, q, p);
+    copy(source, target, states);
   } catch (const std::bad_alloc&) {
     throw FileError(source.string() + " cannot be copied: it claims a size that cannot be");
   } catch (const std::length_error&) {

@@ -82,4 +82,10 @@ std::vector<std::string> replaced_method_keys(const toml::table& method, const s
   return replaced;
 }
 
+void drop_replaced_method_keys(toml::table& root, const std::string& file_method) {
+  toml::table* const method = root["method"].as_table();
+  if (method == nullptr) return;
+  for (const std::string& key : replaced_method_keys(*method, file_method)) method->erase(key);
+}
+
 }  // namespace hamflow

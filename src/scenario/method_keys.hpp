@@ -25,5 +25,7 @@ bool same_option(const OptionInfo& a, const OptionInfo& b);
 /// that it does not have or means otherwise than the file's own method, and options that its name carries.
 /// @param file_method the name of the file's own, method_named_in() before anything was set
 std::vector<std::string> replaced_method_keys(const toml::table& method, const std::string& file_method);
+/// Removes them from the [method] of a document.
+void drop_replaced_method_keys(toml::table& root, const std::string& file_method);
 
 }  // namespace hamflow

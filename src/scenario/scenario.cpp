@@ -8,6 +8,7 @@
 #include "scenario_reader.hpp"
 #include "toml_depth.hpp"
 #include "toml_path.hpp"
+#include "toml_text.hpp"
 
 namespace hamflow {
 
@@ -75,18 +76,17 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
   return document;
 }
 
-std::string with_sets(const std::string& text, const std::vector<std::string>& sets) {
-  std::string all = text;
-  for (const std::string& set : sets) all += "# --set " + set + "\n";
-  return all;
+std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root) {
+  return sets.empty() ? text : toml_text(root);
 }
 
 Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
   Reading reading;
-  const std::optional<Document> document = parsed_document(text, name, sets, reading.complaints);
+  std::optional<Document> document = parsed_document(text, name, sets, reading.complaints);
   if (!document) return reading;
   Scenario scenario = ScenarioReader(*document, name, reading.complaints).read();
-  scenario.text = with_sets(text, sets);
+  drop_replaced_method_keys(document->root, document->file_method);  // they were noted
+  scenario.text = effective_text(text, sets, document->root);
   list_settings(document->root, "", scenario.settings);
   // In the order of the file, so that a reader can walk through it.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),

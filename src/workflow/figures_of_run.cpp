@@ -5,16 +5,15 @@
 #include "figure.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
-#include "scenario_edit.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// The scenario that a run.h5 carries; what --set changed stands behind its text as comments.
+/// The scenario that a run.h5 carries.
 Scenario scenario_of(const RunSamples& samples, const std::filesystem::path& file) {
   const std::string& text = samples.description.scenario;
-  const Reading reading = read_scenario_text(text, file.string(), sets_of(text));
+  const Reading reading = read_scenario_text(text, file.string(), {});
   if (!reading.scenario)
     throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
   return *reading.scenario;

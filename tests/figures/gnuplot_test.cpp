@@ -1,0 +1,34 @@
+// The process: it is ended when it takes too long, or when whoever waits is asked to stop.
+#include "gnuplot.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using hamflow::FileError;
+using namespace hamflow::figures;
+
+TEST(Gnuplot, IsEndedWhenItTakesTooLong) {
+  try {
+    (void)run_gnuplot("pause 1000\n", 0.1);
+    FAIL() << "a script that waits came to its end";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("did not finish within 0.1 s"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Gnuplot, IsEndedWhenAskedTo) {
+  int asked = 0;
+  const WhileDrawing watch([&] { return ++asked < 3; });
+  EXPECT_THROW((void)run_gnuplot("pause 1000\n"), DrawingStopped);
+  EXPECT_EQ(asked, 3);
+}
+
+TEST(Gnuplot, IsNotAskedAfterwards) {
+  {
+    const WhileDrawing watch([] { return false; });
+  }
+  EXPECT_NE(run_gnuplot("set terminal svg\nplot [0:1] x\n").find("<svg"), std::string::npos);
+}
+
+}  // namespace

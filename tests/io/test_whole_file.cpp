@@ -1,0 +1,91 @@
+// A file is whole, or what was there before.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "csv_file.hpp"
+#include "hamflow/core/error.hpp"
+#include "whole_file.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace hamflow;
+
+class WholeFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("whole_" + std::to_string(getpid()) + name);
+    fs::create_directory(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void put(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+  std::string text(const std::string& name) {
+    std::ifstream in(folder_ / name);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  std::size_t files() {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  fs::path folder_;
+};
+
+TEST_F(WholeFiles, TheOldOneStaysUntilTheNewOneIsPutInPlace) {
+  put("x", "old");
+  {
+    WholeFile left(folder_ / "x");
+    std::ofstream(left.part()) << "half";
+    EXPECT_EQ(text("x"), "old");
+  }
+  EXPECT_EQ(text("x"), "old");
+  EXPECT_EQ(files(), 1u);
+  WholeFile whole(folder_ / "x");
+  write_whole(whole, "new");
+  EXPECT_EQ(text("x"), "new");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WholeFiles, LinksAreFollowedAndPipesAreWrittenDirectly) {
+  put("x", "old");
+  fs::create_symlink(folder_ / "x", folder_ / "link");
+  WholeFile whole(folder_ / "link");
+  write_whole(whole, "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(text("x"), "new");
+  WholeFile nothing("/dev/null");
+  write_whole(nothing, "new");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  WholeFile full("/dev/full");
+  EXPECT_THROW(write_whole(full, "new"), FileError);
+  WholeFile nowhere(folder_ / "none" / "x");
+  EXPECT_THROW(write_whole(nowhere, "new"), FileError);
+}
+
+TEST_F(WholeFiles, OtherLinesAreFound) {
+  std::uint64_t bytes = 0;
+  std::uint64_t hash = 0;
+  {
+    CsvFile csv(folder_ / "t.csv", 1, {});
+    csv.append({});
+    csv.flush();
+    bytes = csv.bytes();
+    hash = csv.hash();
+    csv.append({});  // what stands behind is dropped when the run goes on
+  }
+  const std::string good = text("t.csv");
+  EXPECT_EQ(refused_csv(folder_ / "t.csv", bytes, hash), "");
+  for (std::size_t i = 0; i < bytes; ++i) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 1);
+    put("t.csv", bad);
+    EXPECT_NE(refused_csv(folder_ / "t.csv", bytes, hash), "") << i;
+  }
+  put("t.csv", good.substr(0, bytes - 1));
+  EXPECT_NE(refused_csv(folder_ / "t.csv", bytes, hash).find("not the"), std::string::npos);
+  EXPECT_NE(refused_csv(folder_ / "none.csv", bytes, hash).find("gone"), std::string::npos);
+}
+
+}  // namespace
