@@ -51,7 +51,7 @@ Series track_of(const Curve& track, const Curve& opening, Series how, bool& open
     how.curve = start;
     return how;
   }
-  how.ink = Ink::fine_dots;
+  how.ink = track.x.size() > most_separate_dots ? Ink::fine_dots : Ink::place;
   how.curve = thin_out(track, most_dots);
   return how;
 }

@@ -66,13 +66,14 @@ Panel panel_of(const std::vector<Entry>& entries, const Quantity& work, const Qu
   return panel;
 }
 
-/// Errors below it mean nothing.
-void add_floor(Panel& panel, double floor) {
-  if (!(floor > 0)) return;
+/// Errors below it mean nothing. @returns whether the panel shows so little
+bool add_floor(Panel& panel, double floor) {
+  if (!(floor > 0)) return false;
   const double level = panel.y.place(floor);
-  if (level <= panel.y.low || level >= panel.y.high) return;
+  if (level <= panel.y.low || level >= panel.y.high) return false;
   const Curve line{{std::pow(10.0, panel.x.low), std::pow(10.0, panel.x.high)}, {floor, floor}};
   panel.series.insert(panel.series.begin(), {Ink::level, "", line});
+  return true;
 }
 
 /// The methods by order, each with its mark.
@@ -100,16 +101,17 @@ void write_work_precision(const WorkPrecision& data, const std::filesystem::path
   if (curves.empty()) throw Error("there is no error to draw: every run failed, or is exact");
   const std::vector<Entry> entries = marked(curves);
   const Quantity evaluations{"evaluations of force or gradient", &WorkCurve::evaluations};
-  const Quantity seconds{"processor time in s", &WorkCurve::seconds};
+  const Quantity seconds{"processor time in seconds", &WorkCurve::seconds};
   const Quantity error{"largest error of q, p at the end", &WorkCurve::error};
   const Quantity energy_error{"max |{/:Italic H} − {/:Italic H}_0|/scale", &WorkCurve::energy_error};
   Page page{data.title, {}, 2, two_columns, legend_of(entries)};
+  bool floor_shown = false;
   for (const Quantity& work : {evaluations, seconds}) {
     page.panels.push_back(panel_of(entries, work, error));
-    add_floor(page.panels.back(), data.floor);
+    floor_shown = add_floor(page.panels.back(), data.floor) || floor_shown;
   }
   page.panels.push_back(panel_of(entries, evaluations, energy_error));
-  if (data.floor > 0) page.notes.push_back("dashed grey: uncertainty of the reference, " + short_number(data.floor));
+  if (floor_shown) page.notes.push_back("dashed grey: uncertainty of the reference, " + short_number(data.floor));
   draw(page, file);
 }
 

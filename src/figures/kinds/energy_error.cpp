@@ -60,14 +60,17 @@ std::string label_of(const Figure& figure, bool logarithmic) {
   return "|" + energy_name + " − " + energy_start + "|" + (divisor.empty() ? "" : "/" + divisor);
 }
 
+/// A zero between two signs must not decide the axis: below a tenth of what all but a twentieth of the sizes reach, a
+/// line may leave the box.
 void fit_logarithmic(Panel& panel) {
   Extent range;
-  for (const Series& series : panel.series) range.include_positive(series.curve.y);
-  range.low = std::max(range.low, 1e-8 * range.high);  // a zero between two signs must not decide the axis
-  for (const Series& series : panel.series) {          // but each run is seen
-    Extent own;
-    own.include_positive(series.curve.y);
-    if (!own.empty()) range.low = std::min(range.low, 0.1 * own.high);
+  for (const Series& series : panel.series) {
+    std::vector<double> sorted = series.curve.y;
+    std::erase_if(sorted, [](double x) { return !(x > 0) || !std::isfinite(x); });
+    if (sorted.empty()) continue;
+    std::sort(sorted.begin(), sorted.end());
+    range.include(std::max(sorted.front(), 0.1 * sorted[sorted.size() / 20]));
+    range.include(sorted.back());
   }
   panel.y = log_axis(range);
 }
