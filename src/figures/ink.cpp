@@ -114,6 +114,13 @@ std::vector<std::string> styles(const Series& series) {
     return {"1:2:3 with filledcurves fillstyle solid 1 noborder fillcolor rgb '#a0" + colour.substr(1) + "' notitle",
             "1:2 " + edge + " notitle", "1:3 " + edge + name};
   }
+  if (!series.name.empty() && (series.ink == Ink::fine_dots || series.ink == Ink::path || series.ink == Ink::place)) {
+    // A legend shows no colour of so fine a line or dot: there it stands larger.
+    const std::string larger = series.ink == Ink::path
+                                   ? "lines linewidth 1 dashtype " + std::to_string(series.mark.dash)
+                                   : std::string("points pointtype 7 pointsize 0.5");
+    return {"1:2 " + drawn(series) + " notitle, NaN with " + larger + " linecolor rgb '" + colour + "'" + name};
+  }
   return {"1:2 " + drawn(series) + name};
 }
 

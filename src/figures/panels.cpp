@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "text.hpp"
 
@@ -29,6 +30,37 @@ Curve beginning(const Curve& path) {
     part.add(path.x[k], path.y[k]);
   }
   return part;
+}
+/// Whether a line over the samples would fill the paper: whether it turns several times in each column.
+bool is_field(const Curve& curve) {
+  std::size_t turns = 0;
+  for (std::size_t k = 2; k < curve.y.size(); ++k) {
+    if ((curve.y[k] - curve.y[k - 1]) * (curve.y[k - 1] - curve.y[k - 2]) < 0) ++turns;
+  }
+  return turns > 4 * page_columns;
+}
+
+/// A line over many samples without those that paper cannot show: of each short stretch the ends, the least and the
+/// largest stay.
+Curve extremes(const Curve& curve) {
+  constexpr std::size_t stretches = 2000;
+  const std::size_t n = curve.x.size();
+  if (n <= 8 * stretches) return curve;
+  Curve result;
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const std::size_t end = (s + 1) * n / stretches;
+    std::set<std::size_t> kept{s * n / stretches, end - 1};
+    std::size_t least = *kept.begin();
+    std::size_t most = least;
+    for (std::size_t k = *kept.begin(); k < end; ++k) {
+      if (std::isnan(curve.y[k])) kept.insert(k);
+      if (curve.y[k] < curve.y[least] || std::isnan(curve.y[least])) least = k;
+      if (curve.y[k] > curve.y[most] || std::isnan(curve.y[most])) most = k;
+    }
+    kept.insert({least, most});
+    for (const std::size_t k : kept) result.add(curve.x[k], curve.y[k]);
+  }
+  return result;
 }
 }  // namespace
 
@@ -84,11 +116,13 @@ Panel panel_over(const Extent& times, const std::string& label) {
 void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector<double>& y, Series how) {
   how.curve = finite_points(t, y, Gaps::kept);
   how.ink = Ink::line;
-  if (how.curve.x.size() > 4 * page_columns) {
+  if (how.curve.x.size() > 4 * page_columns && is_field(how.curve)) {
     const Band band = envelope(how.curve, page_columns);
     how.ink = Ink::band;
     how.curve = {band.x, band.low};
     how.value = band.high;
+  } else {
+    how.curve = extremes(how.curve);
   }
   panel.series.push_back(how);
   if (how.curve.x.size() > most_separate_dots) return;

@@ -151,13 +151,18 @@ void tell_apart(std::vector<RunForFigure>& runs) {
       return std::find(run.facts.begin(), run.facts.end(), fact) != run.facts.end();
     });
   };
+  const auto have_all = [&](const std::string& key) {
+    return std::all_of(runs.begin(), runs.end(), [&](const RunForFigure& run) {
+      return std::any_of(run.facts.begin(), run.facts.end(), [&](const auto& fact) { return fact.first == key; });
+    });
+  };
   for (RunForFigure& run : runs) {
     std::vector<std::string> title;
     std::vector<std::string> label;
     for (const auto& fact : run.facts) {
       const bool common = is_common(fact);
       if (common && in_title(fact)) title.push_back(fact_text(fact));
-      if (!common) label.push_back(fact_text(fact));
+      if (!common && have_all(fact.first)) label.push_back(fact_text(fact));
     }
     run.data.title = joined(title);
     run.data.label = joined(label);
@@ -167,6 +172,10 @@ void tell_apart(std::vector<RunForFigure>& runs) {
   for (RunForFigure& run : runs) {
     if (labels.count(run.data.label) == 1 && !run.data.label.empty()) continue;
     run.data.label += (run.data.label.empty() ? "" : ", ") + run.name;
+  }
+  constexpr std::size_t longest = 44;  // that one column of a journal has room for
+  for (RunForFigure& run : runs) {
+    if (run.data.label.size() > longest) run.data.label = run.name;
   }
 }
 
