@@ -45,6 +45,7 @@ macro(hamflow_problem_unit header name body)
   list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
   string(APPEND declarations "ProblemEntry entry_${name}();\nErasedEntry erased_${name}();\n")
   string(APPEND problem_calls "joined(entry_${name}(), erased_${name}()), ")
+  string(APPEND erased_calls "erased_${name}(), ")
 endmacro()
 
 set(generated "${PROJECT_BINARY_DIR}/generated")
@@ -52,6 +53,7 @@ set(HAMFLOW_UNITS)
 set(HAMFLOW_ERASED_UNITS)
 set(declarations "")
 set(problem_calls "")
+set(erased_calls "")
 set(also "")
 set(unit_text [[
 #include "@unit_header@.hpp"
@@ -162,5 +164,7 @@ inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
   return entry;
 }
 inline std::vector<ProblemEntry> generated_problems() { return {@problem_calls@}; }
+/// In the same order.
+inline std::vector<ErasedEntry> generated_erased() { return {@erased_calls@}; }
 }  // namespace hamflow
 ]] @ONLY)

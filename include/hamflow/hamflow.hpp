@@ -152,6 +152,7 @@
 #include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/digits.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/ensemble_of.hpp"
 #include "hamflow/run/method_family.hpp"

@@ -121,8 +121,11 @@ MpNumber Traits::pi() {
 MpNumber Traits::read(std::string_view text) {
   return made_by([&](mpfr_ptr x) { mpfr_set_str(x, std::string(text).c_str(), 10, MPFR_RNDN); });
 }
+std::size_t decimal_places(mpfr_prec_t bits) {
+  return static_cast<std::size_t>(std::ceil(1 + static_cast<double>(bits) * std::log10(2.0)));
+}
 std::string Traits::written(const T& x) {
-  const int places = static_cast<int>(std::ceil(1 + static_cast<double>(mpfr_get_prec(x.raw())) * std::log10(2.0)));
+  const int places = static_cast<int>(decimal_places(mpfr_get_prec(x.raw())));
   char* text = nullptr;
   const int length = mpfr_asprintf(&text, "%.*Rg", places, x.raw());
   if (length < 0) return "nan";

@@ -9,6 +9,7 @@
 #include "hamflow/core/tape.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/digits.hpp"
 
 namespace hamflow {
 
@@ -69,6 +70,21 @@ struct ErasedEntry {
   /// In any arithmetic of `extended`, and in double for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
+  /// The change of coordinates to the reference chart of the problem and back, in an arithmetic of `extended`; empty in
+  /// that chart itself.
+  std::function<DigitState(const std::string& arithmetic, const DigitState&)> to_reference{};
+  std::function<DigitState(const std::string& arithmetic, const DigitState&)> from_reference{};
 };
+
+/// action.template operator()<R>() with the number type of an arithmetic beyond double.
+template <class Action>
+auto in_arithmetic(const std::string& arithmetic, const Action& action) {
+  if (arithmetic == "double-double") return action.template operator()<DoubleDouble>();
+  if (arithmetic == "quad") return action.template operator()<Quad>();
+  const int digits = mp_digits(arithmetic);
+  if (digits == 0) throw Error("found '" + arithmetic + "'; allowed double-double, quad, mp(d)");
+  const MpDigits scope(digits);
+  return action.template operator()<Mp>();
+}
 
 }  // namespace hamflow

@@ -13,7 +13,19 @@ class ErasedUnit : ProblemStart<Family> {
   static constexpr std::size_t n = In::n;
 
  public:
-  static ErasedEntry entry() { return {simulate, step_map}; }
+  static ErasedEntry entry() {
+    ErasedEntry e{simulate, step_map};
+    if constexpr (HasChart<Family<double>>) {
+      e.to_reference = [](const std::string& arithmetic, const DigitState& state) {
+        return in_arithmetic(arithmetic, [&]<class R>() { return texts_of(Family<R>::to_reference(read<R>(state))); });
+      };
+      e.from_reference = [](const std::string& arithmetic, const DigitState& state) {
+        return in_arithmetic(arithmetic,
+                             [&]<class R>() { return texts_of(Family<R>::from_reference(read<R>(state))); });
+      };
+    }
+    return e;
+  }
 
  private:
   static std::unique_ptr<Simulation> simulate(const Request& request) {
@@ -37,6 +49,23 @@ class ErasedUnit : ProblemStart<Family> {
     };
     return simulate_erased<R>({functions_of<R>(problem), moved(s.q), moved(s.p), evaluate_number<R>(request.dt)},
                               request);
+  }
+
+  template <class R>
+  static Start<R, n> read(const DigitState& state) {
+    Start<R, n> s{zeros<R, n>(state.q.size()), zeros<R, n>(state.q.size())};
+    for (std::size_t i = 0; i < s.q.size(); ++i) {
+      s.q[i] = evaluate_number<R>(state.q.at(i));
+      s.p[i] = evaluate_number<R>(state.p.at(i));
+    }
+    return s;
+  }
+  template <class R>
+  static DigitState texts_of(const Start<R, n>& s) {
+    DigitState state;
+    for (const R& x : s.q) state.q.push_back(written_digits(x));
+    for (const R& x : s.p) state.p.push_back(written_digits(x));
+    return state;
   }
 
   template <class R>

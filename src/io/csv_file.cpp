@@ -7,7 +7,7 @@
 namespace hamflow {
 
 CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
-                 const std::vector<std::pair<std::string, std::size_t>>& invariants)
+                 const std::vector<InvariantColumn>& invariants)
     : path_(file), out_(file) {
   if (!out_) throw FileError("cannot write " + file.string());
   out_ << "step,t";
@@ -15,8 +15,9 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
     for (std::size_t i = 1; i <= dimension; ++i) out_ << ',' << letter << i;
   }
   out_ << ",energy";
-  for (const auto& [name, size] : invariants) {
-    for (std::size_t k = 1; k <= size; ++k) out_ << ',' << name << (size == 1 ? "" : "_" + std::to_string(k));
+  for (const InvariantColumn& each : invariants) {
+    for (std::size_t k = 1; k <= each.size; ++k)
+      out_ << ',' << each.name << (each.size == 1 ? "" : "_" + std::to_string(k));
   }
   out_ << '\n';
 }

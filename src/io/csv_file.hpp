@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "hamflow/run/simulation.hpp"
+#include "run_file.hpp"
 
 namespace hamflow {
 
 class CsvFile {
  public:
   /// Columns step, t, q1.., p1.., energy and the invariants, each with its number of components. @throws FileError
-  CsvFile(const std::filesystem::path& file, std::size_t dimension,
-          const std::vector<std::pair<std::string, std::size_t>>& invariants);
+  CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<InvariantColumn>& invariants);
   /// Goes on after the first `bytes` bytes of a file that is there. @throws FileError
   CsvFile(const std::filesystem::path& file, std::uint64_t bytes);
   /// Appended so far, written or not.

@@ -13,12 +13,31 @@ Hdf5Handle text_type(std::size_t length) {
   return type;
 }
 
-void write_attribute(hid_t object, const std::string& name, const std::string& text) {
-  const Hdf5Handle type = text_type(text.size());
-  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
+namespace {
+void write_values(hid_t object, const std::string& name, hid_t type, const Hdf5Handle& space, const void* values) {
   const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                             "create an attribute");
-  check_hdf5(H5Awrite(attribute, type, text.c_str()), "write attribute " + name);
+                             "create attribute " + name);
+  check_hdf5(H5Awrite(attribute, type, values), "write attribute " + name);
+}
+Hdf5Handle scalar() { return {H5Screate(H5S_SCALAR), H5Sclose, "make a data space"}; }
+Hdf5Handle list_of(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose, "make a data space"}; }
+}  // namespace
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
+  write_values(object, name, text_type(text.size()), scalar(), text.c_str());
+}
+void write_attribute(hid_t object, const std::string& name, double x) {
+  write_values(object, name, H5T_NATIVE_DOUBLE, scalar(), &x);
+}
+void write_attribute(hid_t object, const std::string& name, const std::vector<double>& numbers) {
+  write_values(object, name, H5T_NATIVE_DOUBLE, list_of(numbers.size()), numbers.data());
+}
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts) {
+  std::size_t longest = 1;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  std::string all;
+  for (const std::string& text : texts) all += text + std::string(longest - text.size(), '\0');
+  write_values(object, name, text_type(longest), list_of(texts.size()), all.data());
 }
 
 std::string read_attribute(hid_t object, const std::string& name) {
@@ -53,6 +72,8 @@ Hdf5Handle make_group(hid_t file, const std::string& name) {
 Hdf5Handle create_hdf5(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "choose the file format");
+  constexpr hsize_t page = 4096;
+  check_hdf5(H5Pset_alignment(access, 3400, page), "put chunks on pages");
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create " + path.string()};
 }
 

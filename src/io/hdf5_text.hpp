@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "hdf5_handle.hpp"
 
@@ -16,6 +17,10 @@ void silence_hdf5();
 Hdf5Handle text_type(std::size_t length);
 
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, double x);
+void write_attribute(hid_t object, const std::string& name, const std::vector<double>& numbers);
+/// An array of texts of one length, at least one.
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 /// Empty where there is no such attribute.
 std::string read_attribute(hid_t object, const std::string& name);
 
@@ -25,7 +30,8 @@ std::string read_text_dataset(hid_t file, const std::string& name);
 
 Hdf5Handle make_group(hid_t file, const std::string& name);
 
-/// Creates a file, or replaces one, in the latest format, which the single-writer mode needs.
+/// Creates a file, or replaces one, in the latest format, which the single-writer mode needs. What fills most of a page
+/// of memory lies on one page.
 Hdf5Handle create_hdf5(const std::filesystem::path& path);
 /// Opens what a writer has open or a crash has left. A reader beside a writer may meet metadata half written and tries
 /// again, each time twice as long after. HDF5's own 100 attempts would wait for ever on a damaged file; 24 are over in

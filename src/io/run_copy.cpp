@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hdf5_text.hpp"
+#include "run_column.hpp"
 
 namespace hamflow {
 
@@ -37,43 +38,58 @@ void copy_attribute(hid_t from, hid_t to, const char* name) {
   check_hdf5(H5Awrite(target, type, bytes.data()), std::string("write attribute ") + name);
 }
 
-/// Rows of a sample each, chunked like those of a run.
-void write_states(hid_t file, const char* name, const std::vector<std::vector<double>>& by_coordinate) {
-  const std::size_t width = by_coordinate.size();
+template <class T>
+void write_rows(hid_t file, const char* name, hid_t type, const std::vector<std::vector<T>>& by_coordinate,
+                const ColumnText& text) {
   const std::size_t rows = by_coordinate.at(0).size();
-  std::vector<double> all(width * rows);
-  for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t k = 0; k < rows; ++k) all[k * width + i] = by_coordinate[i][k];
+  Column column(file, name, type, by_coordinate.size(), rows, text);
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (const auto& coordinate : by_coordinate) column.add(coordinate[k]);
   }
-  const hsize_t size[2] = {rows, width};
-  const hsize_t most[2] = {H5S_UNLIMITED, width};
-  const hsize_t chunk[2] = {std::max<hsize_t>(std::min<hsize_t>(rows, 8192), 16), width};
-  const Hdf5Handle space(H5Screate_simple(2, size, most), H5Sclose, "make a data space");
-  const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_chunk(plist, 2, chunk), std::string("chunk ") + name);
-  const Hdf5Handle dataset(H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
-                           std::string("create dataset ") + name);
-  check_hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()),
-             std::string("write ") + name);
+  column.write(rows);
+}
+
+template <class T>
+void write_row_numbers(hid_t file, const char* name, hid_t type, const std::vector<T>& values, const ColumnText& text) {
+  Column column(file, name, type, 0, values.size(), text);
+  for (const T& x : values) column.add(x);
+  column.write(values.size());
+}
+
+void write_states(hid_t file, const ConvertedStates& states) {
+  const ColumnText of_q{states.coordinates, "coordinates, converted"};
+  const ColumnText of_p{states.momenta, "canonical momenta, converted"};
+  write_rows(file, "q", H5T_IEEE_F64LE, states.q, of_q);
+  write_rows(file, "p", H5T_IEEE_F64LE, states.p, of_p);
+  const RunDigits& digits = states.digits;
+  if (digits.t.empty()) return;
+  (void)make_group(file, "digits");
+  const Hdf5Handle type = digits_type(states.digits_length);
+  write_rows(file, "digits/q", type, digits.q, of_q);
+  write_rows(file, "digits/p", type, digits.p, of_p);
+  write_row_numbers(file, "digits/energy", type, digits.energy, {{"energy"}, "H(q, p)"});
+  write_row_numbers(file, "digits/t", type, digits.t, {{"t"}, "time"});
 }
 
 }  // namespace
 
 void copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                   const std::string& scenario, const std::vector<std::vector<double>>& q,
-                   const std::vector<std::vector<double>>& p) {
+                   const ConvertedStates& states) {
   silence_hdf5();
   const Hdf5Handle from = open_to_read(source);
   const Hdf5Handle to = create_hdf5(target);
-  for (const std::string& name : names_in(from, true)) copy_attribute(from, to, name.c_str());
+  for (const std::string& name : names_in(from, true)) {
+    if (name != "coordinates" && name != "momenta") copy_attribute(from, to, name.c_str());
+  }
+  if (!states.coordinates.empty()) write_attribute(to, "coordinates", states.coordinates);
+  if (!states.momenta.empty()) write_attribute(to, "momenta", states.momenta);
   for (const std::string& name : names_in(from, false)) {
-    if (name == "q" || name == "p" || name == "scenario") continue;
+    if (name == "q" || name == "p" || name == "scenario" || name == "digits") continue;
     if (name == "section") continue;  // that of another coordinate
     check_hdf5(H5Ocopy(from, name.c_str(), to, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "copy " + name);
   }
-  write_text_dataset(to, "scenario", scenario);
-  write_states(to, "q", q);
-  write_states(to, "p", p);
+  write_text_dataset(to, "scenario", states.scenario);
+  write_states(to, states);
   check_hdf5(H5Fflush(to, H5F_SCOPE_GLOBAL), "write " + target.string() + " (is the disk full?)");
 }
 

@@ -2,92 +2,36 @@
 
 #include <algorithm>
 #include <ctime>
+#include <span>
 
 #include "checkpoint.hpp"
 #include "hdf5_text.hpp"
+#include "run_column.hpp"
 
 namespace hamflow {
 
 namespace {
 
-constexpr std::size_t batch_rows = 8192;                     // one write call per batch: 35 ns a row instead of 25 us
-constexpr std::size_t batch_numbers = std::size_t{1} << 20;  // of large systems fewer rows: 8 megabytes wait at most
-constexpr std::size_t chunk_numbers = std::size_t{1} << 17;  // a chunk has to fit the cache of 1 megabyte
-constexpr double flush_seconds = 0.25;                       // at most so much is lost by a crash
+constexpr std::size_t batch_rows = 8192;                   // one write call per batch: 35 ns a row instead of 25 us
+constexpr std::size_t batch_bytes = std::size_t{1} << 23;  // of large systems fewer rows
+constexpr double flush_seconds = 0.25;                     // at most so much is lost by a crash
 using Clock = std::chrono::steady_clock;
-constexpr const char* diagnostic_names[] = {"iterations", "residual", "condition_tangent", "determinant_tangent",
-                                            "condition_inverse_mass"};
-
-/// A dataset that grows by rows of `width` doubles or 64-bit integers, with the rows that wait to be written.
-template <class T>
-class Column {
- public:
-  Column(hid_t file, std::string name, std::size_t width, std::size_t rows) : name_(std::move(name)), width_(width) {
-    const int rank = width > 0 ? 2 : 1;
-    const hsize_t columns = std::max<std::size_t>(width, 1);
-    const hsize_t size[2] = {0, columns};
-    const hsize_t most[2] = {H5S_UNLIMITED, columns};
-    const hsize_t most_rows = std::max<hsize_t>(chunk_numbers / columns, 1);
-    const hsize_t chunk[2] = {std::min(std::max<hsize_t>(std::min(batch_rows, rows) / columns, 16), most_rows),
-                              columns};
-    const Hdf5Handle space(H5Screate_simple(rank, size, most), H5Sclose, "make a data space");
-    const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
-    check_hdf5(H5Pset_chunk(plist, rank, chunk), "chunk " + name_);
-    dataset_ = Hdf5Handle(H5Dcreate2(file, name_.c_str(), stored_type(), space, H5P_DEFAULT, plist, H5P_DEFAULT),
-                          H5Dclose, "create dataset " + name_);
-  }
-  void add(T value) { waiting_.push_back(value); }
-  std::size_t numbers_a_row() const { return std::max<std::size_t>(width_, 1); }
-  /// Writes the first `rows` rows of the dataset of the same name in another file.
-  void copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
-    const Hdf5Handle source(H5Dopen2(other, name_.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name_);
-    const Hdf5Handle space(H5Dget_space(source), H5Sclose, "open the space of " + name_);
-    const int rank = width_ > 0 ? 2 : 1;
-    hsize_t size[2] = {0, 1};
-    if (H5Sget_simple_extent_ndims(space) != rank) throw FileError("HDF5: dataset " + name_ + " has another shape");
-    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name_);
-    if (size[1] != numbers_a_row()) throw FileError("HDF5: dataset " + name_ + " has another width");
-    if (size[0] < rows) {
-      throw FileError("HDF5: dataset " + name_ + " has " + std::to_string(size[0]) + " rows, not the " +
-                      std::to_string(rows) + " that the checkpoint counts");
-    }
-    while (written_ < rows) {
-      const hsize_t offset[2] = {written_, 0};
-      const hsize_t count[2] = {std::min<hsize_t>(rows - written_, at_once), size[1]};
-      const Hdf5Handle part(H5Dget_space(source), H5Sclose, "open the space of " + name_);
-      check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset, nullptr, count, nullptr), "select rows of " + name_);
-      const Hdf5Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose, "make a data space");
-      waiting_.resize(count[0] * count[1]);
-      check_hdf5(H5Dread(source, memory_type(), memory, part, H5P_DEFAULT, waiting_.data()), "read " + name_);
-      write(count[0]);
-    }
-  }
-  void write(std::size_t rows) {
-    const hsize_t columns = std::max<std::size_t>(width_, 1);
-    const int rank = width_ > 0 ? 2 : 1;
-    const hsize_t size[2] = {written_ + rows, columns};
-    const hsize_t offset[2] = {written_, 0};
-    const hsize_t count[2] = {rows, columns};
-    check_hdf5(H5Dset_extent(dataset_, size), "extend dataset " + name_);
-    const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, "open the space of " + name_);
-    check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset, nullptr, count, nullptr), "select rows of " + name_);
-    const Hdf5Handle memory(H5Screate_simple(rank, count, nullptr), H5Sclose, "make a data space");
-    check_hdf5(H5Dwrite(dataset_, memory_type(), memory, space, H5P_DEFAULT, waiting_.data()), "write " + name_);
-    check_hdf5(H5Dflush(dataset_), "flush " + name_);
-    written_ += rows;
-    waiting_.clear();
-  }
-
- private:
-  static hid_t stored_type() { return std::is_same_v<T, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE; }
-  static hid_t memory_type() { return std::is_same_v<T, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64; }
-
-  std::string name_;
-  std::size_t width_;
-  Hdf5Handle dataset_;
-  std::vector<T> waiting_;
-  hsize_t written_ = 0;
+struct NamedColumn {
+  const char* name;
+  const char* meaning;
 };
+constexpr NamedColumn diagnostic_columns[] = {
+    {"solver/iterations", "of the last step; NaN at the start"},
+    {"solver/residual", "of the last step"},
+    {"solver/condition_tangent", "of the tangent matrix of the last step"},
+    {"solver/determinant_tangent", "of the tangent matrix of the last step"},
+    {"solver/condition_inverse_mass", "of the inverse mass matrix at the last step"}};
+constexpr NamedColumn count_columns[] = {{"step", "steps since the start"},
+                                         {"solver/force", "force evaluations since the start"},
+                                         {"solver/gradient", "evaluations of the gradient of H since the start"},
+                                         {"solver/hessian", "evaluations of second derivatives since the start"},
+                                         {"solver/linear_solves", "linear systems solved since the start"},
+                                         {"events/halved", "steps replaced by two half steps since the start"}};
 
 std::string now_utc() {
   const std::time_t now = std::time(nullptr);
@@ -101,72 +45,118 @@ std::string now_utc() {
 
 struct RunFile::Impl {
   Hdf5Handle file;
-  std::vector<Column<double>> vectors;  // q, p
-  std::vector<Column<double>> invariants;
+  std::vector<Column> columns;  // in the order in which append() fills them; time is the last: its length tells how
+                                // many rows are complete
+  std::vector<Column> section;  // q, p, t of its points: rows of their own
   std::vector<std::size_t> invariant_sizes;
-  std::vector<Column<double>> diagnostics;
-  std::vector<Column<double>> scalars;  // energy
-  std::vector<Column<std::int64_t>> counts;
-  std::vector<Column<double>> section;  // q, p, t of its points: rows of their own
+  bool diagnostics = false;
+  bool digits = false;
   std::size_t section_waiting = 0;
-  std::vector<Column<double>> time;  // last: its length tells how many rows are complete
   std::size_t waiting = 0;
   std::size_t most_waiting = batch_rows;
   std::uint64_t rows = 0;
   std::uint64_t section_rows = 0;
   Clock::time_point flushed = Clock::now();
-
-  template <class F>
-  void for_each_column(F&& f) {
-    for (auto* columns : {&vectors, &scalars, &invariants, &diagnostics}) {
-      for (auto& column : *columns) f(column);
-    }
-    for (auto& column : counts) f(column);
-    for (auto& column : time) f(column);
-  }
 };
 
-RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description)
-    : impl_(std::make_unique<Impl>()) {
+namespace {
+
+void write_attributes(hid_t file, const RunDescription& run) {
+  write_attribute(file, "hamflow", run.version);
+  write_attribute(file, "host", run.host);
+  write_attribute(file, "problem", run.problem);
+  write_attribute(file, "method", run.method);
+  write_attribute(file, "arithmetic", run.arithmetic);
+  write_attribute(file, "kernel", run.kernel);
+  write_attribute(file, "created", run.created.empty() ? now_utc() : run.created);
+  write_attribute(file, "dt", run.dt);
+  write_attribute(file, "dt_text", run.dt_text);
+  if (!run.coordinates.empty()) write_attribute(file, "coordinates", run.coordinates);
+  if (!run.momenta.empty()) write_attribute(file, "momenta", run.momenta);
+  if (!run.masses.empty()) write_attribute(file, "masses", run.masses);
+}
+
+/// The names of an invariant's numbers: NAME, or NAME_1, NAME_2, ...
+std::vector<std::string> component_names(const InvariantColumn& invariant) {
+  if (invariant.size == 1) return {invariant.name};
+  std::vector<std::string> names;
+  for (std::size_t k = 1; k <= invariant.size; ++k) names.push_back(invariant.name + "_" + std::to_string(k));
+  return names;
+}
+
+std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
+  const std::size_t rows = run.samples > 0 ? run.samples : batch_rows;
+  const ColumnUnits& unit = run.units;
+  const std::size_t n = run.dimension;
+  const auto last_name = [](const std::string& name) { return name.substr(name.find('/') + 1); };
+  std::vector<Column> all;
+  const auto number = [&](const char* name, hid_t type, const char* meaning, const std::string& its_unit = {}) {
+    all.emplace_back(file, name, type, 0, rows, ColumnText{{last_name(name)}, meaning, its_unit});
+  };
+  all.emplace_back(file, "q", H5T_IEEE_F64LE, n, rows, ColumnText{run.coordinates, "coordinates", unit.q});
+  all.emplace_back(file, "p", H5T_IEEE_F64LE, n, rows, ColumnText{run.momenta, "canonical momenta", unit.p});
+  number("energy", H5T_IEEE_F64LE, "H(q, p)", unit.energy);
+  for (const InvariantColumn& each : run.invariants) {
+    all.emplace_back(file, "invariants/" + each.name, H5T_IEEE_F64LE, each.size == 1 ? 0 : each.size, rows,
+                     ColumnText{component_names(each), each.meaning, each.unit});
+  }
+  for (const auto& [name, meaning] : diagnostic_columns) {
+    if (run.diagnostics) number(name, H5T_IEEE_F64LE, meaning);
+  }
+  for (const auto& [name, meaning] : count_columns) number(name, H5T_STD_I64LE, meaning);
+  if (run.digits_length > 0) {
+    const Hdf5Handle type = digits_type(run.digits_length);
+    const char* const meaning = "with all digits: decimal texts that read back to the last bit";
+    all.emplace_back(file, "digits/q", type, n, rows, ColumnText{run.coordinates, meaning, unit.q});
+    all.emplace_back(file, "digits/p", type, n, rows, ColumnText{run.momenta, meaning, unit.p});
+    number("digits/energy", type, meaning, unit.energy);
+    number("digits/t", type, meaning, unit.t);
+  }
+  number("t", H5T_IEEE_F64LE, "time", unit.t);
+  return all;
+}
+
+std::vector<Column> section_columns(hid_t file, const RunDescription& run) {
+  const std::size_t n = run.dimension;
+  std::vector<Column> all;
+  const auto add = [&](const char* name, std::size_t width, const ColumnText& text) {
+    all.emplace_back(file, name, H5T_IEEE_F64LE, width, batch_rows, text);
+  };
+  add("section/q", n, {run.coordinates, "coordinates of the points of the section", run.units.q});
+  add("section/p", n, {run.momenta, "canonical momenta of the points of the section", run.units.p});
+  add("section/t", 0, {{"t"}, "times of the points of the section", run.units.t});
+  return all;
+}
+
+}  // namespace
+
+std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file, const RunDescription& description) {
   silence_hdf5();
-  impl_->file = create_hdf5(file);
-  const hid_t id = impl_->file;
-  write_attribute(id, "hamflow", description.version);
-  write_attribute(id, "host", description.host);
-  write_attribute(id, "problem", description.problem);
-  write_attribute(id, "method", description.method);
-  write_attribute(id, "arithmetic", description.arithmetic);
-  write_attribute(id, "kernel", description.kernel);
-  write_attribute(id, "created", description.created.empty() ? now_utc() : description.created);
+  auto impl = std::make_unique<Impl>();
+  impl->file = create_hdf5(file);
+  const hid_t id = impl->file;
+  write_attributes(id, description);
   write_text_dataset(id, "scenario", description.scenario);
-  const Hdf5Handle groups[] = {make_group(id, "invariants"), make_group(id, "solver"), make_group(id, "events")};
-  const std::size_t rows = description.samples > 0 ? description.samples : batch_rows;
-  impl_->vectors.emplace_back(id, "q", description.dimension, rows);
-  impl_->vectors.emplace_back(id, "p", description.dimension, rows);
-  impl_->scalars.emplace_back(id, "energy", 0, rows);
-  for (const auto& [name, size] : description.invariants) {
-    impl_->invariants.emplace_back(id, "invariants/" + name, size == 1 ? 0 : size, rows);
-    impl_->invariant_sizes.push_back(size);
-  }
-  for (const char* name : diagnostic_names) {
-    if (description.diagnostics) impl_->diagnostics.emplace_back(id, std::string("solver/") + name, 0, rows);
-  }
-  for (const char* name : {"step", "solver/force", "solver/hessian", "solver/linear_solves", "events/halved"}) {
-    impl_->counts.emplace_back(id, name, 0, rows);
-  }
+  for (const char* group : {"invariants", "solver", "events"}) (void)make_group(id, group);
+  impl->digits = description.digits_length > 0;
+  impl->diagnostics = description.diagnostics;
+  for (const InvariantColumn& each : description.invariants) impl->invariant_sizes.push_back(each.size);
+  if (impl->digits) (void)make_group(id, "digits");
   if (description.section) {
     (void)make_group(id, "section");
-    impl_->section.emplace_back(id, "section/q", description.dimension, batch_rows);
-    impl_->section.emplace_back(id, "section/p", description.dimension, batch_rows);
-    impl_->section.emplace_back(id, "section/t", 0, batch_rows);
+    impl->section = section_columns(id, description);
   }
-  impl_->time.emplace_back(id, "t", 0, rows);
-  std::size_t numbers = 0;
-  impl_->for_each_column([&](const auto& column) { numbers += column.numbers_a_row(); });
-  impl_->most_waiting = std::clamp<std::size_t>(batch_numbers / numbers, 1, batch_rows);
+  impl->columns = sample_columns(id, description);
+  std::size_t bytes = 0;
+  for (const Column& column : impl->columns) bytes += column.bytes_a_row();
+  impl->most_waiting = std::clamp<std::size_t>(batch_bytes / bytes, 1, batch_rows);
   // Every object has to exist before this; from here on readers may look in, and a crash leaves a readable file.
   check_hdf5(H5Fstart_swmr_write(id), "start single-writer mode in " + file.string());
+  return impl;
 }
+
+RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description)
+    : impl_(create(file, description)) {}
 
 RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
                  std::uint64_t section_rows) {
@@ -177,14 +167,14 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     const Hdf5Handle old = open_to_read(file);
     RunDescription same = description;
     same.created = read_attribute(old, "created");
-    RunFile copy(fresh, same);
-    copy.impl_->for_each_column([&](auto& column) { column.copy_from(old, rows, copy.impl_->most_waiting); });
-    for (auto& column : copy.impl_->section) column.copy_from(old, section_rows, copy.impl_->most_waiting);
-    copy.impl_->rows = rows;
-    copy.impl_->section_rows = section_rows;
+    auto copy = create(fresh, same);
+    for (Column& column : copy->columns) column.copy_from(old, rows, copy->most_waiting);
+    for (Column& column : copy->section) column.copy_from(old, section_rows, copy->most_waiting);
+    copy->rows = rows;
+    copy->section_rows = section_rows;
     force_to_disk(fresh);
     std::filesystem::rename(fresh, file);  // the open file keeps its identity
-    impl_ = std::move(copy.impl_);
+    impl_ = std::move(copy);
   } catch (const FileError& error) {
     std::error_code ignored;
     std::filesystem::remove(fresh, ignored);
@@ -204,21 +194,38 @@ RunFile::~RunFile() {
 }
 
 void RunFile::append(const Frame& frame) {
-  for (const double x : frame.q) impl_->vectors[0].add(x);
-  for (const double x : frame.p) impl_->vectors[1].add(x);
-  impl_->scalars[0].add(frame.energy);
+  auto column = impl_->columns.begin();
+  const auto number = [&](const auto& x) { (column++)->add(x); };
+  const auto numbers = [&](const auto& row) {
+    for (const auto& x : row) column->add(x);
+    ++column;
+  };
+  numbers(frame.q);
+  numbers(frame.p);
+  number(frame.energy);
   std::size_t at = 0;
-  for (std::size_t i = 0; i < impl_->invariants.size(); ++i) {
-    for (std::size_t k = 0; k < impl_->invariant_sizes[i]; ++k) impl_->invariants[i].add(frame.invariants[at++]);
+  for (const std::size_t size : impl_->invariant_sizes) {
+    numbers(std::span(frame.invariants).subspan(at, size));
+    at += size;
   }
-  const StepDiagnostics& d = frame.diagnostics;
-  const double of_step[] = {d.iterations, d.residual, d.condition_tangent, d.determinant_tangent,
-                            d.condition_inverse_mass};
-  for (std::size_t i = 0; i < impl_->diagnostics.size(); ++i) impl_->diagnostics[i].add(of_step[i]);
-  const std::int64_t counts[] = {frame.step, frame.effort.force, frame.effort.hessian, frame.effort.linear_solves,
-                                 frame.effort.halved};
-  for (std::size_t i = 0; i < impl_->counts.size(); ++i) impl_->counts[i].add(counts[i]);
-  impl_->time[0].add(frame.time);
+  if (impl_->diagnostics) {
+    const StepDiagnostics& d = frame.diagnostics;
+    for (const double x :
+         {d.iterations, d.residual, d.condition_tangent, d.determinant_tangent, d.condition_inverse_mass}) {
+      number(x);
+    }
+  }
+  const Effort& effort = frame.effort;
+  const std::int64_t counts[] = {frame.step,     effort.force,         effort.gradient,
+                                 effort.hessian, effort.linear_solves, effort.halved};
+  for (const std::int64_t count : counts) number(count);
+  if (impl_->digits) {
+    numbers(frame.digits.q);
+    numbers(frame.digits.p);
+    number(frame.digits.energy);
+    number(frame.digits.time);
+  }
+  number(frame.time);
   ++impl_->rows;
   if (++impl_->waiting == impl_->most_waiting) flush();
 }
@@ -234,11 +241,11 @@ void RunFile::append(const SectionPoint& point) {
 void RunFile::flush() {
   if (impl_->section_waiting > 0) {
     const std::size_t points = std::exchange(impl_->section_waiting, 0);
-    for (auto& column : impl_->section) column.write(points);
+    for (Column& column : impl_->section) column.write(points);
   }
   if (impl_->waiting == 0) return;
   const std::size_t rows = std::exchange(impl_->waiting, 0);
-  impl_->for_each_column([&](auto& column) { column.write(rows); });
+  for (Column& column : impl_->columns) column.write(rows);
   impl_->flushed = Clock::now();
 }
 
@@ -247,25 +254,59 @@ void RunFile::flush_if_due() {
 }
 
 namespace {
-/// A dataset as rows of `width` numbers, row by row.
-std::vector<double> read_column(hid_t file, const char* name, std::size_t& width) {
-  const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose, std::string("open dataset ") + name);
-  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, std::string("open the space of ") + name);
-  hsize_t size[2] = {0, 1};
-  if (H5Sget_simple_extent_ndims(space) > 2)
-    throw FileError(std::string("HDF5: dataset ") + name + " has too many dimensions");
-  check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), std::string("read the size of ") + name);
-  width = size[1];
-  std::vector<double> values(size[0] * size[1]);
-  if (!values.empty()) {
-    check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-               std::string("read ") + name);
+/// A dataset of rows of `width` numbers, open to be read.
+struct OpenColumn {
+  OpenColumn(hid_t file, const char* its_name)
+      : name(its_name), dataset(H5Dopen2(file, its_name, H5P_DEFAULT), H5Dclose, "open dataset " + name) {
+    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
+    if (H5Sget_simple_extent_ndims(space) > 2) throw FileError("HDF5: dataset " + name + " has too many dimensions");
+    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
   }
+  std::size_t rows() const { return size[0]; }
+  std::size_t width() const { return size[1]; }
+  /// A chunk that its writer is writing at this moment has another checksum: a moment later it is whole.
+  void read(hid_t type, void* values) const {
+    for (int attempt = 1; attempt < 3; ++attempt) {
+      if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0) return;
+    }
+    check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read " + name);
+  }
+
+  std::string name;
+  Hdf5Handle dataset;
+  hsize_t size[2] = {0, 1};
+};
+
+/// Row by row.
+std::vector<double> read_column(hid_t file, const char* name, std::size_t& width) {
+  const OpenColumn column(file, name);
+  width = column.width();
+  std::vector<double> values(column.rows() * width);
+  if (!values.empty()) column.read(H5T_NATIVE_DOUBLE, values.data());
   return values;
 }
 
-std::vector<std::vector<double>> by_coordinate(const std::vector<double>& rows, std::size_t width, std::size_t count) {
-  std::vector<std::vector<double>> out(width, std::vector<double>(count));
+std::vector<std::string> read_texts(hid_t file, const char* name, std::size_t& width) {
+  const OpenColumn column(file, name);
+  width = column.width();
+  const Hdf5Handle type(H5Dget_type(column.dataset), H5Tclose, "read the type of " + column.name);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
+    throw FileError("HDF5: dataset " + column.name + " holds no texts of one length");
+  }
+  const std::size_t length = H5Tget_size(type);
+  std::string all(column.rows() * width * length, '\0');
+  if (!all.empty()) column.read(type, all.data());
+  std::vector<std::string> texts;
+  for (std::size_t at = 0; at < all.size(); at += length) {
+    const std::string_view text = std::string_view(all).substr(at, length);
+    texts.emplace_back(text.substr(0, text.find('\0')));
+  }
+  return texts;
+}
+
+template <class T>
+std::vector<std::vector<T>> by_coordinate(const std::vector<T>& rows, std::size_t width, std::size_t count) {
+  std::vector<std::vector<T>> out(width, std::vector<T>(count));
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < width; ++i) out[i][k] = rows[k * width + i];
   }
@@ -293,10 +334,9 @@ RunSamples read_samples(const std::filesystem::path& path) {
   const std::vector<double> q = read_column(file, "q", q_width);
   const std::vector<double> p = read_column(file, "p", p_width);
   std::size_t one = 0;
-  for (const char* name : diagnostic_names) {
-    const std::string path_in_file = std::string("solver/") + name;
-    if (H5Lexists(file, path_in_file.c_str(), H5P_DEFAULT) <= 0) continue;
-    run.diagnostics.emplace_back(name, read_column(file, path_in_file.c_str(), one));
+  for (const auto& [name, meaning] : diagnostic_columns) {
+    if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
+    run.diagnostics.emplace_back(name + std::string("solver/").size(), read_column(file, name, one));
   }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
   std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
@@ -320,11 +360,31 @@ RunSamples read_samples(const std::filesystem::path& path) {
   return run;
 }
 
-}  // namespace
+RunDigits read_digits(const std::filesystem::path& path) {
+  silence_hdf5();
+  if (!std::filesystem::exists(path)) throw FileError("there is no such file");
+  const Hdf5Handle file = open_to_read(path);
+  RunDigits run;
+  if (H5Lexists(file, "digits", H5P_DEFAULT) <= 0) return run;
+  std::size_t one = 0;
+  std::size_t width = 0;
+  run.t = read_texts(file, "digits/t", one);
+  run.energy = read_texts(file, "digits/energy", one);
+  const std::vector<std::string> q = read_texts(file, "digits/q", width);
+  const std::vector<std::string> p = read_texts(file, "digits/p", width);
+  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / width, p.size() / width});
+  run.t.resize(count);
+  run.energy.resize(count);
+  run.q = by_coordinate(q, width, count);
+  run.p = by_coordinate(p, width, count);
+  return run;
+}
 
-RunSamples read_run_file(const std::filesystem::path& path) {
+/// What goes wrong while a file is read names the file.
+template <class Read>
+auto naming(const std::filesystem::path& path, const Read& read) {
   try {
-    return read_samples(path);
+    return read(path);
   } catch (const FileError& error) {
     throw FileError(path.string() + " cannot be read, damaged or no run of hamflow: " + error.what());
   } catch (const std::bad_alloc&) {
@@ -333,5 +393,10 @@ RunSamples read_run_file(const std::filesystem::path& path) {
     throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
   }
 }
+
+}  // namespace
+
+RunSamples read_run_file(const std::filesystem::path& path) { return naming(path, read_samples); }
+RunDigits read_run_digits(const std::filesystem::path& path) { return naming(path, read_digits); }
 
 }  // namespace hamflow

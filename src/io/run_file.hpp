@@ -1,13 +1,7 @@
 // run.h5: the samples of a run. Written in single-writer-multiple-readers mode and flushed several times a second, so
-// that it can be read while it grows, and after a crash at any moment, up to the last flush. Datasets, one row a
-// sample: /t (n), /step (n), /q (n, d), /p (n, d), /energy (n), /invariants/NAME (n, or n x components), where asked
-// for /solver/iterations, residual, condition_tangent, determinant_tangent, condition_inverse_mass (n; of the last
-// step, NaN at the start where there is none), and the totals since the start /solver/force, /solver/hessian,
-// /solver/linear_solves (n), /events/halved (n: steps replaced by two half steps); beside them /scenario, the
-// scenario's text. Where asked for, the points of a Poincare section, a row each: /section/t, q, p. Root attributes:
-// hamflow (version), host, problem, method, arithmetic, kernel, created. A run that goes on copies the rows that stay
-// into a fresh file, which then takes the place of the old one: only a reader can open what a crash leaves. Open a file
-// that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
+// that it can be read while it grows, and after a crash at any moment, up to the last flush. docs/files.md lists what
+// is in it. A run that goes on copies the rows that stay into a fresh file, which then takes the place of the old one:
+// only a reader can open what a crash leaves. Open a file that was not closed with H5F_ACC_RDONLY | H5F_ACC_SWMR_READ.
 #pragma once
 
 #include <chrono>
@@ -21,6 +15,22 @@
 
 namespace hamflow {
 
+/// An invariant as a dataset.
+struct InvariantColumn {
+  std::string name;
+  std::size_t size = 1;  // numbers a row
+  std::string meaning{};
+  std::string unit{};
+};
+
+/// Of the columns; empty where nothing is declared.
+struct ColumnUnits {
+  std::string t{};
+  std::string q{};
+  std::string p{};
+  std::string energy{};
+};
+
 /// What stands in the file beside the samples.
 struct RunDescription {
   std::string scenario;
@@ -31,11 +41,18 @@ struct RunDescription {
   std::string arithmetic;
   std::string kernel;
   std::size_t dimension = 0;
-  std::vector<std::pair<std::string, std::size_t>> invariants;  // names and numbers of components
-  bool diagnostics = false;                                     // of implicit steps
-  bool section = false;                                         // points of one are written
-  std::size_t samples = 0;  // expected, so that a short run leaves a small file; 0: unknown
-  std::string created;      // empty: now
+  std::vector<InvariantColumn> invariants;
+  bool diagnostics = false;  // of implicit steps
+  bool section = false;      // points of one are written
+  std::size_t samples = 0;   // expected, so that a short run leaves a small file; 0: unknown
+  std::string created;       // empty: now
+  double dt = 0;
+  std::string dt_text{};                   // as it was given
+  std::vector<std::string> coordinates{};  // a name for each number of q; none: they are not written
+  std::vector<std::string> momenta{};
+  std::vector<double> masses{};  // of the bodies; none: not written
+  ColumnUnits units{};
+  std::size_t digits_length = 0;  // characters of a number beyond double; 0: numbers are doubles
 };
 
 /// Writes one row per sample.
@@ -60,6 +77,7 @@ class RunFile {
 
  private:
   struct Impl;
+  static std::unique_ptr<Impl> create(const std::filesystem::path& file, const RunDescription& description);
   std::unique_ptr<Impl> impl_;
 };
 
@@ -78,5 +96,19 @@ struct RunSamples {
 
 /// @throws FileError naming the file and what is wrong with it
 RunSamples read_run_file(const std::filesystem::path& file);
+
+/// The samples of a run beyond double with all their digits: decimal texts that read back to the last bit
+/// (evaluate_number in the arithmetic of the run; run/digits.hpp).
+struct RunDigits {
+  std::vector<std::string> t;
+  std::vector<std::vector<std::string>> q;  // q[i][k]: coordinate i at sample k
+  std::vector<std::vector<std::string>> p;
+  std::vector<std::string> energy;
+};
+
+/// The samples of read_run_file; of a run that goes on or was cut short perhaps some more or fewer. All empty where the
+/// run was in double.
+/// @throws FileError naming the file and what is wrong with it
+RunDigits read_run_digits(const std::filesystem::path& file);
 
 }  // namespace hamflow

@@ -63,4 +63,10 @@ std::vector<std::string> replaced_method_keys(const toml::table& method) {
   return replaced;
 }
 
+void drop_replaced_method_keys(toml::table& root) {
+  toml::table* const method = root["method"].as_table();
+  if (method == nullptr) return;
+  for (const std::string& key : replaced_method_keys(*method)) method->erase(key);
+}
+
 }  // namespace hamflow

@@ -19,5 +19,7 @@ bool names_method_with_options(const std::string& text);
 /// The keys of [method] in the file that do not apply because a method was set from outside (--set, --vary): options
 /// that it does not have, and options that its name carries.
 std::vector<std::string> replaced_method_keys(const toml::table& method);
+/// Removes them from the [method] of a document.
+void drop_replaced_method_keys(toml::table& root);
 
 }  // namespace hamflow

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <sstream>
 
+#include "method_keys.hpp"
 #include "scenario_family.hpp"
 #include "scenario_reader.hpp"
 #include "toml_path.hpp"
+#include "toml_text.hpp"
 
 namespace hamflow {
 
@@ -67,18 +69,17 @@ std::optional<toml::table> parsed_document(const std::string& text, const std::s
   return root;
 }
 
-std::string with_sets(const std::string& text, const std::vector<std::string>& sets) {
-  std::string all = text;
-  for (const std::string& set : sets) all += "# --set " + set + "\n";
-  return all;
+std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root) {
+  return sets.empty() ? text : toml_text(root);
 }
 
 Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
   Reading reading;
-  const std::optional<toml::table> root = parsed_document(text, name, sets, reading.complaints);
+  std::optional<toml::table> root = parsed_document(text, name, sets, reading.complaints);
   if (!root) return reading;
   Scenario scenario = ScenarioReader(*root, name, reading.complaints).read();
-  scenario.text = with_sets(text, sets);
+  drop_replaced_method_keys(*root);  // they were noted
+  scenario.text = effective_text(text, sets, *root);
   list_settings(*root, "", scenario.settings);
   // In the order of the file, so that a reader can walk through it.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),

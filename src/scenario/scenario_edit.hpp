@@ -13,9 +13,7 @@ struct ScenarioEdit {
   std::optional<std::string> value;
 };
 
-/// What --set changed, from the comments that stand behind the text of a scenario that was run.
-std::vector<std::string> sets_of(const std::string& text);
-/// The scenario written anew, its --set comments and then the edits applied. Other comments are lost.
+/// The scenario written anew with the edits applied. Comments are lost.
 /// @param text a scenario that can be read
 std::string edited_scenario(const std::string& text, const std::vector<ScenarioEdit>& edits);
 /// "[1, 2.5]", as few digits as read back the same.

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "method_keys.hpp"
 #include "scenario_reader.hpp"
 #include "toml_path.hpp"
 
@@ -20,8 +21,12 @@ struct ScenarioFamily::Impl {
 ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name, const std::vector<std::string>& sets)
     : impl_(std::make_unique<Impl>()) {
   impl_->name = name;
-  impl_->text = with_sets(text, sets);
   if (auto root = parsed_document(text, name, sets, impl_->complaints)) impl_->root = std::move(*root);
+  std::vector<Complaint> the_same;
+  if (auto common = parsed_document(text, name, sets, the_same)) {  // a copy would have lost the order of its keys
+    drop_replaced_method_keys(*common);
+    impl_->text = effective_text(text, sets, *common);
+  }
 }
 
 ScenarioFamily::~ScenarioFamily() = default;

@@ -24,7 +24,7 @@ class ScenarioFamily {
   std::size_t add_value(const std::string& text);
   /// Sets paths[i] to the value of number values[i] and reads the scenario. Its text is empty.
   Reading read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values);
-  /// The text with a comment line for each --set.
+  /// What is common to all members: the scenario with every --set, before anything is varied.
   const std::string& text() const;
 
  private:

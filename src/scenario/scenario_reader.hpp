@@ -9,8 +9,9 @@ namespace hamflow {
 /// A text as a document in which each --set is carried out; none where it is no TOML, which is complained about.
 std::optional<toml::table> parsed_document(const std::string& text, const std::string& name,
                                            const std::vector<std::string>& sets, std::vector<Complaint>& complaints);
-/// The text with a comment line for each --set.
-std::string with_sets(const std::string& text, const std::vector<std::string>& sets);
+/// The scenario as it is carried out, which `run` takes as it is: the file's own text, or, where something was set from
+/// outside, the document written anew.
+std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root);
 
 /// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
 class ScenarioReader {

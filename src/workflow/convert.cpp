@@ -8,6 +8,7 @@
 #include "converted_text.hpp"
 #include "figure_kinds.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/digits.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
 #include "summary.hpp"
@@ -27,6 +28,22 @@ std::string refused_method(const Scenario& scenario, const std::string& to) {
   return refusal(scenario.request.method, in_coordinates(*scenario.problem, to));
 }
 
+/// The start as a table for `initial`, beyond double with all its digits.
+std::string start_table(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
+  const auto table = [](const std::string& q, const std::string& p) { return "{ q = " + q + ", p = " + p + " }"; };
+  const std::string& arithmetic = scenario.request.arithmetic;
+  if (longest_digits(arithmetic) == 0) return table(toml_list(start.q), toml_list(start.p));
+  Frame frame;
+  make_simulation(scenario.request)->look(frame);
+  const ProblemEntry& problem = *scenario.problem;
+  const DigitState state =
+      in_chart_of(in_coordinates(problem, to), problem, arithmetic, {frame.digits.q, frame.digits.p});
+  const auto list = [](const std::vector<std::string>& texts) {
+    return "[" + joined(texts, [](const std::string& text) { return "\"" + text + "\""; }) + "]";
+  };
+  return table(list(state.q), list(state.p));
+}
+
 }  // namespace
 
 std::string state_text(const CanonicalState& state) { return "q = " + row(state.q) + "\np = " + row(state.p) + "\n"; }
@@ -38,7 +55,7 @@ std::string state_json(const std::string& system, const CanonicalState& state) {
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
   std::vector<ScenarioEdit> edits{{"problem." + scenario.problem->info.chart_key, "\"" + to + "\""}};
   if (!scenario.request.start.geometric() && !scenario.bodies) {
-    edits.push_back({"problem.initial", "{ q = " + toml_list(start.q) + ", p = " + toml_list(start.p) + " }"});
+    edits.push_back({"problem.initial", start_table(scenario, to, start)});
   }
   if (scenario.section) {  // of a coordinate that is there no more
     edits.push_back({run_path(run_keys().section), {}});

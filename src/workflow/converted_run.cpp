@@ -6,6 +6,8 @@
 
 #include "converted_text.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/digits.hpp"
+#include "hamflow/run/state_names.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "run_copy.hpp"
 #include "run_file.hpp"
@@ -22,12 +24,14 @@ class ConvertedRun::Impl {
  public:
   Impl(const fs::path& file, const std::string& to) : file_(file), to_(to), samples_(read_run_file(file)) {
     const std::string& text = samples_.description.scenario;
-    reading_ = read_scenario_text(text, file.string(), sets_of(text));
+    reading_ = read_scenario_text(text, file.string(), {});
     if (!reading_.scenario) {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
     target_ = &in_coordinates(*scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
+    digits_ = read_run_digits(file);
+    if (!digits_.t.empty()) cut_to_equal_length();
     StateConverter convert(*scenario().problem, *target_);
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       try {
@@ -36,6 +40,7 @@ class ConvertedRun::Impl {
           samples_.q[i][k] = state.q[i];
           samples_.p[i][k] = state.p[i];
         }
+        if (k < digits_.t.size()) convert_digits(k, state);
       } catch (const Error& error) {
         throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
       }
@@ -51,6 +56,11 @@ class ConvertedRun::Impl {
     }
     text += ",energy\n";
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
+      if (!digits_.t.empty()) {
+        const DigitState s = digits_at(k);
+        text += fmt::format("{},{},{},{}\n", digits_.t[k], fmt::join(s.q, ","), fmt::join(s.p, ","), digits_.energy[k]);
+        continue;
+      }
       const CanonicalState s = state_at(k);
       text += fmt::format("{:.17g}", samples_.t[k]);
       for (const double x : s.q) text += fmt::format(",{:.17g}", x);
@@ -60,6 +70,15 @@ class ConvertedRun::Impl {
     return text;
   }
   std::string json() const {
+    if (!digits_.t.empty()) {
+      Json all{{"coordinates", to_}, {"t", digits_.t}, {"q", Json::array()}, {"p", Json::array()}};
+      for (std::size_t k = 0; k < digits_.t.size(); ++k) {
+        all["q"].push_back(digits_at(k).q);
+        all["p"].push_back(digits_at(k).p);
+      }
+      all["energy"] = digits_.energy;
+      return json_text(all);
+    }
     Json all{{"coordinates", to_}, {"t", samples_.t}, {"q", Json::array()}, {"p", Json::array()}};
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       all["q"].push_back(state_at(k).q);
@@ -90,7 +109,16 @@ class ConvertedRun::Impl {
       text += converted_text(changed, to_, start);
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
-    copy_run_file(file_, target, text, samples_.q, samples_.p);
+    const std::size_t size = samples_.q.size();
+    const StateNames names = state_names(*target_, scenario().request.parameters, size);
+    copy_run_file(file_, target,
+                  {.scenario = text,
+                   .coordinates = names.q,
+                   .momenta = names.p,
+                   .q = samples_.q,
+                   .p = samples_.p,
+                   .digits = digits_,
+                   .digits_length = longest_digits(arithmetic())});
     return note;
   }
   double turn() const { return turn_; }
@@ -98,6 +126,37 @@ class ConvertedRun::Impl {
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
+  const std::string& arithmetic() const { return scenario().request.arithmetic; }
+  /// In the run's arithmetic, with the whole turns that the doubles have been given.
+  void convert_digits(std::size_t k, const CanonicalState& in_double) {
+    DigitState state = in_chart_of(*target_, *scenario().problem, arithmetic(), digits_at(k));
+    for (std::size_t i = 0; i < state.q.size(); ++i) {
+      const auto& angles = target_->info.angles;
+      if (std::find(angles.begin(), angles.end(), target_->info.coordinates[i]) != angles.end()) {
+        const double missing = in_double.q[i] - evaluate_number<double>(state.q[i]);
+        state.q[i] = turned(state.q[i], std::llround(missing / (2 * pi_value<double>())), arithmetic());
+      }
+      digits_.q[i][k] = state.q[i];
+      digits_.p[i][k] = state.p[i];
+      samples_.q[i][k] = evaluate_number<double>(state.q[i]);
+      samples_.p[i][k] = evaluate_number<double>(state.p[i]);
+    }
+  }
+  /// A run that goes on may have got a row between two looks.
+  void cut_to_equal_length() {
+    const std::size_t rows = std::min(samples_.t.size(), digits_.t.size());
+    const auto cut = [rows](auto&... columns) { (columns.resize(rows), ...); };
+    cut(samples_.t, samples_.energy, digits_.t, digits_.energy);
+    for (std::size_t i = 0; i < samples_.q.size(); ++i) cut(samples_.q[i], samples_.p[i], digits_.q[i], digits_.p[i]);
+  }
+  DigitState digits_at(std::size_t k) const {
+    DigitState state;
+    for (std::size_t i = 0; i < digits_.q.size(); ++i) {
+      state.q.push_back(digits_.q[i][k]);
+      state.p.push_back(digits_.p[i][k]);
+    }
+    return state;
+  }
   /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
   double fastest_turn(const std::vector<std::size_t>& angles) const {
     double most = 0;
@@ -123,6 +182,7 @@ class ConvertedRun::Impl {
   std::string to_;
   std::string from_;
   RunSamples samples_;
+  RunDigits digits_;  // of the same samples; empty of a run in double
   Reading reading_;
   double turn_ = 0;
   std::string turning_;

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
-#include "scenario_edit.hpp"
 #include "text.hpp"
 
 namespace hamflow {
@@ -20,10 +21,10 @@ namespace fs = std::filesystem;
 
 fs::path file_of(const fs::path& run) { return fs::is_directory(run) ? run / "run.h5" : run; }
 
-/// The scenario that a run.h5 carries; what --set changed stands behind its text as comments.
+/// The scenario that a run.h5 carries.
 Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
   const std::string& text = samples.description.scenario;
-  const Reading reading = read_scenario_text(text, file.string(), sets_of(text));
+  const Reading reading = read_scenario_text(text, file.string(), {});
   if (!reading.scenario)
     throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
   return *reading.scenario;
@@ -37,6 +38,20 @@ std::size_t space_of(const ProblemEntry& problem, const Texts& parameters, std::
     if (invariants[i].components == Components::space) return problem.invariant_sizes(parameters, size).at(i);
   }
   return 0;
+}
+
+/// H - H0 of a run beyond double, formed with all its digits; empty for others. Of a run that goes on the digits of the
+/// last samples may not be there yet: their differences are not known.
+std::vector<double> energy_differences(const fs::path& file, std::size_t samples) {
+  std::vector<std::string> energy = read_run_digits(file).energy;
+  if (energy.empty()) return {};
+  if (energy.size() > samples) energy.resize(samples);
+  std::vector<double> differences;
+  for (const long double difference : differences_from_first(energy)) {
+    differences.push_back(static_cast<double>(difference));
+  }
+  differences.resize(samples, std::numeric_limits<double>::quiet_NaN());
+  return differences;
 }
 
 void add_section(const Section& section, RunSamples& samples, FigureData& data) {
@@ -97,6 +112,7 @@ RunForFigure read_for_figure(const fs::path& run) {
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);
   data.energy = std::move(samples.energy);
+  data.energy_difference = energy_differences(source, data.t.size());
   data.energy_scale = make_simulation(scenario.request)->energy_scale();
   if (problem.exact_radius) {
     const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);

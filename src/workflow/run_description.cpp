@@ -2,30 +2,57 @@
 
 #include <unistd.h>
 
+#include "hamflow/run/digits.hpp"
+#include "hamflow/run/state_names.hpp"
+
 namespace hamflow {
 
-std::vector<std::pair<std::string, std::size_t>> invariant_columns(const Scenario& scenario) {
+namespace {
+
+/// Of the bodies, one after the other; a problem that has one mass has one.
+std::vector<double> masses_of(const Scenario& scenario) {
+  const Parameters<double> parameters(scenario.request.parameters);
+  for (const char* name : {"masses", "mass"}) {
+    if (parameters.has(name)) return parameters.list(name);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<InvariantColumn> invariant_columns(const Scenario& scenario) {
   const std::vector<InvariantInfo>& declared = scenario.problem->info.invariants;
   const std::vector<std::size_t> sizes =
       scenario.problem->invariant_sizes(scenario.request.parameters, scenario.start_q.size());
-  std::vector<std::pair<std::string, std::size_t>> all;
-  for (std::size_t i = 0; i < declared.size(); ++i) all.emplace_back(declared[i].name, sizes[i]);
+  std::vector<InvariantColumn> all;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    all.push_back({declared[i].name, sizes[i], declared[i].meaning, {}});
+  }
   return all;
 }
 
 RunDescription description_of(const Scenario& scenario, std::size_t samples) {
+  const Request& request = scenario.request;
+  const MethodInfo method = describe(request.method);
+  const StateNames names = state_names(*scenario.problem, request.parameters, scenario.start_q.size());
   return {.scenario = scenario.text,
           .version = HAMFLOW_VERSION,
           .host = host_name(),
-          .problem = scenario.request.problem,
-          .method = describe(scenario.request.method).name,
-          .arithmetic = scenario.request.arithmetic,
-          .kernel = scenario.request.kernel,
+          .problem = request.problem,
+          .method = method.name,
+          .arithmetic = request.arithmetic,
+          .kernel = request.kernel,
           .dimension = scenario.start_q.size(),
           .invariants = invariant_columns(scenario),
-          .diagnostics = describe(scenario.request.method).diagnostics,
+          .diagnostics = method.diagnostics,
           .section = scenario.section.has_value(),
-          .samples = samples};
+          .samples = samples,
+          .dt = scenario.dt,
+          .dt_text = request.dt,
+          .coordinates = names.q,
+          .momenta = names.p,
+          .masses = masses_of(scenario),
+          .digits_length = longest_digits(request.arithmetic)};
 }
 
 std::string host_name() {

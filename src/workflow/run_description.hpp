@@ -6,8 +6,8 @@
 
 namespace hamflow {
 
-/// Names of the invariants, in the order of the problem, with the number of components that each has here.
-std::vector<std::pair<std::string, std::size_t>> invariant_columns(const Scenario& scenario);
+/// The invariants in the order of the problem, with the number of components that each has here.
+std::vector<InvariantColumn> invariant_columns(const Scenario& scenario);
 
 /// @param samples expected
 RunDescription description_of(const Scenario& scenario, std::size_t samples);

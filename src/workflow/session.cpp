@@ -166,8 +166,10 @@ Scenario Session::present() const {
   now.steps = step();
   const Request& first = scenario_.request;
   const bool same_method = first.method == request_.method;
-  if (same_method && first.dt == request_.dt && changes_.empty()) return now;
-  now.text = "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
+  const bool steered = !same_method || first.dt != request_.dt || !changes_.empty();
+  if (!steered && now.steps == scenario_.steps) return now;
+  now.text =
+      !steered ? "" : "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
   for (const SessionChange& c : changes_) {
     now.text += "# after step " + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
   }

@@ -51,7 +51,8 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   const Scenario present = session.present();
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
-  description.section = false;  // a session looks for none
+  description.section = false;                                    // a session looks for none
+  if (!session.changes().empty()) description.digits_length = 0;  // a change of course goes on from doubles
   RunFile h5(folder / "run.h5", description);
   for (const Frame& sample : kept) h5.append(sample);
   h5.flush();

@@ -1,5 +1,6 @@
 // compare_runs A.h5 B.h5: whether two files hold the same datasets, bit for bit. Names those that differ, with
-// status 1.
+// status 1. compare_runs --scenario A.h5 prints the scenario that a run was given, --unprotected A.h5 the datasets with
+// chunks that have no checksum.
 #include <cstring>
 #include <iostream>
 #include <map>
@@ -33,17 +34,33 @@ Content read(hid_t file, const char* name) {
   return content;
 }
 
-Contents contents(const char* path) {
-  const Hdf5Handle file = hamflow::open_to_read(path);
+std::vector<std::string> datasets_in(hid_t file) {
   std::vector<std::string> names;
   const auto note = [](hid_t, const char* name, const H5O_info_t* info, void* all) -> herr_t {
     if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(all)->emplace_back(name);
     return 0;
   };
   check_hdf5(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, note, &names, H5O_INFO_BASIC), "list the datasets");
+  return names;
+}
+
+Contents contents(const char* path) {
+  const Hdf5Handle file = hamflow::open_to_read(path);
   Contents all;
-  for (const std::string& name : names) all[name] = read(file, name.c_str());
+  for (const std::string& name : datasets_in(file)) all[name] = read(file, name.c_str());
   return all;
+}
+
+/// Of the chunked datasets.
+void print_unprotected(const char* path) {
+  const Hdf5Handle file = hamflow::open_to_read(path);
+  for (const std::string& name : datasets_in(file)) {
+    const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
+    const Hdf5Handle plist(H5Dget_create_plist(dataset), H5Pclose, "read a property list");
+    if (H5Pget_layout(plist) == H5D_CHUNKED && H5Pall_filters_avail(plist) > 0 && H5Pget_nfilters(plist) == 0) {
+      std::cout << name << '\n';
+    }
+  }
 }
 
 }  // namespace
@@ -54,6 +71,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
+    if (std::string(argv[1]) == "--scenario") {
+      std::cout << hamflow::read_text_dataset(hamflow::open_to_read(argv[2]), "scenario");
+      return 0;
+    }
+    if (std::string(argv[1]) == "--unprotected") {
+      print_unprotected(argv[2]);
+      return 0;
+    }
     const Contents a = contents(argv[1]);
     const Contents b = contents(argv[2]);
     int different = a.size() == b.size() ? 0 : 1;

@@ -3,6 +3,7 @@
 
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/compensated.hpp"
+#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/core/phase_point.hpp"
@@ -11,6 +12,7 @@
 #include "hamflow/methods/compositions/verlet.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
+#include "hamflow/run/digits.hpp"
 #include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
@@ -223,6 +225,59 @@ TEST(Lattice, TheRangeIsSymmetricSoThatMomentaCanBeNegated) {
   EXPECT_TRUE(lattice.lost());
   EXPECT_EQ(least, INT64_MIN + 1);
   EXPECT_EQ(Lattice::Axis::negated(least), INT64_MAX);
+}
+
+/// The text of x in its fixed length, read again.
+dd_real written_and_read(const dd_real& x, std::size_t& longest) {
+  const std::string text = written_digits(DoubleDouble(x));
+  longest = std::max(longest, text.size());
+  return evaluate_number<DoubleDouble>(text).value;
+}
+
+TEST(DoubleDouble, DigitsReadBackHoweverFarApartTheHalvesAre) {
+  const auto from_1_to_2 = [](std::uint64_t k) { return 1.5 + 0.5 * counter_uniform(20, k); };
+  std::uint64_t at = 0;
+  std::size_t longest = 0;
+  for (int gap = 0; gap <= 260; ++gap) {  // zeros between the halves: they span 108 + gap bits
+    for (int i = 0; i < 40; ++i) {
+      const double high = std::ldexp(from_1_to_2(at++), static_cast<int>(at % 600) - 300);
+      const double part = from_1_to_2(at++) * (i % 2 == 0 ? 1 : -1);
+      const double low = gap == 260 ? 0 : std::ldexp(part, std::ilogb(high) - 55 - gap);
+      const dd_real x(i % 3 == 0 ? -high : high, low);
+      ASSERT_EQ(x.x[0] + x.x[1], x.x[0]);
+      const dd_real y = written_and_read(x, longest);
+      if (gap <= 212 || gap == 260) {
+        ASSERT_EQ(y.x[0], x.x[0]);
+        ASSERT_EQ(y.x[1], x.x[1]) << gap;
+      }
+    }
+  }
+  EXPECT_LE(longest, longest_digits("double-double"));
+  EXPECT_GT(longest, longest_digits("double-double") - 3);
+  for (const double x : {0.0, 1.0, 0.1, 0x1p-1074, std::numeric_limits<double>::max()}) {
+    const dd_real y = written_and_read(dd_real(x), longest);
+    EXPECT_EQ(y.x[0], x);
+    EXPECT_EQ(y.x[1], 0);
+  }
+}
+
+TEST(Digits, HaveALengthThatHoldsEveryNumber) {
+  EXPECT_EQ(longest_digits("double"), 0U);
+  EXPECT_EQ(longest_digits("lattice"), 0U);
+  const Quad smallest(std::numeric_limits<Quad>::min() * std::numeric_limits<Quad>::epsilon());
+  EXPECT_LE(written_digits(-smallest / Quad(3) * Quad(3)).size(), longest_digits("quad"));
+  EXPECT_LE(written_digits(-std::numeric_limits<Quad>::max()).size(), longest_digits("quad"));
+  EXPECT_GE(longest_digits("mp(50)"), 50U + 24);
+  EXPECT_LT(longest_digits("mp(50)"), 50U + 28);
+}
+
+TEST(Digits, DifferencesAreTakenBeforeTheyAreRounded) {
+  const std::vector<long double> found = differences_from_first(
+      {"-0.25", "-0.2500000000000000000000000000000000000012", "-0.24999999999999999999999999999999", "1e-4000"});
+  EXPECT_EQ(found[0], 0);
+  EXPECT_TRUE(test::within(static_cast<double>(found[1] / -1.2e-39L), 1, 4 * test::epsilon));
+  EXPECT_TRUE(test::within(static_cast<double>(found[2] / 1e-32L), 1, 4 * test::epsilon));
+  EXPECT_EQ(found[3], 0.25L);
 }
 
 TEST(PhasePoint, StoresReadsMovesAndNegates) {

@@ -5,10 +5,19 @@
 
 #include <qd/dd_real.h>
 
+#include <algorithm>
+
 #include "hamflow/arithmetic/extended.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 
 namespace hamflow {
+
+/// The two halves need not be neighbours: 1 + 1e-40 is a double-double. What spans up to 320 bits reads back from so
+/// many decimal digits; halves that are farther apart, more than 80 orders of magnitude, do not.
+inline constexpr int wide_digits = 98;
+std::string written_wide(const dd_real& x);
+/// The nearest double to a decimal, and the nearest to the rest.
+dd_real read_wide(std::string_view text);
 
 template <>
 struct ExtendedTraits<dd_real> {
@@ -46,14 +55,21 @@ struct ExtendedTraits<dd_real> {
   static T tanh(const T& x) { return ::tanh(x); }
   static T atan2(const T& y, const T& x) { return ::atan2(y, x); }
   static T pow(const T& x, const T& y) { return ::pow(x, y); }
-  /// By way of quad, whose reader rounds correctly: QD's own loses some digits.
+  /// By way of quad, whose reader rounds correctly: QD's own loses some digits. Only what written() gives where quad
+  /// cannot hold both halves has more than 64 digits, and is read as it stands.
   static T read(std::string_view text) {
+    const std::string_view mantissa = text.substr(0, text.find_first_of("eE"));
+    if (std::count_if(mantissa.begin(), mantissa.end(), [](char c) { return c >= '0' && c <= '9'; }) > 64) {
+      return read_wide(text);
+    }
     const __float128 x = ExtendedTraits<__float128>::read(text);
     const double high = static_cast<double>(x);
     return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<__float128>(high))) : T(high);
   }
   static std::string written(const T& x) {
-    return ExtendedTraits<__float128>::written(static_cast<__float128>(x.x[0]) + static_cast<__float128>(x.x[1]), 34);
+    const __float128 sum = static_cast<__float128>(x.x[0]) + static_cast<__float128>(x.x[1]);
+    const bool holds_both = sum - static_cast<__float128>(x.x[0]) == static_cast<__float128>(x.x[1]);
+    return holds_both || !std::isfinite(x.x[0]) ? ExtendedTraits<__float128>::written(sum) : written_wide(x);
   }
   static T epsilon() { return T(0x1p-104); }
   static T max() { return T(std::numeric_limits<double>::max(), std::numeric_limits<double>::max() * 0x1p-54); }

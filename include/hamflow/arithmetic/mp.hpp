@@ -55,6 +55,9 @@ class MpDigits {
   mpfr_prec_t before_;
 };
 
+/// The decimal digits from which a number of so many bits reads back.
+std::size_t decimal_places(mpfr_prec_t bits);
+
 template <>
 struct ExtendedTraits<MpNumber> {
   using T = MpNumber;

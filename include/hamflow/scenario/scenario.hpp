@@ -35,7 +35,7 @@ struct Setting {
 
 struct Scenario {
   std::string file;  // as named by the user
-  std::string text;  // what the file held, with a comment line for each --set
+  std::string text;  // as it is carried out: the file's, or with each --set merged in; a scenario by itself
   const ProblemEntry* problem = nullptr;
   Request request;
   double dt = 0;

@@ -1,0 +1,57 @@
+// One dataset of a run that grows by a row a sample, with the rows that wait to be written.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hdf5_handle.hpp"
+
+namespace hamflow {
+
+/// What a dataset says of itself, in attributes; empty ones are left out.
+struct ColumnText {
+  std::vector<std::string> columns{};  // a name for each number of a row
+  std::string meaning{};
+  std::string unit{};
+};
+
+class Column {
+ public:
+  /// @param type of a number: H5T_IEEE_F64LE, H5T_STD_I64LE or digits_type()
+  /// @param width of a row; 0: a row is one number, and the dataset has rank 1
+  /// @param rows expected, so that a short run leaves a small file
+  Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text);
+
+  // The next number of a row, of the column's own type. A text is filled up with zero bytes.
+  void add(double x) { put(&x, sizeof x); }
+  void add(std::int64_t x) { put(&x, sizeof x); }
+  /// @throws FileError when it is longer than the column is wide
+  void add(const std::string& digits);
+
+  std::size_t bytes_a_row() const { return bytes_a_row_; }
+  /// Writes the first `rows` rows of the dataset of the same name in another file. @throws FileError
+  void copy_from(hid_t other, std::uint64_t rows, std::size_t at_once);
+  /// Writes what waits, `rows` rows, and flushes it. @throws FileError
+  void write(std::size_t rows);
+
+ private:
+  void put(const void* bytes, std::size_t count) {
+    const auto* const begin = static_cast<const char*>(bytes);
+    waiting_.insert(waiting_.end(), begin, begin + count);
+  }
+
+  std::string name_;
+  int rank_;
+  hsize_t width_;
+  Hdf5Handle type_;  // in the file and in memory
+  std::size_t bytes_a_row_;
+  Hdf5Handle dataset_;
+  std::vector<char> waiting_;
+  hsize_t written_ = 0;
+};
+
+/// Decimal texts of `length` characters, of which the last ones may be zero bytes.
+Hdf5Handle digits_type(std::size_t length);
+
+}  // namespace hamflow
