@@ -1,6 +1,7 @@
-// hamflow plot: a figure of a run, finished, running or cut short.
+// hamflow plot: a figure of runs, finished, running or cut short.
 #include "commands.hpp"
 #include "guarded.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "progress.hpp"
 
@@ -9,7 +10,14 @@ namespace hamflow::app {
 int plot_command(const PlotOptions& options) {
   return guarded(false, [&] {
     catch_interrupts();
-    draw_figure(options.run, options.kind, options.file);
+    draw_figure({.runs = {options.runs.begin(), options.runs.end()},
+                 .kind = options.kind,
+                 .file = options.file,
+                 .x = options.x,
+                 .y = options.y.empty() ? std::vector<std::string>{} : split_list(options.y),
+                 .size = options.size,
+                 .dpi = options.dpi,
+                 .title = !options.no_title});
     return exit_done;
   });
 }

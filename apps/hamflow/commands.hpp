@@ -37,9 +37,14 @@ struct SweepCommandOptions {
 int sweep_command(const SweepCommandOptions& options);
 
 struct PlotOptions {
-  std::string run;   // a folder or its run.h5
-  std::string kind;  // empty: orbit where there is one, else phase
+  std::vector<std::string> runs;  // folders or their run.h5
+  std::string kind;               // empty: orbit where there is one, else phase
   std::string file;
+  std::string x;     // a column
+  std::string y;     // columns, commas between
+  std::string size;  // WxH in centimetres, or with a unit
+  int dpi = 0;
+  bool no_title = false;
 };
 int plot_command(const PlotOptions& options);
 

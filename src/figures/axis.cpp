@@ -23,7 +23,7 @@ std::vector<Tick> linear_ticks(const Axis& axis) {
   const double slack = 1e-9 * (axis.high - axis.low);
   for (double n = std::ceil((axis.low - slack) / axis.step); n * axis.step <= axis.high + slack && result.size() < 50;
        n += 1) {
-    std::string label = fmt::format("{:.{}f}", std::abs(n) * axis.step, decimals);
+    std::string label = n == 0 ? "0" : fmt::format("{:.{}f}", std::abs(n) * axis.step, decimals);
     if (n < 0) label.insert(0, "\u2212");
     result.push_back({n * axis.step, label});
   }
@@ -50,12 +50,11 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   return result;
 }
 
-/// Characters of a label in print, without the signs of enhanced text.
-std::size_t printed_length(const std::string& label) {
-  return static_cast<std::size_t>(std::count_if(label.begin(), label.end(), [](char c) {
-    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // a later byte of a character
-    return !continues && c != '^' && c != '{' && c != '}';
-  }));
+/// Words at 0, 1, 2, ...
+std::vector<Tick> word_ticks(const Axis& axis) {
+  std::vector<Tick> result;
+  for (std::size_t k = 0; k < axis.words.size(); ++k) result.push_back({static_cast<double>(k), axis.words[k]});
+  return result;
 }
 
 bool fits(const Axis& axis, TickRoom room) {
@@ -99,7 +98,10 @@ double Axis::place(double x) const {
   return x > 0 ? std::log10(x) : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<Tick> Axis::ticks() const { return logarithmic ? logarithmic_ticks(*this) : linear_ticks(*this); }
+std::vector<Tick> Axis::ticks() const {
+  if (!words.empty()) return word_ticks(*this);
+  return logarithmic ? logarithmic_ticks(*this) : linear_ticks(*this);
+}
 
 std::size_t Axis::widest_label() const {
   std::size_t widest = 1;
@@ -133,6 +135,12 @@ Axis plain_axis(double low, double high, TickRoom room) {
       return digit == 5 && axis.ticks().size() < 3 && fits(finer, room) ? finer : axis;
     }
   }
+}
+
+Axis word_axis(std::vector<std::string> words) {
+  Axis axis{-0.5, static_cast<double>(words.size()) - 0.5};
+  axis.words = std::move(words);
+  return axis;
 }
 
 Axis log_axis(const Extent& extent) {

@@ -40,6 +40,7 @@ struct Axis {
   int exponent = 0;  // of a linear axis
   double step = 1;   // between the ticks of a linear axis
   bool logarithmic = false;
+  std::vector<std::string> words{};  // enhanced text, instead of numbers, at 0, 1, 2, ...
 
   /// The position of x on the axis; not finite where it has none.
   double place(double x) const;
@@ -59,6 +60,8 @@ struct TickRoom {
 Axis fit_axis(const Extent& extent, double edge, TickRoom room);
 /// The same with a range that is already chosen: the ticks are as close as the room allows.
 Axis plain_axis(double low, double high, TickRoom room);
+/// An axis of words, at 0, 1, 2, ...
+Axis word_axis(std::vector<std::string> words);
 /// A logarithmic axis over an extent of positive numbers, with some room at either end; 0.1 .. 10 where there are none.
 Axis log_axis(const Extent& extent);
 

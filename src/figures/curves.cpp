@@ -1,8 +1,8 @@
 #include "curves.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "figure.hpp"
@@ -24,15 +24,18 @@ void Curve::lift() {
 
 bool is_polar(const FigureData& data) { return data.coordinates == std::vector<std::string>{"r", "phi"}; }
 
-Curve orbit_track(const FigureData& data) {
-  if (data.q.size() != 2) return {};
-  if (!is_polar(data)) return finite_points(data.q[0], data.q[1]);
-  const Curve polar = finite_points(data.q[0], data.q[1]);
+Curve polar_track(const FigureSamples& samples) {
+  const Curve polar = finite_points(samples.q[0], samples.q[1]);
   Curve track;
   for (std::size_t k = 0; k < polar.x.size(); ++k) {
     track.add(polar.x[k] * std::cos(polar.y[k]), polar.x[k] * std::sin(polar.y[k]));
   }
   return track;
+}
+
+Curve orbit_track(const FigureData& data) {
+  if (data.q.size() != 2) return {};
+  return is_polar(data) ? polar_track(data) : finite_points(data.q[0], data.q[1]);
 }
 
 Curve finite_points(std::span<const double> x, std::span<const double> y, Gaps gaps) {
@@ -73,31 +76,28 @@ Curve thin_out(const Curve& curve, std::size_t limit) {
   });
 }
 
-Curve envelope(const Curve& curve, std::size_t stretches) {
-  const std::size_t n = curve.x.size();
-  if (n <= 4 * stretches) return curve;
-  Curve result;
-  for (std::size_t s = 0; s < stretches; ++s) {
-    const std::size_t begin = s * n / stretches;
-    const std::size_t end = (s + 1) * n / stretches;
-    std::size_t least = begin;
-    std::size_t most = begin;
-    bool gap = false;
-    for (std::size_t k = begin; k < end; ++k) {
-      gap = gap || std::isnan(curve.y[k]);
-      if (curve.y[k] < curve.y[least] || std::isnan(curve.y[least])) least = k;
-      if (curve.y[k] > curve.y[most] || std::isnan(curve.y[most])) most = k;
-    }
-    std::array<std::size_t, 4> kept{begin, least, most, end - 1};
-    std::sort(kept.begin(), kept.end());
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      if ((k == 0 || kept[k] != kept[k - 1]) && !std::isnan(curve.y[kept[k]])) {
-        result.add(curve.x[kept[k]], curve.y[kept[k]]);
-      }
-    }
-    if (gap) result.lift();
+Band envelope(const Curve& curve, std::size_t columns) {
+  Extent range;
+  range.include(curve.x);
+  Band band;
+  if (range.empty() || !(range.high > range.low)) return band;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  std::vector<double> low(columns, inf);
+  std::vector<double> high(columns, -inf);
+  const double wide = static_cast<double>(columns) / (range.high - range.low);
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
+    const auto c = std::min(columns - 1, static_cast<std::size_t>((curve.x[k] - range.low) * wide));
+    low[c] = std::min(low[c], curve.y[k]);
+    high[c] = std::max(high[c], curve.y[k]);
   }
-  return result;
+  for (std::size_t c = 0; c < columns; ++c) {
+    if (low[c] > high[c]) continue;
+    band.x.push_back(range.low + (static_cast<double>(c) + 0.5) / wide);
+    band.low.push_back(low[c]);
+    band.high.push_back(high[c]);
+  }
+  return band;
 }
 
 bool follows_path(const Curve& curve) {

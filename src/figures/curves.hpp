@@ -10,7 +10,8 @@
 
 namespace hamflow {
 struct FigureData;
-}
+struct FigureSamples;
+}  // namespace hamflow
 
 namespace hamflow::figures {
 
@@ -33,6 +34,8 @@ Curve level_curve(const std::function<double(double, double)>& h, double level, 
 
 /// Whether q is (r, phi).
 bool is_polar(const FigureData& data);
+/// The path in the plane of samples of (r, phi).
+Curve polar_track(const FigureSamples& samples);
 /// The path in the plane, from cartesian or from polar coordinates; empty unless there are two.
 Curve orbit_track(const FigureData& data);
 
@@ -45,8 +48,13 @@ double path_length(const Curve& curve);
 /// At most `limit` >= 2 points, evenly spaced in their order. Where their chords lose the path, the place within each
 /// stretch varies: a fixed stride in step with a period would show a few places of an orbit and hide the rest.
 Curve thin_out(const Curve& curve, std::size_t limit);
-/// A line over many samples, with the extremes of every stretch of them kept: noise keeps its width.
-Curve envelope(const Curve& curve, std::size_t stretches);
+/// What many samples of y over x range over: least and largest of each column of the page, where there are any.
+struct Band {
+  std::vector<double> x;
+  std::vector<double> low;
+  std::vector<double> high;
+};
+Band envelope(const Curve& curve, std::size_t columns);
 /// Whether chords between consecutive points follow a path: whether most of them turn only a little.
 bool follows_path(const Curve& curve);
 

@@ -9,16 +9,23 @@
 namespace hamflow {
 
 namespace {
+std::string names_for(std::size_t names, std::size_t numbers, const std::string& what) {
+  if (names == numbers) return "";
+  return "there are " + std::to_string(names) + " names of " + what + " for " + std::to_string(numbers);
+}
+
 /// Lists that belong together have to be equally long.
 std::string inconsistency(const FigureData& data) {
-  if (data.space == 0 && data.coordinates.size() != data.q.size()) {
-    return "there are " + std::to_string(data.coordinates.size()) + " names of coordinates for " +
-           std::to_string(data.q.size()) + " coordinates";
-  }
+  std::string wrong = names_for(data.coordinates.size(), data.q.size(), "coordinates");
+  if (wrong.empty()) wrong = names_for(data.momenta.size(), data.p.size(), "momenta");
+  if (!wrong.empty()) return wrong;
   const auto differs = [&](const std::vector<double>& x) { return x.size() != data.t.size(); };
   if (std::any_of(data.q.begin(), data.q.end(), differs)) return "q and t have different numbers of samples";
   if (std::any_of(data.p.begin(), data.p.end(), differs)) return "p and t have different numbers of samples";
   if (!data.energy.empty() && differs(data.energy)) return "energy and t have different numbers of samples";
+  if (!data.energy_difference.empty() && differs(data.energy_difference)) {
+    return "differences of energy and t have different numbers of samples";
+  }
   if (data.curve_x.size() != data.curve_y.size()) return "the exact curve has more numbers on one axis than the other";
   return "";
 }
@@ -27,17 +34,11 @@ std::string obstacle(const FigureData& data, const figures::FigureKind& kind) {
   const std::string wrong = inconsistency(data);
   return wrong.empty() ? kind.obstacle(data) : wrong;
 }
-}  // namespace
 
-FigureFacts facts_of(const FigureData& data) {
-  return {.degrees_of_freedom = data.q.size(),
-          .bodies_in_space = data.space >= 2,
-          .diagnostics = !data.diagnostics.empty(),
-          .section = !data.section_coordinate.empty()};
-}
-
-std::string why_not(const FigureData& data, const std::string& kind) {
-  const FigureFacts facts = facts_of(data);
+/// Why this run has no such figure, as a sentence that says what is allowed.
+std::string why_not_alone(const FigureData& data, const FigureOptions& options, const std::string& kind) {
+  FigureFacts facts = facts_of(data);
+  facts.columns_chosen = !options.y.empty();
   const std::string refused = refused_figure(kind, facts);
   if (!refused.empty()) return refused;
   const std::string reason = obstacle(data, *figures::find_kind(kind));
@@ -48,12 +49,54 @@ std::string why_not(const FigureData& data, const std::string& kind) {
          (others.empty() ? "; no other figure can be drawn of these samples either" : "; allowed " + joined(others));
 }
 
-void write_figure(const FigureData& data, const std::string& kind, const std::filesystem::path& file) {
+/// What is wrong with the columns that are asked for.
+std::string refused_columns(const Figure& figure, const figures::FigureKind& kind) {
+  std::vector<std::string> asked = figure.options.y;
+  if (!figure.options.x.empty()) asked.insert(asked.begin(), figure.options.x);
+  if (asked.empty()) return "";
+  for (const FigureData& run : figure.runs) {
+    const std::vector<std::string> allowed = kind.columns(run);
+    if (allowed.empty()) {
+      std::vector<std::string> others = drawable_figures(facts_of(run));
+      std::erase_if(others, [&](const std::string& name) { return figures::find_kind(name)->columns(run).empty(); });
+      return "found --x or --y for \"" + std::string(kind.name) + "\", which draws no columns; allowed for " +
+             joined(others);
+    }
+    for (const std::string& name : asked) {
+      if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
+      return "found column \"" + name + "\"; allowed " + joined(allowed) + suggestion(name, allowed);
+    }
+  }
+  return "";
+}
+}  // namespace
+
+FigureFacts facts_of(const FigureData& data) {
+  return {.degrees_of_freedom = data.q.size(),
+          .bodies_in_space = data.space >= 2,
+          .diagnostics = !data.diagnostics.empty(),
+          .section = !data.section_coordinate.empty()};
+}
+
+std::string why_not(const Figure& figure, const std::string& kind) {
+  for (const FigureData& run : figure.runs) {
+    const std::string reason = why_not_alone(run, figure.options, kind);
+    if (!reason.empty()) return (figure.runs.size() > 1 ? run.label + ": " : "") + reason;
+  }
+  const figures::FigureKind& known = *figures::find_kind(kind);
+  const std::string columns = refused_columns(figure, known);
+  if (!columns.empty()) return columns;
+  const std::string reason = figure.runs.size() > 1 ? known.apart(figure) : "";
+  return reason.empty() ? ""
+                        : "found " + std::to_string(figure.runs.size()) + " runs for \"" + kind + "\", but " + reason;
+}
+
+void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file) {
   const std::string wrong_file = refused_figure_file(file);
-  const std::string reason = why_not(data, kind);
+  const std::string reason = why_not(figure, kind);
   if (!reason.empty()) throw Error(reason);
   if (!wrong_file.empty()) throw Error(wrong_file);
-  figures::draw(figures::find_kind(kind)->page(data), file);
+  figures::draw(figures::find_kind(kind)->page(figure).with(figure.options.page), file);
 }
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// **Figures** of a run, of the kinds in figure_kinds.hpp, as SVG, PDF or PNG, drawn by gnuplot.
+// **Figures** of runs, of the kinds in figure_kinds.hpp, as SVG, PDF or PNG, drawn by gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -8,29 +8,56 @@
 #include <vector>
 
 #include "figure_kinds.hpp"
+#include "page.hpp"
 
 namespace hamflow {
 
-struct FigureData {
-  std::string title;                     // e.g. "central-force, cg(1,5), dt = 0.1"
-  std::vector<std::string> coordinates;  // {"x", "y"} or {"q"}; {"r", "phi"} are drawn as an orbit in the plane
-  std::vector<double> t;                 // one entry per sample
-  std::vector<std::vector<double>> q;    // q[i][k]: coordinate i at sample k
+/// A stretch of a run.
+struct FigureSamples {
+  std::vector<double> t;               // one entry per sample
+  std::vector<std::vector<double>> q;  // q[i][k]: coordinate i at sample k
   std::vector<std::vector<double>> p;
-  std::vector<double> energy;   // H at each sample
+};
+
+struct FigureData : FigureSamples {
+  std::string title;                     // e.g. "central-force, cg(1,5), dt = 0.1"
+  std::string label{};                   // of a run among several, in the legend
+  std::vector<std::string> coordinates;  // a name for each q; {"r", "phi"} are drawn as an orbit in the plane
+  std::vector<std::string> momenta;      // a name for each p
+  std::vector<std::string> angles{};     // of the coordinates, those with period 2 pi
+  std::vector<double> energy;            // H at each sample
+  /// H - H0 at each sample, where it was formed with more digits than those of `energy`; else empty.
+  std::vector<double> energy_difference{};
   double energy_scale = 1;      // max(|H0|, |T0| + |V0|)
   std::vector<double> curve_x;  // exact orbit, empty if unknown; NaN separates branches
   std::vector<double> curve_y;
-  /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies; 0 otherwise.
+  /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies, or the place of one; 0 otherwise.
   std::size_t space = 0;
+  /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.
+  FigureSamples opening{};
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;
-  /// The points of a Poincare section in the plane of another coordinate and its momentum, and its name.
+  /// The points of a Poincare section in the plane of another coordinate and its momentum, and their names.
   std::vector<double> section_q;
   std::vector<double> section_p;
   std::string section_coordinate;
+  std::string section_momentum;
+  std::string section_text{};  // what section it is, enhanced text
   /// H(q, p) of one degree of freedom, for the exact level curve in the phase plane; empty otherwise.
   std::function<double(double q, double p)> hamiltonian_1d;
+};
+
+/// What is asked of a figure beside its kind.
+struct FigureOptions {
+  std::string x{};               // a column, of kinds that draw columns; empty: as is usual for the kind
+  std::vector<std::string> y{};  // the same
+  figures::PageOptions page{};
+};
+
+/// One run or several, drawn into one figure.
+struct Figure {
+  std::vector<FigureData> runs;  // at least one
+  FigureOptions options{};
 };
 
 /// Fills curve_x, curve_y from the exact r(phi) over the angles and radii that the data cover. A closed orbit is drawn
@@ -41,10 +68,10 @@ void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureDat
 FigureFacts facts_of(const FigureData& data);
 
 /// Empty if the kind can be drawn of these data, else "found ...; allowed ...".
-std::string why_not(const FigureData& data, const std::string& kind);
+std::string why_not(const Figure& figure, const std::string& kind);
 
 /// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
-/// @throws Error when kind, extension or data do not fit   @throws FileError when gnuplot or the file fails
-void write_figure(const FigureData& data, const std::string& kind, const std::filesystem::path& file);
+/// @throws Error when kind, extension, options or data do not fit   @throws FileError when gnuplot or the file fails
+void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file);
 
 }  // namespace hamflow

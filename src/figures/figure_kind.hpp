@@ -18,9 +18,13 @@ struct FigureKind {
   /// What makes it impossible for such a run, to stand after `found "name"`, e.g. " for a problem with 1 degree of
   /// freedom"; empty if nothing does.
   std::string (*refused)(const FigureFacts&);
-  /// What is wrong with the samples, a sentence; empty if nothing is. Asked only where `refused` is empty.
+  /// What is wrong with the samples of a run, a sentence; empty if nothing is. Asked only where `refused` is empty.
   std::string (*obstacle)(const FigureData&);
-  Page (*page)(const FigureData&);
+  /// Why runs that can be drawn each by itself have no figure together, a sentence; empty if they have.
+  std::string (*apart)(const Figure&);
+  /// The columns that --x and --y may name, for the first run; empty: the kind draws no columns.
+  std::vector<std::string> (*columns)(const FigureData&);
+  Page (*page)(const Figure&);
 };
 
 /// The kinds of the folder, sorted by place.
@@ -30,6 +34,12 @@ const FigureKind* find_kind(const std::string& name);
 
 /// `refused` of kinds that can be drawn of every run.
 std::string never(const FigureFacts& facts);
+/// `apart` of kinds that any runs share.
+std::string any_runs(const Figure& figure);
+/// `apart` of kinds that runs share whose coordinates have the same names.
+std::string same_coordinates(const Figure& figure);
+/// `columns` of kinds without.
+std::vector<std::string> no_columns(const FigureData& data);
 /// " for a problem with 3 degrees of freedom".
 std::string for_degrees(const FigureFacts& facts);
 

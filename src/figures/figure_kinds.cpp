@@ -27,6 +27,20 @@ const FigureKind* find_kind(const std::string& name) {
 
 std::string never(const FigureFacts&) { return {}; }
 
+std::string any_runs(const Figure&) { return {}; }
+
+std::string same_coordinates(const Figure& figure) {
+  const FigureData& first = figure.runs.front();
+  for (const FigureData& run : figure.runs) {
+    if (run.coordinates == first.coordinates) continue;
+    return "the coordinates of " + first.label + " are " + joined(first.coordinates) + ", those of " + run.label + " " +
+           joined(run.coordinates) + "; allowed runs with the same coordinates";
+  }
+  return {};
+}
+
+std::vector<std::string> no_columns(const FigureData&) { return {}; }
+
 std::string for_degrees(const FigureFacts& facts) {
   return " for a problem with " + std::to_string(facts.degrees_of_freedom) +
          (facts.degrees_of_freedom == 1 ? " degree of freedom" : " degrees of freedom");

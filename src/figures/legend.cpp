@@ -1,5 +1,7 @@
 #include "legend.hpp"
 
+#include <algorithm>
+
 #include "hamflow/core/text.hpp"
 #include "text.hpp"
 
@@ -7,6 +9,7 @@ namespace hamflow::figures {
 
 namespace {
 constexpr double line_height = 3.7;  // mm
+constexpr double key_line = 3.3;
 constexpr double text_points = 7;
 constexpr std::size_t most_in_one_column = 16;
 
@@ -20,6 +23,32 @@ Shape shape_of(const std::vector<LegendLine>& legend) {
   return {columns, (legend.size() + columns - 1) / columns + columns};  // a heading is not left alone at the foot
 }
 }  // namespace
+
+KeyShape key_of(const Panel& panel, double width) {
+  constexpr double letter = 1.42;  // mm, of 7 points
+  std::size_t names = 0;
+  std::size_t longest = 0;
+  for (const Series& series : panel.series) {
+    if (series.name.empty() || series.curve.x.empty()) continue;
+    ++names;
+    longest = std::max(longest, printed_length(series.name));
+  }
+  if (names == 0) return {};
+  const double entry = 8.5 + letter * static_cast<double>(longest);
+  const double room = width - (panel.y.exponent != 0 || panel.z.exponent != 0 ? 9 : 0);
+  KeyShape shape;
+  shape.columns = std::clamp<std::size_t>(static_cast<std::size_t>(std::max(room, 0.0) / entry), 1, names);
+  shape.rows = (names + shape.columns - 1) / shape.columns;
+  shape.columns = (names + shape.rows - 1) / shape.rows;
+  return shape;
+}
+
+double key_height(const KeyShape& shape) { return key_line * static_cast<double>(shape.rows); }
+
+void draw_key(Script& script, const KeyShape& shape, double right, double top) {
+  script.line("set key at screen {:.6f},{:.6f} right top horizontal Left reverse samplen 1.2 maxcols {} maxrows {} {}",
+              script.across(right), script.up(top), shape.columns, shape.rows, script.font(text_points));
+}
 
 double legend_height(const std::vector<LegendLine>& legend) {
   return line_height * static_cast<double>(shape_of(legend).rows);

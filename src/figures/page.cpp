@@ -5,7 +5,9 @@
 #include <span>
 
 #include "gnuplot.hpp"
+#include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
+#include "ink.hpp"
 #include "legend.hpp"
 #include "script.hpp"
 #include "text.hpp"
@@ -16,65 +18,37 @@ namespace {
 // Millimetres, for text of 8 and 7 points.
 constexpr double edge = 1.5;        // free border of the page
 constexpr double title_line = 3.8;  // from line to line
-constexpr double header = 4.2;      // legend and power of ten, above a box
+constexpr double note_line = 3.4;
+constexpr double power_line = 4.2;  // a power of ten above a box
 constexpr double below_box = 9.0;   // tick labels and label of the x-axis
 constexpr double digit = 1.6;       // width of a character of a tick label
 constexpr double colours_gap = 2;   // between the box of a map and its colours
 constexpr double colours_wide = 3;
-constexpr double label_size = 8;  // points
+constexpr double smallest_box = 15;  // either side, where a size is asked for
+constexpr double label_size = 8;     // points
 constexpr double tick_size = 7;
 
 double letters(std::size_t count) { return digit * static_cast<double>(count); }
 
-/// Dark dots over a lighter line: they differ in grey as well.
-std::string style(const Series& series) {
-  switch (series.ink) {
-    case Ink::exact:
-      return "with lines linewidth 0.6 linecolor rgb '#8c8c8c'";
-    case Ink::dots:
-      return "with points pointtype 7 pointsize 0.3 linewidth 0.1 linecolor rgb '#1f4e8c'";
-    case Ink::fine_dots:
-      return "with points pointtype 7 pointsize 0.2 linewidth 0.1 linecolor rgb '#1f4e8c'";
-    case Ink::line:
-      return "with lines linewidth 0.6 linecolor rgb '#1f4e8c'";
-    case Ink::path:
-      return "with lines linewidth 0.3 linecolor rgb '#1f4e8c'";
-    case Ink::zero:
-      return "with lines linewidth 0.4 linecolor rgb '#b0b0b0'";
-    case Ink::centre:
-      return "with points pointtype 1 pointsize 0.6 linewidth 0.7 linecolor rgb '#333333'";
-    case Ink::level:
-      return "with lines linewidth 0.6 linecolor rgb '#aaaaaa' dashtype 2";
-    case Ink::marked:
-      return fmt::format("with linespoints linecolor rgb '{}' dashtype {} linewidth 0.6 pointtype {} pointsize 0.4",
-                         series.mark.colour, series.mark.dash, series.mark.shape);
-    case Ink::map:
-      return "with image pixels";
-  }
-  return "with lines";
-}
-
 class PageWriter {
  public:
-  PageWriter(const Page& page, Format format)
-      : page_(page),
-        script_(format, page.width),
-        title_(wrapped(page.title, page.width > one_column ? 105 : 52, 3)),
-        columns_(page.columns) {
-    for (const Panel& panel : page.panels) {
+  PageWriter(Page page, Format format)
+      : page_(std::move(page)),
+        script_(format, page_.width),
+        title_(wrapped(page_.title, static_cast<std::size_t>(0.615 * page_.width), 3)),
+        columns_(page_.columns) {
+    if (page_.title.empty()) title_.clear();
+    for (const Panel& panel : page_.panels) {
       left_of_box_ = std::max(left_of_box_, edge + 6.2 + letters(panel.y.widest_label()));
       right_of_box_ = std::max(right_of_box_, 0.8 + 0.5 * letters(panel.x.widest_label()));
       if (panel.is_map()) right_of_box_ = std::max(right_of_box_, colours(panel) + 6.2);
     }
     width_ = cell() - left_of_box_ - right_of_box_;
-    const double top = edge + title_line * static_cast<double>(title_.size());
-    double height = top;
-    for (std::size_t k = 0; k < page.panels.size(); k += columns_) height += row(k);
-    if (!page.legend.empty()) {
-      legend_top_ = height - (legend_column() > 0 ? row(page.panels.size() - legend_column()) : 0);
-      height = std::max(height, legend_top_ + legend_height(page.legend) + edge);
+    if (page_.height > 0 || width_ < smallest_box) fill_height();
+    for (Panel& panel : page_.panels) {
+      if (panel.equal_axes) fill_box(panel);
     }
-    script_.set_height(height);
+    script_.set_height(page_.height > 0 ? page_.height : full_height());
   }
 
   std::string write() && {
@@ -82,7 +56,7 @@ class PageWriter {
     title();
     for (std::size_t k = 0; k < page_.panels.size(); ++k) data(k);
     script_.line("set multiplot");
-    double top = edge + title_line * static_cast<double>(title_.size());
+    double top = top_of_panels();
     for (std::size_t k = 0; k < page_.panels.size(); ++k) {
       const std::size_t column = k % columns_;
       panel(k, cell() * static_cast<double>(column) + left_of_box_, top + header_of_row(k - column));
@@ -90,7 +64,7 @@ class PageWriter {
     }
     if (!page_.legend.empty()) {
       const double left = cell() * static_cast<double>(legend_column()) + left_of_box_;
-      draw_legend(script_, page_.legend, left, legend_top_, width_);
+      draw_legend(script_, page_.legend, left, legend_top(), width_);
     }
     script_.line("unset multiplot");
     return std::move(script_).text();
@@ -98,28 +72,79 @@ class PageWriter {
 
  private:
   double cell() const { return page_.width / static_cast<double>(columns_); }
+  double top_of_panels() const { return edge + title_line * static_cast<double>(title_.size()); }
+  double height_of_notes() const {
+    return page_.notes.empty() ? 0 : 1 + note_line * static_cast<double>(page_.notes.size());
+  }
   std::size_t legend_column() const { return page_.panels.size() % columns_; }
   std::span<const Panel> panels_of_row(std::size_t first) const {
     return std::span(page_.panels).subspan(first, std::min(columns_, page_.panels.size() - first));
   }
   double header_of_row(std::size_t first) const {
+    double height = 1.0;
     for (const Panel& panel : panels_of_row(first)) {
-      const bool legend =
-          std::any_of(panel.series.begin(), panel.series.end(), [](auto& s) { return !s.name.empty(); });
-      if (legend || panel.y.exponent != 0 || panel.z.exponent != 0) return header;
+      if (panel.y.exponent != 0 || panel.z.exponent != 0) height = std::max(height, power_line);
+      const KeyShape key = key_of(panel, width_);
+      if (key.rows > 0) height = std::max(height, key_height(key) + 0.9);
     }
-    return 1.0;
+    return height;
   }
   double row(std::size_t first) const {
     double aspect = 0;
     for (const Panel& panel : panels_of_row(first)) aspect = std::max(aspect, panel.aspect);
     return header_of_row(first) + width_ * aspect + below_box;
   }
+  double bottom_of_panels() const {
+    double height = top_of_panels();
+    for (std::size_t k = 0; k < page_.panels.size(); k += columns_) height += row(k);
+    return height;
+  }
+  double legend_top() const {
+    const double bottom = bottom_of_panels();
+    return legend_column() > 0 ? bottom - row(page_.panels.size() - legend_column()) : bottom;
+  }
+  double full_height() const {
+    double height = bottom_of_panels() + height_of_notes();
+    if (!page_.legend.empty()) height = std::max(height, legend_top() + legend_height(page_.legend) + edge);
+    return height;
+  }
   /// The colours of a map and their tick labels.
   static double colours(const Panel& panel) { return colours_gap + colours_wide + 1 + letters(panel.z.widest_label()); }
 
+  /// Boxes as high as the page allows, all alike.
+  void fill_height() {
+    double fixed = top_of_panels() + height_of_notes();
+    std::size_t rows = 0;
+    for (std::size_t k = 0; k < page_.panels.size(); k += columns_, ++rows) fixed += header_of_row(k) + below_box;
+    const double box = (page_.height - fixed) / static_cast<double>(rows);
+    const double needed = fixed + smallest_box * static_cast<double>(rows);
+    if (page_.height > 0) {
+      for (Panel& panel : page_.panels) panel.aspect = box / width_;
+    }
+    const bool too_high = page_.height > 0 && (box < smallest_box || full_height() > page_.height + 1e-9);
+    if (width_ >= smallest_box && !too_high) return;
+    const double least_width = page_.width + static_cast<double>(columns_) * std::max(0.0, smallest_box - width_);
+    throw Error(fmt::format("found {:.4g} cm x {} cm; allowed for this figure at least {:.1f} cm x {:.1f} cm",
+                            page_.width / 10, page_.height > 0 ? fmt::format("{:.4g}", page_.height / 10) : "any",
+                            std::ceil(least_width) / 10,
+                            std::ceil(std::max(needed, too_high ? full_height() : needed)) / 10));
+  }
+
+  /// One scale on both axes of the box as it is: the axis with room to spare shows more.
+  static void fill_box(Panel& panel) {
+    const double x = panel.x.high - panel.x.low;
+    const double y = panel.y.high - panel.y.low;
+    Axis& wider = y > x * panel.aspect ? panel.x : panel.y;
+    const double length = y > x * panel.aspect ? y / panel.aspect : x * panel.aspect;
+    const double more = 0.5 * (length - (wider.high - wider.low));
+    if (!(more > 1e-9 * length)) return;
+    const int exponent = wider.exponent;
+    wider = plain_axis(wider.low - more, wider.high + more, {7, 40});
+    wider.exponent = exponent;
+  }
+
   void set_up() {
-    script_.add(terminal(script_.format(), page_.width, script_.height(), label_size));
+    script_.add(terminal(script_.format(), page_.width, script_.height(), label_size, page_.dpi));
     script_.line("set encoding utf8");
     script_.line("set border 15 linewidth 0.5 linecolor rgb '#333333'");
     script_.line("unset key");
@@ -132,25 +157,18 @@ class PageWriter {
                    script_.font(label_size));
       y += title_line;
     }
+    y = script_.height() - height_of_notes() - edge + 1 + 0.5 * note_line;
+    for (const std::string& note : page_.notes) {
+      script_.label(note, left_of_box_, y, "left", tick_size);
+      y += note_line;
+    }
   }
 
   void data(std::size_t k) {
     const Panel& panel = page_.panels[k];
     for (std::size_t s = 0; s < panel.series.size(); ++s) {
-      const Series& series = panel.series[s];
       script_.line("$data{}_{} << EOD", k, s);
-      for (std::size_t i = 0; i < series.curve.x.size(); ++i) {
-        const double x = panel.x.place(series.curve.x[i]);
-        const double y = panel.y.place(series.curve.y[i]);
-        if (!std::isfinite(x) || !std::isfinite(y)) {
-          script_.add("\n");  // an empty line lifts the pen
-        } else if (series.ink == Ink::map) {
-          const double z = panel.z.place(series.value[i]);
-          script_.line("{:.12g} {:.12g} {}", x, y, std::isfinite(z) ? fmt::format("{:.12g}", z) : "NaN");
-        } else {
-          script_.line("{:.12g} {:.12g}", x, y);
-        }
-      }
+      for (const std::string& text : data_lines(panel, panel.series[s])) script_.line("{}", text);
       script_.line("EOD");
     }
   }
@@ -162,7 +180,6 @@ class PageWriter {
     const double middle = 0.5 * (top + bottom);
     if (k > 0) script_.line("unset label");
     script_.box(left, right, top, bottom);
-    script_.line("set size {}", panel.equal_axes ? "ratio -1" : "noratio");
     script_.line("set tics {} nomirror scale 0.5", panel.is_map() ? "out" : "in");
     script_.line("{}", panel.has_grid() ? "set grid xtics ytics linewidth 0.3 linecolor rgb '#cccccc'" : "unset grid");
     axis("x", panel.x, "offset 0,0.35");
@@ -174,7 +191,7 @@ class PageWriter {
     exponent(panel.x, right, below, "right");
     if (panel.is_map()) colour_bar(panel, right, top, bottom);
     if (!panel.note.empty()) script_.label(panel.note, right - 1.5, top + 2.4, "right", tick_size);
-    if (k == 0) legend(right, top - 2.0);
+    key(panel, right, top);
     plot(k);
   }
 
@@ -201,42 +218,54 @@ class PageWriter {
     script_.label(panel.z_label, right + colours(panel) + 2, 0.5 * (top + bottom), "center rotate by 90", label_size);
   }
 
-  /// In the header, ending at `right`: it covers no data.
-  void legend(double right, double y) {
-    script_.line("set key at screen {:.6f},{:.6f} right center horizontal Left reverse samplen 1.2 maxrows 1 {}",
-                 script_.across(right), script_.up(y), script_.font(tick_size));
+  /// Names of the series in the header, ending at `right`: they cover no data.
+  void key(const Panel& panel, double right, double top) {
+    const KeyShape shape = key_of(panel, width_);
+    if (shape.rows == 0) {
+      script_.line("unset key");
+      return;
+    }
+    draw_key(script_, shape, right, top - 0.7 - key_height(shape));
   }
 
   void plot(std::size_t k) {
     const Panel& panel = page_.panels[k];
     std::vector<std::string> plots;
     for (std::size_t s = 0; s < panel.series.size(); ++s) {
-      const Series& series = panel.series[s];
-      if (series.curve.x.empty()) continue;
-      plots.push_back(fmt::format("$data{}_{} using {} {} {}", k, s, series.ink == Ink::map ? "1:2:3" : "1:2",
-                                  style(series), series.name.empty() ? "notitle" : "title " + quoted(series.name)));
+      if (panel.series[s].curve.x.empty()) continue;
+      for (const std::string& how : styles(panel.series[s])) {
+        plots.push_back(fmt::format("$data{}_{} using {}", k, s, how));
+      }
     }
     script_.line("plot {}", plots.empty() ? "NaN notitle" : joined(plots));
   }
 
-  const Page& page_;
+  Page page_;
   Script script_;
   std::vector<std::string> title_;
   std::size_t columns_;
   double left_of_box_ = 0;
   double right_of_box_ = 2.5;
   double width_ = 0;  // of a box
-  double legend_top_ = 0;
 };
 
 }  // namespace
+
+Page Page::with(const PageOptions& options) && {
+  if (options.width > 0) width = options.width;
+  if (options.height > 0) height = options.height;
+  if (options.dpi > 0) dpi = options.dpi;
+  if (!options.title) title.clear();
+  return std::move(*this);
+}
 
 std::string gnuplot_script(const Page& page, Format format) { return PageWriter(page, format).write(); }
 
 void draw(const Page& page, const std::filesystem::path& file) {
   const Format format = format_of(file);
+  const std::string script = gnuplot_script(page, format);
   if (format != Format::svg) require_font();
-  write_whole(file, finished(run_gnuplot(gnuplot_script(page, format)), format, page.title));
+  write_whole(file, finished(run_gnuplot(script), format, page.title));
 }
 
 }  // namespace hamflow::figures

@@ -12,29 +12,31 @@
 
 namespace hamflow::figures {
 
-/// How a series is drawn; `marked` is a line through marks, `level` a dashed line behind the others, `map` a coloured
-/// field.
-enum class Ink { exact, dots, fine_dots, line, path, zero, centre, marked, level, map };
+/// How a series is drawn; `marked` is a line through marks, `level` a dashed line behind the others, `band` the field
+/// between two lines, `fields` coloured rectangles.
+enum class Ink { exact, dots, fine_dots, line, path, place, zero, centre, marked, level, band, fields };
 
-/// What distinguishes the marked series of a page.
+/// What distinguishes the series of a page.
 struct Mark {
-  const char* colour = "#000000";
-  int shape = 7;  // gnuplot's pointtype: 7 a disc, 6 a ring, 5 and 4 squares, ...
-  int dash = 1;   // gnuplot's dashtype: 1 solid
+  std::string colour{};  // "#rrggbb"; empty: that of the ink
+  int shape = 7;         // gnuplot's pointtype: 7 a disc, 6 a ring, 5 and 4 squares, ...
+  int dash = 1;          // gnuplot's dashtype: 1 solid
 };
 
 struct Series {
   Ink ink = Ink::dots;
-  std::string name;  // in the legend of the first panel, enhanced text; empty: not listed
+  std::string name;  // in the legend above the panel, enhanced text; empty: not listed
   Curve curve;
-  Mark mark{};                  // of Ink::marked
-  std::vector<double> value{};  // of Ink::map: one number per point, in colours of the panel's axis z
+  Mark mark{};
+  /// Of Ink::band the upper line. Of Ink::fields a number for each rectangle, in colours of the panel's axis z; a
+  /// rectangle is two points of the curve, its lower left and its upper right corner.
+  std::vector<double> value{};
 };
 
 struct Panel {
   Axis x;
   Axis y;
-  Axis z;               // of a map, in colours, from light, little, to dark
+  Axis z;               // of fields, in colours, from light, little, to dark
   std::string x_label;  // enhanced text, like every label here
   std::string y_label;
   std::string z_label;
@@ -43,7 +45,7 @@ struct Panel {
   double aspect = 0.6;  // height of the box over its width; all boxes of a page are equally wide
   bool equal_axes = false;
 
-  bool is_map() const { return !series.empty() && series.front().ink == Ink::map; }
+  bool is_map() const { return !series.empty() && series.front().ink == Ink::fields; }
   bool has_grid() const { return x.logarithmic || y.logarithmic; }
 };
 
@@ -57,18 +59,34 @@ struct LegendLine {
 constexpr double one_column = 85;  // mm, of a journal
 constexpr double two_columns = 170;
 
+/// What is asked of a page beside what stands on it.
+struct PageOptions {
+  double width = 0;  // mm; 0: as wide as is usual
+  double height = 0;
+  int dpi = 0;  // pixels to the inch of a PNG; 0: 300
+  bool title = true;
+};
+
 struct Page {
   std::string title;  // plain text
   std::vector<Panel> panels;
   std::size_t columns = 1;           // of panels
   double width = one_column;         // mm
   std::vector<LegendLine> legend{};  // in the cell after the last panel, where it may be longer than a panel
+  std::vector<std::string> notes{};  // lines below the panels, enhanced text
+  double height = 0;                 // mm; 0: as high as the panels make it
+  int dpi = 300;
+
+  /// The same page with another size.
+  Page with(const PageOptions& options) &&;
 };
 
+/// @throws Error where the page has a height, and the panels do not fit into it
 std::string gnuplot_script(const Page& page, Format format);
 
 /// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
-/// @throws Error when the extension is none of these   @throws FileError when gnuplot, its font or the file fails
+/// @throws Error when the extension is none of these or the page too small   @throws FileError when gnuplot, its font
+/// or the file fails
 void draw(const Page& page, const std::filesystem::path& file);
 
 }  // namespace hamflow::figures

@@ -1,25 +1,97 @@
 #include "panels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "text.hpp"
 
 namespace hamflow::figures {
 
 namespace {
-constexpr std::size_t most_dots = 400;          // of a cloud
+constexpr std::size_t most_dots = 20000;        // of a cloud
 constexpr std::size_t most_dots_on_line = 200;  // more would hide the line
 constexpr std::size_t most_path_points = 12000;
-const std::string time_name = "{/:Italic t}";
+constexpr std::size_t page_columns = 400;  // two tenths of a millimetre wide in one column of a journal
+
+/// As much of a path as can be told apart on paper: some hundred times across it.
+Curve beginning(const Curve& path) {
+  Extent x;
+  Extent y;
+  x.include(path.x);
+  y.include(path.y);
+  const double size = std::max(x.high - x.low, y.high - y.low);
+  Curve part;
+  double length = 0;
+  for (std::size_t k = 0; k < path.x.size() && length <= 120 * size; ++k) {
+    if (k > 0) length += std::hypot(path.x[k] - path.x[k - 1], path.y[k] - path.y[k - 1]);
+    part.add(path.x[k], path.y[k]);
+  }
+  return part;
+}
+/// Whether a line over the samples would fill the paper: whether it turns several times in each column.
+bool is_field(const Curve& curve) {
+  std::size_t turns = 0;
+  for (std::size_t k = 2; k < curve.y.size(); ++k) {
+    if ((curve.y[k] - curve.y[k - 1]) * (curve.y[k - 1] - curve.y[k - 2]) < 0) ++turns;
+  }
+  return turns > 4 * page_columns;
+}
+
+/// A line over many samples without those that paper cannot show: of each short stretch the ends, the least and the
+/// largest stay.
+Curve extremes(const Curve& curve) {
+  constexpr std::size_t stretches = 2000;
+  const std::size_t n = curve.x.size();
+  if (n <= 8 * stretches) return curve;
+  Curve result;
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const std::size_t end = (s + 1) * n / stretches;
+    std::set<std::size_t> kept{s * n / stretches, end - 1};
+    std::size_t least = *kept.begin();
+    std::size_t most = least;
+    for (std::size_t k = *kept.begin(); k < end; ++k) {
+      if (std::isnan(curve.y[k])) kept.insert(k);
+      if (curve.y[k] < curve.y[least] || std::isnan(curve.y[least])) least = k;
+      if (curve.y[k] > curve.y[most] || std::isnan(curve.y[most])) most = k;
+    }
+    kept.insert({least, most});
+    for (const std::size_t k : kept) result.add(curve.x[k], curve.y[k]);
+  }
+  return result;
+}
 }  // namespace
 
-Series samples(const Curve& track) {
-  if (track.x.size() > most_dots_on_line) {
-    const Curve path = thin_out(track, most_path_points);
-    if (follows_path(path)) return {Ink::path, "", path};
+Series series_of(const Figure& figure, std::size_t run) {
+  if (figure.runs.size() < 2) return {};
+  return {.name = escaped(figure.runs[run].label), .mark = mark_of(run)};
+}
+
+Series track_of(const Curve& track, const Curve& opening, Series how, bool& opened) {
+  const Curve path = thin_out(track, most_path_points);
+  if (track.x.size() > 2 && follows_path(path)) {
+    how.ink = Ink::path;
+    how.curve = path;
+    return how;
   }
-  return {Ink::fine_dots, "", thin_out(track, most_dots)};
+  const Curve start = beginning(opening);
+  if (follows_path(start)) {
+    opened = true;
+    how.ink = Ink::path;
+    how.curve = start;
+    return how;
+  }
+  how.ink = track.x.size() > most_separate_dots ? Ink::fine_dots : Ink::place;
+  how.curve = thin_out(track, most_dots);
+  return how;
+}
+
+std::string opening_note(const FigureData& data) {
+  const auto text = [](double t) { return short_value(t); };
+  return "the first steps alone, to {/:Italic t} = " + text(data.opening.t.empty() ? 0 : data.opening.t.back()) +
+         " of " + text(data.t.empty() ? 0 : data.t.back());
 }
 
 Curve dots_on_line(const Curve& track, const Panel& panel) {
@@ -33,17 +105,30 @@ Curve dots_on_line(const Curve& track, const Panel& panel) {
   return thin_out(track, static_cast<std::size_t>(std::clamp(path_length(printed), 40.0, most)));
 }
 
-Panel over_time(const std::vector<double>& t, const std::vector<double>& y) {
+Panel panel_over(const Extent& times, const std::string& label) {
   Panel panel;
-  const Curve curve = finite_points(t, y, Gaps::kept);
-  Extent times;
-  times.include(curve.x);
   panel.x = fit_axis(times, 0, {7, 40});
-  panel.x_label = time_name;
+  panel.x_label = label;
   panel.aspect = 0.52;
-  panel.series.push_back({Ink::line, "", envelope(curve, 1200)});
-  if (curve.x.size() <= most_separate_dots) panel.series.push_back({Ink::dots, "", curve});
   return panel;
+}
+
+void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector<double>& y, Series how) {
+  how.curve = finite_points(t, y, Gaps::kept);
+  how.ink = Ink::line;
+  if (how.curve.x.size() > 4 * page_columns && is_field(how.curve)) {
+    const Band band = envelope(how.curve, page_columns);
+    how.ink = Ink::band;
+    how.curve = {band.x, band.low};
+    how.value = band.high;
+  } else {
+    how.curve = extremes(how.curve);
+  }
+  panel.series.push_back(how);
+  if (how.curve.x.size() > most_separate_dots) return;
+  how.ink = Ink::dots;
+  how.name.clear();
+  panel.series.push_back(how);
 }
 
 double start_of(const std::vector<double>& energy) { return energy.empty() ? 0 : energy.front(); }
@@ -91,11 +176,19 @@ std::vector<double> relative_energy_error(const FigureData& data) {
   const double start = start_of(data.energy);
   const double scale = scale_of(data);
   std::vector<double> error;
+  for (const double difference : data.energy_difference) error.push_back(difference / scale);
+  if (!error.empty()) return error;
   for (const double h : data.energy) {
     const double difference = h - start;
     error.push_back(std::isinf(difference) ? h / scale - start / scale : difference / scale);
   }
   return error;
+}
+
+std::string energy_error_label(const FigureData& data) {
+  const std::string divisor = scale_name(data);
+  const std::string difference = energy_name + " − " + energy_start;
+  return divisor.empty() ? difference : "(" + difference + ")/" + divisor;
 }
 
 std::string no_samples(const std::string& quantity) { return "there is no sample with a finite " + quantity; }

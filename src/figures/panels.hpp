@@ -1,4 +1,4 @@
-// What several kinds of figures draw alike: samples, curves over time, axes of one scale, names of energies.
+// What several kinds of figures draw alike: tracks, curves over time, axes of one scale, names of energies.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "axis.hpp"
 #include "curves.hpp"
 #include "figure.hpp"
+#include "ink.hpp"
 #include "page.hpp"
 
 namespace hamflow::figures {
@@ -16,12 +17,23 @@ constexpr std::size_t most_separate_dots = 40;  // on a line over a page; more w
 inline const std::string energy_name = "{/:Italic H}";
 inline const std::string energy_start = "{/:Italic H}_0";
 
-/// Samples without an exact curve: dots, or a line where there are many and the chords between them show the path.
-Series samples(const Curve& track);
+/// How the n-th of `count` runs is drawn, with its name in the legend; one alone has none.
+Series series_of(const Figure& figure, std::size_t run);
+
+/// The samples of a path: a line where chords follow it; else the line of its opening, where that is known and does;
+/// else dots. `opened` becomes true where the opening was taken.
+Series track_of(const Curve& track, const Curve& opening, Series how, bool& opened);
+/// "first part of the run, t = 0 to 12": of figures with an opening.
+std::string opening_note(const FigureData& data);
 /// Dots about a millimetre apart in print, so that the exact line shows between them.
 Curve dots_on_line(const Curve& track, const Panel& panel);
-/// Over time: one line over all samples; dots as well while they can be told apart. The y-axis is left to the caller.
-Panel over_time(const std::vector<double>& t, const std::vector<double>& y);
+
+/// A panel over time, or over another quantity that grows; the y-axis is left to the caller.
+Panel panel_over(const Extent& times, const std::string& label);
+/// One line over all samples, or the field that they fill where they are too many for a line; dots as well while they
+/// can be told apart.
+void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector<double>& y, Series how);
+
 /// Both axes with one scale: the box takes the shape of the data, within limits.
 void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y);
 
@@ -33,6 +45,8 @@ double scale_of(const FigureData& data);
 std::string scale_name(const FigureData& data);
 /// (H - H0)/scale at every sample. Where the difference overflows the quotient need not.
 std::vector<double> relative_energy_error(const FigureData& data);
+/// (H - H0)/|H0|, in symbols.
+std::string energy_error_label(const FigureData& data);
 
 /// "there is no sample with a finite position".
 std::string no_samples(const std::string& quantity);

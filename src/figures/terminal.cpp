@@ -32,14 +32,14 @@ Format format_of(const std::filesystem::path& file) {
   return *known_format(file);
 }
 
-std::string terminal(Format format, double width, double height, double text_points) {
-  const auto pixels = [](double mm, int scale) { return static_cast<int>(std::lround(mm * 96 / 25.4 * scale)); };
+std::string terminal(Format format, double width, double height, double text_points, int dpi) {
+  const auto pixels = [](double mm, double per_inch) { return std::lround(mm * per_inch / 25.4); };
   const double size = font_size(format, text_points);
   switch (format) {
     case Format::svg:
       return fmt::format(
           "set terminal svg size {},{} fixed enhanced font 'DejaVu Sans,{:.4g}' linewidth 1.3333 background 'white'\n",
-          pixels(width, 1), pixels(height, 1), size);
+          pixels(width, 96), pixels(height, 96), size);
     case Format::pdf:
       return fmt::format(
           "set terminal pdfcairo size {:.4f}cm,{:.4f}cm enhanced font 'DejaVu Sans,{}' fontscale 0.75 linewidth 2\n",
@@ -47,9 +47,11 @@ std::string terminal(Format format, double width, double height, double text_poi
     case Format::png:
       break;
   }
+  const double scale = dpi / 96.0;
   return fmt::format(
-      "set terminal pngcairo size {},{} enhanced font 'DejaVu Sans,{}' fontscale 2 linewidth 2.6667 pointscale 2.6\n",
-      pixels(width, 2), pixels(height, 2), size);
+      "set terminal pngcairo size {},{} enhanced font 'DejaVu Sans,{}' fontscale {:.6g} linewidth {:.6g} "
+      "pointscale {:.6g}\n",
+      pixels(width, dpi), pixels(height, dpi), size, scale, 1.3333 * scale, 1.3 * scale);
 }
 
 std::string font(Format format, double points) { return fmt::format("font ',{:.4g}'", font_size(format, points)); }

@@ -19,8 +19,8 @@ enum class Format { svg, pdf, png };
 Format format_of(const std::filesystem::path& file);
 
 /// The lines that choose the terminal for a page of so many millimetres. In every format a line width of 1 is one point
-/// and a point size of 1 a radius of three points; a PNG has twice the resolution of a screen of 96 dots per inch.
-std::string terminal(Format format, double width, double height, double text_points);
+/// and a point size of 1 a radius of three points.   @param dpi pixels to the inch, of a PNG
+std::string terminal(Format format, double width, double height, double text_points, int dpi);
 
 /// "font ',8'": the font of the terminal in another size.
 std::string font(Format format, double points);

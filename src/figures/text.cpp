@@ -76,6 +76,12 @@ std::string letter(const std::string& base) {
   return found == greek().end() ? base : found->second;
 }
 
+/// phi1: the letter and its number.
+std::string greek_index(const std::string& index) {
+  const Name parts = cut(index);
+  return parts.base.empty() ? index : letter(parts.base) + parts.index;
+}
+
 std::string italic(const std::string& base) {
   const std::string text = letter(base);
   const bool one_letter = text != base || text.size() == 1;
@@ -107,14 +113,8 @@ std::string escaped(const std::string& text) {
 std::string symbol(const std::string& name) {
   const Name parts = cut(name);
   if (parts.base.empty()) return escaped(name);
-  return parts.index.empty() ? italic(parts.base) : fmt::format("{}_{{{}}}", italic(parts.base), escaped(parts.index));
-}
-
-std::string momentum_symbol(const std::string& coordinate) {
-  const Name parts = cut(coordinate);
-  if (parts.base == "q") return symbol(fmt::format("p{}", coordinate.substr(1)));
-  const std::string index = parts.base.empty() ? coordinate : letter(parts.base) + parts.index;
-  return fmt::format("{{/:Italic p}}_{{{}}}", escaped(index));
+  return parts.index.empty() ? italic(parts.base)
+                             : fmt::format("{}_{{{}}}", italic(parts.base), escaped(greek_index(parts.index)));
 }
 
 std::string power_of_ten(int exponent) {
@@ -127,6 +127,35 @@ std::string short_number(double x) {
   const std::string digits = fmt::format("{:.1e}", x);
   const std::size_t e = digits.find('e');
   return digits.substr(0, e) + "·" + power_of_ten(std::stoi(digits.substr(e + 1)));
+}
+
+std::string short_value(double x) {
+  std::string text = fmt::format("{:.4g}", x);
+  if (std::isfinite(x) && (std::abs(x) >= 1e4 || text.find('e') != std::string::npos)) {
+    const std::string digits = fmt::format("{:.3e}", x);
+    const std::size_t e = digits.find('e');
+    std::string front = digits.substr(0, e);
+    front.erase(front.find_last_not_of('0') + 1);
+    if (front.ends_with('.')) front.pop_back();
+    const std::string power = power_of_ten(std::stoi(digits.substr(e + 1)));
+    text = front == "1" ? power : front == "-1" ? "-" + power : front + "·" + power;
+  }
+  if (text.starts_with('-')) text.replace(0, 1, "\u2212");
+  return text;
+}
+
+std::size_t printed_length(const std::string& enhanced) {
+  static const std::string italic_begins = "{/:Italic ";
+  std::size_t count = 0;
+  for (std::size_t at = 0; at < enhanced.size(); ++at) {
+    const char c = enhanced[at];
+    if (enhanced.compare(at, italic_begins.size(), italic_begins) == 0) at += italic_begins.size() - 1;
+    if (c == '^' || c == '_' || c == '{' || c == '}') continue;
+    if (c == '\\') ++at;
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // a later byte of a character
+    if (!continues) ++count;
+  }
+  return count;
 }
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t most) {

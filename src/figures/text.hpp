@@ -14,12 +14,14 @@ std::string quoted(const std::string& text);
 std::string escaped(const std::string& text);
 /// The name of a coordinate as a symbol in enhanced text: q1 is q with subscript 1, phi the Greek letter.
 std::string symbol(const std::string& name);
-/// Its momentum: p for q, p_1 for q1, p_x for x.
-std::string momentum_symbol(const std::string& coordinate);
 /// "10^{-15}" in enhanced text, with a real minus sign.
 std::string power_of_ten(int exponent);
 /// A small number for reading: 2.2 times 10^{-16}, in enhanced text.
 std::string short_number(double x);
+/// Characters in print, without the signs of enhanced text.
+std::size_t printed_length(const std::string& enhanced);
+/// A number of four digits at most, 2000 or 10^{5}, in enhanced text.
+std::string short_value(double x);
 /// At most `most` lines of about `width` characters, broken at spaces where there are any.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t most);
 

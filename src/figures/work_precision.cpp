@@ -1,9 +1,9 @@
 #include "work_precision.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "hamflow/core/error.hpp"
 #include "page.hpp"
@@ -15,56 +15,28 @@ namespace {
 using namespace figures;
 using Column = std::vector<double> WorkCurve::*;
 
-/// Three shades for each order, next to each other in the legend.
-const char* colour_of(int order, int shade) {
-  static constexpr const char* grey[] = {"#8c8c8c", "#555555", "#b5b5b5"};
-  static constexpr const char* blue[] = {"#0072b2", "#56b4e9", "#003f70"};
-  static constexpr const char* violet[] = {"#7a5cc0", "#b39ddb", "#43308a"};
-  static constexpr const char* red[] = {"#d55e00", "#f0a35e", "#8a2f00"};
-  static constexpr const char* green[] = {"#009e73", "#6cc9a9", "#00573f"};
-  static constexpr const char* pink[] = {"#b0489c", "#dd94ce", "#6b1a5c"};
-  static constexpr const char* brown[] = {"#7b5b1e", "#c9a227", "#3f2d0c"};
-  switch (order) {
-    case 1:
-      return grey[shade];
-    case 2:
-      return blue[shade];
-    case 3:
-      return violet[shade];
-    case 4:
-      return red[shade];
-    case 5:
-    case 6:
-      return green[shade];
-    case 7:
-    case 8:
-      return pink[shade];
-    default:
-      return brown[shade];
-  }
-}
-
-/// A colour for the order of a method; shade, shape and dash for its place among those of its order.
+/// A method with its mark: no two methods have the same colour and shape.
 struct Entry {
   const WorkCurve* curve = nullptr;
   Mark mark;
 };
 
-/// By order; what does not distinguish two methods by shape does so by dash.
+/// By order. Colours follow each other in an order in which neighbours differ; shapes are filled for explicit methods
+/// and open for implicit ones, whose lines are dashed, so that grey print shows the difference too.
 std::vector<Entry> marked(const std::vector<WorkCurve>& curves) {
-  constexpr int shapes[] = {7, 5, 9, 13, 11,
-                            6, 4, 8, 12, 10};  // filled ones first; implicit methods begin with open ones
+  constexpr std::array<const char*, 11> colours{"#0072b2", "#d55e00", "#009e73", "#b0489c", "#e69f00", "#56b4e9",
+                                                "#7b5b1e", "#4d4d4d", "#8a2f00", "#7a5cc0", "#6b8e23"};
+  constexpr std::array<int, 5> filled{7, 5, 9, 13, 11};
+  constexpr std::array<int, 5> open{6, 4, 8, 12, 10};
   std::vector<const WorkCurve*> sorted;
   for (const WorkCurve& curve : curves) sorted.push_back(&curve);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const WorkCurve* a, const WorkCurve* b) { return a->order < b->order; });
-  std::map<int, int> of_order;
   std::vector<Entry> all;
-  for (const WorkCurve* curve : sorted) {
-    const int place = of_order[curve->order]++;
-    const int shape = shapes[(place + (curve->explicit_step ? 0 : 5)) % 10];
-    all.push_back({curve, {colour_of(curve->order, place % 3), shape, curve->explicit_step ? 1 : 2}});
-    if (place >= 5) all.back().mark.dash = 3 + (place / 5) % 3;
+  for (std::size_t n = 0; n < sorted.size(); ++n) {
+    const bool is_explicit = sorted[n]->explicit_step;
+    // 11 colours and 5 shapes have no common factor: 55 pairs before one repeats.
+    all.push_back({sorted[n], {colours[n % 11], (is_explicit ? filled : open)[n % 5], is_explicit ? 1 : 2}});
   }
   return all;
 }
@@ -94,13 +66,14 @@ Panel panel_of(const std::vector<Entry>& entries, const Quantity& work, const Qu
   return panel;
 }
 
-/// Errors below it mean nothing.
-void add_floor(Panel& panel, double floor) {
-  if (!(floor > 0)) return;
+/// Errors below it mean nothing. @returns whether the panel shows so little
+bool add_floor(Panel& panel, double floor) {
+  if (!(floor > 0)) return false;
   const double level = panel.y.place(floor);
-  if (level <= panel.y.low || level >= panel.y.high) return;
+  if (level <= panel.y.low || level >= panel.y.high) return false;
   const Curve line{{std::pow(10.0, panel.x.low), std::pow(10.0, panel.x.high)}, {floor, floor}};
   panel.series.insert(panel.series.begin(), {Ink::level, "", line});
+  return true;
 }
 
 /// The methods by order, each with its mark.
@@ -128,15 +101,17 @@ void write_work_precision(const WorkPrecision& data, const std::filesystem::path
   if (curves.empty()) throw Error("there is no error to draw: every run failed, or is exact");
   const std::vector<Entry> entries = marked(curves);
   const Quantity evaluations{"evaluations of force or gradient", &WorkCurve::evaluations};
-  const Quantity seconds{"seconds", &WorkCurve::seconds};
-  const Quantity error{"error at the end, largest coordinate", &WorkCurve::error};
-  const Quantity energy_error{"largest energy error, relative", &WorkCurve::energy_error};
+  const Quantity seconds{"processor time in seconds", &WorkCurve::seconds};
+  const Quantity error{"largest error of q, p at the end", &WorkCurve::error};
+  const Quantity energy_error{"max |{/:Italic H} − {/:Italic H}_0|/scale", &WorkCurve::energy_error};
   Page page{data.title, {}, 2, two_columns, legend_of(entries)};
+  bool floor_shown = false;
   for (const Quantity& work : {evaluations, seconds}) {
     page.panels.push_back(panel_of(entries, work, error));
-    add_floor(page.panels.back(), data.floor);
+    floor_shown = add_floor(page.panels.back(), data.floor) || floor_shown;
   }
   page.panels.push_back(panel_of(entries, evaluations, energy_error));
+  if (floor_shown) page.notes.push_back("dashed grey: uncertainty of the reference, " + short_number(data.floor));
   draw(page, file);
 }
 

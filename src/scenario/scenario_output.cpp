@@ -23,10 +23,12 @@ void ScenarioReader::read_output(TomlTable& table) {
                     .section = scenario_.section.has_value()};
   if (scenario_.problem != nullptr) {
     const auto& invariants = scenario_.problem->info.invariants;
-    facts.bodies_in_space = scenario_.problem->dimension == 0 &&
-                            std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
-                              return invariant.components == Components::space;
-                            });
+    const std::vector<std::string> in_space{"x", "y", "z"};
+    facts.bodies_in_space = scenario_.problem->info.coordinates == in_space ||
+                            (scenario_.problem->dimension == 0 &&
+                             std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
+                               return invariant.components == Components::space;
+                             }));
   }
   for (const std::string& kind : scenario_.figures) {
     const std::string why_not = refused_figure(kind, facts);

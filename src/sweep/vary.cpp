@@ -66,10 +66,11 @@ Vary parse_vary(const std::string& text) {
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
     throw Error("found \"" + text + "\"; " + forms);
   }
-  Vary vary{trimmed(text.substr(0, equals)), {}, {}};
+  Vary vary{trimmed(text.substr(0, equals)), {}, {}, false};
   const std::string values = text.substr(equals + 1);
   const std::vector<std::string> range = split(values, ':');
   if (range.size() == 1) {
+    vary.is_list = true;
     for (const std::string& part : split(values, ',')) {
       vary.texts.push_back(trimmed(part));
       if (vary.texts.back().empty()) throw Error("found an empty value in \"" + text + "\"; " + forms);

@@ -11,6 +11,7 @@ struct Vary {
   std::string path;                // dotted, problem.initial.q[0]
   std::vector<std::string> texts;  // values as --set takes them
   std::vector<double> numbers;     // the same as numbers; empty where one of them is none
+  bool is_list = false;            // PATH=v1,v2,...
 };
 
 /// "PATH=a:b:n", n numbers from a to b, both included; or "PATH=v1,v2,...", commas in parentheses, brackets and quotes

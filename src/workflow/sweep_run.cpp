@@ -7,14 +7,13 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "measures/measures.hpp"
-#include "parameter_map.hpp"
 #include "run_description.hpp"
 #include "run_folder.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
+#include "sweep_figure.hpp"
 #include "sweep_report.hpp"
 #include "sweep_table.hpp"
-#include "terminal.hpp"
 #include "toml_path.hpp"
 #include "warnings.hpp"
 
@@ -45,46 +44,6 @@ void save(const Sweep& sweep, const fs::path& folder, const std::string& summary
   }
   if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder / "sweep.csv", sweep);
   write_text(folder / "summary.json", summary);
-}
-
-/// Empty if the figure can be drawn, else what is wrong with the request for it.
-std::string refused_map(const Sweep& sweep, const fs::path& file, const std::string& colour) {
-  const std::string wrong = refused_figure_file(file);
-  if (!wrong.empty()) return "--figure: error: " + wrong;
-  std::size_t numeric = 0;
-  std::vector<std::string> columns;
-  for (const SweepColumn& column : columns_of(sweep)) {
-    if (column.numbers.empty() || column.width != 1) continue;
-    if (column.name.starts_with("varied/")) ++numeric;
-    columns.push_back(column.name);
-  }
-  if (sweep.varied().size() > 2 || numeric != sweep.varied().size()) {
-    return "--figure: error: found " + std::to_string(sweep.varied().size()) +
-           " varied keys; allowed one or two, all numbers";
-  }
-  if (std::find(columns.begin(), columns.end(), colour) == columns.end()) {
-    return "--colour: error: found " + colour + "; allowed " + joined(columns) + suggestion(colour, columns);
-  }
-  return {};
-}
-
-void draw(const Sweep& sweep, const fs::path& file, const std::string& colour) {
-  ParameterMap map;
-  map.title = sweep.common().request.problem + ", " + describe(sweep.common().request.method).name;
-  map.value_name = colour;
-  for (const SweepColumn& column : columns_of(sweep)) {
-    if (column.name == colour) map.value = column.numbers;
-    if (!column.name.starts_with("varied/")) continue;
-    const std::string key = column.name.substr(std::string("varied/").size());
-    if (map.x_name.empty()) {
-      map.x_name = key;
-      map.x = column.numbers;
-    } else {
-      map.y_name = key;
-      map.y = column.numbers;
-    }
-  }
-  write_parameter_map(map, file);
 }
 
 /// Whether a key decides nothing but what a run writes, and when.
@@ -186,7 +145,7 @@ const std::vector<std::string>& ScenarioSweep::notes() const { return impl_->not
 std::int64_t ScenarioSweep::total_steps() const { return impl_->sweep->total_steps(); }
 
 std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column) const {
-  return refused_map(*impl_->sweep, file, column);
+  return refused_sweep_figure(*impl_->sweep, file, column);
 }
 
 SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
@@ -225,7 +184,7 @@ void ScenarioSweep::write(const SweepReport& report, const fs::path& folder) con
 }
 
 void ScenarioSweep::draw(const fs::path& file, const std::string& column) const {
-  hamflow::draw(*impl_->sweep, file, column);
+  draw_sweep_figure(*impl_->sweep, file, column);
 }
 
 void make_sweep_folder(const fs::path& folder, bool replace) { make_folder(folder, FolderOf::sweep, replace); }

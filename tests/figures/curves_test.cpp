@@ -165,19 +165,30 @@ TEST(Thinning, KeepsEveryPlaceOfAnOrbit) {
   for (const int count : sector) EXPECT_GT(count, 8);
 }
 
-TEST(Thinning, EnvelopeKeepsExtremesAndGaps) {
+TEST(Thinning, EnvelopeKeepsTheExtremesOfEveryColumn) {
   Curve line;
   for (int k = 0; k < 50000; ++k) {
     if (k == 20000) line.lift();
     line.add(k, k == 33333 ? 7 : k == 44444 ? -7 : std::sin(k));
   }
-  const Curve short_line = envelope(line, 500);
-  Extent range;
-  range.include(short_line.y);
-  EXPECT_LT(short_line.x.size(), 2100U);
-  EXPECT_EQ(range.low, -7);
-  EXPECT_EQ(range.high, 7);
-  EXPECT_EQ(std::count_if(short_line.x.begin(), short_line.x.end(), [](double x) { return std::isnan(x); }), 1);
+  const Band band = envelope(line, 500);
+  ASSERT_EQ(band.x.size(), 500U);
+  EXPECT_EQ(band.high[333], 7);
+  EXPECT_EQ(band.low[444], -7);
+  for (std::size_t k = 0; k < band.x.size(); ++k) {
+    EXPECT_NEAR(band.x[k], 100 * (static_cast<double>(k) + 0.5), 1);
+    EXPECT_NEAR(band.low[k], k == 444 ? -7 : -1, 0.01) << "a fixed stride would show a slow beat";
+    EXPECT_NEAR(band.high[k], k == 333 ? 7 : 1, 0.01);
+  }
+}
+
+TEST(Thinning, EnvelopeOfUnevenTimesHasNoEmptyColumns) {
+  Curve line;
+  for (int k = 0; k < 5000; ++k) line.add(k < 100 ? 0.5 * k : 50 + 0.01 * k, k);
+  const Band band = envelope(line, 400);
+  EXPECT_TRUE(std::is_sorted(band.x.begin(), band.x.end()));
+  for (std::size_t k = 0; k < band.x.size(); ++k) EXPECT_LE(band.low[k], band.high[k]);
+  EXPECT_TRUE(envelope({{1, 1}, {2, 3}}, 10).x.empty());
 }
 
 TEST(Axis, LabelsStayReadable) {
@@ -210,11 +221,37 @@ TEST(Text, Symbols) {
   EXPECT_EQ(symbol("phi_2"), "{/:Italic φ}_{2}");
   EXPECT_EQ(symbol("angle"), "angle");
   EXPECT_EQ(symbol("a{b}"), "a\\{b\\}");
-  EXPECT_EQ(momentum_symbol("q"), "{/:Italic p}");
-  EXPECT_EQ(momentum_symbol("q12"), "{/:Italic p}_{12}");
-  EXPECT_EQ(momentum_symbol("x"), "{/:Italic p}_{x}");
-  EXPECT_EQ(momentum_symbol("phi"), "{/:Italic p}_{φ}");
+  EXPECT_EQ(symbol("p"), "{/:Italic p}");
+  EXPECT_EQ(symbol("p12"), "{/:Italic p}_{12}");
+  EXPECT_EQ(symbol("p_x3"), "{/:Italic p}_{x3}");
+  EXPECT_EQ(symbol("p_phi"), "{/:Italic p}_{φ}");
+  EXPECT_EQ(symbol("x[1]"), "x[1]");
   EXPECT_EQ(short_number(2.2e-16), "2.2·10^{\u221216}");
+}
+
+TEST(Text, LengthsAreThoseOfPrint) {
+  EXPECT_EQ(printed_length("{/:Italic p}_{φ}"), 2U);
+  EXPECT_EQ(printed_length("10^{\u221215}"), 5U);
+  EXPECT_EQ(printed_length(escaped("a_b^{c}")), 7U);
+}
+
+TEST(Axis, ZeroIsWrittenAsZero) {
+  for (const Extent extent : {Extent{-1, 1}, Extent{0, 0.3}, Extent{-0.002, 0.001}, Extent{-1e-15, 1e-15}}) {
+    std::size_t zeros = 0;
+    for (const Tick& tick : fit_axis(extent, 0.05, {7, 40}).ticks()) {
+      EXPECT_EQ(tick.label == "0", tick.at == 0);
+      if (tick.label == "0") ++zeros;
+    }
+    EXPECT_EQ(zeros, 1U);
+  }
+}
+
+TEST(Axis, WordsStandAtWholeNumbers) {
+  const Axis axis = word_axis({"verlet", "stv4"});
+  ASSERT_EQ(axis.ticks().size(), 2U);
+  EXPECT_EQ(axis.ticks()[1].at, 1);
+  EXPECT_EQ(axis.ticks()[1].label, "stv4");
+  EXPECT_EQ(axis.widest_label(), 6U);
 }
 
 TEST(Text, LongTitlesBreakAfterCommas) {

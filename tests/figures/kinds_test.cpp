@@ -43,12 +43,13 @@ TEST(FigureKinds, OfARunThatIsNotKnownYetEveryKindIsPossible) {
   EXPECT_EQ(drawable_figures(with_everything(0)), figure_names());
 }
 
-TEST(FigureKinds, TheUsualFigureIsTheOrbitElseThePhasePlaneElseTheEnergyError) {
+TEST(FigureKinds, TheUsualFigureIsTheOrbitElseThePhasePlaneElseTheTimeSeries) {
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 2}), "orbit");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 27, .bodies_in_space = true}), "orbit");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 1}), "phase");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 12}), "phase");
-  EXPECT_EQ(usual_figure({.degrees_of_freedom = 13}), "energy-error");
+  EXPECT_EQ(usual_figure({.degrees_of_freedom = 13}), "time");
+  EXPECT_EQ(usual_figure({.degrees_of_freedom = 101}), "energy-error");
 }
 
 TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
@@ -56,25 +57,32 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
   EXPECT_EQ(
       refused_figure("orbit", {.degrees_of_freedom = 1}),
       "found \"orbit\" for a problem with 1 degree of freedom, where an orbit needs 2, or bodies in space; allowed "
-      "phase, energy-error, energy");
+      "phase, time, energy-error, energy");
   EXPECT_EQ(refused_figure("phase", {.degrees_of_freedom = 13}),
-            "found \"phase\" for a problem with 13 degrees of freedom, of which at most 12 fit on a page; allowed "
-            "energy-error, energy");
+            "found \"phase\" for a problem with 13 degrees of freedom, of which at most 12 fit on a page; choose "
+            "columns with hamflow plot --x and --y; allowed time, energy-error, energy");
   EXPECT_EQ(refused_figure("condition", {.degrees_of_freedom = 1}),
             "found \"condition\", which needs method.diagnostics = true of an implicit method; allowed phase, "
-            "energy-error, energy");
+            "time, energy-error, energy");
   EXPECT_EQ(refused_figure("section", {.degrees_of_freedom = 2}),
             "found \"section\", which needs run.section, e.g. { coordinate = \"q1\" }; allowed orbit, phase, "
-            "energy-error, energy");
+            "time, energy-error, energy");
   EXPECT_EQ(refused_figure("section", with_everything(1)),
             "found \"section\" for a problem with 1 degree of freedom, where a section needs 2 or more; allowed "
-            "phase, energy-error, energy, condition");
+            "phase, time, energy-error, energy, condition");
+}
+
+TEST(FigureKinds, ChosenColumnsNeedNoRoomForAll) {
+  for (const char* kind : {"phase", "time"}) {
+    EXPECT_NE(refused_figure(kind, {.degrees_of_freedom = 500}), "");
+    EXPECT_EQ(refused_figure(kind, {.degrees_of_freedom = 500, .columns_chosen = true}), "");
+  }
 }
 
 TEST(FigureKinds, WhatIsRefusedIsWhatIsNotDrawable) {
   for (const std::size_t degrees : {0U, 1U, 2U, 3U, 12U, 13U, 300U}) {
     for (int bits = 0; bits < 8; ++bits) {
-      const FigureFacts facts{degrees, (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0};
+      const FigureFacts facts{degrees, (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, false};
       const Names drawable = drawable_figures(facts);
       ASSERT_FALSE(drawable.empty());
       EXPECT_EQ(usual_figure(facts), drawable.front());
@@ -89,7 +97,7 @@ TEST(FigureKinds, WhatIsRefusedIsWhatIsNotDrawable) {
 TEST(FigureKinds, UnknownNamesAreAnsweredByTheNearest) {
   EXPECT_EQ(unknown_figure("orbit"), "");
   const std::string text =
-      "found \"orbits\"; allowed orbit, phase, energy-error, energy, condition, section; did you mean orbit?";
+      "found \"orbits\"; allowed orbit, phase, time, energy-error, energy, condition, section; did you mean orbit?";
   EXPECT_EQ(unknown_figure("orbits"), text);
   EXPECT_EQ(refused_figure("orbits", {}), text);
 }

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "hamflow/core/error.hpp"
+#include "page_size.hpp"
 #include "parameter_map.hpp"
 #include "work_precision.hpp"
 
@@ -74,7 +75,7 @@ TEST_F(Pages, ATerminalStandsInEveryScriptAndCountsMillimetres) {
   panel.series.push_back({Ink::line, "", {{0, 1}, {0, 1}}});
   for (const auto& [format, beginning] : {std::pair{Format::svg, "set terminal svg size 643,"},
                                           {Format::pdf, "set terminal pdfcairo size 17.0000cm,"},
-                                          {Format::png, "set terminal pngcairo size 1285,"}}) {
+                                          {Format::png, "set terminal pngcairo size 2008,"}}) {
     EXPECT_TRUE(gnuplot_script({"title", {panel}, 1, two_columns}, format).starts_with(beginning));
   }
 }
@@ -123,7 +124,7 @@ TEST_F(Pages, WorkPrecisionWithoutErrorsIsRefused) {
 }
 
 ParameterMap plane() {
-  ParameterMap map{"kepler, stv4", "run.dt", "problem.orbit.r_aph", "energy/max_error", {}, {}, {}};
+  ParameterMap map{"kepler, stv4", "d{/:Italic t}", "r\\_aph", "max error", {}, {}, {}, {}, {}, {}};
   for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 5; ++k) {
       map.x.push_back(0.01 + 0.03 * i);
@@ -131,6 +132,7 @@ ParameterMap plane() {
       map.value.push_back(i == 1 && k == 1 ? nan : std::pow(10.0, -8 + i + 0.1 * k));
     }
   }
+  map.notes = {"white: 1 of 20 members (1 wall)"};
   return map;
 }
 
@@ -138,8 +140,9 @@ TEST_F(Pages, AMapShowsWholeFieldsAndItsColours) {
   const fs::path file = folder_ / "map.svg";
   write_parameter_map(plane(), file);
   const std::string svg = bytes_of(file);
-  EXPECT_NE(svg.find(">problem.orbit.r_aph<"), std::string::npos);
-  EXPECT_NE(svg.find(">energy/max_error<"), std::string::npos);
+  for (const char* text : {">r_aph<", ">max error<", ">white: 1 of 20 members (1 wall)<"}) {
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  }
   static const std::regex axis_label("<tspan[^>]*>10</tspan>|>10<");
   EXPECT_GE(std::distance(std::sregex_iterator(svg.begin(), svg.end(), axis_label), {}), 3) << "powers of ten";
   for (const char* extension : {".pdf", ".png"}) {
@@ -148,11 +151,91 @@ TEST_F(Pages, AMapShowsWholeFieldsAndItsColours) {
 }
 
 TEST_F(Pages, ACurveOverOneKeyIsAPanel) {
-  ParameterMap map{"kepler, stv4", "run.dt", "", "energy/max_error", {0.1, 0.2, 0.3}, {}, {1, nan, 3}};
+  ParameterMap map{"kepler, stv4", "d{/:Italic t}", "", "max error", {0.1, 0.2, 0.3}, {}, {1, nan, 3}, {}, {}, {}};
   write_parameter_map(map, folder_ / "curve.svg");
-  EXPECT_NE(bytes_of(folder_ / "curve.svg").find(">run.dt<"), std::string::npos);
+  EXPECT_NE(bytes_of(folder_ / "curve.svg").find(">max error<"), std::string::npos);
   map.value = {nan, nan, nan};
   EXPECT_THROW(write_parameter_map(map, folder_ / "nothing.svg"), Error);
+}
+
+TEST_F(Pages, WordsAreLinesOrPlacesOfAnAxis) {
+  ParameterMap map{"kepler", "d{/:Italic t}", "", "max error", {0.1, 0.2, 0.1, 0.2}, {}, {1, 2, 3, 4}, {}, {}, {}};
+  map.line = {"verlet", "verlet", "stv4", "stv4"};
+  write_parameter_map(map, folder_ / "lines.svg");
+  for (const char* text : {">verlet<", ">stv4<"}) {
+    EXPECT_NE(bytes_of(folder_ / "lines.svg").find(text), std::string::npos) << text;
+  }
+  map.line.clear();
+  map.x = {0, 1, 2, 3};
+  map.x_words = {"verlet", "stv4", "rk4", "cg"};
+  write_parameter_map(map, folder_ / "words.svg");
+  for (const char* text : {">verlet<", ">cg<"}) {
+    EXPECT_NE(bytes_of(folder_ / "words.svg").find(text), std::string::npos) << text;
+  }
+}
+
+Page one_panel() {
+  Panel panel;
+  panel.x = plain_axis(0, 1, {7, 40});
+  panel.y = plain_axis(0, 1, {7});
+  panel.series.push_back({Ink::line, "", {{0, 1}, {0, 1}}});
+  return {"title", {panel}};
+}
+
+TEST_F(Pages, ASizeIsMet) {
+  const Page page = one_panel().with({.width = 100, .height = 50, .dpi = 254});
+  EXPECT_TRUE(gnuplot_script(page, Format::png).starts_with("set terminal pngcairo size 1000,500 "));
+  EXPECT_TRUE(gnuplot_script(page, Format::pdf).starts_with("set terminal pdfcairo size 10.0000cm,5.0000cm "));
+  EXPECT_EQ(gnuplot_script(one_panel().with({.title = false}), Format::pdf).find("'title'"), std::string::npos);
+  EXPECT_NE(gnuplot_script(one_panel(), Format::pdf).find("'title'"), std::string::npos);
+}
+
+TEST_F(Pages, APageTooSmallSaysWhatItNeeds) {
+  try {
+    (void)gnuplot_script(one_panel().with({.width = 20, .height = 20}), Format::pdf);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("found 2 cm x 2 cm; allowed for this figure at least "))
+        << error.what();
+  }
+}
+
+TEST_F(Pages, OneScaleOnBothAxesHoldsInAnyBox) {
+  Page page = one_panel();
+  page.panels[0].equal_axes = true;
+  for (const auto& [width, height] : {std::pair{120.0, 50.0}, {50.0, 120.0}}) {
+    Page sized = page;
+    const std::string script = gnuplot_script(std::move(sized).with({.width = width, .height = height}), Format::pdf);
+    const auto number = [&](const std::string& before) {
+      return std::stod(script.substr(script.find(before) + before.size()));
+    };
+    const auto range = [&](const std::string& axis) {
+      const double low = number("set " + axis + "range [");
+      const std::string both = script.substr(script.find("set " + axis + "range ["));
+      return std::stod(both.substr(both.find(':') + 1)) - low;
+    };
+    const double box_width = width * (number("set rmargin at screen ") - number("set lmargin at screen "));
+    const double box_height = height * (number("set tmargin at screen ") - number("set bmargin at screen "));
+    EXPECT_NEAR(range("x") / box_width, range("y") / box_height, 1e-5 * range("y") / box_height);
+  }
+}
+
+TEST(PageSize, IsReadWithItsUnit) {
+  for (const auto& [text, width, height] :
+       {std::tuple{"8.5x6", 85.0, 60.0}, {"85x60mm", 85.0, 60.0}, {"4x3in", 101.6, 76.2}, {"17x10cm", 170.0, 100.0}}) {
+    PageOptions page;
+    EXPECT_EQ(read_page_size(text, page), "") << text;
+    EXPECT_DOUBLE_EQ(page.width, width);
+    EXPECT_DOUBLE_EQ(page.height, height);
+  }
+  for (const char* text : {"", "8", "8x", "x8", "1x1", "0x0", "-5x5", "nanx5", "1e9x5", "8x5px", "axb"}) {
+    PageOptions page;
+    EXPECT_NE(read_page_size(text, page).find("allowed WIDTHxHEIGHT in centimetres"), std::string::npos) << text;
+  }
+  EXPECT_EQ(refused_dpi(600, "a.png", {}), "");
+  EXPECT_EQ(refused_dpi(0, "a.svg", {}), "");
+  EXPECT_NE(refused_dpi(600, "a.svg", {}).find("allowed with a file .png"), std::string::npos);
+  EXPECT_NE(refused_dpi(2400, "a.png", {.width = 1000, .height = 1000}).find("allowed up to"), std::string::npos);
 }
 
 }  // namespace

@@ -1,16 +1,30 @@
-// From the files of a run to its figures.
+// From the files of runs to their figures.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
 
-/// Draws one figure of a run.   @param run its folder or run.h5, also of a run that goes on or was cut short
-/// @param kind see figure_kinds(); empty: usual_figure()
-/// @param file .svg, .pdf or .png   @throws Error when the run has no such figure   @throws FileError
+struct FigureRequest {
+  std::vector<std::filesystem::path> runs;  // folders or run.h5, also of runs that go on or were cut short
+  std::string kind{};                       // see figure_kinds(); empty: usual_figure() of the first run
+  std::filesystem::path file;               // .svg, .pdf or .png
+  std::string x{};                          // a column, of the kinds that draw columns; empty: as is usual
+  std::vector<std::string> y{};             // the same
+  std::string size{};                       // "8.5x6" (centimetres), "85x60mm", "3.35x2.4in"; empty: as is usual
+  int dpi = 0;                              // pixels to the inch, of a .png; 0: 300
+  bool title = true;
+};
+
+/// Draws one figure of one run, or of several with a legend of what differs between them.
+/// @throws Error when the runs have no such figure   @throws FileError
+void draw_figure(const FigureRequest& request);
+
+/// Draws one figure of a run as it is usual.
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file);
 
 /// Draws those that the scenario requests in output.figures, each as .svg, .pdf and .png, into figures/ of the folder

@@ -17,22 +17,38 @@ std::string obstacle(const FigureData& data) {
   return no_samples("condition");
 }
 
-Page page(const FigureData& data) {
+std::string apart(const Figure& figure) {
+  for (const FigureData& run : figure.runs) {
+    const std::string reason = obstacle(run);
+    if (!reason.empty()) return "of " + run.label + " " + reason;
+  }
+  return {};
+}
+
+Page page(const Figure& figure) {
   const std::vector<std::pair<std::string, std::string>> labels{{"condition_tangent", "cond_∞({/:Italic K}_T)"},
                                                                 {"determinant_tangent", "det({/:Italic K}_T)"},
                                                                 {"condition_inverse_mass", "cond_∞({/:Italic M}^{−1})"},
                                                                 {"iterations", "Newton iterations"}};
-  Page all{data.title, {}};
+  Page all{figure.runs.front().title, {}};
+  Extent times;
+  for (const FigureData& run : figure.runs) times.include(run.t);
   for (const auto& [name, label] : labels) {
-    for (const auto& [column, values] : data.diagnostics) {
-      if (column != name || finite_points(data.t, values).x.empty()) continue;
-      Panel panel = over_time(data.t, values);
-      Extent range;
-      range.include(values);
-      panel.y = fit_axis(range, padding, {5});
-      panel.y_label = label;
-      all.panels.push_back(panel);
+    Panel panel = panel_over(times, "{/:Italic t}");
+    Extent range;
+    for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+      for (const auto& [column, values] : figure.runs[run].diagnostics) {
+        if (column != name || finite_points(figure.runs[run].t, values).x.empty()) continue;
+        Series how = series_of(figure, run);
+        if (!all.panels.empty()) how.name.clear();
+        add_over_time(panel, figure.runs[run].t, values, how);
+        range.include(values);
+      }
     }
+    if (panel.series.empty()) continue;
+    panel.y = fit_axis(range, padding, {5});
+    panel.y_label = label;
+    all.panels.push_back(panel);
   }
   return all;
 }
@@ -41,9 +57,11 @@ Page page(const FigureData& data) {
 extern const FigureKind condition_figure{
     "condition",
     "condition and iterations of the Newton steps over time, of an implicit method with diagnostics",
-    5,
+    6,
     condition::refused,
     condition::obstacle,
+    condition::apart,
+    no_columns,
     condition::page};
 
 }  // namespace hamflow::figures

@@ -15,34 +15,47 @@ std::string obstacle(const FigureData& data) {
   return finite_points(data.t, data.energy).x.empty() ? no_samples("energy") : "";
 }
 
-Page page(const FigureData& data) {
-  Panel panel = over_time(data.t, data.energy);
+/// "max |H - H0|/|H0| = 1.2e-9".
+std::string worst_error(const FigureData& data) {
+  double worst = 0;
+  for (const double e : relative_energy_error(data)) {
+    if (std::isfinite(e)) worst = std::max(worst, std::abs(e));
+  }
+  const std::string divisor = scale_name(data);
+  return fmt::format("max |{} − {}|{}{} = {}", energy_name, energy_start, divisor.empty() ? "" : "/", divisor,
+                     short_number(worst));
+}
+
+Page page(const Figure& figure) {
+  Extent times;
   Extent range;
-  range.include(data.energy);
-  const double scale = std::max(scale_of(data), range.largest());
+  double scale = 0;
+  for (const FigureData& run : figure.runs) {
+    times.include(run.t);
+    range.include(run.energy);
+    scale = std::max(scale, scale_of(run));
+  }
+  scale = std::max(scale, range.largest());
+  Panel panel = panel_over(times, "{/:Italic t}");
+  for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+    add_over_time(panel, figure.runs[run].t, figure.runs[run].energy, series_of(figure, run));
+  }
   // Below a thousandth of the scale the labels would differ in their last digits only: then the energy is shown as the
   // constant it is, and its error stands beside it as a number.
   if (range.high / scale - range.low / scale < 1e-3) {
-    double worst = 0;
-    for (const double e : relative_energy_error(data)) {
-      if (std::isfinite(e)) worst = std::max(worst, std::abs(e));
-    }
-    const std::string divisor = scale_name(data);
-    const double start = start_of(data.energy);
-    if (std::isfinite(start)) {
-      panel.note = fmt::format("max |{} − {}|{}{} = {}", energy_name, energy_start, divisor.empty() ? "" : "/", divisor,
-                               short_number(worst));
-    }
+    const double start = start_of(figure.runs.front().energy);
+    if (std::isfinite(start) && figure.runs.size() == 1) panel.note = worst_error(figure.runs.front());
     constexpr double most = std::numeric_limits<double>::max();
     range.include(std::max(start - scale, -most));
     range.include(std::min(start + scale, most));
   }
   panel.y = fit_axis(range, padding, {6});
   panel.y_label = energy_name;
-  return {data.title, {panel}};
+  return {figure.runs.front().title, {panel}};
 }
 }  // namespace energy
 
-extern const FigureKind energy_figure{"energy", "the energy H over time", 4, never, energy::obstacle, energy::page};
+extern const FigureKind energy_figure{
+    "energy", "the energy H over time", 5, never, energy::obstacle, any_runs, no_columns, energy::page};
 
 }  // namespace hamflow::figures

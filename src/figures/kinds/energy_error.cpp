@@ -1,4 +1,5 @@
-// (H - H0)/scale over time.
+// (H - H0)/scale over time; its size on a logarithmic axis where it spans powers of ten.
+#include <algorithm>
 #include <cmath>
 
 #include "../figure_kind.hpp"
@@ -12,35 +13,122 @@ std::string obstacle(const FigureData& data) {
   return std::isfinite(data.energy.front()) ? "" : "the energy of the first sample, to compare with, is not finite";
 }
 
-Page page(const FigureData& data) {
-  const std::vector<double> error = relative_energy_error(data);
-  Panel panel = over_time(data.t, error);
+double largest(const std::vector<double>& error) {
   Extent range;
   range.include(error);
+  return range.largest();
+}
+
+/// Where one linear axis would show some of it as 0: runs of different precision, or an error that grows over powers of
+/// ten.
+bool is_logarithmic(const std::vector<std::vector<double>>& errors) {
+  constexpr double far = 100;
+  Extent of_runs;
+  for (const std::vector<double>& error : errors) of_runs.include_positive(std::vector<double>{largest(error)});
+  if (of_runs.empty()) return false;
+  if (of_runs.high > far * of_runs.low) return true;
+  const std::vector<double>& one = errors.front();
+  const auto quarter = static_cast<std::ptrdiff_t>(one.size() / 4);
+  const double early = largest({one.begin(), one.begin() + quarter});
+  return early > 0 && largest({one.end() - quarter, one.end()}) > 10 * far * early;
+}
+
+/// The sizes; of many samples the largest in each column of the page.
+Series sizes(const std::vector<double>& t, const std::vector<double>& error, Series how) {
+  constexpr std::size_t page_columns = 400;
+  how.ink = Ink::line;
+  Curve all;
+  for (std::size_t k = 0; k < std::min(t.size(), error.size()); ++k) {
+    if (error[k] != 0) all.add(t[k], std::abs(error[k]));
+  }
+  how.curve = finite_points(all.x, all.y, Gaps::kept);
+  if (how.curve.x.size() > 4 * page_columns) {
+    const Band band = envelope(how.curve, page_columns);
+    how.curve = {band.x, band.high};
+  }
+  return how;
+}
+
+std::string label_of(const Figure& figure, bool logarithmic) {
+  const FigureData& first = figure.runs.front();
+  for (const FigureData& run : figure.runs) {
+    if (scale_name(run) == scale_name(first)) continue;
+    return logarithmic ? "|relative energy error|" : "relative energy error";
+  }
+  if (!logarithmic) return energy_error_label(first);
+  const std::string divisor = scale_name(first);
+  return "|" + energy_name + " − " + energy_start + "|" + (divisor.empty() ? "" : "/" + divisor);
+}
+
+/// A zero between two signs must not decide the axis: below a tenth of what all but a twentieth of the sizes reach, a
+/// line may leave the box.
+void fit_logarithmic(Panel& panel) {
+  Extent range;
+  for (const Series& series : panel.series) {
+    std::vector<double> sorted = series.curve.y;
+    std::erase_if(sorted, [](double x) { return !(x > 0) || !std::isfinite(x); });
+    if (sorted.empty()) continue;
+    std::sort(sorted.begin(), sorted.end());
+    range.include(std::max(sorted.front(), 0.1 * sorted[sorted.size() / 20]));
+    range.include(sorted.back());
+  }
+  panel.y = log_axis(range);
+}
+
+void fit_linear(Panel& panel, const std::vector<std::vector<double>>& errors, bool in_double) {
+  Extent range;
+  for (const std::vector<double>& error : errors) range.include(error);
   range.include(0);
   constexpr double rounding = 1e-15;
-  const bool at_rounding = range.largest() < rounding;
+  const bool at_rounding = in_double && range.largest() < rounding;
   if (at_rounding) {  // single roundings must not look like a signal
     range.include(-rounding);
     range.include(rounding);
   }
   panel.y = fit_axis(range, at_rounding ? 0 : padding, {6});
-  const std::string divisor = scale_name(data);
-  const std::string difference = energy_name + " − " + energy_start;
-  panel.y_label = divisor.empty() ? difference : "(" + difference + ")/" + divisor;
+  panel.series.insert(panel.series.begin(), {Ink::zero, "", {{panel.x.low, panel.x.high}, {0, 0}}});
+  for (double& x : panel.series.front().curve.x) x *= std::pow(10.0, panel.x.exponent);
+}
+
+Page page(const Figure& figure) {
+  std::vector<std::vector<double>> errors;
   Extent times;
-  times.include(data.t);
-  panel.series.insert(panel.series.begin(), {Ink::zero, "", {{times.low, times.high}, {0, 0}}});
-  return {data.title, {panel}};
+  bool in_double = true;
+  for (const FigureData& run : figure.runs) {
+    errors.push_back(relative_energy_error(run));
+    times.include(run.t);
+    in_double = in_double && run.energy_difference.empty();
+  }
+  const bool logarithmic = is_logarithmic(errors);
+  Panel panel = panel_over(times, "{/:Italic t}");
+  for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+    Series how = series_of(figure, run);
+    if (!how.name.empty() && largest(errors[run]) == 0) how.name += " (0)";
+    if (logarithmic) {
+      panel.series.push_back(sizes(figure.runs[run].t, errors[run], how));
+    } else {
+      add_over_time(panel, figure.runs[run].t, errors[run], how);
+    }
+  }
+  panel.y_label = label_of(figure, logarithmic);
+  if (logarithmic) {
+    fit_logarithmic(panel);
+    panel.aspect = 0.62;
+  } else {
+    fit_linear(panel, errors, in_double);
+  }
+  return {figure.runs.front().title, {panel}};
 }
 }  // namespace energy_error
 
 extern const FigureKind energy_error_figure{
     "energy-error",
     "the relative error of the energy over time, (H - H0)/max(|H0|, |T0| + |V0|)",
-    3,
+    4,
     never,
     energy_error::obstacle,
+    any_runs,
+    no_columns,
     energy_error::page};
 
 }  // namespace hamflow::figures

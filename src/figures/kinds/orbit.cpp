@@ -1,4 +1,9 @@
-// The path in the plane of the two coordinates, with the exact one where it is known; the paths of bodies in space.
+// The path in the plane of the two coordinates, with the exact one where it is known; the paths of bodies in space, in
+// the planes of its axes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
@@ -7,6 +12,9 @@
 namespace hamflow::figures {
 
 namespace orbit {
+constexpr std::size_t most_named_bodies = 12;
+const std::array<const char*, 3> axes{"x", "y", "z"};
+
 std::string refused(const FigureFacts& facts) {
   const bool drawn = facts.degrees_of_freedom == 0 || facts.degrees_of_freedom == 2 || facts.bodies_in_space;
   return drawn ? "" : for_degrees(facts) + ", where an orbit needs 2, or bodies in space";
@@ -17,51 +25,131 @@ std::string obstacle(const FigureData& data) {
   return track.x.empty() ? no_samples("position") : "";
 }
 
-/// The paths of several bodies, seen along the third axis where there is one.
-Page bodies_page(const FigureData& data) {
-  Extent x;
-  Extent y;
-  std::vector<Curve> tracks;
-  for (std::size_t i = 0; i + 1 < data.q.size(); i += data.space) {
-    tracks.push_back(finite_points(data.q[i], data.q[i + 1]));
-    x.include(tracks.back().x);
-    y.include(tracks.back().y);
+std::size_t bodies(const FigureData& data) { return data.space < 2 ? 1 : data.q.size() / data.space; }
+
+std::string apart(const Figure& figure) {
+  const FigureData& first = figure.runs.front();
+  for (const FigureData& run : figure.runs) {
+    if (bodies(run) > 1) return "colours tell the bodies of one run apart; allowed runs of one body, or a run alone";
+    if (is_polar(run) != is_polar(first) && run.coordinates != std::vector<std::string>{"x", "y"} &&
+        first.coordinates != std::vector<std::string>{"x", "y"}) {
+      return same_coordinates(figure);
+    }
   }
-  Panel panel;
-  fit_equal_axes(panel, x, y);
-  panel.x_label = symbol("x");
-  panel.y_label = symbol("y");
-  for (const Curve& track : tracks) panel.series.push_back(samples(track));
-  return {data.title, {panel}};
+  const bool plane = std::all_of(figure.runs.begin(), figure.runs.end(), [](const FigureData& run) {
+    return is_polar(run) || run.coordinates == std::vector<std::string>{"x", "y"};
+  });
+  return plane ? "" : same_coordinates(figure);
 }
 
-Page page(const FigureData& data) {
-  if (data.space >= 2) return bodies_page(data);
-  const Curve track = orbit_track(data);
-  const bool exact = !data.curve_x.empty();
+/// Directions of space, or the two coordinates.
+std::vector<std::string> columns(const FigureData& data) {
+  if (data.space >= 2) return {axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(data.space)};
+  return is_polar(data) ? std::vector<std::string>{"x", "y"} : data.coordinates;
+}
+
+using Plane = std::pair<std::size_t, std::size_t>;
+
+bool is_flat(const FigureData& data, std::size_t axis) {
+  for (std::size_t i = axis; i < data.q.size(); i += data.space) {
+    if (std::any_of(data.q[i].begin(), data.q[i].end(), [](double x) { return std::isfinite(x) && x != 0; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Those that are asked for; else all of space, but that of the first two axes alone where nothing leaves it.
+std::vector<Plane> planes(const Figure& figure) {
+  const FigureData& data = figure.runs.front();
+  const std::vector<std::string> names = columns(data);
+  const auto place = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::string& x = figure.options.x;
+  std::vector<Plane> all;
+  for (const std::string& y : figure.options.y)
+    all.emplace_back(x.empty() ? (place(y) == 0 ? 1 : 0) : place(x), place(y));
+  if (!all.empty()) return all;
+  if (!x.empty()) return {{place(x), place(x) == 0 ? 1 : 0}};
+  const bool in_plane = data.space == 3 && std::all_of(figure.runs.begin(), figure.runs.end(),
+                                                       [](const FigureData& run) { return is_flat(run, 2); });
+  if (data.space < 3 || in_plane) return {{0, 1}};
+  return {{0, 1}, {0, 2}, {1, 2}};
+}
+
+Curve in_plane(const FigureData& data, const FigureSamples& samples, std::size_t body, Plane plane) {
+  if (samples.q.size() != data.q.size()) return {};
+  if (is_polar(data)) {
+    Curve track = polar_track(samples);
+    if (plane.first > plane.second) std::swap(track.x, track.y);
+    return track;
+  }
+  const std::size_t first = body * data.space;
+  return finite_points(samples.q[first + plane.first], samples.q[first + plane.second]);
+}
+
+Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened) {
+  const FigureData& one = figure.runs.front();
+  const bool exact = figure.runs.size() == 1 && !one.curve_x.empty() && plane == Plane{0, 1};
+  Panel panel;
   Extent x;
   Extent y;
-  x.include(track.x);
-  y.include(track.y);
-  Panel panel;
+  std::vector<Series> tracks;
+  for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+    const FigureData& data = figure.runs[run];
+    for (std::size_t body = 0; body < bodies(data); ++body) {
+      Series how = series_of(figure, run);
+      if (bodies(data) > 1) {
+        how.mark = mark_of(body);
+        if (bodies(data) <= most_named_bodies) how.name = "body " + std::to_string(body + 1);
+      }
+      if (!with_names) how.name.clear();
+      const Curve track = in_plane(data, data, body, plane);
+      x.include(track.x);
+      y.include(track.y);
+      if (exact) {
+        tracks.push_back({Ink::dots, "numeric", track});
+      } else {
+        tracks.push_back(track_of(track, in_plane(data, data.opening, body, plane), how, opened));
+      }
+    }
+  }
   if (exact) {
-    x.include(data.curve_x);
-    y.include(data.curve_y);
+    x.include(one.curve_x);
+    y.include(one.curve_y);
     x.include(0);
     y.include(0);
   }
   fit_equal_axes(panel, x, y);
-  const bool polar = is_polar(data);
-  panel.x_label = polar ? symbol("x") : symbol(data.coordinates[0]);
-  panel.y_label = polar ? symbol("y") : symbol(data.coordinates[1]);
+  const std::vector<std::string> names = columns(one);
+  panel.x_label = symbol(names[plane.first]);
+  panel.y_label = symbol(names[plane.second]);
   if (exact) {
-    panel.series.push_back({Ink::exact, "exact", {data.curve_x, data.curve_y}});
-    panel.series.push_back({Ink::dots, "numeric", dots_on_line(track, panel)});
-    panel.series.push_back({Ink::centre, "", {{0}, {0}}});
-  } else {
-    panel.series.push_back(samples(track));
+    panel.series.push_back({Ink::exact, "exact", {one.curve_x, one.curve_y}});
+    tracks[0].curve = dots_on_line(tracks[0].curve, panel);
   }
-  return {data.title, {panel}};
+  panel.series.insert(panel.series.end(), tracks.begin(), tracks.end());
+  for (const Series& track : tracks) {  // where a body is at the end: bodies may follow each other on one path
+    if (bodies(one) < 2 || track.curve.x.empty() || track.ink != Ink::path || opened) continue;
+    panel.series.push_back({Ink::place, "", {{track.curve.x.back()}, {track.curve.y.back()}}, track.mark});
+  }
+  if (exact) panel.series.push_back({Ink::centre, "", {{0}, {0}}});
+  return panel;
+}
+
+Page page(const Figure& figure) {
+  Page all{figure.runs.front().title, {}};
+  bool opened = false;
+  for (const Plane& plane : planes(figure)) {
+    all.panels.push_back(panel_of(figure, plane, all.panels.empty(), opened));
+  }
+  if (all.panels.size() > 1) {
+    all.columns = 2;
+    all.width = two_columns;
+  }
+  if (opened) all.notes.push_back(opening_note(figure.runs.front()));
+  return all;
 }
 }  // namespace orbit
 
@@ -70,6 +158,8 @@ extern const FigureKind orbit_figure{"orbit",
                                      1,
                                      orbit::refused,
                                      orbit::obstacle,
+                                     orbit::apart,
+                                     orbit::columns,
                                      orbit::page};
 
 }  // namespace hamflow::figures

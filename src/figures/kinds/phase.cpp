@@ -1,6 +1,9 @@
-// Phase planes: each coordinate and its momentum, with the level curve of H where there is one degree of freedom.
+// Phase planes: each coordinate and its momentum, or the columns that are chosen, with the level curve of H where there
+// is one degree of freedom.
+#include <algorithm>
 #include <cmath>
 
+#include "../columns.hpp"
 #include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
@@ -10,10 +13,12 @@ namespace hamflow::figures {
 
 namespace phase {
 constexpr std::size_t most_planes = 12;  // on one page
+using Plane = std::pair<std::string, std::string>;
 
 std::string refused(const FigureFacts& facts) {
-  if (facts.degrees_of_freedom <= most_planes) return "";
-  return for_degrees(facts) + ", of which at most " + std::to_string(most_planes) + " fit on a page";
+  if (facts.columns_chosen || facts.degrees_of_freedom <= most_planes) return "";
+  return for_degrees(facts) + ", of which at most " + std::to_string(most_planes) +
+         " fit on a page; choose columns with hamflow plot --x and --y";
 }
 
 std::string obstacle(const FigureData& data) {
@@ -24,23 +29,37 @@ std::string obstacle(const FigureData& data) {
   return "";
 }
 
-Panel phase_panel(const FigureData& data, std::size_t i, std::size_t columns) {
-  const Curve track = finite_points(data.q[i], data.p[i]);
-  Extent q;
-  Extent p;
-  q.include(track.x);
-  p.include(track.y);
-  Panel panel;
-  panel.x = fit_axis(q, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 18});
-  panel.y = fit_axis(p, padding, {columns == 1 ? 7U : 5U});
-  panel.x_label = symbol(data.coordinates[i]);
-  panel.y_label = momentum_symbol(data.coordinates[i]);
-  panel.aspect = columns == 1 ? 0.7 : 1;
-  const bool exact = data.hamiltonian_1d && data.q.size() == 1 && std::isfinite(start_of(data.energy));
-  if (!exact) {
-    panel.series.push_back(samples(track));
-    return panel;
+std::vector<Plane> planes(const Figure& figure) {
+  const FigureData& data = figure.runs.front();
+  const FigureOptions& options = figure.options;
+  std::vector<Plane> all;
+  for (const std::string& y : options.y) all.emplace_back(options.x.empty() ? data.coordinates[0] : options.x, y);
+  for (std::size_t i = 0; i < data.q.size() && options.y.empty(); ++i) {
+    if (options.x.empty() || options.x == data.coordinates[i]) all.emplace_back(data.coordinates[i], data.momenta[i]);
   }
+  if (all.empty()) all.emplace_back(options.x, data.momenta[0]);
+  return all;
+}
+
+Curve in_plane(const FigureData& data, const Plane& plane) {
+  return finite_points(column_of(data, plane.first).values(), column_of(data, plane.second).values());
+}
+
+Curve opening_in_plane(const FigureData& data, const Plane& plane) {
+  FigureData opening;
+  static_cast<FigureSamples&>(opening) = data.opening;
+  opening.coordinates = data.coordinates;
+  opening.momenta = data.momenta;
+  const std::vector<std::string> names = column_names(opening);
+  const auto known = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (opening.t.empty() || !known(plane.first) || !known(plane.second)) return {};
+  return in_plane(opening, plane);
+}
+
+/// The level curve of the start and the samples as dots on it.
+void add_exact(Panel& panel, const FigureData& data, const Curve& track) {
   const auto raw = [](const Axis& axis) {
     const double unit_half = std::pow(10.0, axis.exponent / 2);
     const double unit_rest = std::pow(10.0, axis.exponent - axis.exponent / 2);
@@ -50,19 +69,58 @@ Panel phase_panel(const FigureData& data, std::size_t i, std::size_t columns) {
   panel.series.push_back({Ink::exact, "exact, " + energy_name + " = " + energy_start,
                           level_curve(data.hamiltonian_1d, level, raw(panel.x), raw(panel.y))});
   panel.series.push_back({Ink::dots, "numeric", dots_on_line(track, panel)});
+}
+
+Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns, bool with_names, bool& opened) {
+  const FigureData& one = figure.runs.front();
+  Panel panel;
+  Extent x;
+  Extent y;
+  std::vector<Curve> tracks;
+  for (const FigureData& run : figure.runs) {
+    tracks.push_back(in_plane(run, plane));
+    x.include(tracks.back().x);
+    y.include(tracks.back().y);
+  }
+  panel.x = fit_axis(x, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 18});
+  panel.y = fit_axis(y, padding, {columns == 1 ? 7U : 5U});
+  panel.x_label = column_of(one, plane.first).label;
+  panel.y_label = column_of(one, plane.second).label;
+  panel.aspect = columns == 1 ? 0.7 : 1;
+  const bool whole = one.coordinates.size() == 1 && plane == Plane{one.coordinates[0], one.momenta[0]};
+  if (figure.runs.size() == 1 && whole && one.hamiltonian_1d && std::isfinite(start_of(one.energy))) {
+    add_exact(panel, one, tracks[0]);
+    return panel;
+  }
+  for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+    Series how = series_of(figure, run);
+    if (!with_names) how.name.clear();
+    panel.series.push_back(track_of(tracks[run], opening_in_plane(figure.runs[run], plane), how, opened));
+  }
   return panel;
 }
 
-Page page(const FigureData& data) {
+Page page(const Figure& figure) {
   Page all;
-  all.title = data.title;
-  all.columns = data.q.size() == 1 ? 1 : 2;
-  for (std::size_t i = 0; i < data.q.size(); ++i) all.panels.push_back(phase_panel(data, i, all.columns));
+  all.title = figure.runs.front().title;
+  const std::vector<Plane> chosen = planes(figure);
+  all.columns = chosen.size() == 1 ? 1 : 2;
+  bool opened = false;
+  for (const Plane& plane : chosen) {
+    all.panels.push_back(phase_panel(figure, plane, all.columns, all.panels.empty(), opened));
+  }
+  if (opened) all.notes.push_back(opening_note(figure.runs.front()));
   return all;
 }
 }  // namespace phase
 
-extern const FigureKind phase_figure{
-    "phase", "the phase plane (q, p) of each coordinate", 2, phase::refused, phase::obstacle, phase::page};
+extern const FigureKind phase_figure{"phase",
+                                     "the phase plane (q, p) of each coordinate, or the planes of --x and --y",
+                                     2,
+                                     phase::refused,
+                                     phase::obstacle,
+                                     same_coordinates,
+                                     column_names,
+                                     phase::page};
 
 }  // namespace hamflow::figures

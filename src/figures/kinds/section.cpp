@@ -16,30 +16,48 @@ std::string obstacle(const FigureData& data) {
   return finite_points(data.section_q, data.section_p).x.empty() ? "the section has no points" : "";
 }
 
-Page page(const FigureData& data) {
+std::string apart(const Figure& figure) {
+  const FigureData& first = figure.runs.front();
+  for (const FigureData& run : figure.runs) {
+    if (run.section_text == first.section_text && run.section_coordinate == first.section_coordinate) continue;
+    return first.label + " and " + run.label + " have different sections; allowed runs with the same section";
+  }
+  return {};
+}
+
+Page page(const Figure& figure) {
   constexpr std::size_t most_points = 20000;
-  const Curve points = finite_points(data.section_q, data.section_p);
+  const FigureData& one = figure.runs.front();
   Extent q;
   Extent p;
-  q.include(points.x);
-  p.include(points.y);
   Panel panel;
+  for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+    Series points = series_of(figure, run);
+    points.ink = Ink::fine_dots;
+    points.curve = thin_out(finite_points(figure.runs[run].section_q, figure.runs[run].section_p), most_points);
+    q.include(points.curve.x);
+    p.include(points.curve.y);
+    panel.series.push_back(std::move(points));
+  }
   panel.x = fit_axis(q, padding, {7, 40});
   panel.y = fit_axis(p, padding, {7});
-  panel.x_label = symbol(data.section_coordinate);
-  panel.y_label = momentum_symbol(data.section_coordinate);
+  panel.x_label = symbol(one.section_coordinate);
+  panel.y_label = symbol(one.section_momentum);
   panel.aspect = 0.8;
-  panel.series.push_back({Ink::fine_dots, "", thin_out(points, most_points)});
-  return {data.title, {panel}};
+  Page all{one.title, {panel}};
+  if (!one.section_text.empty()) all.notes.push_back(one.section_text);
+  return all;
 }
 }  // namespace section
 
 extern const FigureKind section_figure{
     "section",
     "the points of a Poincare section, of a run with run.section and 2 or more degrees of freedom",
-    6,
+    7,
     section::refused,
     section::obstacle,
+    section::apart,
+    no_columns,
     section::page};
 
 }  // namespace hamflow::figures

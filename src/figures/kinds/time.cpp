@@ -1,0 +1,114 @@
+// Columns over time, or over another column: coordinates and momenta unless others are chosen.
+#include <algorithm>
+
+#include "../columns.hpp"
+#include "../figure_kind.hpp"
+#include "../panels.hpp"
+#include "../text.hpp"
+#include "hamflow/core/text.hpp"
+
+namespace hamflow::figures {
+
+namespace time {
+constexpr std::size_t most_degrees = 100;  // whose coordinates and momenta all stand in one figure
+constexpr std::size_t most_named = 24;     // in one panel: colours and dashes repeat beyond
+
+std::string refused(const FigureFacts& facts) {
+  if (facts.columns_chosen || facts.degrees_of_freedom <= most_degrees) return "";
+  return for_degrees(facts) + ", where columns have to be chosen: hamflow plot --kind time --y q1,q2";
+}
+
+std::string obstacle(const FigureData& data) {
+  for (const std::vector<double>& q : data.q) {
+    if (!finite_points(data.t, q).x.empty()) return "";
+  }
+  return no_samples("position");
+}
+
+std::vector<std::string> wanted(const Figure& figure) {
+  if (!figure.options.y.empty()) return figure.options.y;
+  std::vector<std::string> names = figure.runs.front().coordinates;
+  names.insert(names.end(), figure.runs.front().momenta.begin(), figure.runs.front().momenta.end());
+  return names;
+}
+
+/// x of x1: what numbered columns have in common.
+std::string family(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  return end == std::string::npos ? name : name.substr(0, end + 1);
+}
+
+/// Columns that share an axis: of one sort, of bodies also of one direction of space; of several runs each alone.
+std::vector<std::vector<Column>> shared_axes(const Figure& figure) {
+  const FigureData& data = figure.runs.front();
+  std::vector<std::vector<Column>> groups;
+  for (const std::string& name : wanted(figure)) {
+    Column column = column_of(data, name);
+    const auto fits = [&](const std::vector<Column>& group) {
+      if (figure.runs.size() > 1 || column.sort == Sort::other || group.front().sort != column.sort) return false;
+      return data.space < 2 || family(group.front().name) == family(name);
+    };
+    const auto group = std::find_if(groups.begin(), groups.end(), fits);
+    if (group == groups.end()) {
+      groups.push_back({std::move(column)});
+    } else {
+      group->push_back(std::move(column));
+    }
+  }
+  return groups;
+}
+
+std::string label_of(const std::vector<Column>& group) {
+  if (group.size() > 3) return symbol(family(group.front().name));
+  return joined(group, [](const Column& column) { return column.label; });
+}
+
+void add(Panel& panel, const std::vector<double>& x, const std::vector<double>& y, bool over_time, Series how) {
+  if (over_time) return add_over_time(panel, x, y, std::move(how));
+  bool opened = false;
+  panel.series.push_back(track_of(finite_points(x, y), {}, std::move(how), opened));
+}
+
+Page page(const Figure& figure) {
+  const std::string x_name = figure.options.x.empty() ? "t" : figure.options.x;
+  const bool over_time = x_name == "t";
+  std::vector<std::vector<double>> xs;
+  Extent range;
+  for (const FigureData& run : figure.runs) {
+    xs.push_back(column_of(run, x_name).values());
+    range.include(xs.back());
+  }
+  Page all{figure.runs.front().title, {}};
+  for (const std::vector<Column>& group : shared_axes(figure)) {
+    Panel panel = panel_over(range, column_of(figure.runs.front(), x_name).label);
+    if (!over_time) panel.x = fit_axis(range, padding, {7, 40});
+    Extent values;
+    for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+      for (std::size_t k = 0; k < group.size(); ++k) {
+        const std::vector<double> y = column_of(figure.runs[run], group[k].name).values();
+        values.include(y);
+        Series how = series_of(figure, run);
+        if (group.size() > 1) how = {.name = group.size() > most_named ? "" : group[k].label, .mark = mark_of(k)};
+        if (!all.panels.empty() && figure.runs.size() > 1) how.name.clear();
+        add(panel, xs[run], y, over_time, std::move(how));
+      }
+    }
+    panel.y = fit_axis(values, padding, {6});
+    panel.y_label = label_of(group);
+    panel.aspect = over_time ? 0.42 : 0.7;
+    all.panels.push_back(std::move(panel));
+  }
+  return all;
+}
+}  // namespace time
+
+extern const FigureKind time_figure{"time",
+                                    "coordinates and momenta over time, or the columns of --y over that of --x",
+                                    3,
+                                    time::refused,
+                                    time::obstacle,
+                                    same_coordinates,
+                                    column_names,
+                                    time::page};
+
+}  // namespace hamflow::figures

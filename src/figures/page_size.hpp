@@ -1,0 +1,18 @@
+// --size and --dpi of a figure: texts in, millimetres and pixels out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "page.hpp"
+
+namespace hamflow {
+
+/// Sets width and height from "8.5x6" (centimetres), "85x60mm" or "3.35x2.4in".
+/// @returns what is wrong with the text, "found ...; allowed ..."; empty if nothing is
+std::string read_page_size(const std::string& text, figures::PageOptions& page);
+
+/// Why a file of that name cannot have so many pixels to the inch; empty if it can.
+std::string refused_dpi(int dpi, const std::filesystem::path& file, const figures::PageOptions& page);
+
+}  // namespace hamflow

@@ -1,0 +1,198 @@
+#include "figure_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "hamflow/core/text.hpp"
+#include "hamflow/run/digits.hpp"
+#include "hamflow/run/state_names.hpp"
+#include "hamflow/scenario/scenario.hpp"
+#include "run_file.hpp"
+#include "text.hpp"
+
+namespace hamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path file_of(const fs::path& run) { return fs::is_directory(run) ? run / "run.h5" : run; }
+
+/// The scenario that a run.h5 carries.
+Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
+  const std::string& text = samples.description.scenario;
+  const Reading reading = read_scenario_text(text, file.string(), {});
+  if (!reading.scenario)
+    throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
+  return *reading.scenario;
+}
+
+/// Of bodies, or of one whose coordinates are x, y, z.
+std::size_t space_of(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
+  if (problem.info.coordinates == std::vector<std::string>{"x", "y", "z"}) return 3;
+  const std::vector<InvariantInfo>& invariants = problem.info.invariants;
+  for (std::size_t i = 0; problem.dimension == 0 && i < invariants.size(); ++i) {
+    if (invariants[i].components == Components::space) return problem.invariant_sizes(parameters, size).at(i);
+  }
+  return 0;
+}
+
+/// H - H0 of a run beyond double, formed with all its digits; empty for others. Of a run that goes on the digits of the
+/// last samples may not be there yet: their differences are not known.
+std::vector<double> energy_differences(const fs::path& file, std::size_t samples) {
+  std::vector<std::string> energy = read_run_digits(file).energy;
+  if (energy.empty()) return {};
+  if (energy.size() > samples) energy.resize(samples);
+  std::vector<double> differences;
+  for (const long double difference : differences_from_first(energy)) {
+    differences.push_back(static_cast<double>(difference));
+  }
+  differences.resize(samples, std::numeric_limits<double>::quiet_NaN());
+  return differences;
+}
+
+void add_section(const Section& section, RunSamples& samples, FigureData& data) {
+  const std::size_t shown = (section.coordinate + 1) % data.q.size();
+  data.section_q = std::move(samples.section_q[shown]);
+  data.section_p = std::move(samples.section_p[shown]);
+  data.section_coordinate = data.coordinates[shown];
+  data.section_momentum = data.momenta[shown];
+  const std::string x =
+      figures::symbol(section.momentum ? data.momenta[section.coordinate] : data.coordinates[section.coordinate]);
+  const std::string way =
+      section.direction == 0 ? "in both directions" : x + (section.direction > 0 ? " increasing" : " decreasing");
+  data.section_text = fmt::format("section {} = {}, {}", x, figures::escaped(shortest(section.value)), way);
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
+  const Request& request = scenario.request;
+  std::vector<std::pair<std::string, std::string>> facts{{"problem", request.problem}};
+  for (const auto& [key, value] : request.variant) facts.emplace_back(key, value);
+  facts.emplace_back("method", describe(request.method).name);
+  facts.emplace_back("dt", request.dt);
+  facts.emplace_back("arithmetic", request.arithmetic);
+  facts.emplace_back("kernel", request.kernel);
+  for (const auto& [key, value] : request.parameters) facts.emplace_back(key, value);
+  return facts;
+}
+
+/// "stv4", "dt = 0.1", "mass = 2".
+std::string fact_text(const std::pair<std::string, std::string>& fact) {
+  static const std::set<std::string> plain{"problem", "method", "arithmetic", "potential", "coordinates", "model"};
+  if (plain.contains(fact.first)) return fact.second;
+  return fact.first + (fact.first == "kernel" ? " " : " = ") + fact.second;
+}
+
+/// What stands in every title, where it does not differ.
+bool in_title(const std::pair<std::string, std::string>& fact) {
+  if (fact.first == "arithmetic") return fact.second != "double";
+  return fact.first == "problem" || fact.first == "method" || fact.first == "dt";
+}
+
+}  // namespace
+
+RunForFigure read_for_figure(const fs::path& run) {
+  const fs::path source = file_of(run);
+  RunSamples samples = read_run_file(source);
+  if (samples.t.empty()) throw FileError(source.string() + " holds no samples");
+  const Scenario scenario = scenario_of(samples, source);
+  const ProblemEntry& problem = *scenario.problem;
+  const Texts& parameters = scenario.request.parameters;
+  RunForFigure result;
+  FigureData& data = result.data;
+  const StateNames names = state_names(problem, parameters, samples.q.size());
+  data.coordinates = names.q;
+  data.momenta = names.p;
+  data.angles = problem.info.angles;
+  data.space = space_of(problem, parameters, samples.q.size());
+  data.t = std::move(samples.t);
+  data.q = std::move(samples.q);
+  data.p = std::move(samples.p);
+  data.energy = std::move(samples.energy);
+  data.energy_difference = energy_differences(source, data.t.size());
+  data.energy_scale = make_simulation(scenario.request)->energy_scale();
+  if (problem.exact_radius) {
+    const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);
+    if (radius) sample_polar_curve(radius, data);
+  }
+  data.diagnostics = std::move(samples.diagnostics);
+  if (problem.dimension == 1) {
+    data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
+  }
+  if (scenario.section && samples.description.section && data.q.size() >= 2) {
+    add_section(*scenario.section, samples, data);
+  }
+  fs::path named = run;
+  if (named.filename() == "run.h5" && named.has_parent_path()) named = named.parent_path();
+  if (!named.has_filename()) named = named.parent_path();
+  result.name = named.stem().string();
+  result.facts = facts_of(scenario);
+  return result;
+}
+
+FigureSamples opening_of(const fs::path& run) {
+  const RunSamples samples = read_run_file(file_of(run));
+  const Scenario scenario = scenario_of(samples, file_of(run));
+  const std::size_t n = samples.q.size();
+  const std::int64_t most = digits_beyond_double(scenario.request.arithmetic) > 0 ? 1000 : 20000;
+  const std::int64_t steps =
+      std::min({most, scenario.steps, std::max<std::int64_t>(200, 400000 / static_cast<std::int64_t>(n * n))});
+  const std::unique_ptr<Simulation> simulation = make_simulation(scenario.request);
+  FigureSamples opening;
+  opening.q.resize(n);
+  opening.p.resize(n);
+  std::size_t sample = 0;
+  Frame frame;
+  for (std::int64_t k = 0; k <= steps; ++k) {
+    if (k > 0 && simulation->advance(1) != Outcome::done) break;
+    simulation->look(frame);
+    while (sample < samples.t.size() && samples.t[sample] < frame.time) ++sample;
+    const bool is_sample = sample < samples.t.size() && samples.t[sample] == frame.time;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (is_sample && (samples.q[i][sample] != frame.q[i] || samples.p[i][sample] != frame.p[i])) return {};
+      opening.q[i].push_back(frame.q[i]);
+      opening.p[i].push_back(frame.p[i]);
+    }
+    opening.t.push_back(frame.time);
+  }
+  return opening;
+}
+
+void tell_apart(std::vector<RunForFigure>& runs) {
+  const auto is_common = [&](const std::pair<std::string, std::string>& fact) {
+    return std::all_of(runs.begin(), runs.end(), [&](const RunForFigure& run) {
+      return std::find(run.facts.begin(), run.facts.end(), fact) != run.facts.end();
+    });
+  };
+  const auto have_all = [&](const std::string& key) {
+    return std::all_of(runs.begin(), runs.end(), [&](const RunForFigure& run) {
+      return std::any_of(run.facts.begin(), run.facts.end(), [&](const auto& fact) { return fact.first == key; });
+    });
+  };
+  for (RunForFigure& run : runs) {
+    std::vector<std::string> title;
+    std::vector<std::string> label;
+    for (const auto& fact : run.facts) {
+      const bool common = is_common(fact);
+      if (common && in_title(fact)) title.push_back(fact_text(fact));
+      if (!common && have_all(fact.first)) label.push_back(fact_text(fact));
+    }
+    run.data.title = joined(title);
+    run.data.label = joined(label);
+  }
+  std::multiset<std::string> labels;
+  for (const RunForFigure& run : runs) labels.insert(run.data.label);
+  for (RunForFigure& run : runs) {
+    if (labels.count(run.data.label) == 1 && !run.data.label.empty()) continue;
+    run.data.label += (run.data.label.empty() ? "" : ", ") + run.name;
+  }
+  constexpr std::size_t longest = 44;  // that one column of a journal has room for
+  for (RunForFigure& run : runs) {
+    if (run.data.label.size() > longest) run.data.label = run.name;
+  }
+}
+
+}  // namespace hamflow

@@ -1,0 +1,31 @@
+// A run.h5 as the data of a figure, and what tells runs apart.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "figure.hpp"
+
+namespace hamflow {
+
+struct RunForFigure {
+  FigureData data;   // without title and label
+  std::string name;  // of its folder or file
+  /// What it is a run of, e.g. {"method", "stv4"}, {"dt", "0.1"}: keys and values in the order in which titles have
+  /// them.
+  std::vector<std::pair<std::string, std::string>> facts;
+};
+
+/// @param run a folder or run.h5   @throws FileError
+RunForFigure read_for_figure(const std::filesystem::path& run);
+
+/// The first steps of the run once more, every one of them; nothing where they do not meet its samples to the bit.
+FigureSamples opening_of(const std::filesystem::path& run);
+
+/// Gives the runs their titles, of what they have in common, and their labels, of what differs; where nothing does,
+/// their names.
+void tell_apart(std::vector<RunForFigure>& runs);
+
+}  // namespace hamflow

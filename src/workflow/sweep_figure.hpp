@@ -1,0 +1,17 @@
+// The figure of a sweep: a column of its table over the keys that were varied.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sweep.hpp"
+
+namespace hamflow {
+
+/// Empty if the figure can be drawn, else what is wrong with the request for it.
+std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
+
+/// @throws Error, FileError
+void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
+
+}  // namespace hamflow

@@ -1,0 +1,137 @@
+"""hamflow plot: what stands in the figures, for every example and kind; columns, sizes, several runs; refusals."""
+
+import re
+import struct
+import subprocess
+import unittest
+
+from command import EXAMPLES, HAMFLOW, CommandCase
+
+KINDS = ("orbit", "phase", "time", "energy", "energy-error", "section", "condition")
+
+
+def texts(svg):
+    """What is written in the figure, without the markup inside a text; a subscript is part of its symbol."""
+    found = re.findall(r"<text[^>]*>(.*?)</text>", svg, re.S)
+    return [re.sub(r"<[^>]*>", "", text).strip() for text in found]
+
+
+class Plot(CommandCase):
+    def plot(self, *arguments, kind=None):
+        """The texts of an SVG."""
+        chosen = () if kind is None else ("--kind", kind)
+        self.hamflow("plot", *arguments, *chosen, "-o", "f.svg")
+        return texts((self.folder / "f.svg").read_text())
+
+    def refused(self, *arguments):
+        done = self.hamflow("plot", *arguments, "-o", "refused.svg", status=2)
+        self.assertFalse((self.folder / "refused.svg").exists())
+        return done.stderr
+
+    def run_some(self, name, *sets, out):
+        extra = [part for text in sets for part in ("--set", text)]
+        self.hamflow("run", name, "--out", out, "--quiet", "--set", "output.figures=[]", *extra)
+
+    def test_labels_of_every_example_and_kind(self):
+        """A label is a name that the problem has: no kind of any example shows another."""
+        allowed = re.compile(r"[-\u2212+=|/()., ·×∞\w]*")
+        for example in sorted(EXAMPLES.glob("*.toml")):
+            self.run_some(str(example), "run.steps=20", out=example.stem)
+            drawn = 0
+            for kind in KINDS:
+                done = subprocess.run([HAMFLOW, "plot", example.stem, "--kind", kind, "-o", "f.svg"], cwd=self.folder,
+                                      capture_output=True, text=True, timeout=120)
+                if done.returncode == 2:
+                    self.assertIn("allowed", done.stderr)
+                    continue
+                self.assertEqual(done.returncode, 0, f"{example.stem} {kind}: {done.stderr}")
+                drawn += 1
+                written = texts((self.folder / "f.svg").read_text())
+                self.assertGreater(len(written), 5)
+                for label in written:
+                    self.assertTrue(label.isprintable() and "\ufffd" not in label and len(label) < 120, repr(label))
+                    self.assertTrue(allowed.fullmatch(label), f"{example.stem} {kind}: {label!r}")
+            self.assertGreaterEqual(drawn, 3, example.stem)
+
+    def test_bodies_have_names_colours_and_a_legend(self):
+        self.run_some(str(EXAMPLES / "figure_eight.toml"), "run.steps=300", out="eight")
+        self.assertTrue({"x", "y", "body 1", "body 2", "body 3"} <= set(self.plot("eight", kind="orbit")))
+        labels = self.plot("eight", kind="phase")
+        for axis in ("x", "y"):
+            for body in (1, 2, 3):
+                self.assertIn(f"{axis}{body}", labels)
+                self.assertIn(f"p{axis}{body}", labels)
+
+    def test_planes_of_space(self):
+        self.run_some(str(EXAMPLES / "solar_system.toml"), "run.steps=30", out="sun")
+        labels = self.plot("sun", kind="orbit")
+        self.assertEqual([labels.count(axis) for axis in "xyz"], [2, 2, 2])
+        self.assertEqual([self.plot("sun", "--y", "z", kind="orbit").count(axis) for axis in "xyz"], [1, 0, 1])
+        self.assertIn("allowed x, y, z", self.refused("sun", "--kind", "orbit", "--y", "w"))
+
+    def test_time_shows_the_columns_that_are_chosen(self):
+        self.hamflow("run", "kepler.toml", "--out", "k")
+        labels = self.plot("k", kind="time")
+        for label in ("t", "x", "y", "px", "py"):
+            self.assertIn(label, labels)
+        chosen = self.plot("k", "--y", "x,energy", "--x", "p_y", kind="time")
+        self.assertTrue({"x", "py", "H"} <= set(chosen))
+        self.assertNotIn("t", chosen)
+        self.assertIn('found column "p_z"; allowed t, x, y, p_x, p_y, energy, energy-error; did you mean p_x?',
+                      self.refused("k", "--kind", "time", "--y", "p_z"))
+        self.assertIn("draws no columns; allowed for orbit, phase, time",
+                      self.refused("k", "--kind", "energy-error", "--y", "x"))
+
+    def test_size_resolution_and_title(self):
+        self.hamflow("run", "kepler.toml", "--out", "k")
+        self.hamflow("plot", "k", "--size", "10x5", "--dpi", "254", "-o", "f.png")
+        self.assertEqual(struct.unpack(">II", (self.folder / "f.png").read_bytes()[16:24]), (1000, 500))
+        self.assertIn("central-force, cg(1,5), dt = 0.1", self.plot("k"))
+        self.assertNotIn("central-force, cg(1,5), dt = 0.1", self.plot("k", "--no-title"))
+        self.assertIn("WIDTHxHEIGHT in centimetres", self.refused("k", "--size", "10"))
+        self.assertIn("for this figure at least", self.refused("k", "--size", "2x2"))
+        self.assertIn("allowed with a file .png", self.refused("k", "--dpi", "300"))
+        self.assertIn("50", self.refused("k", "--dpi", "1"))
+
+    def test_several_runs_are_told_apart_by_what_differs(self):
+        for method in ("verlet", "stv4"):
+            for dt in ("0.1", "0.05"):
+                self.run_some("kepler.toml", f"method={{name='{method}'}}", f"run.dt={dt}", out=f"{method}{dt}")
+        labels = self.plot("verlet0.1", "stv40.1", kind="energy-error")
+        self.assertTrue({"verlet", "stv4", "central-force, dt = 0.1"} <= set(labels), labels)
+        labels = self.plot("verlet0.1", "verlet0.05", kind="orbit")
+        self.assertTrue({"dt = 0.1", "dt = 0.05", "central-force, verlet"} <= set(labels), labels)
+        labels = self.plot("verlet0.1", "stv40.05", kind="time")
+        self.assertTrue({"verlet, dt = 0.1", "stv4, dt = 0.05"} <= set(labels), labels)
+        self.assertEqual(len(set(self.plot("verlet0.1", "verlet0.1", kind="energy")) & {"verlet0"}), 1)
+
+    def test_runs_that_do_not_fit(self):
+        self.hamflow("run", "kepler.toml", "--out", "k")
+        self.run_some(str(EXAMPLES / "pendulum.toml"), "run.steps=50", out="p")
+        self.run_some(str(EXAMPLES / "figure_eight.toml"), "run.steps=50", out="eight")
+        text = self.refused("k", "p", "--kind", "time")
+        self.assertIn("allowed runs with the same coordinates", text)
+        self.assertIn("orbit", self.refused("k", "p", "--kind", "orbit"))
+        self.assertIn("a run alone", self.refused("eight", "eight", "--kind", "orbit"))
+        self.assertIn("central-force", " ".join(self.plot("k", "p", kind="energy-error")))
+
+    def test_a_section_says_which_it_is(self):
+        self.write("h.toml", '[problem]\nname = "henon-heiles"\ninitial = { q = [0, 0.1], p = [0.4, 0] }\n[method]\n'
+                             'name = "stv4"\n[run]\ndt = 0.05\nsteps = 4000\nsection = { coordinate = "q1" }\n')
+        self.hamflow("run", "h.toml", "--out", "h")
+        labels = self.plot("h", kind="section")
+        self.assertIn("section q1 = 0, q1 increasing", labels)
+        self.assertTrue({"q2", "p2"} <= set(labels))
+
+    def test_a_coarsely_recorded_orbit_is_a_line(self):
+        """Samples a hundred steps apart are no path; its opening, which plot recomputes to the bit, is."""
+        self.write("h.toml", '[problem]\nname = "henon-heiles"\ninitial = { q = [0, 0.1], p = [0.49, 0] }\n[method]\n'
+                             'name = "stv4"\n[run]\ndt = 0.1\nsteps = 100000\nrecord_every = 100\n')
+        self.hamflow("run", "h.toml", "--out", "h")
+        labels = self.plot("h", kind="orbit")
+        self.assertTrue(any(label.startswith("the first steps alone, to t = ") for label in labels), labels)
+        self.assertNotIn("gpPt6'", (self.folder / "f.svg").read_text().split("</defs>")[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
