@@ -176,7 +176,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
   if (!go_on(nullptr, 0)) return found;
 
   const std::string t_end = asked.t_end_text.empty() ? shortest(asked.t_end) : asked.t_end_text;
-  ReferenceRun reference(asked.request, t_end, asked.steps.front());
+  ReferenceRun reference(asked.request, t_end, *std::max_element(asked.steps.begin(), asked.steps.end()));
   const auto follow_reference = [&] {
     const auto begin = Clock::now();
     if (!reference.finished()) reference.advance();

@@ -14,7 +14,7 @@ constexpr std::int64_t adaptive_steps = 32;  // few, as each cuts a sub-step sho
 /// A tolerance for adaptive methods, in place of the k-th dt: in equal powers of ten from 1e-3 to three digits above
 /// the rounding; a single one is the default of the methods.
 double usual_tolerance(std::size_t k, std::size_t count, int digits) {
-  const int beyond = std::min(digits, 300);
+  const int beyond = std::clamp(digits, 8, 300);
   if (count < 2) return std::pow(10.0, digits > 16 ? 4 - beyond : -12);
   return std::pow(10.0, -3.0 - (beyond - 6) * static_cast<double>(k) / static_cast<double>(count - 1));
 }

@@ -32,7 +32,8 @@ std::string error_text(const ComparisonPoint& p, const Magnitude& uncertainty) {
   if (!p.below_uncertainty) return readable(p.error, 2);
   return "< " + readable(Magnitude(2 * uncertainty.value));
 }
-bool is_series(const ComparisonPoint& p) { return p.method.starts_with("taylor"); }
+/// Whose evaluations are those of a series, not of a force.
+bool is_series(const ComparisonPoint& p) { return !find_method(parse_method(p.method).name).family->counts_forces; }
 }  // namespace
 
 std::string comparison_table(const Comparison& c) {

@@ -36,8 +36,8 @@ class ReferenceRun {
   /// Of the request problem, start and arithmetic count. Methods start from numbers that are rounded to the run's
   /// arithmetic: in double the reference starts from these very numbers; beyond, and where a problem has numbers of its
   /// own, from those of the scenario with more digits.
-  /// @param t_end the time at the end, a number expression   @param steps how many of them a run takes, about: what
-  /// decides how many pieces there are
+  /// @param t_end the time at the end, a number expression   @param steps of the finest run: they decide how many
+  /// pieces there are
   /// @throws Error where the problem has no method to follow it
   ReferenceRun(const Request& request, const std::string& t_end, std::int64_t steps);
   ~ReferenceRun();
