@@ -58,7 +58,7 @@ double mean_square_of_t() {
 }
 
 /// The square of Student's t with 63 degrees of freedom has the mean 63/61 and, with 32 of them, a mean of 2 or less
-/// but for once in 3000. Where the last correction of Newton was lost to the rounding of the impulse it was 30.
+/// but for once in 1000. Where the last correction of Newton was lost to the rounding of the impulse it was 30.
 constexpr double bound = 2;
 
 TEST(ElementDrift, OfAPendulumIsNoneWithMomentaEliminated) {

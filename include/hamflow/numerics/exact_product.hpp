@@ -1,4 +1,4 @@
-// Products whose rounding error is known.   [Dekker1971, (5.12), (5.14)]
+// Products whose rounding error is known.   [Dekker1971]
 #pragma once
 
 #include <limits>
