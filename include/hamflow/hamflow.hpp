@@ -181,6 +181,7 @@
 #include "hamflow/verify/reference_flow.hpp"
 #include "hamflow/verify/reference_solution.hpp"
 #include "hamflow/verify/step_map_of.hpp"
+#include "hamflow/verify/turns.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"

@@ -62,8 +62,9 @@ class Warnings(CommandCase):
         steps = 1000
         for method in ("verlet", "cg"):
             self.assertEqual(self.warned(fall, method, f"dt = {0.9 * time / steps}\nsteps = {steps}"), [])
-        for method in ("verlet", "cg(1,2)"):
-            self.assertIn("falls_into_centre", self.warned(fall, method, f"dt = {1.3 * time / 100}\nsteps = 100"), method)
+        for method, dt, steps in (("verlet", 1.3 * time / 100, 100), ("cg(1,5)", 0.2, 20)):
+            kinds = self.warned(fall, method, f"dt = {dt}\nsteps = {steps}")
+            self.assertEqual(kinds, ["energy_error", "falls_into_centre"], method)
         # Thrown up from r = 1 with half of what is needed to escape: up to r = 4/3 and back in.
         up = fall.replace("p = [0, 0]", 'p = ["sqrt(1/2)", 0]')
         back = (math.pi + math.acos(2 / (4 / 3) - 1) + math.sin(math.acos(2 / (4 / 3) - 1))) * math.sqrt((2 / 3) ** 3)

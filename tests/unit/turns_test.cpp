@@ -1,9 +1,9 @@
 // Long steps are found from the turns of coordinates, and from nothing that only looks like turns.
+#include "hamflow/verify/turns.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "hamflow/verify/turns.hpp"
 
 namespace hamflow {
 namespace {
@@ -49,7 +49,8 @@ TEST(Turns, AnUnevenOrbitCountsWhole) {
   // y of an ellipse with e = 0.9 turns after 0.21 and 0.79 of a period.
   const auto ellipse = [](double t) {
     double anomaly = t;
-    for (int i = 0; i < 200; ++i) anomaly -= (anomaly - 0.9 * std::sin(anomaly) - t) / (1 - 0.9 * std::cos(anomaly)) / 2;
+    for (int i = 0; i < 200; ++i)
+      anomaly -= (anomaly - 0.9 * std::sin(anomaly) - t) / (1 - 0.9 * std::cos(anomaly)) / 2;
     return std::vector<double>{std::sin(anomaly)};
   };
   const auto seen = watched(ellipse, 2 * M_PI / 12, 64).fastest();
@@ -82,9 +83,7 @@ TEST(Turns, LongRunsAreRarelyLookedAt) {
 }
 
 TEST(Turns, ARunThatGoesOnSeesTheSame) {
-  const auto late = [](double t) {
-    return std::vector<double>{t < 140 ? t : 140 + std::sin(t - 140)};
-  };
+  const auto late = [](double t) { return std::vector<double>{t < 140 ? t : 140 + std::sin(t - 140)}; };
   const auto whole = watched(late, 1, 400).fastest();
   ASSERT_TRUE(whole);
   for (const std::int64_t cut : {0, 30, 64, 127, 150, 192, 300}) {
