@@ -114,7 +114,9 @@ class Stored(CommandCase):
         self.assertEqual(self.compared("--unprotected", "kepler.run/run.h5"), "")
         self.hamflow("run", "pendulum.toml", "--set", "run.arithmetic=quad", "--set", "run.t_end=0.1")
         self.hamflow("convert", "pendulum.run", "--to", "relative", "-o", "relative.h5")
-        for file in ("pendulum.run/run.h5", "relative.h5"):
+        self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01,0.02", "--vary", "method.name=verlet,stv4",
+                     "--set", "run.steps=5", "--quiet")
+        for file in ("pendulum.run/run.h5", "relative.h5", "kepler.sweep/sweep.h5"):
             self.assertEqual(self.compared("--unprotected", file), "")
 
 
