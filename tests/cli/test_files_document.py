@@ -70,10 +70,11 @@ class FilesDocument(CommandCase):
 
     def test_snippets(self):
         self.hamflow("run", EXAMPLES / "kepler_ellipse.toml", "--set", "output.figures=[]", "--quiet")
-        self.hamflow("run", "kepler.toml", "--set", "run.arithmetic=quad", "--out", "quad.run", "--quiet")
+        self.hamflow("run", "kepler.toml", "--set", "run.arithmetic=quad", "--set",
+                     "method.quadrature='auto'", "--set", "run.steps=100", "--out", "quad.run", "--quiet")
         blocks = re.findall(r"```python\n(.*?)```", DOCUMENT, re.S)
         self.assertEqual(len(blocks), 4)
-        self.assertEqual(blocks[0].strip().count("\n") + 1 - 1, 10)  # ten lines and an empty one
+        self.assertLessEqual(len([line for line in blocks[0].splitlines() if line]), 10)
         out = self.python("\n".join(blocks))
         # The orbit runs between r = 1 and r = 3, up to the method's own error, of order dt^2.
         facts, *points = (self.folder / "orbit.svg").read_text().splitlines()

@@ -17,7 +17,6 @@ initial = { q = [0.3, -1.25], p = [0.5, "1/3"] }
 masses = [1, 2]
 [method]
 name = "cg"
-degree = 2
 quadrature = 5
 [run]
 dt = 0.01
@@ -48,7 +47,6 @@ class Stored(CommandCase):
             for key in ("wall_seconds", "steps_per_second"):
                 del summary[key]
         self.assertEqual(first, again)
-        self.hamflow("run", "stored.toml", "--out", "first", "--resume", "--quiet")  # it is the same run
 
     def test_a_rerun_has_the_same_bits(self):
         self.write("pendulum.toml", PENDULUM)
@@ -57,12 +55,11 @@ class Stored(CommandCase):
             ["kepler.toml"],
             ["pendulum.toml"],
             ["kepler.toml", "method.name=stv4"],  # which has no quadrature
-            ["kepler.toml", "method.name=cg(2,6)", "method.tolerance=1e-12"],
+            ["kepler.toml", "method.name=cg(1,6)", "method.tolerance=1e-12"],
             ["kepler.toml", "method.name=taylor(20)", "run.dt='1/7'", "run.steps=100"],
             ["kepler.toml", "run.dt=0.1", "run.t_end=4", "run.arithmetic=quad"],
             ["kepler.toml", "run.arithmetic=mp(40)", "run.dt='2*pi/100'", "run.steps=50"],
-            ["kepler.toml", "problem.potential=power", "problem.n=-1.5", "problem.k=0.3",
-             "problem.initial={q=[1,0],p=[0,'0.7']}"],
+            ["kepler.toml", "problem.potential=hooke", "problem.k=0.3", "problem.initial={q=[1,0],p=[0,'0.7']}"],
             ["kepler.toml", "problem.orbit={kind='circle',r0=1.5}", "run.record=[0, 0.25, '1/3', 7]"],
             ["kepler.toml", "problem.orbit.direction=-1", "output.figures=[]", "run.checkpoint_every=1e2"],
             ["kepler.toml", "method.name=verlet", "run.arithmetic=lattice"],
@@ -73,6 +70,23 @@ class Stored(CommandCase):
         ):
             with self.subTest(file=file, settings=settings):
                 self.assert_rerun(file, *settings)
+
+    def test_a_stored_scenario_goes_on_with_its_run(self):
+        """Settings of the file that a method set from outside replaced are none of the run's."""
+        sets = ("--set", "method.name=stv4", "--set", "run.steps=1000")
+        self.hamflow("run", "kepler.toml", *sets, "--out", "whole", "--quiet")
+        self.hamflow("run", "kepler.toml", *sets, "--set", "run.steps=300", "--out", "part", "--quiet")
+        self.write("stored.toml", self.compared("--scenario", "part/run.h5"))
+        self.hamflow("run", "stored.toml", "--set", "run.steps=1000", "--out", "part", "--resume", "--quiet")
+        self.assertNotIn("differs", self.compared("whole/run.h5", "part/run.h5"))
+
+    def test_digits_go_on_with_their_run(self):
+        for arithmetic in ("double-double", "quad", "mp(40)"):
+            sets = ("--set", f"run.arithmetic={arithmetic}", "--set", "run.record_every=3", "--quiet", "--force")
+            self.hamflow("run", "kepler.toml", "--set", "run.steps=100", "--out", "whole", *sets)
+            self.hamflow("run", "kepler.toml", "--set", "run.steps=50", "--out", "part", *sets)
+            self.hamflow("run", "kepler.toml", "--set", "run.steps=100", "--out", "part", *sets[:4], "--resume", "--quiet")
+            self.assertNotIn("differs", self.compared("whole/run.h5", "part/run.h5"), arithmetic)
 
     def test_a_comment_is_no_setting(self):
         self.write("pendulum.toml", PENDULUM)
@@ -108,7 +122,9 @@ class Stored(CommandCase):
         self.assertEqual(self.compared("--unprotected", "kepler.run/run.h5"), "")
         self.hamflow("run", "pendulum.toml", "--set", "run.arithmetic=quad", "--set", "run.t_end=0.1")
         self.hamflow("convert", "pendulum.run", "--to", "relative", "-o", "relative.h5")
-        for file in ("pendulum.run/run.h5", "relative.h5"):
+        self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01,0.02", "--vary", "method.name=verlet,stv4",
+                     "--set", "run.steps=5", "--quiet")
+        for file in ("pendulum.run/run.h5", "relative.h5", "kepler.sweep/sweep.h5"):
             self.assertEqual(self.compared("--unprotected", file), "")
 
 

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "hamflow/core/error.hpp"
@@ -91,6 +92,78 @@ TEST_F(RunFileTest, PointsOfASectionHaveRowsOfTheirOwn) {
     EXPECT_EQ(run.section_p[0][k], 2 * x);
     EXPECT_EQ(run.section_p[1][k], 3 * x);
   }
+}
+
+TEST_F(RunFileTest, DigitsHaveRowsOfTheirOwnWidth) {
+  RunDescription in_quad = description;
+  in_quad.digits_length = 8;
+  const auto with_digits = [](std::int64_t k) {
+    Frame frame = row(k);
+    const std::string text = std::to_string(k);
+    frame.digits = {.time = "0." + text, .q = {text, "-" + text}, .p = {"1e-" + text, ""}, .energy = "12345678"};
+    return frame;
+  };
+  {
+    RunFile file(file_, in_quad);
+    for (std::int64_t k = 0; k < 3000; ++k) file.append(with_digits(k));
+    Frame longer = with_digits(0);
+    longer.digits.energy = "123456789";
+    EXPECT_THROW(file.append(longer), FileError);
+  }
+  {
+    RunFile file(file_, in_quad, 2000);  // goes on behind them
+    for (std::int64_t k = 2000; k < 2500; ++k) file.append(with_digits(k));
+  }
+  const RunDigits digits = read_run_digits(file_);
+  ASSERT_EQ(digits.t.size(), 2500U);
+  ASSERT_EQ(digits.q.size(), 2U);
+  for (std::int64_t k = 0; k < 2500; ++k) {
+    const FrameDigits wanted = with_digits(k).digits;
+    const auto at = static_cast<std::size_t>(k);
+    ASSERT_EQ(digits.t[at], wanted.time);
+    ASSERT_EQ(digits.energy[at], wanted.energy);
+    for (std::size_t i = 0; i < 2; ++i) {
+      ASSERT_EQ(digits.q[i][at], wanted.q[i]);
+      ASSERT_EQ(digits.p[i][at], wanted.p[i]);
+    }
+  }
+  in_quad.digits_length = 9;
+  EXPECT_THROW(RunFile(file_, in_quad, 1), FileError);
+  { RunFile(file_, description).append(row(0)); }
+  EXPECT_TRUE(read_run_digits(file_).t.empty());
+}
+
+TEST_F(RunFileTest, ADamagedRowIsAnErrorAndNotAnotherRow) {
+  {
+    RunFile file(file_, description);
+    for (std::int64_t k = 0; k < 700; ++k) file.append(row(k));
+  }
+  // The bytes of some coordinate: q[1] of row 543.
+  std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const double wanted = row(543).q[1];
+  const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(&wanted), sizeof wanted));
+  ASSERT_NE(at, std::string::npos);
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(static_cast<char>(bytes[at] ^ 1));
+  file.close();
+  EXPECT_THROW(read_run_file(file_), FileError);
+  EXPECT_THROW(RunFile(file_, description, 700), FileError);
+  RunFile(file_, description, 100);  // what is not damaged is there to go on from
+}
+
+TEST_F(RunFileTest, NamesOfALargeSystemAreThere) {
+  RunDescription large = description;
+  large.dimension = 30000;
+  for (std::size_t i = 0; i < large.dimension; ++i) {
+    large.coordinates.push_back("q" + std::to_string(i + 1));
+    large.momenta.push_back("p" + std::to_string(i + 1));
+  }
+  Frame frame = row(0);
+  frame.q.assign(large.dimension, 1.0);
+  frame.p.assign(large.dimension, 2.0);
+  { RunFile(file_, large).append(frame); }
+  EXPECT_EQ(read_run_file(file_).q.size(), large.dimension);
 }
 
 TEST_F(RunFileTest, ReadableWhileItGrows) {
