@@ -98,12 +98,24 @@ void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& col
   add("digits/energy/final", 1, true, [](const FrameDigits& d) { return List{d.energy}; });
 }
 
+/// With a checksum for each chunk; chunks of 64 kilobytes at most, or of one row.
+Hdf5Handle protected_chunks(int rank, const hsize_t* size, std::size_t bytes) {
+  constexpr hsize_t most_bytes = 1 << 16;
+  const hsize_t width = rank > 1 ? size[1] : 1;
+  const hsize_t chunk[2] = {std::clamp<hsize_t>(most_bytes / (bytes * width), 1, std::max<hsize_t>(size[0], 1)), width};
+  Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_chunk(plist, rank, chunk), "choose the chunks");
+  check_hdf5(H5Pset_fletcher32(plist), "choose a checksum");
+  return plist;
+}
+
 void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memory, int rank, const hsize_t* size,
                    const void* values) {
   const Hdf5Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose, "make a data space");
   const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a property list");
   check_hdf5(H5Pset_create_intermediate_group(links, 1), "request intermediate groups");
-  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+  const Hdf5Handle plist = protected_chunks(rank, size, H5Tget_size(stored));
+  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, plist, H5P_DEFAULT), H5Dclose,
                            "create dataset " + name);
   check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
 }

@@ -5,6 +5,7 @@ import math
 import random
 import shutil
 import unittest
+from decimal import Decimal, localcontext
 
 from command import CommandCase
 
@@ -131,6 +132,45 @@ class Convert(CommandCase):
         if shutil.which("gnuplot"):
             self.hamflow("plot", "polar.h5", "--kind", "energy-error", "-o", "e.svg")
             self.hamflow("plot", "polar.h5", "--kind", "orbit", "-o", "orbit.svg")
+
+    def test_a_run_in_more_digits(self):
+        """Every digit of the run's arithmetic goes through, and what is written reads like the run."""
+        sets = ("--set", "problem.initial={q=[1, '1/3'], p=[0, 1.1]}", "--set", "run.steps=300", "--quiet")
+        for arithmetic, places in (("double-double", 29), ("quad", 31), ("mp(60)", 57)):
+            self.hamflow("run", "kepler.toml", "--set", f"run.arithmetic={arithmetic}", *sets, "--force")
+            there, here = (json.loads(self.hamflow("convert", file, "--to", "cartesian", "--json").stdout)
+                           for file in ("kepler.run", self.converted("kepler.run", "polar")))
+            polar = json.loads(self.hamflow("convert", "kepler.run", "--to", "polar", "--json").stdout)
+            self.assertEqual(there["t"], polar["t"])
+            self.assertEqual(there["energy"], polar["energy"])
+            with localcontext() as context:
+                context.prec = 90
+                close = Decimal(10) ** -places
+                for k in (0, 1, 299, 300):
+                    (x, y), (px, py) = ([Decimal(a) for a in there[name][k]] for name in "qp")
+                    (r, phi), (pr, pphi) = ([Decimal(a) for a in polar[name][k]] for name in "qp")
+                    self.assertLess(abs(r * r - x * x - y * y), close)
+                    self.assertLess(abs(pphi - x * py + y * px), close)
+                    self.assertLess(abs(pr * r - x * px - y * py), close)
+                    for name in "qp":  # there and back
+                        for a, b in zip(there[name][k], here[name][k]):
+                            self.assertLess(abs(Decimal(a) - Decimal(b)), close)
+            turns = [float(row[1]) for row in polar["q"]]
+            self.assertGreater(turns[-1], 2 * math.pi)  # whole turns are counted
+            self.assertLess(max(abs(b - a) for a, b in zip(turns, turns[1:])), 1)
+            lines = self.hamflow("convert", "kepler.run", "--to", "polar").stdout.splitlines()
+            self.assertEqual(lines[-1].split(","), [polar["t"][-1], *polar["q"][-1], *polar["p"][-1],
+                                                    polar["energy"][-1]])
+            # The scenario starts there with all digits.
+            text = self.hamflow("convert", "kepler.toml", "--set", f"run.arithmetic={arithmetic}", *sets[:4], "--to",
+                                "polar").stdout
+            self.write("start.toml", text)
+            start = self.summary("start.toml", "--set", "run.steps=0")["final"]
+            self.assertEqual((start["q"], start["p"]), (polar["q"][0], polar["p"][0]))
+
+    def converted(self, run, to):
+        self.hamflow("convert", run, "--to", to, "-o", "converted.h5")
+        return "converted.h5"
 
     def test_missing_turns_are_said(self):
         # A circle of period 2 pi sqrt(2), seen about once a round: phi seems to stand.

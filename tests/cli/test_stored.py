@@ -80,6 +80,14 @@ class Stored(CommandCase):
         self.hamflow("run", "stored.toml", "--set", "run.steps=1000", "--out", "part", "--resume", "--quiet")
         self.assertNotIn("differs", self.compared("whole/run.h5", "part/run.h5"))
 
+    def test_digits_go_on_with_their_run(self):
+        for arithmetic in ("double-double", "quad", "mp(40)"):
+            sets = ("--set", f"run.arithmetic={arithmetic}", "--set", "run.record_every=3", "--quiet", "--force")
+            self.hamflow("run", "kepler.toml", "--set", "run.steps=100", "--out", "whole", *sets)
+            self.hamflow("run", "kepler.toml", "--set", "run.steps=50", "--out", "part", *sets)
+            self.hamflow("run", "kepler.toml", "--set", "run.steps=100", "--out", "part", *sets[:4], "--resume", "--quiet")
+            self.assertNotIn("differs", self.compared("whole/run.h5", "part/run.h5"), arithmetic)
+
     def test_a_comment_is_no_setting(self):
         self.write("pendulum.toml", PENDULUM)
         self.hamflow("run", "pendulum.toml", "--quiet")
@@ -114,7 +122,9 @@ class Stored(CommandCase):
         self.assertEqual(self.compared("--unprotected", "kepler.run/run.h5"), "")
         self.hamflow("run", "pendulum.toml", "--set", "run.arithmetic=quad", "--set", "run.t_end=0.1")
         self.hamflow("convert", "pendulum.run", "--to", "relative", "-o", "relative.h5")
-        for file in ("pendulum.run/run.h5", "relative.h5"):
+        self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01,0.02", "--vary", "method.name=verlet,stv4",
+                     "--set", "run.steps=5", "--quiet")
+        for file in ("pendulum.run/run.h5", "relative.h5", "kepler.sweep/sweep.h5"):
             self.assertEqual(self.compared("--unprotected", file), "")
 
 

@@ -1,6 +1,6 @@
 // compare_runs A.h5 B.h5: whether two files hold the same datasets, bit for bit. Names those that differ, with
-// status 1. compare_runs --scenario A.h5 prints the scenario that a run was given, --unprotected A.h5 the datasets with
-// chunks that have no checksum.
+// status 1. compare_runs --scenario A.h5 prints the scenario that a run was given, --unprotected A.h5 the datasets of
+// rows that have no checksum.
 #include <cstring>
 #include <iostream>
 #include <map>
@@ -51,13 +51,14 @@ Contents contents(const char* path) {
   return all;
 }
 
-/// Of the chunked datasets.
+/// Of the datasets that have rows.
 void print_unprotected(const char* path) {
   const Hdf5Handle file = hamflow::open_to_read(path);
   for (const std::string& name : datasets_in(file)) {
     const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
     const Hdf5Handle plist(H5Dget_create_plist(dataset), H5Pclose, "read a property list");
-    if (H5Pget_layout(plist) == H5D_CHUNKED && H5Pall_filters_avail(plist) > 0 && H5Pget_nfilters(plist) == 0) {
+    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open a space");
+    if (H5Sget_simple_extent_ndims(space) > 0 && H5Pget_nfilters(plist) == 0) {
       std::cout << name << '\n';
     }
   }

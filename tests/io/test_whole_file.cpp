@@ -68,7 +68,7 @@ TEST_F(WholeFiles, OtherLinesAreFound) {
   std::uint64_t bytes = 0;
   std::uint64_t hash = 0;
   {
-    CsvFile csv(folder_ / "t.csv", 1, {});
+    CsvFile csv(folder_ / "t.csv", 1, std::vector<InvariantColumn>{});
     csv.append({});
     csv.flush();
     bytes = csv.bytes();

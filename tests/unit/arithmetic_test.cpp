@@ -240,7 +240,8 @@ TEST(DoubleDouble, DigitsReadBackHoweverFarApartTheHalvesAre) {
   std::size_t longest = 0;
   for (int gap = 0; gap <= 260; ++gap) {  // zeros between the halves: they span 108 + gap bits
     for (int i = 0; i < 40; ++i) {
-      const double high = std::ldexp(from_1_to_2(at++), static_cast<int>(at % 600) - 300);
+      const int exponent = static_cast<int>(at % 600) - 300;
+      const double high = std::ldexp(from_1_to_2(at++), exponent);
       const double part = from_1_to_2(at++) * (i % 2 == 0 ? 1 : -1);
       const double low = gap == 260 ? 0 : std::ldexp(part, std::ilogb(high) - 55 - gap);
       const dd_real x(i % 3 == 0 ? -high : high, low);
