@@ -189,10 +189,11 @@ class PageWriter {
     script_.label(panel.y_label, left - left_of_box_ + edge + 1.5, middle, "center rotate by 90", label_size);
     exponent(panel.y, left, top - 2.0, "left");
     exponent(panel.x, right, below, "right");
-    if (panel.is_map()) colour_bar(panel, right, top, bottom);
+    if (panel.is_map()) palette(panel);
     if (!panel.note.empty()) script_.label(panel.note, right - 1.5, top + 2.4, "right", tick_size);
     key(panel, right, top);
     plot(k);
+    if (panel.is_map()) colour_bar(panel, right, top, bottom);
   }
 
   void exponent(const Axis& axis, double x, double y, const char* how) {
@@ -207,15 +208,32 @@ class PageWriter {
     script_.line("set {}tics ({}) {} {}", name, ticks, script_.font(tick_size), offset);
   }
 
-  void colour_bar(const Panel& panel, double right, double top, double bottom) {
+  void palette(const Panel& panel) {
     // Light is little: from pale yellow to dark blue, readable in grey too.
     script_.line("set palette defined (0 '#ffffd9', 0.3 '#7fcdbb', 0.6 '#1d91c0', 1 '#081d58')");
-    script_.line("set colorbox vertical user origin screen {:.6f},{:.6f} size screen {:.6f},{:.6f} border",
-                 script_.across(right + colours_gap), script_.up(bottom), script_.across(colours_wide),
-                 script_.up(top) - script_.up(bottom));
-    axis("cb", panel.z, "offset -0.7,0");
-    exponent(panel.z, right + colours_gap, top - 2.0, "left");
+    script_.line("set cbrange [{:.12g}:{:.12g}]\nunset colorbox", panel.z.low, panel.z.high);
+  }
+
+  /// The colours of a map as a plot of their own: those that gnuplot draws beside a plot show the paper between them.
+  void colour_bar(const Panel& panel, double right, double top, double bottom) {
+    constexpr int strips = 200;
+    const double left = right + colours_gap;
+    script_.line("unset label\nunset key\nunset grid\nunset xtics\nunset ytics");
+    script_.line("$colours << EOD");
+    for (int k = 0; k < strips; ++k) {  // each reaches up below the next ones
+      const double low = panel.z.low + (panel.z.high - panel.z.low) * k / strips;
+      script_.line("0 {0:.9g} 0 1 {0:.9g} {1:.9g} {2:.9g}", low, panel.z.high,
+                   low + 0.5 * (panel.z.high - panel.z.low) / strips);
+    }
+    script_.line("EOD");
+    script_.box(left, left + colours_wide, top, bottom);
+    script_.line("set xrange [0:1]\nset yrange [{0:.12g}:{1:.12g}]", panel.z.low, panel.z.high);
+    axis("y2", panel.z, "offset -0.7,0");
+    exponent(panel.z, left, top - 2.0, "left");
     script_.label(panel.z_label, right + colours(panel) + 2, 0.5 * (top + bottom), "center rotate by 90", label_size);
+    script_.line(
+        "plot $colours using 1:2:3:4:5:6:7 with boxxyerror fillcolor palette fillstyle solid 1 noborder notitle");
+    script_.line("unset y2tics");
   }
 
   /// Names of the series in the header, ending at `right`: they cover no data.

@@ -115,6 +115,29 @@ class Plot(CommandCase):
         self.assertIn("a run alone", self.refused("eight", "eight", "--kind", "orbit"))
         self.assertIn("central-force", " ".join(self.plot("k", "p", kind="energy-error")))
 
+    def test_energy_error_in_the_digits_of_the_run(self):
+        """In doubles the difference of two energies of a quad run is 0 or 2e-16."""
+        self.run_some("kepler.toml", "method={name='kahan-li8'}", "run.dt=0.005", "run.arithmetic='quad'", "run.steps=400",
+                      out="quad")
+        labels = self.plot("quad", kind="energy-error")
+        power = next(label for label in labels if label.startswith("×10"))
+        self.assertLess(int(power[3:].replace("\u2212", "-")), -19)
+        self.assertIn("central-force, kahan-li8, dt = 0.005, quad", labels)
+
+    def test_figures_of_sweeps(self):
+        def sweep(*vary):
+            self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--set", "method.name=stv4", "--out", "none",
+                         "--figure", "s.svg", *[part for text in vary for part in ("--vary", text)])
+            return texts((self.folder / "s.svg").read_text())
+
+        lines = sweep("method.name=verlet,stv4", "run.dt=0.1,0.05,0.025")
+        self.assertTrue({"verlet", "stv4", "dt", "max |H \u2212 H0|", "central-force"} <= set(lines), lines)
+        self.assertTrue({"verlet", "stv4", "method"} <= set(sweep("method.name=verlet,stv4")))
+        self.assertTrue({"rper", "raph"} <= {label.replace("_", "") for label in sweep(
+            "problem.orbit.r_per=1:1.5:3", "problem.orbit.r_aph=2:3:4")})
+        map_with_white = sweep("problem.orbit.r_per=1:1.5:3", "run.dt=0.1:1e200:2")
+        self.assertIn("white: 3 of 6 members (3 non_finite)", map_with_white)
+
     def test_a_section_says_which_it_is(self):
         self.write("h.toml", '[problem]\nname = "henon-heiles"\ninitial = { q = [0, 0.1], p = [0.4, 0] }\n[method]\n'
                              'name = "stv4"\n[run]\ndt = 0.05\nsteps = 4000\nsection = { coordinate = "q1" }\n')

@@ -150,6 +150,25 @@ TEST_F(Pages, AMapShowsWholeFieldsAndItsColours) {
   }
 }
 
+TEST_F(Pages, RectanglesOfAMapReachBelowThoseDrawnLater) {
+  // Between rectangles that only touch, viewers show the paper.
+  ParameterMap map = plane();
+  for (double& x : map.value) x = std::isnan(x) ? 1e-7 : x;
+  write_parameter_map(map, folder_ / "map.svg");
+  const std::string svg = bytes_of(folder_ / "map.svg");
+  static const std::regex rectangle("<polygon fill = '[^']*' points = '([-0-9.]+),([-0-9.]+) ([-0-9.]+),[-0-9.]+ ");
+  std::vector<std::pair<double, double>> sides;  // left and right
+  for (std::sregex_iterator it(svg.begin(), svg.end(), rectangle), end; it != end; ++it) {
+    sides.emplace_back(std::stod((*it)[1]), std::stod((*it)[3]));
+  }
+  ASSERT_GE(sides.size(), 20U);
+  sides.resize(20);  // those of the map; colours follow
+  for (std::size_t k = 0; k + 5 < sides.size(); ++k) {
+    EXPECT_LE(sides[k].first, sides[k + 5].first);
+    EXPECT_GT(sides[k].second, sides[k + 5].first + 5) << "pixels below the next column";
+  }
+}
+
 TEST_F(Pages, ACurveOverOneKeyIsAPanel) {
   ParameterMap map{"kepler, stv4", "d{/:Italic t}", "", "max error", {0.1, 0.2, 0.3}, {}, {1, nan, 3}, {}, {}, {}};
   write_parameter_map(map, folder_ / "curve.svg");
