@@ -283,7 +283,9 @@ void TomlTable::finish() {
     bool is_known = false;
     for (const std::string& known : known_) is_known = is_known || known == name;
     if (is_known) continue;
-    const toml::source_region& where = key.source().begin.line > 0 ? key.source() : node.source();
+    // A value that was set from outside stands nowhere in the file, though its key may.
+    const bool in_file = key.source().begin.line > 0 && !hamflow::is_set(node);
+    const toml::source_region& where = in_file ? key.source() : node.source();
     complain_at(where, name, "found an unknown key; allowed " + joined(known_) + suggestion(name, known_));
   }
 }

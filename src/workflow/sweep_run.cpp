@@ -130,6 +130,7 @@ class ScenarioSweep::Impl {
     for (const Vary& vary : varied) sets.push_back(vary.path + "=" + vary.texts.front());
     const Reading first = read_scenario_text(request.text, request.name, sets);
     if (!first.scenario) return {};  // the sweep complains
+    notes.insert(notes.end(), first.scenario->notes.begin(), first.scenario->notes.end());
     for (const MeasureKind& kind : measure_kinds()) {
       if (kind.columns != nullptr || !kind.requested(*first.scenario)) continue;
       notes.push_back("run." + kind.key + " belongs to single runs: a sweep leaves it out");

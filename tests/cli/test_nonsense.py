@@ -72,6 +72,8 @@ class Nonsense(CommandCase):
         done = self.hamflow("run", "s.toml", "--out", "none", "--json", "--set", "method.name=taylor",
                             "--set", "method.tolerance=1e-9")
         self.assertEqual(json.loads(done.stdout)["method"], "taylor(tolerance=1e-09)", "what is set is meant")
+        text = self.refused("run", "s.toml", "--out", "none", "--set", "method.name=taylor", "--set", "method.quadrature=6")
+        self.assertTrue(text.startswith("--set: error: method.quadrature: found an unknown key; "), text)
         self.write("t.toml", TOLERANT.replace('"cg"', '"taylor"').replace("quadrature = 5\n", "").replace(
             "max_iterations = 7\n", ""))
         done = self.hamflow("run", "t.toml", "--out", "none", "--json", "--set", "method.name=cg")
@@ -86,6 +88,7 @@ class Nonsense(CommandCase):
         self.assertEqual([r["status"] for r in rows], ["done"] * 4)
         self.assertEqual(rows[1]["final"], rows[3]["final"])
         self.assertEqual(rows[1]["final"], self.summary("s.toml")["final"], "the file's options hold for its own method")
+        self.assertIn("note: method.tolerance of the file is not used", done.stderr)
         alone = self.summary("s.toml", "--set", "method.name=taylor")
         self.assertEqual(rows[0]["final"], alone["final"])
 
