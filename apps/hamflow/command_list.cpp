@@ -10,6 +10,7 @@
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/state_names.hpp"
 #include "option_text.hpp"
 #include "run_keys.hpp"
 
@@ -45,6 +46,13 @@ std::string variant_text(const ProblemInfo& info) {
   return joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
 }
 
+/// Of what `coordinates` declares: a name, (z1), or dots.
+std::string declared_momentum(const std::string& coordinate) {
+  if (coordinate == "...") return coordinate;
+  if (coordinate.front() != '(') return momentum_name(coordinate);
+  return "(" + momentum_name(coordinate.substr(1));
+}
+
 void show_problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
@@ -70,6 +78,7 @@ void show_problem(const ProblemEntry& entry) {
       info.default_q.empty() ? ""
                              : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
                                            fmt::join(info.default_p, ", ")));
+  std::cout << fmt::format("  momenta: {}\n", joined(info.coordinates, declared_momentum));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);
 }
 

@@ -1,6 +1,7 @@
 // What a run measures beside its trajectory: the Lyapunov exponents, the eigenvalues and the section of [run].
 #include <algorithm>
 
+#include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -8,19 +9,19 @@ namespace hamflow {
 
 namespace {
 
-/// q, q1, x: p, p1, p_x.
-std::string momentum_name(const std::string& coordinate) {
-  return coordinate.starts_with('q') ? "p" + coordinate.substr(1) : "p_" + coordinate;
-}
-
-/// The names that the problem gives them; q1, q2, ... of problems of any size.
-std::vector<std::string> coordinate_names(const ProblemEntry& problem, std::size_t dimension) {
-  std::vector<std::string> names = problem.info.coordinates;
-  if (problem.dimension == 0) {
-    names.clear();
-    for (std::size_t i = 1; i <= dimension; ++i) names.push_back("q" + std::to_string(i));
+/// What a section may name: coordinates, then momenta. Numbers alone, q1, ..., pn, name those of bodies too.
+std::vector<std::vector<std::string>> section_names(const ProblemEntry& problem, const Texts& parameters,
+                                                    std::size_t size) {
+  const auto row = [](const StateNames& names) {
+    std::vector<std::string> all = names.q;
+    all.insert(all.end(), names.p.begin(), names.p.end());
+    return all;
+  };
+  std::vector<std::vector<std::string>> spellings{row(state_names(problem, parameters, size))};
+  if (problem.dimension == 0 && spellings[0] != row(numbered_names(size))) {
+    spellings.push_back(row(numbered_names(size)));
   }
-  return names;
+  return spellings;
 }
 
 }  // namespace
@@ -72,12 +73,13 @@ void ScenarioReader::read_section(TomlTable& table) {
     section.know(keys.coordinate.name);
   } else {
     OptionInfo coordinate = keys.coordinate;
-    coordinate.words = coordinate_names(*scenario_.problem, scenario_.start_q.size());
-    const std::size_t dimension = coordinate.words.size();
-    for (std::size_t i = 0; i < dimension; ++i) coordinate.words.push_back(momentum_name(coordinate.words[i]));
+    const std::size_t dimension = scenario_.start_q.size();
+    for (const auto& names : section_names(*scenario_.problem, scenario_.request.parameters, dimension)) {
+      coordinate.words.insert(coordinate.words.end(), names.begin(), names.end());
+    }
     if (const auto name = section.text(coordinate)) {
-      const auto at = static_cast<std::size_t>(std::find(coordinate.words.begin(), coordinate.words.end(), *name) -
-                                               coordinate.words.begin());
+      const auto place = std::find(coordinate.words.begin(), coordinate.words.end(), *name);
+      const std::size_t at = static_cast<std::size_t>(place - coordinate.words.begin()) % (2 * dimension);
       wanted.coordinate = at % dimension;
       wanted.momentum = at >= dimension;
       scenario_.section = wanted;

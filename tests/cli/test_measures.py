@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from command import CommandCase
+from command import EXAMPLES, CommandCase
 
 CHAOS = """
 [problem]
@@ -75,6 +75,16 @@ class Measures(CommandCase):
         self.assertIn("<svg", (self.folder / "section.svg").read_text())
         self.hamflow("run", "chaos.toml", "--out", "alone")
         self.assertIn("run.section", self.hamflow("plot", "alone", "--kind", "section", "-o", "s.svg", status=2).stderr)
+
+    def test_section_of_bodies(self):
+        """Bodies are named x1, y1, ..., p_x1, ...; by number they are q1, ..., p1, ..., as in any system of any size."""
+        eight = EXAMPLES / "figure_eight.toml"
+        for by_body, by_number in (("y2", "q4"), ("p_x3", "p5")):
+            found = [json.loads(self.hamflow("run", eight, "--out", "none", "--json", "--set", "run.steps=500", "--set",
+                                             f"run.section={{ coordinate = '{name}', direction = 0 }}").stdout)["section"]
+                     for name in (by_body, by_number)]
+            self.assertGreater(found[0]["points"], 0)
+            self.assertEqual(found[0], found[1])
 
     def test_refusals(self):
         def refused(key, *arguments):

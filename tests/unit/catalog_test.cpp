@@ -7,6 +7,7 @@
 
 #include "../support/near.hpp"
 #include "hamflow/run/splitting_named.hpp"
+#include "hamflow/run/state_names.hpp"
 
 namespace hamflow {
 namespace {
@@ -228,6 +229,30 @@ TEST(Catalog, AGeometricStartMeetsItsGeometry) {
   request.start = {.kind = "ellipse", .orbit = {{"r_per", "3"}, {"r_aph", "1"}}};
   EXPECT_EQ(test::message_of<Error>([&] { (void)entry.start(request); }),
             "problem.orbit.r_aph: the start needs r_per <= r_aph");
+}
+
+TEST(Catalog, NamesTheNumbersOfAState) {
+  const auto names = [](const std::string& problem, const Texts& given, std::size_t size) {
+    const ProblemEntry& entry = usual_problem(problem);
+    const StateNames all = state_names(entry, complete(entry.info, given), size);
+    return joined(all.q) + "; " + joined(all.p);
+  };
+  EXPECT_EQ(names("harmonic", {}, 1), "q; p");
+  EXPECT_EQ(names("central-force", {}, 2), "x, y; p_x, p_y");
+  EXPECT_EQ(names("henon-heiles", {}, 2), "q1, q2; p1, p2");
+  EXPECT_EQ(names("fput", {{"n", "3"}}, 3), "q1, q2, q3; p1, p2, p3");
+  EXPECT_EQ(names("n-body", {{"masses", "[1, 1]"}}, 4), "x1, y1, x2, y2; p_x1, p_y1, p_x2, p_y2");
+  EXPECT_EQ(names("n-body", {{"masses", "[1]"}}, 3), "x1, y1, z1; p_x1, p_y1, p_z1");
+  for (const ProblemEntry& entry : problems()) {  // a name for each number, all of them different
+    Texts parameters = complete(entry.info, entry.info.region.parameters);
+    const std::size_t size = entry.dimension > 0
+                                 ? entry.dimension
+                                 : std::max(entry.info.region.centre.size() / 2, entry.info.default_q.size());
+    const StateNames all = state_names(entry, parameters, size);
+    std::set<std::string> different(all.q.begin(), all.q.end());
+    different.insert(all.p.begin(), all.p.end());
+    EXPECT_EQ(different.size(), 2 * size) << entry.info.name;
+  }
 }
 
 TEST(Catalog, KnowsWhereAProblemIsSingular) {

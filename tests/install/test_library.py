@@ -1,0 +1,119 @@
+"""The installed library in a user's hands: find_package(hamflow) and hamflow::hamflow are enough for the examples, for every
+C++ snippet of README.md and docs/, and for every function that an installed header declares."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from documents import PREFIX, ROOT, WORK, Block, blocks
+
+PROJECT = """cmake_minimum_required(VERSION 3.25)
+project(outside CXX)
+find_package(hamflow 0.1 REQUIRED)
+file(GLOB programs *.cpp)
+foreach(program IN LISTS programs)
+  get_filename_component(name ${program} NAME_WE)
+  add_executable(${name} ${program})
+  target_link_libraries(${name} hamflow::hamflow)
+  target_compile_options(${name} PRIVATE -O0 -Wall -Wextra -Werror)
+endforeach()
+target_compile_options(declared PRIVATE -fkeep-inline-functions)
+target_link_options(declared PRIVATE LINKER:--gc-sections)  # of those kept, the ones of other libraries go again
+"""
+FOLDER = WORK / "library"
+INCLUDE = re.compile(r"^#include .*$", re.MULTILINE)
+
+
+def in_one_unit(bodies: list[Block]) -> str:
+    """What snippets include takes the time of compiling them: each becomes a function that returns 0 at its end."""
+    text = "#include <cstdio>\n" + "\n".join(sorted({line for body in bodies for line in INCLUDE.findall(body.text)}))
+    for number, body in enumerate(bodies):
+        text += f'\nstatic int snippet_{number}() {{\n#line {body.line} "{body.file}"\n{INCLUDE.sub("", body.text)}return 0;\n}}\n'
+    text += "int main() {\n"
+    for number, body in enumerate(bodies):
+        text += f'  if (snippet_{number}() != 0) return std::puts("{body.where} failed"), 1;\n'
+    return text + "}\n"
+
+
+def declared_functions() -> dict[str, str]:
+    """Of every function declared in an installed header, what the linker calls it and what people do. The compiler lists
+    them (-fdump-ada-spec). Left out are instances of templates and what the compiler itself makes where it is used."""
+    include = PREFIX / "include"
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "all.hpp").write_text('#include "hamflow/hamflow.hpp"\n')
+        subprocess.run(["g++", "-std=c++20", f"-I{include}", "-fdump-ada-spec", "-fsyntax-only", "all.hpp"], cwd=folder, check=True)
+        specs = " ".join(file.read_text() for file in pathlib.Path(folder).glob("*hamflow*.ads"))
+    symbols = sorted(set(re.findall(r'(?:External_Name =>|CPP_Constructor \([^,]*,) "(_Z[^"]*)"', specs)))
+    plain = subprocess.run(["c++filt"], input="\n".join(symbols), capture_output=True, text=True, check=True).stdout.splitlines()
+    return {symbol: name for symbol, name in zip(symbols, plain)
+            if re.match(r"hamflow::[^<~(]*\(", name) and "operator" not in name and "Extended<" not in name}  # its friends
+
+
+def program_of(symbols: list[str]) -> str:
+    declarations = "".join(f'extern "C" void declared_{i}() asm("{symbol}");\n' for i, symbol in enumerate(symbols))
+    names = ", ".join(f"declared_{i}" for i in range(len(symbols)))
+    return f'#include "hamflow/hamflow.hpp"\n{declarations}void (*volatile all[])() = {{{names}}};\nint main() {{ return all[0] == nullptr; }}\n'
+
+
+def must(*command) -> str:
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))}: exit {done.returncode}\n{(done.stdout + done.stderr)[-6000:]}")
+    return done.stdout
+
+
+class Library(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        FOLDER.mkdir(parents=True)
+        cls.functions = declared_functions()
+        found = [block for block in blocks("cpp") if not block.names]
+        cls.programs = [block for block in found if "int main(" in block.text]
+        (FOLDER / "CMakeLists.txt").write_text(PROJECT)
+        (FOLDER / "declared.cpp").write_text(program_of(list(cls.functions)))
+        (FOLDER / "snippets.cpp").write_text(in_one_unit([block for block in found if block not in cls.programs]))
+        for number, block in enumerate(cls.programs):
+            (FOLDER / f"program_{number}.cpp").write_text(f'#line {block.line} "{block.file}"\n{block.text}')
+        for name in ("own_hamiltonian", "run_and_resume"):
+            shutil.copy(ROOT / f"examples/{name}.cpp", FOLDER)
+        must("cmake", "-S", FOLDER, "-B", FOLDER / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+        must("cmake", "--build", FOLDER / "build", "-j", "2")
+
+    def test_every_declared_function_links(self):
+        """That it links is shown by setUpClass; here, that functions of each kind were asked for."""
+        names = {name.partition("(")[0].removeprefix("hamflow::") for name in self.functions.values()}
+        for name in ("largest_lyapunov", "run_scenario", "find_method", "TangentFrame::TangentFrame", "EnergyBlocks::drift"):
+            self.assertIn(name, names)
+        must(FOLDER / "build/declared")
+
+    def test_what_is_left_out_is_found(self):
+        """Linked with the catalogue alone, the program lacks what measures and files declare, and nothing else."""
+        built = FOLDER / "build/CMakeFiles/declared.dir/declared.cpp.o"
+        link = subprocess.run(["g++", built, "-Wl,--gc-sections", *PREFIX.rglob("libhamflow.a"), "-lqd", "-lquadmath", "-lmpfr", "-lgmp",
+                               "-o", FOLDER / "core_alone"], capture_output=True, text=True)
+        missing = set(re.findall(r"undefined reference to `hamflow::(\w+)\(", link.stderr))
+        self.assertTrue({"largest_lyapunov", "run_scenario", "draw_figure"} <= missing)
+        self.assertFalse({"find_method", "make_simulation"} & missing)
+
+    def test_snippets_of_the_documents_run(self):
+        must(FOLDER / "build/snippets")
+        for number, block in enumerate(self.programs):
+            with self.subTest(block.where):
+                must(FOLDER / f"build/program_{number}")
+
+    def test_examples_run(self):
+        self.assertIn("largest energy error", must(FOLDER / "build/own_hamiltonian"))
+        self.assertRegex(must(FOLDER / "build/run_and_resume", FOLDER / "run"), "status +done")
+        self.assertTrue((FOLDER / "run/energy-error.svg").exists())
+
+    def test_headers_bring_no_other_library_along(self):
+        for header in (PREFIX / "include/hamflow").rglob("*.hpp"):
+            self.assertNotRegex(header.read_text(), r"nlohmann/json\.hpp|CLI/|toml\+\+|H5public|hdf5\.h", header)
+
+
+if __name__ == "__main__":
+    unittest.main()
