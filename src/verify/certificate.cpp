@@ -191,6 +191,10 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, cons
   const double scale = simulation.energy_scale();
   const LongNumber error = error_of(simulation.energy());
   found.energy_level = scale > 0 ? quotient(error, scale) : error;
+  if (error.value == 0 && !blocks.state().digits.empty()) {  // no double is so small: as the samples saw it
+    const LongNumber seen = times(1, unit);
+    found.energy_level = scale > 0 ? quotient(seen, scale) : seen;
+  }
   found.momentum_maps = momentum_maps(simulation, problem, blocks.state().magnitudes, request);
   if (steps_taken > 0) {
     std::optional<double> period;

@@ -172,6 +172,8 @@ class Certificate(CommandCase):
         self.assertGreater(c["energy_level"], 0)
         self.assertLess(c["momentum_maps"]["angular_momentum"]["rounding"], 1e-35)
         # Too small for a double: a text.
+        c, _ = self.certificate("{name='cg', quadrature=64}", "run.arithmetic=mp(340)", steps=2, dt=1e-6)
+        self.assertRegex(c["energy_level"], "e-3[2-4][0-9]$")
         c, _ = self.certificate("{name='verlet'}", "run.arithmetic=mp(400)", steps=40)
         self.assertIsInstance(c["reversal_distance"]["distance"], str)
         self.assertIsInstance(c["momentum_maps"]["angular_momentum"]["rounding"], str)
