@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hamflow/verify/counter_random.hpp"
 #include "rounding.hpp"
@@ -19,10 +20,22 @@ std::int64_t place(std::int64_t k, std::int64_t block_steps) {
   return k * block_steps + static_cast<std::int64_t>(random % static_cast<std::uint64_t>(room));
 }
 
+/// Every second one, from the first.
+template <class T>
+void thin(std::vector<T>& all) {
+  for (std::size_t i = 1; 2 * i < all.size(); ++i) all[i] = std::move(all[2 * i]);
+  all.resize((all.size() + 1) / 2);
+}
+
 double largest(const std::vector<double>& xs) {
   double most = 0;
   for (const double x : xs) most = std::max(most, std::abs(x));
   return most;
+}
+/// In the run's arithmetic.
+template <class Excursion>
+LongNumber error_of(const Excursion& excursion) {
+  return excursion.max_error;
 }
 double sum_of_sizes(const std::vector<double>& xs) {
   double sum = 0;
@@ -37,12 +50,19 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
   if (frame.step < state_.next) return Verdict::go_on;
   auto& energies = state_.energies;
   energies.push_back(frame.energy);
+  if (!frame.digits.energy.empty()) state_.digits.push_back(frame.digits.energy);
+  const std::size_t n = frame.q.size();
+  state_.swings.resize(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    state_.swings[i].look(frame.step, frame.q[i]);
+    state_.swings[n + i].look(frame.step, frame.p[i]);
+  }
   const double p_sum = sum_of_sizes(frame.p);
   const double sizes[] = {largest(frame.q), largest(frame.p), p_sum, sum_of_sizes(frame.q) * largest(frame.p)};
   for (std::size_t i = 0; i < 4; ++i) state_.magnitudes[i] = std::max(state_.magnitudes[i], sizes[i]);
   if (energies.size() > most_blocks) {
-    for (std::size_t i = 0; 2 * i < energies.size(); ++i) energies[i] = energies[2 * i];
-    energies.resize((energies.size() + 1) / 2);
+    thin(energies);
+    thin(state_.digits);
     state_.block_steps *= 2;
   }
   state_.next = place(static_cast<std::int64_t>(energies.size()), state_.block_steps);
@@ -63,7 +83,11 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
       std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
   const double walk = 16 * (1 + std::sqrt(roundings));
   const int digits = digits_beyond_double(request.arithmetic);
-  const double unit = digits > 0 ? std::pow(10.0, 1 - digits) : epsilon;
+  // Bounds are made in units of rounding, which beyond double may be too small for one.
+  const double unit = digits > 0 ? 1 : epsilon;
+  const auto in_arithmetic = [&](double units) {
+    return digits > 0 ? times_power_of_ten(units, 1 - digits) : LongNumber(units);
+  };
   const bool lattice = request.arithmetic == "lattice";
   const double q_unit = std::max(unit, lattice ? request.position_unit / std::max(magnitudes[0], 1e-300) : 0);
   const double p_unit = std::max(unit, lattice ? request.momentum_unit / std::max(magnitudes[1], 1e-300) : 0);
@@ -71,46 +95,111 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
   Frame end;
   simulation.look(end);
   for (std::size_t i = 0; i < invariants.size() && i < infos.size(); ++i) {
-    MomentumMap map{infos[i].name, invariants[i].max_error, 0, {}};
+    MomentumMap map{infos[i].name, error_of(invariants[i]), 0, {}};
     double size = largest(invariants[i].initial);
     switch (infos[i].terms) {
       case Terms::moments:
         size = std::max(size, magnitudes[3]);
-        map.rounding = walk * (q_unit + p_unit) * size;
+        map.rounding = in_arithmetic(walk * (q_unit + p_unit) * size);
         break;
       case Terms::momentum:
-        map.rounding = walk * p_unit * size;
+        map.rounding = in_arithmetic(walk * p_unit * size);
         break;
       case Terms::momenta:
         size = std::max(size, magnitudes[2]);
-        map.rounding = walk * p_unit * size;
+        map.rounding = in_arithmetic(walk * p_unit * size);
         break;
       case Terms::centre_of_mass: {
         if (!problem.total_mass) break;
         const double mass = problem.total_mass(complete(problem.info, request.parameters), end.q.size());
         size = std::max(size, magnitudes[0]);
-        map.rounding = walk * (q_unit * size + p_unit * magnitudes[2] / mass * std::abs(end.time));
+        map.rounding = in_arithmetic(walk * (q_unit * size + p_unit * magnitudes[2] / mass * std::abs(end.time)));
         break;
       }
       case Terms::other:
         break;
     }
-    map.relative = size > 0 ? map.max_error / size : map.max_error;
+    map.relative = size > 0 ? quotient(map.max_error, size) : map.max_error;
     all.push_back(map);
   }
   return all;
 }
 
+namespace {
+
+double roundings_of(const Simulation& simulation) {
+  const Effort effort = simulation.effort();
+  return std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
+}
+
+/// The slowest of what has turned back. An angle that has gone round is no oscillation, whatever it did before.
+void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings, std::int64_t steps_taken,
+                  EnergySeries& series) {
+  const std::vector<std::string>& names = problem.info.coordinates;
+  const std::vector<std::string>& angles = problem.info.angles;
+  std::optional<double> earlier;
+  for (std::size_t i = 0; i < swings.size(); ++i) {
+    const bool angle =
+        i < names.size() && 2 * i < swings.size() && std::find(angles.begin(), angles.end(), names[i]) != angles.end();
+    if (angle && swings[i].range() > 2 * std::numbers::pi) continue;
+    const auto period = swings[i].period(steps_taken);
+    if (period) {
+      const double periods = static_cast<double>(steps_taken) / *period;
+      series.periods = std::min(series.periods.value_or(periods), periods);
+    }
+    const double before = swings[i].earlier_periods();
+    if (before > 0) earlier = std::min(earlier.value_or(before), before);
+    series.outgrown = series.outgrown || (!period && before > 0);
+  }
+  if (series.periods) return;
+  series.periods = earlier;  // an orbit that widens did turn, even if not since it doubled last
+  series.steady = false;
+}
+
+/// The energies less the first, and their unit.
+std::pair<EnergySeries, std::string> series_of(const Request& request, const ProblemEntry& problem,
+                                               const Simulation& simulation, const EnergyBlockState& state) {
+  EnergySeries series;
+  const int digits = digits_beyond_double(request.arithmetic);
+  std::string unit = "1";
+  if (!state.digits.empty()) {
+    ScaledDifferences differences = differences_to_first(state.digits);
+    series.deviations = std::move(differences.values);
+    unit = differences.unit;
+    const auto in_unit = [&](const LongNumber& x) { return quotient(x, times(1, unit)).value; };
+    series.scale = in_unit(simulation.energy_scale());
+    series.rounding = in_unit(times_power_of_ten(simulation.energy_scale(), 1 - digits));
+  } else {
+    for (const double h : state.energies) series.deviations.push_back(h - state.energies.front());
+    series.scale = simulation.energy_scale();
+    series.rounding = epsilon * series.scale;
+  }
+  series.roundings = roundings_of(simulation);
+  find_periods(problem, state.swings, simulation.step(), series);
+  return {series, unit};
+}
+
+}  // namespace
+
 RunCertificate certify(const Request& request, const ProblemEntry& problem, const Simulation& simulation,
                        const EnergyBlocks& blocks, std::int64_t steps_taken) {
   RunCertificate found;
-  found.drift = blocks.drift();
+  const auto [series, unit] = series_of(request, problem, simulation, blocks.state());
+  found.drift = classify_run(series);
+  found.mean_increment = times(found.drift.mean_increment, unit);
+  found.mean_increment_error = times(found.drift.mean_increment_error, unit);
   const double scale = simulation.energy_scale();
-  const double error = simulation.energy().max_error;
-  found.energy_level = scale > 0 ? error / scale : error;
+  const LongNumber error = error_of(simulation.energy());
+  found.energy_level = scale > 0 ? quotient(error, scale) : error;
+  if (error.value == 0 && !blocks.state().digits.empty()) {  // no double is so small: as the samples saw it
+    const LongNumber seen = times(1, unit);
+    found.energy_level = scale > 0 ? quotient(seen, scale) : seen;
+  }
   found.momentum_maps = momentum_maps(simulation, problem, blocks.state().magnitudes, request);
-  if (steps_taken > 0) {  // there and back together a hundredth of the run
-    found.reversal = reversal_of(request, std::clamp<std::int64_t>(steps_taken / 200, 1, 1000));
+  if (steps_taken > 0) {
+    std::optional<double> period;
+    if (found.drift.periods) period = static_cast<double>(steps_taken) / *found.drift.periods;
+    found.reversal = reversal_evidence(request, problem, steps_taken, period);
   }
   return found;
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "drift_class.hpp"
+#include "hamflow/verify/swings.hpp"
 
 namespace hamflow {
 
@@ -29,7 +31,7 @@ struct Growth {
   double uncertainty = 0;
 };
 
-/// @param x deviations from the start, at most 1
+/// @param x deviations from the start, at most 1 in size
 Growth growth(const std::vector<double>& x) {
   const std::size_t blocks = x.size() - 1;
   const std::size_t longest = blocks / 2;
@@ -93,11 +95,199 @@ double sign_test(const std::vector<double>& x) {
   return std::min(1.0, 2 * tail);
 }
 
+/// The straight line through a series, and what is left of it.
+struct Trend {
+  double size = 0;       // the change along the line over the whole series, over the deviation of the rest
+  double rank = 0;       // Spearman's rank correlation with time: blind to how large rare excursions are
+  double roughness = 0;  // of the rest, S(1)/(2 variance): 1 for independent values, about 8/B for a walk
+  double correlation =
+      0;                 // of neighbouring increments of the rest: -1/2 for independent values, 0 for a walk, 1 smooth
+  double wandering = 0;  // of the means of eight parts of the whole
+};
+
+std::vector<double> ranks(const std::vector<double>& x) {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
+  std::vector<double> rank(x.size());
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t end = i;
+    while (end < order.size() && x[order[end]] == x[order[i]]) ++end;
+    for (std::size_t k = i; k < end; ++k) rank[order[k]] = static_cast<double>(i + end - 1) / 2;  // ties share theirs
+    i = end;
+  }
+  return rank;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const double count = static_cast<double>(a.size());
+  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / count;
+  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / count;
+  double ab = 0;
+  double aa = 0;
+  double bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  return aa * bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+}
+
+double increment_correlation(const std::vector<double>& x) {
+  const double now = structure_function(x, 1);
+  return now > 0 ? (structure_function(x, 2) - 2 * now) / (2 * now) : 0;
+}
+
+/// The variance between the means of eight parts of a series, over what it is for independent values: Fisher's F with 7
+/// and B - 8 degrees of freedom. A walk beneath noise shows here first.
+double wandering(const std::vector<double>& x) {
+  constexpr std::size_t parts = 8;
+  const std::size_t length = x.size() / parts;
+  std::vector<double> means;
+  double within = 0;
+  for (std::size_t part = 0; part < parts; ++part) {
+    double mean = 0;
+    for (std::size_t i = 0; i < length; ++i) mean += x[part * length + i] / static_cast<double>(length);
+    for (std::size_t i = 0; i < length; ++i) within += std::pow(x[part * length + i] - mean, 2);
+    means.push_back(mean);
+  }
+  const double all = std::accumulate(means.begin(), means.end(), 0.0) / parts;
+  double between = 0;
+  for (const double mean : means) between += (mean - all) * (mean - all);
+  within /= static_cast<double>(parts * (length - 1));
+  if (within == 0) return between > 0 ? std::numeric_limits<double>::infinity() : 0;
+  return between / (parts - 1) * static_cast<double>(length) / within;
+}
+
+Trend trend(const std::vector<double>& x) {
+  const double count = static_cast<double>(x.size());
+  std::vector<double> time(x.size());
+  std::iota(time.begin(), time.end(), 0.0);
+  const double slope = fitted_slope(time, x);
+  std::vector<double> rest(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) rest[i] = x[i] - slope * time[i];
+  const double mean = std::accumulate(rest.begin(), rest.end(), 0.0) / count;
+  double squares = 0;
+  for (const double r : rest) squares += (r - mean) * (r - mean);
+  const double variance = squares / (count - 1);
+  Trend found;
+  const double change = std::abs(slope) * (count - 1);
+  found.size = variance > 0 ? change / std::sqrt(variance) : change > 0 ? std::numeric_limits<double>::infinity() : 0;
+  found.rank = std::abs(correlation(time, ranks(x)));
+  found.roughness = variance > 0 ? structure_function(rest, 1) / (2 * variance) : 0;
+  found.correlation = increment_correlation(rest);
+  found.wandering = wandering(x);
+  return found;
+}
+
+/// Periods of the energy's own oscillation, where the blocks resolve one: its increments go the same way for a while.
+/// (A walk turns back too, but its increments know nothing of each other.)
+std::optional<double> periods_of(const std::vector<double>& x, double correlation) {
+  constexpr double resolved = 0.4;
+  if (correlation < resolved) return std::nullopt;
+  Swings swings;
+  for (std::size_t i = 0; i < x.size(); ++i) swings.look(static_cast<std::int64_t>(i), x[i]);
+  const auto blocks = static_cast<std::int64_t>(x.size()) - 1;
+  const auto period = swings.period(blocks);
+  return period ? std::optional<double>(static_cast<double>(blocks) / *period) : std::nullopt;
+}
+
+// Limits between the classes, set by the confusion table (tools/confusion_table.py), whose quantiles HACKING.md shows.
+constexpr double clear_trend = 3;   // of Trend::size: an oscillation of two periods has less than 2
+constexpr double clear_rank = 0.7;  //
+constexpr double rank_of_a_drift = 0.9;
+constexpr double usual_in_walks = 15;  // of trend_of_walks()
+constexpr double rare_in_walks = 30;
+constexpr double no_trend = 1;               // independent values have 0.3 at most, and rare resonances 0.8
+constexpr double no_rank = 0.3;              // 3.4/sqrt(128): four standard deviations of independent values
+constexpr double bounded_below = 0.2;        // growth exponent, or
+constexpr double bounded_below_rough = 0.3;  // where the rest is rougher than that of any walk
+constexpr double rougher_than_walks = 0.3;
+constexpr double walk_above = 0.35;
+constexpr double walk_below = 0.65;
+constexpr double roughest_walk = 0.2;
+constexpr double steady_means = 3;  // of F(7, B - 8), which is above once in 150 to 250
+constexpr double white = 0.25;      // correlation of a walk's increments: three standard deviations for 128
+
+/// The trend in units of what a walk, with or without noise on top, has by chance: a walk of variance w beneath noise
+/// of variance n has about sqrt(w/(w + n)), which is what 1 - roughness measures. Of 20 000 walks of 64 to 255 blocks
+/// beneath any noise, 1 in 100 came above 16, 1 in 10 000 above 30 (a walk whose rank correlation with time is above
+/// 0.9).
+double trend_of_walks(const Trend& t) { return t.size / std::sqrt(std::max(1 - t.roughness, 0.15)); }
+
+/// Whether the second half of the run stays further from the start than half of the largest deviation.
+bool stays_away(const std::vector<double>& deviations, double largest) {
+  return std::all_of(deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2), deviations.end(),
+                     [&](double x) { return std::abs(x) > largest / 2; });
+}
+
+struct Conclusion {
+  std::optional<DriftClass> drift;
+  std::string reason;
+};
+
+Conclusion undecided(std::string reason) { return {std::nullopt, std::move(reason)}; }
+
+Conclusion concluded(const EnergySeries& series, double largest, const RunDrift& found, const Trend& t) {
+  const bool t_rejects = found.p_value < DriftStatistics::level;
+  const bool sign_rejects = found.sign_p_value < RunDrift::sign_level;
+  const double e = found.growth_exponent;
+  if ((t_rejects || sign_rejects) && t.size >= clear_trend && t.rank >= clear_rank) {
+    return {DriftClass::linear,
+            t_rejects ? "the mean increment of a block is not 0" : "nearly all increments have one sign"};
+  }
+  if (t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks) {
+    return {DriftClass::linear,
+            fmt::format("a trend of {:.0f} standard deviations of the rest, more than a walk has", t.size)};
+  }
+  if (sign_rejects && series.outgrown && stays_away(series.deviations, largest)) {
+    return {DriftClass::linear, "the energy left its value at the start for good, and the motion outgrew what it was"};
+  }
+  if (t_rejects) {
+    return undecided("the mean increment of a block is not 0, but the energy does not go one way over the run");
+  }
+  if (largest > series.scale) return undecided("the energy error is above the scale of the energy itself");
+  const std::string grows = fmt::format("the error grows like t^{:.2f}", e);
+  const double walk = 16 * series.rounding * (1 + std::sqrt(series.roundings));  // as for momentum maps
+  const bool like_walk =
+      e > walk_above && e < walk_below && t.roughness < roughest_walk && std::abs(t.correlation) < white;
+  if (like_walk && largest <= walk) return {DriftClass::random_walk, grows};
+  if (like_walk) {
+    return undecided(grows +
+                     fmt::format(", like a random walk, but is {:.1e} times what rounding explains", largest / walk));
+  }
+  const bool rounding_alone = largest <= walk && t.correlation < white;
+  if (rounding_alone && t.wandering > steady_means && e < walk_below && trend_of_walks(t) < usual_in_walks) {
+    return {DriftClass::random_walk, "errors of the size of rounding wander from part to part of the run; " + grows};
+  }
+  if (t.size >= no_trend || t.rank >= no_rank) {
+    return undecided(fmt::format(
+        "a trend is seen (rank correlation with time {:.2f}) that the increments do not prove to be a drift", t.rank));
+  }
+  const bool grows_not = e < bounded_below || (e < bounded_below_rough && t.roughness > rougher_than_walks);
+  if (!grows_not) {
+    return undecided(grows + fmt::format(" +- {:.2f}, between the classes", found.growth_uncertainty));
+  }
+  if (largest <= 16 * series.rounding) {
+    return undecided("errors of a few roundings: what they sum up to would show in a longer run only");
+  }
+  if (!series.steady) return undecided("the motion has outgrown the oscillations that were seen");
+  if (*found.periods < RunDrift::periods_to_be_bounded) {
+    return undecided(
+        fmt::format("no drift is seen, but over {:.1f} periods of the slowest oscillation a small one "
+                    "cannot be excluded; to be called bounded needs {}",
+                    *found.periods, RunDrift::periods_to_be_bounded));
+  }
+  return {DriftClass::bounded, grows + fmt::format(" over {:.0f} periods", *found.periods)};
+}
+
 }  // namespace
 
-RunDrift classify_run(const std::vector<double>& energies) {
+RunDrift classify_run(const EnergySeries& series) {
   RunDrift found;
-  found.blocks = std::max(0, static_cast<int>(energies.size()) - 1);
+  found.periods = series.periods;
+  found.blocks = std::max(0, static_cast<int>(series.deviations.size()) - 1);
   if (found.blocks < RunDrift::fewest_blocks) {
     found.reason =
         fmt::format("{} blocks of steps are too few; a drift class needs {}", found.blocks, RunDrift::fewest_blocks);
@@ -105,42 +295,48 @@ RunDrift classify_run(const std::vector<double>& energies) {
   }
   double largest = 0;
   bool finite = true;
-  for (const double h : energies) {
-    finite = finite && std::isfinite(h - energies.front());
-    largest = std::max(largest, std::abs(h - energies.front()));
+  for (const double h : series.deviations) {
+    finite = finite && std::isfinite(h);
+    largest = std::max(largest, std::abs(h));
   }
+  Conclusion conclusion;
   if (!finite) {
-    found.drift = DriftClass::linear;
     found.p_value = found.sign_p_value = 0;
     found.growth_exponent = std::numeric_limits<double>::infinity();
-    found.reason = "the energy is not finite";
-    return found;
+    conclusion = {DriftClass::linear, "the energy is not finite"};
+  } else {
+    std::vector<double> x;  // squares neither overflow nor underflow
+    for (const double h : series.deviations) x.push_back(largest > 0 ? h / largest : 0);
+    // The test takes as few blocks as it may: an oscillation of amplitude A leaves 2 A in an increment however long the
+    // block, a drift grows with it, and against a walk 32 blocks are nearly as good as 128.
+    const std::size_t stride = (x.size() - 1) / RunDrift::fewest_blocks;
+    std::vector<double> ends;
+    for (std::size_t i = 0; i < x.size(); i += stride) ends.push_back(x[i]);
+    const double tested = static_cast<double>(ends.size() - 1);
+    const double mean = ends.back() / tested;
+    double squares = 0;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) squares += std::pow(ends[i + 1] - ends[i] - mean, 2);
+    const double per_block = largest / static_cast<double>(stride);
+    found.mean_increment = mean * per_block;
+    found.mean_increment_error = std::sqrt(squares / (tested - 1) / tested) * per_block;
+    found.p_value = increments_p_value(ends);
+    found.sign_p_value = sign_test(x);
+    const Growth g = growth(x);
+    found.growth_exponent = g.exponent;
+    found.growth_uncertainty = g.uncertainty;
+    const Trend t = trend(x);
+    const auto own = periods_of(x, t.correlation);
+    if (own && (!found.periods || *own < *found.periods)) found.periods = own;
+    if (found.periods) conclusion = concluded(series, largest, found, t);
   }
-  std::vector<double> x;  // squares neither overflow nor underflow
-  for (const double h : energies) x.push_back(largest > 0 ? (h - energies.front()) / largest : 0);
-
-  // The test takes as few blocks as it may: an oscillation of amplitude A leaves 2 A in an increment however long the
-  // block, a drift grows with it, and against a walk 32 blocks are nearly as good as 128.
-  const std::size_t stride = (x.size() - 1) / RunDrift::fewest_blocks;
-  std::vector<double> ends;
-  for (std::size_t i = 0; i < x.size(); i += stride) ends.push_back(x[i]);
-  const double tested = static_cast<double>(ends.size() - 1);
-  const double mean = ends.back() / tested;
-  double squares = 0;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) squares += std::pow(ends[i + 1] - ends[i] - mean, 2);
-  const double per_block = largest / static_cast<double>(stride);
-  found.mean_increment = mean * per_block;
-  found.mean_increment_error = std::sqrt(squares / (tested - 1) / tested) * per_block;
-  found.p_value = increments_p_value(ends);
-  found.sign_p_value = sign_test(x);
-  const Growth g = growth(x);
-  found.growth_exponent = g.exponent;
-  found.growth_uncertainty = g.uncertainty;
-  const bool one_way = found.sign_p_value < RunDrift::sign_level;
-  found.drift = one_way ? DriftClass::linear : drift_class(found.p_value, g.exponent);
-  found.reason = found.p_value < DriftStatistics::level ? "the mean increment of a block is not 0"
-                 : one_way                              ? "nearly all increments have one sign"
-                                                        : fmt::format("the error grows like t^{:.2f}", g.exponent);
+  if (!found.periods) {
+    conclusion = undecided("nothing has turned back: no oscillation was seen");
+  } else if (*found.periods < RunDrift::fewest_periods) {
+    conclusion = undecided(fmt::format("{:.2g} periods of the slowest oscillation are too few; a drift class needs {}",
+                                       *found.periods, RunDrift::fewest_periods));
+  }
+  found.drift = conclusion.drift;
+  found.reason = conclusion.reason;
   return found;
 }
 

@@ -51,8 +51,11 @@ MethodCertificate certificate_of(const MethodSpec& method, std::span<const Regio
     if (!measured) measure_maps(region, method, found);
   }
   for (const Region& region : regions) {
-    const auto back = reversal_of(request_on(region, method, random_state(region, 0)), return_steps);
-    found.reversals.push_back({region.problem, return_steps, back ? back->relative_distance : 0, back.has_value()});
+    const ReversalEvidence back =
+        reversal_evidence(request_on(region, method, random_state(region, 0)),
+                          find_problem(region.problem, region.variant), return_steps, std::nullopt);
+    found.reversals.push_back({region.problem, back.steps, back.relative.value_or(0.0), back.relative.has_value(),
+                               std::string(name(back.proves)), back.reason});
   }
   return found;
 }

@@ -85,7 +85,9 @@ nlohmann::json json_of(const MethodCertificate& c) {
   for (const MethodCertificate::Return& r : c.reversals) {
     returns.push_back({{"problem", r.problem},
                        {"steps", r.steps},
-                       {"relative", r.measured ? nlohmann::json(r.distance) : nlohmann::json(nullptr)}});
+                       {"relative", r.measured ? nlohmann::json(r.distance) : nlohmann::json(nullptr)},
+                       {"proves", r.proves},
+                       {"reason", r.reason}});
   }
   return {{"drift", name(c.drift)}, {"momentum_maps", maps}, {"reversal_distance", returns}};
 }
@@ -117,7 +119,8 @@ std::string certificates(std::span<const PropertyRow> rows) {
       line[column(map_heading(m))] = fmt::format("{} ({:.0e})", m.conserved ? "kept" : "not", m.relative);
     }
     for (const auto& r : c.reversals) {
-      line[column(return_heading(r))] = r.measured ? fmt::format("{:.0e} off", r.distance) : "broke down";
+      line[column(return_heading(r))] =
+          !r.measured ? "broke down" : fmt::format("{:.0e} off: {}", r.distance, r.proves);
     }
     lines.push_back(line);
   }

@@ -8,59 +8,65 @@ namespace hamflow {
 
 namespace {
 using Json = nlohmann::ordered_json;
+
+Json json_of(const LongNumber& x) { return x.text.empty() ? Json(x.value) : Json(x.text); }
+
+Json reversal_json(const ReversalEvidence& back) {
+  const auto known = [](const std::optional<LongNumber>& x) { return x ? json_of(*x) : Json(nullptr); };
+  return {{"steps", back.steps},
+          {"share", back.share},
+          {"bounces", back.bounces},
+          {"distance", known(back.distance)},
+          {"relative", known(back.relative)},
+          {"bit_exact", back.bit_exact},
+          {"proves", std::string(name(back.proves))},
+          {"reason", back.reason}};
+}
 }  // namespace
 
 Json certificate_json(const RunCertificate& c) {
   const RunDrift& d = c.drift;
+  const bool measured = d.blocks >= RunDrift::fewest_blocks;
+  const auto known = [&](const LongNumber& x) { return measured ? json_of(x) : Json(nullptr); };
   Json all;
-  all["drift"] = d.drift ? Json(std::string(name(*d.drift))) : Json(nullptr);
+  all["drift"] = d.drift ? std::string(name(*d.drift)) : "undecided";
   all["reason"] = d.reason;
-  const auto known = [&](double x) { return d.drift ? Json(x) : Json(nullptr); };
   all["p_value"] = known(d.p_value);
   all["sign_p_value"] = known(d.sign_p_value);
   all["growth_exponent"] = known(d.growth_exponent);
   all["growth_uncertainty"] = known(d.growth_uncertainty);
+  all["mean_increment"] = known(c.mean_increment);
+  all["mean_increment_error"] = known(c.mean_increment_error);
   all["blocks"] = d.blocks;
-  all["mean_increment"] = known(d.mean_increment);
-  all["mean_increment_error"] = known(d.mean_increment_error);
-  all["energy_level"] = c.energy_level;
+  all["periods"] = d.periods ? Json(*d.periods) : Json(nullptr);
+  all["energy_level"] = json_of(c.energy_level);
   all["momentum_maps"] = Json::object();
   for (const MomentumMap& map : c.momentum_maps) {
     const auto conserved = map.conserved();
-    all["momentum_maps"][map.name] = {{"max_error", map.max_error},
-                                      {"relative", map.relative},
-                                      {"rounding", map.rounding ? Json(*map.rounding) : Json(nullptr)},
+    all["momentum_maps"][map.name] = {{"max_error", json_of(map.max_error)},
+                                      {"relative", json_of(map.relative)},
+                                      {"rounding", map.rounding ? json_of(*map.rounding) : Json(nullptr)},
                                       {"conserved", !conserved   ? Json(nullptr)
                                                     : *conserved ? Json("to rounding")
                                                                  : Json("not")}};
   }
-  all["reversal_distance"] = nullptr;
-  if (c.reversal) {
-    all["reversal_distance"] = {{"steps", c.reversal->steps},
-                                {"distance", c.reversal->distance},
-                                {"relative", c.reversal->relative_distance},
-                                {"bit_exact", c.reversal->bit_exact}};
-  }
+  all["reversal_distance"] = c.reversal ? reversal_json(*c.reversal) : Json(nullptr);
   return all;
 }
 
 std::string certificate_text(const Json& c) {
-  std::string text;
-  if (c["drift"].is_null()) {
-    text = "drift unknown: " + c["reason"].get<std::string>();
-  } else {
-    text = fmt::format("energy error {}: {}, over {} blocks", c["drift"].get<std::string>(),
-                       c["reason"].get<std::string>(), c["blocks"].get<int>());
-  }
+  std::string text = fmt::format("energy error {}: {}", c["drift"].get<std::string>(), c["reason"].get<std::string>());
   for (const auto& [key, map] : c["momentum_maps"].items()) {
     if (map["conserved"].is_null()) continue;
     text += fmt::format("; {} {}", key, map["conserved"] == "not" ? "not kept" : "kept to rounding");
   }
   const Json& back = c["reversal_distance"];
   if (!back.is_null()) {
-    text += fmt::format(
-        "; {} step{} there and back: {}", back["steps"].get<long long>(), back["steps"] == 1 ? "" : "s",
-        back["bit_exact"].get<bool>() ? "every bit" : fmt::format("{:.1e} off", back["distance"].get<double>()));
+    const auto steps = back["steps"].get<long long>();
+    const auto proves = back["proves"].get<std::string>();
+    text += fmt::format("; {} step{} ({:.2g} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
+                        100 * back["share"].get<double>(), proves == "nothing" ? " prove nothing" : ": " + proves,
+                        back["reason"].get<std::string>());
   }
   return text;
 }

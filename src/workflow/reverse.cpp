@@ -13,18 +13,6 @@ namespace hamflow {
 namespace {
 using Json = nlohmann::ordered_json;
 
-/// H(q, -p) = H(q, p) to rounding, along the way: else the motion itself is not reversed with the momenta.
-bool even_in_momenta(const Scenario& scenario, const Reversal& reversal, double scale) {
-  for (const Frame* frame : {&reversal.start, &reversal.turn}) {
-    std::vector<double> p = frame->p;
-    for (double& x : p) x = -x;
-    const double there = scenario.problem->energy(scenario.request.parameters, frame->q, frame->p);
-    const double back = scenario.problem->energy(scenario.request.parameters, frame->q, p);
-    if (std::abs(there - back) > 64 * 0x1p-52 * scale) return false;
-  }
-  return true;
-}
-
 /// What runs on the lattice is made of kicks and drifts, which are one-to-one there; in a palindrome each is undone by
 /// its mirror image.
 bool palindromic_on_lattice(const Scenario& scenario) {
@@ -65,8 +53,8 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"steps", r.steps},
          {"start", state(r.start)},
          {"returned", done ? state(r.end) : Json(nullptr)},
-         {"distance", done ? Json(r.distance) : Json(nullptr)},
-         {"relative_distance", done ? Json(r.relative_distance) : Json(nullptr)},
+         {"distance", done ? Json(r.distance.value) : Json(nullptr)},
+         {"relative_distance", done ? Json(r.relative_distance.value) : Json(nullptr)},
          {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},
          {"hash",
           {{"start", hex(r.start_hash)},
@@ -117,7 +105,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   const auto simulation = make_simulation(scenario.request);
   ReversalReport report;
   report.reversal = reverse(*simulation, scenario.steps, pulse);
-  const bool even = even_in_momenta(scenario, report.reversal, simulation->energy_scale());
+  const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
+  const bool even = even_in_momenta(*scenario.problem, scenario.request.parameters, states, simulation->energy_scale());
   report.expected_bit_exact = even && palindromic_on_lattice(scenario);
   report.note =
       note_of(describe(scenario.request.method), scenario.request.arithmetic, even, report.expected_bit_exact);

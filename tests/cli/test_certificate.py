@@ -1,6 +1,7 @@
 """The certificate of a run and of a method: what is known to drift, to walk, to stay and to come back."""
 
 import json
+import math
 import unittest
 
 from command import EXAMPLES, CommandCase
@@ -17,13 +18,19 @@ class Certificate(CommandCase):
     def test_keys(self):
         c, s = self.certificate("{name='stv4'}", steps=4000)
         self.assertEqual(set(c), {"drift", "reason", "p_value", "sign_p_value", "growth_exponent",
-                                  "growth_uncertainty", "blocks", "mean_increment", "mean_increment_error",
+                                  "growth_uncertainty", "blocks", "periods", "mean_increment", "mean_increment_error",
                                   "energy_level", "momentum_maps", "reversal_distance"})
         self.assertGreaterEqual(c["blocks"], 128)
         self.assertEqual(c["energy_level"], s["energy"]["max_relative_error"])
         self.assertEqual(c["momentum_maps"]["angular_momentum"]["max_error"],
                          s["invariants"]["angular_momentum"]["max_error"])
-        self.assertEqual(c["reversal_distance"]["steps"], 20)
+        # One period of 2 pi sqrt(mass a^3/k) = 25.1, known to the place of a turn between two steps.
+        self.assertAlmostEqual(c["periods"], 4000 * 0.1 / (2 * math.pi * 4), delta=0.2)
+        back = c["reversal_distance"]
+        self.assertEqual(set(back), {"steps", "share", "bounces", "distance", "relative", "bit_exact", "proves", "reason"})
+        self.assertAlmostEqual(back["steps"], 251, delta=4)
+        self.assertEqual(back["share"], back["steps"] / 4000)
+        self.assertEqual(back["bounces"], 0)
         self.assertIn("certificate", self.hamflow("run", "kepler.toml", "--out", "none").stdout)
         self.hamflow("run", "kepler.toml", "--quiet")
         written = json.loads((self.folder / "kepler.run" / "summary.json").read_text())
@@ -65,23 +72,112 @@ class Certificate(CommandCase):
 
     def test_return(self):
         exact, _ = self.certificate("{name='stv4'}", "run.arithmetic=lattice", steps=20000)
-        self.assertEqual(exact["reversal_distance"], {"steps": 100, "distance": 0, "relative": 0, "bit_exact": True})
+        back = exact["reversal_distance"]
+        self.assertEqual((back["distance"], back["bit_exact"], back["proves"]), (0, True, "every bit"))
         near, _ = self.certificate("{name='stv4'}", steps=20000)
         self.assertFalse(near["reversal_distance"]["bit_exact"])
-        # 600 kicks and drifts there and back, each rounded once; a perturbation grows like the time, 10, at most tenfold.
-        self.assertLess(near["reversal_distance"]["relative"], 600 * EPSILON * 10)
+        # 1500 kicks and drifts there and back, each rounded once; a perturbation grows like the time, 25, at most 25-fold.
+        self.assertLess(near["reversal_distance"]["relative"], 1500 * EPSILON * 25)
+        self.assertEqual(near["reversal_distance"]["proves"], "reversible to rounding")
         far, _ = self.certificate("{name='rk4'}", steps=20000)
         self.assertGreater(far["reversal_distance"]["relative"], 1e-8)
+        self.assertEqual(far["reversal_distance"]["proves"], "not reversible")
+
+    def test_what_a_reversal_proves(self):
+        def proves(method, *sets, **keys):
+            back = self.certificate(method, *sets, **keys)[0]["reversal_distance"]
+            return back["proves"], back["steps"], back["reason"]
+
+        # One step there and back: rk4 shows its defect where it has one, and is never called reversible.
+        self.assertEqual(proves("{name='rk4'}", steps=1)[:2], ("not reversible", 1))
+        found, steps, reason = proves("{name='rk4'}", steps=1, dt=1e-4)
+        self.assertEqual((found, steps), ("nothing", 1))
+        self.assertIn("rk4 is not reversible", reason)
+        for steps in (1, 20, 5000):
+            self.assertEqual(proves("{name='verlet'}", steps=steps)[0], "reversible to rounding")
+            self.assertEqual(proves("{name='euler'}", steps=steps)[0], "not reversible")
+        # At least a period or 1000 steps; what was left out is said.
+        self.assertEqual(proves("{name='stv4'}", steps=100000, dt=1e-3)[1], 1000)
+        self.assertIn("99000 steps of the run were left out", proves("{name='stv4'}", steps=100000, dt=1e-3)[2])
+        self.assertEqual(proves("{name='stv4'}", steps=300000)[1], 1500)  # 1/200
+        # An iteration that stops early is not reversible, and a tolerance of its own makes dop853 none.
+        self.assertEqual(proves("{name='dop853', tolerance=1e-5}", "run.dt=3")[0], "not reversible")
+        # Beyond double the bound is that of the arithmetic.
+        self.assertEqual(proves("{name='stv4'}", "run.arithmetic=quad", steps=500)[0], "reversible to rounding")
+        self.assertEqual(proves("{name='rk4'}", "run.arithmetic=quad", steps=1, dt=1e-4)[0], "not reversible")
+
+    def test_chaos_and_magnetic_fields_prove_nothing(self):
+        s = self.summary(str(EXAMPLES / "magnetic.toml"))
+        back = s["certificate"]["reversal_distance"]
+        self.assertEqual(back["proves"], "nothing")
+        self.assertIn("another H", back["reason"])
+        # 1/200 of the run is a time of 300, in which neighbours part by a factor of exp(0.05 * 300) and more.
+        self.write("chaos.toml", "[problem]\nname='henon-heiles'\ninitial={q=[0,-0.15],p=[0.54,0.1]}\n"
+                   "[method]\nname='verlet'\n[run]\ndt=0.3\nsteps=200000\n")
+        back = self.summary("chaos.toml")["certificate"]["reversal_distance"]
+        self.assertEqual((back["proves"], back["steps"]), ("nothing", 1000))
+        self.assertIn("part by a factor", back["reason"])
 
     def test_short_runs_have_no_class(self):
         for steps in (0, 1, 31):
             c, _ = self.certificate("{name='stv4'}", steps=steps)
-            self.assertIsNone(c["drift"], steps)
+            self.assertEqual(c["drift"], "undecided", steps)
             self.assertIn("32", c["reason"])
             self.assertIsNone(c["p_value"])
             self.assertEqual(c["reversal_distance"] is None, steps == 0)
-        c, _ = self.certificate("{name='stv4'}", steps=32)
-        self.assertIsNotNone(c["drift"])
+        c, _ = self.certificate("{name='stv4'}", steps=32)  # an eighth of a period
+        self.assertEqual(c["drift"], "undecided")
+        self.assertIsNotNone(c["p_value"])
+
+    def test_no_class_without_evidence(self):
+        """The short runs that were classified wrongly once, and some that no one can classify."""
+        for method, periods, allowed in (("rk4", 1, {"undecided"}), ("rk4", 2, {"undecided", "linear"}),
+                                         ("rk4", 3, {"undecided", "linear"}), ("rk4", 5, {"undecided", "linear"}),
+                                         ("rk4", 20, {"undecided", "linear"}), ("verlet", 1, {"undecided"}),
+                                         ("verlet", 20, {"bounded"}), ("rk4", 100, {"linear"})):
+            c, _ = self.certificate(f"{{name='{method}'}}", steps=round(periods * 251.3))
+            self.assertIn(c["drift"], allowed, (method, periods))
+        lennard = ("[problem]\nname='lennard-jones-oscillator'\ninitial={{q=[{}],p=[0]}}\n[method]\nname='{}'\n"
+                   "[run]\ndt={}\nsteps={}\n")
+        self.write("lj.toml", lennard.format(1.3, "stv4", 0.01, 100))
+        self.assertEqual(self.summary("lj.toml")["certificate"]["drift"], "undecided")
+        for number in range(24):
+            steps = 33 + 11 * number
+            self.write("p.toml", f"[problem]\nname='pendulum'\ninitial={{q=[{0.3 + 0.1 * number}],p=[0]}}\n"
+                       f"[method]\nname='verlet'\n[run]\ndt={0.05 + 0.04 * (number % 7)}\nsteps={steps}\n")
+            self.assertIn(self.summary("p.toml")["certificate"]["drift"], ("bounded", "undecided"), number)
+        # A fall and a fly-by: nothing turns back, or once.
+        self.write("fall.toml", "[problem]\nname='free-fall'\ninitial={q=[0],p=[1]}\n[method]\nname='euler'\n"
+                   "[run]\ndt=0.01\nsteps=1000\n")
+        c = self.summary("fall.toml")["certificate"]
+        self.assertEqual(c["drift"], "undecided")
+        # A planet that is thrown out, with ten times its energy.
+        self.write("thrown.toml", "[problem]\nname='central-force'\npotential='kepler'\nmass=1\n"
+                   "initial={q=[1.9,0],p=[0,0.22941573387056174]}\n[method]\nname='cg'\nquadrature=4\n"
+                   "[run]\ndt=0.2\nsteps=20000\n")
+        c = self.summary("thrown.toml")["certificate"]
+        self.assertGreater(c["energy_level"], 1)
+        self.assertNotEqual(c["drift"], "bounded")
+
+    def test_more_digits(self):
+        """Energies, differences and statistics in the arithmetic of the run: what doubles do not see."""
+        for arithmetic in ("quad", "double-double"):
+            c, _ = self.certificate("{name='dop853', tolerance=1e-17}", f"run.arithmetic={arithmetic}", steps=10000)
+            self.assertEqual(c["drift"], "linear", c["reason"])
+            self.assertLess(c["energy_level"], 1e-16)
+            self.assertGreater(abs(c["mean_increment"]), 4 * c["mean_increment_error"])
+            self.assertLess(abs(c["mean_increment"]), 1e-18)
+        c, _ = self.certificate("{name='cg', quadrature=16}", "run.arithmetic=mp(40)", steps=40)
+        self.assertLess(c["energy_level"], 1e-37)
+        self.assertGreater(c["energy_level"], 0)
+        self.assertLess(c["momentum_maps"]["angular_momentum"]["rounding"], 1e-35)
+        # Too small for a double: a text.
+        c, _ = self.certificate("{name='cg', quadrature=64}", "run.arithmetic=mp(340)", steps=2, dt=1e-6)
+        self.assertRegex(c["energy_level"], "e-3[2-4][0-9]$")
+        c, _ = self.certificate("{name='verlet'}", "run.arithmetic=mp(400)", steps=40)
+        self.assertIsInstance(c["reversal_distance"]["distance"], str)
+        self.assertIsInstance(c["momentum_maps"]["angular_momentum"]["rounding"], str)
+        self.assertEqual(c["momentum_maps"]["angular_momentum"]["conserved"], "to rounding")
 
     def test_it_watches_and_changes_nothing(self):
         # Recording at every step takes one step at a time, as the certificate does at first.
@@ -131,6 +227,9 @@ class Certificate(CommandCase):
         self.assertEqual({m: c["drift"] for m, c in found.items()},
                          {"stv4": "bounded", "rk4": "linear", "cg(1,5)": "random walk"})
         self.assertLess(found["stv4"]["reversal_distance"][0]["relative"], 1e-11)
+        self.assertEqual({m: {r["proves"] for r in c["reversal_distance"]} for m, c in found.items()},
+                         {"stv4": {"reversible to rounding"}, "rk4": {"not reversible"},
+                          "cg(1,5)": {"reversible to rounding"}})
         self.assertGreater(found["rk4"]["reversal_distance"][0]["relative"], 1e-6)
         self.assertIn("certificates", self.hamflow("verify", "verlet").stdout)
 

@@ -12,18 +12,39 @@ namespace {
 constexpr int blocks = 128;
 double noise(std::uint64_t s, std::uint64_t b) { return std::sqrt(3.0) * counter_uniform(s, b); }  // variance 1
 
+/// Deviations of the energy at the ends of blocks, over many periods, far above rounding.
 template <class F>
-std::vector<double> series(F&& error, int count = blocks) {
-  std::vector<double> all{-0.5};
-  for (int b = 1; b <= count; ++b) all.push_back(-0.5 + error(b, all.back() + 0.5));
+EnergySeries series(F&& error, int count = blocks) {
+  EnergySeries all;
+  all.deviations = {0};
+  all.periods = 100;
+  all.scale = 1e300;
+  for (int b = 1; b <= count; ++b) all.deviations.push_back(error(b, all.deviations.back()));
+  return all;
+}
+/// The same for sums of rounding errors.
+template <class F>
+EnergySeries rounded(F&& error, int count = blocks) {
+  EnergySeries all = series(error, count);
+  all.rounding = 1;
+  all.roundings = 1e4;
   return all;
 }
 double place(int b, std::uint64_t s = 5) { return b + 0.25 * (1 + counter_uniform(s, static_cast<std::uint64_t>(b))); }
 
-TEST(RunDrift, TooFewBlocksHaveNoClass) {
-  EXPECT_FALSE(classify_run(std::vector<double>(32, -0.5)).drift);
+TEST(RunDrift, TooFewBlocksOrPeriodsHaveNoClass) {
+  const auto still = [](int count) { return series([](int, double) { return 0.0; }, count); };
+  EXPECT_FALSE(classify_run(still(31)).drift);
   EXPECT_NE(classify_run({}).reason, "");
-  EXPECT_EQ(classify_run(std::vector<double>(33, -0.5)).drift, DriftClass::bounded);
+  EXPECT_EQ(classify_run(still(32)).drift, std::nullopt);  // not one bit has changed: bounded, but for the roundings
+  for (const std::optional<double> periods : {std::optional<double>(), std::optional<double>(1.99)}) {
+    EnergySeries drift = series([](int b, double) { return 1e-3 * b; });
+    drift.periods = periods;
+    EXPECT_FALSE(classify_run(drift).drift);
+    EXPECT_NE(classify_run(drift).reason, "");
+    drift.deviations[9] = std::nan("");
+    EXPECT_FALSE(classify_run(drift).drift);
+  }
 }
 
 TEST(RunDrift, AWalkIsOne) {
@@ -35,15 +56,38 @@ TEST(RunDrift, AWalkIsOne) {
   int called_walks = 0;
   for (std::uint64_t s = 0; s < 400; ++s) {
     const auto found = classify_run(
-        series([&](int b, double before) { return before + 1e-15 * noise(s, static_cast<std::uint64_t>(b)); }));
+        rounded([&](int b, double before) { return before + 10 * noise(s, static_cast<std::uint64_t>(b)); }));
     sum += found.growth_exponent;
     squares += std::pow(found.growth_exponent - 0.5, 2);
     called_walks += found.drift == DriftClass::random_walk ? 1 : 0;
     if (s == 0) uncertainty = found.growth_uncertainty;
+    EXPECT_NE(found.drift, DriftClass::linear);
   }
   EXPECT_NEAR(sum / 400, 0.5, uncertainty / 2);
   EXPECT_LT(std::sqrt(squares / 400), 1.1 * uncertainty);  // the spread of a spread over 400 is 4 %
-  EXPECT_GE(called_walks, 394);                            // 0.2 is 2.5 deviations: 1.2 % lie beyond
+  EXPECT_GE(called_walks, 388);  // 1 % lie beyond a walk's trend, 12 are twice three deviations
+}
+
+TEST(RunDrift, AWalkLargerThanRoundingHasNoClass) {
+  for (std::uint64_t s = 0; s < 50; ++s) {
+    EnergySeries walk = rounded([&](int b, double before) { return before + noise(s, static_cast<std::uint64_t>(b)); });
+    walk.rounding = 1e-6;
+    EXPECT_FALSE(classify_run(walk).drift) << s;
+  }
+}
+
+TEST(RunDrift, AWalkBeneathTheRoundingOfTheEnergyItselfIsNeverADrift) {
+  int bounded = 0;
+  for (std::uint64_t s = 0; s < 400; ++s) {
+    double sum = 0;
+    const auto found = classify_run(rounded([&](int b, double) {
+      sum += 10 * noise(s, static_cast<std::uint64_t>(b));
+      return sum + 20 * noise(s + 1000, static_cast<std::uint64_t>(b));
+    }));
+    EXPECT_NE(found.drift, DriftClass::linear) << s;
+    bounded += found.drift == DriftClass::bounded ? 1 : 0;
+  }
+  EXPECT_LE(bounded, 8);  // 0.4 % of 4000; 8 of 400 once in 10^4 (Poisson)
 }
 
 TEST(RunDrift, FalseAlarmsAreAsRareAsTheLevelSays) {
@@ -57,22 +101,41 @@ TEST(RunDrift, FalseAlarmsAreAsRareAsTheLevelSays) {
   EXPECT_LE(alarms, 9);
 }
 
-TEST(RunDrift, AnOscillationIsBoundedFromTwoPeriodsOn) {
+TEST(RunDrift, AnOscillationIsBoundedOverManyPeriodsAndUndecidedOverFew) {
   for (const double periods : {2.0, 3.0, 7.3, 31.0, 64.0, 128.0, 1e5 / 3}) {
     for (int phase = 0; phase < 8; ++phase) {
       const auto wave = [&](int b) {
         const double at = b == 0 ? 0 : place(b);
         return std::sin(2 * std::numbers::pi * (at / blocks * periods + phase / 8.0));
       };
-      EXPECT_EQ(classify_run(series([&](int b, double) { return 1e-4 * (wave(b) - wave(0)); })).drift,
-                DriftClass::bounded)
-          << periods << " periods, phase " << phase;
+      EnergySeries oscillation = series([&](int b, double) { return 1e-4 * (wave(b) - wave(0)); });
+      oscillation.periods = periods;
+      const auto found = classify_run(oscillation);
+      EXPECT_EQ(found.drift, periods < 16 ? std::nullopt : std::optional(DriftClass::bounded))
+          << periods << " periods, phase " << phase << ": " << found.reason;
     }
   }
 }
 
-TEST(RunDrift, NothingButTheFirstSampleMoves) {
-  EXPECT_EQ(classify_run(series([](int, double) { return 1e-16; })).drift, DriftClass::bounded);
+TEST(RunDrift, TheEnergysOwnSlowOscillationCounts) {
+  const auto found = classify_run(
+      series([](int b, double) { return 1 - std::cos(2 * std::numbers::pi * 3.5 * b / blocks); }));  // q and p: 100
+  EXPECT_NEAR(found.periods.value_or(0), 3.5, 0.1);
+  EXPECT_FALSE(found.drift);
+}
+
+TEST(RunDrift, ASawToothIsNoDrift) {
+  // Up in nine tenths of its period, down in one: nearly all increments have one sign.
+  EnergySeries saw = series(
+      [](int b, double) {
+        const double phase = b / 16.0 - std::floor(b / 16.0);
+        return phase < 0.9 ? phase / 0.9 : (1 - phase) / 0.1;
+      },
+      256);
+  saw.periods = 16;
+  const auto found = classify_run(saw);
+  EXPECT_LT(found.sign_p_value, RunDrift::sign_level);
+  EXPECT_NE(found.drift, DriftClass::linear);
 }
 
 TEST(RunDrift, ADriftIsLinear) {
@@ -86,9 +149,9 @@ TEST(RunDrift, ADriftIsLinear) {
   }
 }
 
-TEST(RunDrift, ADriftShowsFromThirtyTimesTheOscillationOn) {
+TEST(RunDrift, ADriftShowsFromThirtyTimesTheOscillationOnAndForbidsBoundedFarBelow) {
   // 32 increments d/32 with the deviation a of a difference of two sines: t = d/32/a sqrt(32) is 5 for d = 28 a, and
-  // the level of 1e-4 lies at 4.5 with 31 degrees of freedom. Below, it is called a walk or bounded.
+  // the level of 1e-4 lies at 4.5 with 31 degrees of freedom. A trend of d = 3 has the rank correlation 0.6 with time.
   const auto with_drift = [](double total, std::uint64_t s) {
     return classify_run(series([&](int b, double) {
       return total * b / blocks + std::sin(2 * std::numbers::pi * counter_uniform(s, static_cast<std::uint64_t>(b)));
@@ -96,20 +159,56 @@ TEST(RunDrift, ADriftShowsFromThirtyTimesTheOscillationOn) {
   };
   for (std::uint64_t s = 0; s < 20; ++s) {
     EXPECT_EQ(with_drift(50, s).drift, DriftClass::linear);
-    EXPECT_EQ(with_drift(5, s).drift, DriftClass::bounded);
+    EXPECT_NE(with_drift(5, s).drift, DriftClass::bounded);
+    EXPECT_NE(with_drift(3, s).drift, DriftClass::bounded);
+    EXPECT_EQ(with_drift(0.1, s).drift, DriftClass::bounded);
   }
 }
 
 TEST(RunDrift, ADriftThatSlowsDownIsSeenByItsSigns) {
-  const auto found = classify_run(series([](int b, double) { return 1 - std::pow(b + 1.0, -2); }));
-  EXPECT_GT(found.p_value, DriftStatistics::level);  // one increment outweighs the rest
+  const auto found = classify_run(series([](int b, double) { return 1 - std::pow(b + 1.0, -0.5); }));
   EXPECT_LT(found.sign_p_value, RunDrift::sign_level);
   EXPECT_EQ(found.drift, DriftClass::linear);
+  // With nearly all of it in the first blocks only the motion tells it from an oscillation that began at an extreme.
+  EnergySeries sudden = series([](int b, double) { return 1 - std::pow(b + 1.0, -2); });
+  EXPECT_GT(classify_run(sudden).p_value, DriftStatistics::level);  // one increment outweighs the rest
+  sudden.outgrown = true;
+  EXPECT_EQ(classify_run(sudden).drift, DriftClass::linear);
+}
+
+TEST(RunDrift, NothingIsBoundedAboveItsScaleOrOnceOutgrown) {
+  EnergySeries wave = series([](int b, double) { return std::sin(2.4 * b); });
+  EXPECT_EQ(classify_run(wave).drift, DriftClass::bounded);
+  wave.steady = false;
+  EXPECT_FALSE(classify_run(wave).drift);
+  wave.steady = true;
+  wave.scale = 0.5;
+  EXPECT_FALSE(classify_run(wave).drift);
 }
 
 TEST(RunDrift, HugeAndBrokenEnergies) {
   EXPECT_EQ(classify_run(series([](int b, double) { return 1e300 * b; })).drift, DriftClass::linear);
-  EXPECT_EQ(classify_run(series([](int b, double) { return b == 70 ? std::nan("") : 0; })).drift, DriftClass::linear);
+  EXPECT_FALSE(classify_run(series([](int b, double) { return b == 70 ? std::nan("") : 0; })).drift ==
+               DriftClass::bounded);
+}
+
+TEST(Swings, CountWhatTurnsBack) {
+  constexpr double period = 100;
+  const auto watched = [](auto&& x, std::int64_t steps, std::int64_t apart = 1) {
+    Swings swings;
+    for (std::int64_t step = 0; step <= steps; step += apart) swings.look(step, x(static_cast<double>(step)));
+    return swings;
+  };
+  const auto wave = [](double t) { return std::sin(2 * std::numbers::pi * t / period); };
+  EXPECT_NEAR(watched(wave, 1000).period(1000).value(), period, 1);
+  EXPECT_NEAR(watched(wave, 100000, 7).period(100000).value(), period, 1);
+  EXPECT_FALSE(watched([](double t) { return t; }, 1000).period(1000));                 // never turns
+  EXPECT_FALSE(watched([&](double t) { return t + 9 * wave(t); }, 5000).period(5000));  // only grows
+  EXPECT_FALSE(watched([](double) { return 1.0; }, 1000).period(1000));                 // does not move
+  EXPECT_NEAR(watched([&](double t) { return wave(t) + 0.2 * wave(9 * t); }, 1000).period(1000).value(), period, 9);
+  EXPECT_EQ(watched(wave, 60).period(60).value(), 120);  // one turn: long, and no more is known
+  const Swings widening = watched([&](double t) { return t * t * t * wave(t); }, 450);
+  EXPECT_GT(widening.earlier_periods(), 1);
 }
 
 std::vector<std::int64_t> looked_at(std::int64_t steps, EnergyBlocks& watch) {
@@ -152,23 +251,39 @@ TEST(EnergyBlocks, BlocksInStepWithAPeriodDoNotMakeADrift) {
       frame.energy = std::sin(2 * std::numbers::pi * static_cast<double>(frame.step) / 102.4 * (1 + slip));
       (void)watch.observe(frame);
     }
-    EXPECT_EQ(watch.drift().drift, DriftClass::bounded) << slip;
+    EnergySeries seen;
+    for (const double h : watch.state().energies) seen.deviations.push_back(h - watch.state().energies.front());
+    seen.periods = 2000;
+    seen.scale = 100;
+    EXPECT_EQ(classify_run(seen).drift, DriftClass::bounded) << slip;
   }
 }
 
 TEST(EnergyBlocks, TheStateIsAllThereIs) {
-  struct Copier {  // an archive that copies field by field
-    std::vector<double> kept;
-    void operator()(std::int64_t& a, std::int64_t& b, std::vector<double>& c, std::vector<double>& d) {
-      kept = {static_cast<double>(a), static_cast<double>(b), static_cast<double>(c.size()),
-              static_cast<double>(d.size())};
-    }
-  } copier;
-  EnergyBlocks watch;
-  (void)looked_at(100, watch);
-  EnergyBlockState state = watch.state();
-  state.archive(copier);
-  EXPECT_EQ(copier.kept, (std::vector<double>{1, 101, 101, 4}));
+  EnergyBlocks whole;
+  (void)looked_at(1000, whole);
+  Writer ar;
+  whole.archive(ar);
+  Reader back(ar.bytes());
+  EnergyBlocks copy;
+  copy.archive(back);
+  Writer again;
+  copy.archive(again);
+  EXPECT_EQ(ar.bytes(), again.bytes());
+}
+
+TEST(LongNumber, SmallerThanADouble) {
+  EXPECT_EQ(times_power_of_ten(2, -400).text.substr(0, 3), "2.0");
+  EXPECT_EQ(times_power_of_ten(2, -10).text, "");
+  EXPECT_TRUE(at_most(times_power_of_ten(2, -400), times_power_of_ten(3, -400)));
+  EXPECT_FALSE(at_most(times_power_of_ten(2, -399), times_power_of_ten(3, -400)));
+  EXPECT_DOUBLE_EQ(quotient(times_power_of_ten(6, -400), times_power_of_ten(3, -400)), 2);
+  const ScaledDifferences d = differences_to_first(
+      {"1", "1.0000000000000000000000000000000000000002", "0.9999999999999999999999999999999999999999"});
+  EXPECT_EQ(d.values[0], 0);
+  EXPECT_DOUBLE_EQ(d.values[1], 1);
+  EXPECT_NEAR(d.values[2], -0.5, 1e-11);
+  EXPECT_NEAR(times(1, d.unit), 2e-40, 1e-51);  // computed with ten digits more than are written
 }
 
 }  // namespace

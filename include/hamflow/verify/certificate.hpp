@@ -5,31 +5,38 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/verify/drift.hpp"
+#include "hamflow/verify/long_number.hpp"
+#include "hamflow/verify/swings.hpp"
 
 namespace hamflow {
 
 /// What the observer of a run keeps: the energies at the samples taken, one in each block, and the next one due.
 struct EnergyBlockState {
   std::int64_t block_steps = 1;
-  std::int64_t next = 0;           // the step of the next sample
-  std::vector<double> energies;    // in the order of the blocks
-  std::vector<double> magnitudes;  // the largest yet of |q|_max, |p|_max, sum |p_i|, sum_ij |q_i p_j| over the samples
+  std::int64_t next = 0;            // the step of the next sample
+  std::vector<double> energies;     // in the order of the blocks
+  std::vector<std::string> digits;  // the same with all their digits, in arithmetic beyond double; else empty
+  std::vector<double> magnitudes;   // the largest yet of |q|_max, |p|_max, sum |p_i|, sum_ij |q_i p_j| over the samples
+  std::vector<Swings> swings;       // of each q, then of each p
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(block_steps, next, energies, magnitudes);
+    ar(block_steps, next, energies, digits, magnitudes, swings);
   }
 };
 
 /// Watches the energy once in each of 128 to 256 blocks of equal length, for runs of any length and in constant memory:
 /// when there are too many blocks, two become one. Within its block the place of a sample is random (but always the
-/// same): blocks that are all but a whole number of periods long would make a drift of an oscillation.
+/// same): blocks that are all but a whole number of periods long would make a drift of an oscillation. The turns of q
+/// and p are counted at every sample on the way, so that what is too fast for the blocks of the end was seen at first.
 class EnergyBlocks final : public Observer {
  public:
   static constexpr std::size_t most_blocks = 256;
@@ -38,7 +45,6 @@ class EnergyBlocks final : public Observer {
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
 
-  RunDrift drift() const { return classify_run(state_.energies); }
   const EnergyBlockState& state() const { return state_; }
   void archive(Writer& ar) override { ar(state_); }
   void archive(Reader& ar) override { ar(state_); }
@@ -50,11 +56,11 @@ class EnergyBlocks final : public Observer {
 /// One invariant over a run.
 struct MomentumMap {
   std::string name;
-  double max_error = 0;
-  double relative = 0;               // to the size of its terms
-  std::optional<double> rounding{};  // the largest error that rounding explains; none where that is not known
+  LongNumber max_error;
+  LongNumber relative;                   // to the size of its terms
+  std::optional<LongNumber> rounding{};  // the largest error that rounding explains; none where that is not known
   std::optional<bool> conserved() const {
-    return rounding ? std::optional<bool>(max_error <= *rounding) : std::nullopt;
+    return rounding ? std::optional<bool>(at_most(max_error, *rounding)) : std::nullopt;
   }
 };
 
@@ -64,17 +70,52 @@ struct Reversal {
   Outcome outcome = Outcome::done;
   std::string failure;  // why a step was not taken
   Frame start, turn, end;
-  double distance = 0;           // |end - start|, largest coordinate
-  double relative_distance = 0;  // to the largest coordinate of the start
+  LongNumber distance;           // |end - start|, largest coordinate
+  LongNumber relative_distance;  // to the largest coordinate of the start
   bool bit_exact = false;
   std::uint64_t start_hash = 0, turn_hash = 0, end_hash = 0;  // of the stored bits
 };
 
 /// @param pulse called between blocks with the steps taken both ways; returns false to stop
-Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse = {});
+/// @param there watch the way there
+Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse = {},
+                 std::span<Observer* const> there = {});
 
-/// The same from the start of a request, on a simulation of its own; none when a step fails.
-std::optional<Reversal> reversal_of(const Request& request, std::int64_t steps);
+/// H(q, -p) = H(q, p) to rounding at these states: else the motion itself is not reversed with the momenta.
+/// @param scale of the energy
+bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
+                     double scale);
+
+/// What a reversal over a part of a run proves.
+enum class ReversalProof { every_bit, to_rounding, not_reversible, nothing };
+
+constexpr std::string_view name(ReversalProof proof) {
+  switch (proof) {
+    case ReversalProof::every_bit:
+      return "every bit";
+    case ReversalProof::to_rounding:
+      return "reversible to rounding";
+    case ReversalProof::not_reversible:
+      return "not reversible";
+    case ReversalProof::nothing:
+      break;
+  }
+  return "nothing";
+}
+
+struct ReversalEvidence {
+  std::int64_t steps = 0;  // each way
+  double share = 0;        // of the run
+  std::int64_t bounces = 0;
+  std::optional<LongNumber> distance, relative;  // none: a step failed
+  bool bit_exact = false;
+  ReversalProof proves = ReversalProof::nothing;
+  std::string reason;  // also what was left out
+};
+
+/// @param period of the slowest oscillation seen, in steps; none was seen   @param steps_taken at least 1
+ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
+                                   std::optional<double> period);
 
 /// The invariants of a run beside what rounding explains.
 /// Each is judged by the terms that the problem declares of it (InvariantInfo::terms).
@@ -84,10 +125,11 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
 
 /// What is reported of a run.
 struct RunCertificate {
-  RunDrift drift;
-  double energy_level = 0;  // max |H - H0|/scale over every step
+  RunDrift drift;                                   // increments in units of the largest deviation seen
+  LongNumber mean_increment, mean_increment_error;  // of the energy, over a block
+  LongNumber energy_level;                          // max |H - H0|/scale over every step
   std::vector<MomentumMap> momentum_maps;
-  std::optional<Reversal> reversal;  // none: it could not be measured
+  std::optional<ReversalEvidence> reversal;  // none: no step was taken
 };
 
 /// @param steps_taken of which the reversal takes a small part over again, on a simulation of its own

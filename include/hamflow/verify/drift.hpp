@@ -34,12 +34,26 @@ struct DriftStatistics {
   DriftClass drift = DriftClass::bounded;
 };
 
-/// The same of one run, from its own blocks.
+/// The energy of one run, once in each of consecutive blocks of equal length.
+struct EnergySeries {
+  std::vector<double> deviations;   // H - H0 in a unit of the caller's, the start (0) first; squares must not overflow
+  std::optional<double> periods{};  // of the slowest oscillation of q and p that was seen; none: nothing turned back
+  bool steady = true;               // false: only what the motion has outgrown since has turned back
+  bool outgrown = false;            // one of q and p has turned back, but not since its range doubled last
+  double rounding = 0;              // of one energy: the rounding unit times its scale
+  double roundings = 0;             // how many rounded actions were taken, of which each may leave one
+  double scale = 1;                 // of the energy itself
+};
+
+/// What is concluded of it.
 struct RunDrift {
   static constexpr int fewest_blocks = 32;
   static constexpr double sign_level = 1e-6;
+  static constexpr double fewest_periods = 2;
+  static constexpr double periods_to_be_bounded = 16;
   int blocks = 0;
-  std::optional<DriftClass> drift;  // none: too few blocks, for the reason given
+  std::optional<double> periods;    // of the slowest oscillation seen, of the energy too; none was seen
+  std::optional<DriftClass> drift;  // none: undecided, for the reason given
   std::string reason;               // for the class, or for having none
   double p_value = 1;               // of "the mean increment of a block is 0", t-test
   double sign_p_value = 1;          // of "an increment is as often up as down": a drift that slows down or speeds up
@@ -59,9 +73,11 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 /// is shorter than the others, or not finite, is one that broke down: linear.
 DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies);
 
-/// @param energies H once in each of consecutive blocks of equal length, the start first. Not finite ones: linear. Also
-/// linear: nearly all increments of one sign, the mark of a drift that changes its speed (the energy of euler on an
-/// orbit that widens), which a t-test cannot see.
+/// `linear`: one of the tests rejects and the trend stands out. The sign test is for drifts that change their speed
+/// (the energy of euler on an orbit that widens), which a t-test cannot see. `random_walk`: the exponent, the whiteness
+/// of the increments and the size are those of summed rounding errors. `bounded`: neither trend nor growth over at
+/// least 16 periods. None, with the reason, wherever these do not agree, and for runs of fewer than 32 blocks or less
+/// than two periods.
 ///
 /// The growth exponent is the slope of log S(m) over log m, halved, where S(m) is the mean of (E_(i+m) - E_i)^2 over
 /// all i (structure function): m for a walk, m^2 for a drift, constant for an oscillation that the blocks do not
@@ -69,6 +85,6 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
 /// S(m)), the correlation of neighbouring increments, is no longer above 2 sqrt(m/B) are left out. For a walk of B
 /// increments ln S(m) has the variance 2 (2 m^2 + 1)/(3 m B), by which the lags are weighted.   [LoMacKinlay1988,
 /// for the variance ratio]
-RunDrift classify_run(const std::vector<double>& energies);
+RunDrift classify_run(const EnergySeries& series);
 
 }  // namespace hamflow

@@ -106,6 +106,8 @@ struct MethodCertificate {
     std::int64_t steps = 0;
     double distance = 0;  // relative to the largest coordinate of the start
     bool measured = false;
+    std::string proves;  // as name(ReversalProof)
+    std::string reason;
   };
   DriftClass drift = DriftClass::bounded;  // the worst over the problems, each from its ensemble of starts
   std::vector<Map> momentum_maps;

@@ -1,0 +1,214 @@
+// What the reversal of a part of a run proves: its distance beside what rounding explains.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "hamflow/core/text.hpp"
+#include "hamflow/verify/certificate.hpp"
+#include "hamflow/verify/counter_random.hpp"
+#include "rounding.hpp"
+
+namespace hamflow {
+
+namespace {
+
+constexpr double moved = 0x1p-36;    // of the size of q and of p: 2^16 roundings, and far from where motions part
+constexpr double parted = 1e-3;      // of the size: no longer a small difference
+constexpr std::int64_t places = 64;  // at which two motions are compared
+
+double largest_of(const std::vector<double>& xs) {
+  double most = 0;
+  for (const double x : xs) most = std::max(most, std::abs(x));
+  return most;
+}
+
+/// Keeps the states of a motion at up to `places` of its steps.
+class Waypoints final : public Observer {
+ public:
+  explicit Waypoints(std::int64_t steps) : apart_(std::max<std::int64_t>(1, steps / places)) {}
+  std::int64_t next_due(std::int64_t step) const override { return (step + apart_ - 1) / apart_ * apart_; }
+  Verdict observe(const Frame& frame) override {
+    q_.push_back(frame.q);
+    p_.push_back(frame.p);
+    return Verdict::go_on;
+  }
+  std::size_t count() const { return q_.size(); }
+  const std::vector<double>& q(std::size_t i) const { return q_[i]; }
+  const std::vector<double>& p(std::size_t i) const { return p_[i]; }
+  double size_of(const std::vector<std::vector<double>>& all) const {
+    double most = 0;
+    for (const auto& x : all) most = std::max(most, largest_of(x));
+    return most;
+  }
+  double q_size() const { return size_of(q_); }
+  double p_size() const { return size_of(p_); }
+
+ private:
+  std::int64_t apart_;
+  std::vector<std::vector<double>> q_;
+  std::vector<std::vector<double>> p_;
+};
+
+std::vector<std::string> moved_by(const std::vector<double>& x, double size, std::uint64_t seed) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double sign = counter_bits(seed, i) % 2 == 0 ? 1 : -1;
+    texts.push_back(shortest(x[i] + sign * moved * size));
+  }
+  return texts;
+}
+
+/// The run itself has all threads that can be started here: one thread gives the same bits.
+std::unique_ptr<Simulation> simulation_beside_the_run(Request request) {
+  try {
+    return make_simulation(request);
+  } catch (const Error&) {
+    request.threads = 1;
+    return make_simulation(request);
+  }
+}
+
+/// How far two motions part that begin 2^-36 apart.
+struct Parting {
+  bool measured = false;
+  double root_mean_square = 0;  // over the way, in 2^-36
+  double furthest = 0;          // as it is
+};
+
+/// In double: what is small beside the motion grows alike in every arithmetic.
+Parting parting(const Request& request, const Reversal& reversal, const Waypoints& way) {
+  Request other = request;
+  other.watch = false;
+  other.arithmetic = "double";
+  other.threads = 1;
+  other.start = {};
+  other.start.q = moved_by(reversal.start.q, way.q_size(), 1);
+  other.start.p = moved_by(reversal.start.p, way.p_size(), 2);
+  Waypoints beside(reversal.steps);
+  Observer* const watch[] = {&beside};
+  const auto simulation = make_simulation(other);
+  Parting found;
+  if (run(*simulation, reversal.steps, watch) != Outcome::done || beside.count() != way.count()) return found;
+  double squares = 0;
+  for (std::size_t i = 0; i < way.count(); ++i) {
+    double distance = 0;
+    for (std::size_t k = 0; k < way.q(i).size(); ++k) {
+      distance = std::max({distance, std::abs(way.q(i)[k] - beside.q(i)[k]), std::abs(way.p(i)[k] - beside.p(i)[k])});
+    }
+    if (!std::isfinite(distance)) return found;
+    found.furthest = std::max(found.furthest, distance);
+    squares += distance * distance;
+  }
+  found.measured = true;
+  found.root_mean_square = std::sqrt(squares / static_cast<double>(way.count())) / moved;
+  return found;
+}
+
+/// The distance that rounding explains. A rounding of step j, on the way there or back, is carried by the way back from
+/// j to the start. Of a symplectic map the inverse has the norm of the map, so that it grows as a small difference at
+/// the start does on the way to j, which is measured. Roundings of unit size u then add up like a walk: to u
+/// sqrt(2 a sum_j g_j^2) for a actions a step; four of them,
+/// which is more than six times what reversible methods were found to need (tools/confusion_table.py).
+LongNumber explained_by_rounding(const Request& request, const Reversal& reversal, const Parting& parting,
+                                 const Waypoints& way, double actions) {
+  const double factor =
+      4 * (1 + std::sqrt(2 * actions * static_cast<double>(reversal.steps))) * parting.root_mean_square;
+  const int digits = digits_beyond_double(request.arithmetic);
+  if (digits > 0) return times_power_of_ten(factor, 1 - digits);
+  if (request.arithmetic != "lattice") return factor * epsilon;
+  const auto over = [](double unit, double size) { return size > 0 ? unit / size : 0; };
+  return factor *
+         std::max({epsilon, over(request.position_unit, way.q_size()), over(request.momentum_unit, way.p_size())});
+}
+
+std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:.1e}", x.value) : x.text; }
+
+/// What is proved, and why.
+std::pair<ReversalProof, std::string> judged(const Request& request, const ProblemEntry& problem,
+                                             const Reversal& reversal, const Waypoints& way, double scale,
+                                             double actions) {
+  const MethodInfo method = describe(request.method);
+  const Frame* const states[] = {&reversal.start, &reversal.turn};
+  if (!even_in_momenta(problem, request.parameters, states, scale)) {
+    return {ReversalProof::nothing,
+            "H(q, -p) is another H than H(q, p): the motion itself is not reversed by negating the momenta"};
+  }
+  if (reversal.bit_exact) {
+    if (method.reversible) return {ReversalProof::every_bit, "every bit came back"};
+    return {ReversalProof::nothing,
+            "every bit came back, but " + method.name + " is not reversible: its defect is below rounding"};
+  }
+  const Parting apart = parting(request, reversal, way);
+  const double size = std::max(way.q_size(), way.p_size());
+  if (!apart.measured) return {ReversalProof::nothing, "how far rounding is carried could not be measured"};
+  const LongNumber rounding = explained_by_rounding(request, reversal, apart, way, actions);
+  const std::string explained =
+      fmt::format("{} off, of which rounding explains {}", brief(reversal.distance), brief(rounding));
+  if (apart.furthest > parted * size) {
+    return {ReversalProof::nothing,
+            fmt::format("{} off, but motions that begin close to each other part by a factor of {:.0e}: what rounding "
+                        "becomes is not known",
+                        brief(reversal.distance), apart.furthest / (moved * size))};
+  }
+  if (!at_most(reversal.distance, rounding)) return {ReversalProof::not_reversible, explained};
+  if (rounding.value > parted * size) return {ReversalProof::nothing, explained + ", which is too much to tell"};
+  if (!method.reversible) {
+    return {ReversalProof::nothing,
+            explained + "; " + method.name + " is not reversible, but its defect is below that"};
+  }
+  return {ReversalProof::to_rounding, explained};
+}
+
+}  // namespace
+
+bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
+                     double scale) {
+  const Texts all = complete(problem.info, parameters);
+  return std::all_of(states.begin(), states.end(), [&](const Frame* frame) {
+    std::vector<double> p = frame->p;
+    for (double& x : p) x = -x;
+    return std::abs(problem.energy(all, frame->q, frame->p) - problem.energy(all, frame->q, p)) <= 64 * epsilon * scale;
+  });
+}
+
+ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
+                                   std::optional<double> period) {
+  ReversalEvidence found;
+  const double at_least = std::min(period ? std::ceil(*period) : 1000.0, 1000.0);
+  Request plain = request;
+  plain.watch = false;
+  const auto simulation = simulation_beside_the_run(plain);
+  Frame start;
+  simulation->look(start);
+  const auto most = static_cast<std::int64_t>(1e8 / static_cast<double>(std::max<std::size_t>(1, start.q.size())));
+  found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(at_least));
+  found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
+  found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
+
+  Waypoints way(found.steps);
+  Observer* const watch[] = {&way};
+  const Reversal reversal = reverse(*simulation, found.steps, {}, watch);
+  if (reversal.outcome != Outcome::done) {
+    found.reason = "a step of the way there or back failed: " +
+                   (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
+  } else {
+    found.distance = reversal.distance;
+    found.relative = reversal.relative_distance;
+    found.bit_exact = reversal.bit_exact;
+    const Effort effort = simulation->effort();
+    const double actions =
+        std::max(1.0, static_cast<double>(effort.force + effort.gradient) / static_cast<double>(2 * found.steps));
+    std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, simulation->energy_scale(), actions);
+  }
+  if (found.steps < steps_taken) {
+    found.reason += fmt::format("; the other {} steps of the run were left out", steps_taken - found.steps);
+  }
+  if (period && static_cast<double>(found.steps) < *period) {
+    found.reason += "; shorter than one period of the slowest oscillation";
+  }
+  return found;
+}
+
+}  // namespace hamflow
