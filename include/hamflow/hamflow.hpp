@@ -103,6 +103,7 @@
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/numerics/elimination.hpp"
 #include "hamflow/numerics/elliptic.hpp"
+#include "hamflow/numerics/exact_product.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "hamflow/numerics/normal_modes.hpp"
