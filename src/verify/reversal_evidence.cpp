@@ -14,9 +14,9 @@ namespace hamflow {
 
 namespace {
 
-constexpr double moved = 0x1p-36;    // of the size of q and of p: 2^16 roundings, and far from where motions part
-constexpr double parted = 1e-3;      // of the size: no longer a small difference
-constexpr std::int64_t places = 64;  // at which two motions are compared
+constexpr double moved = 0x1p-36;  // of the size of q and of p: 2^16 roundings, and far from where motions part
+constexpr double parted = 1e-3;    // of the size: no longer a small difference
+constexpr std::int64_t most_waypoints = 64;  // at which two motions are compared
 
 double largest_of(const std::vector<double>& xs) {
   double most = 0;
@@ -24,10 +24,10 @@ double largest_of(const std::vector<double>& xs) {
   return most;
 }
 
-/// Keeps the states of a motion at up to `places` of its steps.
+/// Keeps the states of a motion at up to `most_waypoints` of its steps.
 class Waypoints final : public Observer {
  public:
-  explicit Waypoints(std::int64_t steps) : apart_(std::max<std::int64_t>(1, steps / places)) {}
+  explicit Waypoints(std::int64_t steps) : apart_(std::max<std::int64_t>(1, steps / most_waypoints)) {}
   std::int64_t next_due(std::int64_t step) const override { return (step + apart_ - 1) / apart_ * apart_; }
   Verdict observe(const Frame& frame) override {
     q_.push_back(frame.q);
