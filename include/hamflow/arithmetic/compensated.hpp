@@ -28,8 +28,7 @@ struct Compensated {
     static constexpr const Real& read(const Stored& s) { return s.high; }
     /// s <- s + r: the error of high + (r + low) is found exactly (two-sum, no assumption on magnitudes) and kept.
     static constexpr void add(Stored& s, const Real& r) { settle(s, begin(s, r)); }
-    /// The same with r + low exact as well: what is lost there is mostly half a unit, decided by the last bits of the
-    /// summands, and those are not random where increments grow from turning points.
+    /// The same with r + low exact as well. What is lost there had a mean on some orbits (docs/design.md, cg(1)).
     static constexpr void add_keeping(Stored& s, const Real& r) {
       const R increment = r + s.low;
       const R of_low = increment - r;
