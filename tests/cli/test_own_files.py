@@ -183,6 +183,27 @@ class OwnFiles(CommandCase):
         self.hamflow("convert", "r", "--to", "polar", "-o", "/dev/null", status=2)  # neither .h5 nor .csv
         self.assertEqual([p.name for p in self.folder.iterdir() if p.name.endswith(".part")], [])
 
+    def test_a_run_that_goes_on_is_converted(self):
+        """Its columns differ in length from one moment to the next: what comes out has as many rows in each."""
+        process = subprocess.Popen([HAMFLOW, "run", "s.toml", "--out", "r", "--set", "run.steps=1_000_000_000",
+                                    "--set", "run.record_every=20_000"], cwd=self.folder, stdout=subprocess.DEVNULL)
+        while not (self.folder / "r" / "run.h5").exists():
+            time.sleep(0.001)
+        try:
+            for _ in range(10):
+                done = subprocess.run([HAMFLOW, "convert", "r", "--to", "polar", "-o", "x.h5"], cwd=self.folder,
+                                      capture_output=True, text=True)
+                if done.returncode == 3:  # a row was read as it was written: its checksum did not fit yet
+                    self.assertIn("HDF5", done.stderr)
+                    continue
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.hamflow("convert", "x.h5", "--to", "cartesian", "-o", "y.csv")
+        finally:
+            process.kill()
+            process.wait()
+        self.hamflow("convert", "r", "--to", "polar", "-o", "x.h5")  # cut short
+        self.hamflow("convert", "x.h5", "--to", "cartesian", "-o", "y.csv")
+
     def hanging_gnuplot(self):
         programs = self.folder / "bin"
         programs.mkdir()
