@@ -11,6 +11,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "measures/measures.hpp"
+#include "number_text.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
@@ -160,6 +161,12 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     s["final"] = {{"t", frame.digits.time}, {"q", frame.digits.q}, {"p", frame.digits.p}};
     s["energy"]["initial"] = frame.digits.initial_energy;
     s["energy"]["final"] = frame.digits.energy;
+  }
+  if (certificate != nullptr && energy.max_error == 0 && !certificate->energy_level.text.empty()) {
+    // No double is so small: what the certificate found.
+    const LongNumber& level = certificate->energy_level;
+    s["energy"]["max_relative_error"] = level.text;
+    s["energy"]["max_error"] = scale > 0 ? json_of(times(scale, level.text)) : Json(level.text);
   }
   s["invariants"] = Json::object();
   const std::vector<InvariantExcursion> invariants = simulation.invariants();
