@@ -72,6 +72,19 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   }
 }
 
+/// A third is no double: a member is run again from the text.
+void add_given(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+  for (std::size_t k = 0; k < sweep.varied().size(); ++k) {
+    const Vary& vary = sweep.varied()[k];
+    if (vary.numbers.empty()) continue;
+    SweepColumn column{"digits/varied/" + vary.path};
+    for (std::size_t member = 0; member < sweep.members(); ++member) {
+      column.texts.push_back(without_quotes(vary.texts[values_of_member(sweep.varied(), member)[k]]));
+    }
+    columns.push_back(std::move(column));
+  }
+}
+
 /// All digits of a row. Of a member in double, where others have more, those that read back as the same double.
 FrameDigits digits_of(const MemberRow& row) {
   if (!row.digits.q.empty() || row.q.empty()) return row.digits;
@@ -168,7 +181,9 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
       return i < row.observables.size() ? row.observables[i] : nothing;
     }));
   }
-  if (sweep.beyond_double()) add_digits(sweep, n, columns);
+  if (!sweep.beyond_double()) return columns;
+  add_digits(sweep, n, columns);
+  add_given(sweep, columns);
   return columns;
 }
 
@@ -193,12 +208,13 @@ void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
   WholeFile whole(file, next_name(file));
   std::ofstream out(whole.part());
   if (!out) throw FileError("cannot write " + file.string());
-  // Each column with all its digits, where there are more than those of a double.
+  // Each column with all its digits, where there are more than those of a double. What was varied stays a number.
   std::vector<SweepColumn> columns = columns_of(sweep);
   const std::string beyond_double = "digits/";
   for (SweepColumn& column : columns) {
     for (const SweepColumn& other : columns) {
-      if (other.name == beyond_double + column.name) column.texts = other.texts;
+      const bool varied = column.name.starts_with("varied/");
+      if (!varied && other.name == beyond_double + column.name) column.texts = other.texts;
     }
   }
   std::erase_if(columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });

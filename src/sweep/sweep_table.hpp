@@ -21,8 +21,8 @@ struct SweepColumn {
 
 /// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
 /// /energy/..., /invariants/NAME/..., /observables/NAME; in arithmetic beyond double also /digits/final/t, q, p and
-/// /digits/energy/initial, final, the same numbers as decimal texts that read back exactly. What a member does not have
-/// is NaN, or an empty text.
+/// /digits/energy/initial, final, the same numbers as decimal texts that read back exactly, and /digits/varied/KEY, the
+/// numbers of /varied as they were given. What a member does not have is NaN, or an empty text.
 std::vector<SweepColumn> columns_of(const Sweep& sweep);
 
 /// What is the same for all rows.

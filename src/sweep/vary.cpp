@@ -104,6 +104,11 @@ Vary parse_vary(const std::string& text) {
   return vary;
 }
 
+std::string without_quotes(const std::string& text) {
+  const bool quoted = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 std::size_t member_count(const std::vector<Vary>& varied) {
   std::size_t count = 1;
   for (const Vary& vary : varied) {

@@ -18,6 +18,9 @@ struct Vary {
 /// do not split. @throws Error naming what was found and what is allowed
 Vary parse_vary(const std::string& text);
 
+/// A value as it was given, without the quotes of a TOML string: 1/3, not '1/3'.
+std::string without_quotes(const std::string& text);
+
 /// The number of members: the product of the numbers of values. @throws Error when there are too many
 std::size_t member_count(const std::vector<Vary>& varied);
 /// Which value of each key a member has; the last key changes fastest.

@@ -11,6 +11,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "measures/measures.hpp"
+#include "number_text.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
@@ -161,15 +162,17 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     s["energy"]["initial"] = frame.digits.initial_energy;
     s["energy"]["final"] = frame.digits.energy;
   }
+  if (certificate != nullptr && energy.max_error == 0 && !certificate->energy_level.text.empty()) {
+    // No double is so small: what the certificate found.
+    const LongNumber& level = certificate->energy_level;
+    s["energy"]["max_relative_error"] = level.text;
+    s["energy"]["max_error"] = scale > 0 ? json_of(times(scale, level.text)) : Json(level.text);
+  }
   s["invariants"] = Json::object();
   const std::vector<InvariantExcursion> invariants = simulation.invariants();
   for (std::size_t i = 0; i < invariants.size(); ++i) {
     const InvariantInfo& info = scenario.problem->info.invariants[i];
-    const bool one = info.components == Components::one ||
-                     (info.components == Components::rotations && invariants[i].initial.size() == 1);
-    s["invariants"][info.name] = {{"initial", one ? Json(invariants[i].initial[0]) : Json(invariants[i].initial)},
-                                  {"final", one ? Json(invariants[i].final[0]) : Json(invariants[i].final)},
-                                  {"max_error", invariants[i].max_error}};
+    s["invariants"][info.name] = invariant_json(info, invariants[i]);
   }
   if (describe(scenario.request.method).diagnostics) {
     s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);
@@ -200,6 +203,14 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
   if (s["status"] == "failed") s["error"] = error_of(scenario.request, simulation, result);
   return s;
+}
+
+Json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen) {
+  const bool one =
+      info.components == Components::one || (info.components == Components::rotations && seen.initial.size() == 1);
+  return {{"initial", one ? Json(seen.initial[0]) : Json(seen.initial)},
+          {"final", one ? Json(seen.final[0]) : Json(seen.final)},
+          {"max_error", seen.max_error}};
 }
 
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

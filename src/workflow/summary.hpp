@@ -28,6 +28,8 @@ std::string status_of(Outcome outcome);
 nlohmann::ordered_json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                                   const RunCertificate* certificate = nullptr, const Measures* measures = nullptr,
                                   const TurnWatch* turns = nullptr);
+/// One invariant of a summary: a number, or a list where it has several components.
+nlohmann::ordered_json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen);
 /// The same summary for people.
 std::string readable(const nlohmann::ordered_json& summary);
 /// JSON as text, also of strings that are no UTF-8: names of files may be anything.

@@ -55,7 +55,12 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   const std::vector<std::size_t> values = values_of_member(sweep.varied(), member);
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Vary& vary = sweep.varied()[k];
-    json[vary.path] = vary.numbers.empty() ? Json(vary.texts[values[k]]) : Json(vary.numbers[values[k]]);
+    const std::string& text = vary.texts[values[k]];
+    json[vary.path] = vary.numbers.empty() ? Json(text) : Json(vary.numbers[values[k]]);
+    if (vary.numbers.empty() || !sweep.beyond_double()) continue;
+    // A third is no double: the row gives what the member can be run again from.
+    const std::string given = without_quotes(text);
+    if (given != shortest(vary.numbers[values[k]])) json[vary.path] = given;
   }
   json["status"] = std::string(name(row.status));
   json["steps"] = row.steps;
@@ -73,9 +78,7 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   json["invariants"] = Json::object();
   const std::vector<InvariantInfo>& declared = sweep.common().problem->info.invariants;
   for (std::size_t i = 0; i < row.invariants.size(); ++i) {
-    json["invariants"][declared[i].name] = {{"initial", row.invariants[i].initial},
-                                            {"final", row.invariants[i].final},
-                                            {"max_error", row.invariants[i].max_error}};
+    json["invariants"][declared[i].name] = invariant_json(declared[i], row.invariants[i]);
   }
   for (std::size_t i = 0; i < row.observables.size(); ++i) {
     json[sweep.observables().names[i]] = row.observables[i];

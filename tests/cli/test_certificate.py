@@ -174,6 +174,10 @@ class Certificate(CommandCase):
         # Too small for a double: a text.
         c, _ = self.certificate("{name='cg', quadrature=64}", "run.arithmetic=mp(340)", steps=2, dt=1e-6)
         self.assertRegex(c["energy_level"], "e-3[2-4][0-9]$")
+        energy = self.summary("kepler.toml", "--set", "method={name='cg', quadrature=64}", "--set", "run.arithmetic=mp(340)",
+                              "--set", "run.steps=2", "--set", "run.dt=1e-6")["energy"]
+        self.assertEqual(energy["max_relative_error"], c["energy_level"])
+        self.assertRegex(energy["max_error"], "e-3[2-4][0-9]$")
         c, _ = self.certificate("{name='verlet'}", "run.arithmetic=mp(400)", steps=40)
         self.assertIsInstance(c["reversal_distance"]["distance"], str)
         self.assertIsInstance(c["momentum_maps"]["angular_momentum"]["rounding"], str)
