@@ -114,6 +114,8 @@ int compare(const CompareOptions& options) {
   print_notes(scenario.notes, options.quiet);
   print_notes(reader.notes, options.quiet);
   print_notes(comparison_notes(reader.request), options.quiet);
+  require_folder_of(options.figure);
+  require_folder_of(options.csv);
   const bool writes = !options.out.empty() && options.out != "none";
   const auto alone = writes ? make_comparison_folder(options.out, options.force) : nullptr;
   const ComparisonReport report = carry_out(reader.request, options);

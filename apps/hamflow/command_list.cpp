@@ -73,12 +73,17 @@ std::string declared_momentum(const std::string& coordinate) {
   return "(" + momentum_name(coordinate.substr(1));
 }
 
+/// A start of its own has as many as every other.
+std::string degrees_of_freedom(const ProblemEntry& entry) {
+  const std::size_t n = entry.dimension > 0 ? static_cast<std::size_t>(entry.dimension) : entry.info.default_q.size();
+  return n > 0 ? std::to_string(n) : "as many as the start has";
+}
+
 void show_problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
                            info.variant.empty() ? "" : " with " + variant_text(info), info.formula,
-                           entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
-                           info.reference);
+                           degrees_of_freedom(entry), info.reference);
   if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
   for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
   if (!info.frame.name.empty()) std::cout << option_row(info.frame);

@@ -41,6 +41,11 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
   for (const std::string& failure : report.failures) print_error(failure);
 }
 
+/// Without a figure there is nothing to colour.
+std::string refused_colour(const std::string& colour) {
+  return colour.empty() ? "" : "--colour: error: found " + colour + " without --figure; allowed beside --figure FILE";
+}
+
 }  // namespace
 
 int sweep_command(const SweepCommandOptions& options) {
@@ -54,14 +59,16 @@ int sweep_command(const SweepCommandOptions& options) {
     print_notes(sweep.notes(), options.quiet);
     if (!sweep.complaints().empty()) throw RejectedLines{sweep.complaints()};
     const bool draws = !options.figure.empty();
-    const std::string wrong = draws ? sweep.refused_figure(options.figure, options.colour) : "";
+    const std::string colour = options.colour.empty() ? "energy/max_error" : options.colour;
+    const std::string wrong = draws ? sweep.refused_figure(options.figure, colour) : refused_colour(options.colour);
     if (!wrong.empty()) throw RejectedLines{{wrong}};
+    require_folder_of(options.figure);
     const bool writes = options.out != "none";
     const auto alone = writes ? make_sweep_folder(folder_for(options), options.force) : nullptr;
     const SweepReport report = carry_out(sweep, options);
     if (writes) sweep.write(report, folder_for(options));
-    if (draws) sweep.draw(options.figure, options.colour);
     print(sweep, report, writes, options);
+    if (draws && report.status != "failed") sweep.draw(options.figure, colour);
     return exit_status(report.status);
   });
 }

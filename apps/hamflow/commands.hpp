@@ -32,7 +32,7 @@ struct SweepCommandOptions {
   bool json = false;
   bool quiet = false;
   std::string figure;  // a file; empty: none
-  std::string colour = "energy/max_error";
+  std::string colour;  // a column; empty: energy/max_error
 };
 int sweep_command(const SweepCommandOptions& options);
 

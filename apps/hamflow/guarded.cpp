@@ -90,6 +90,13 @@ void write_file(const std::string& file, const std::string& text) {
   hamflow::write_whole(whole, text);
 }
 
+void require_folder_of(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::error_code ignored;
+  if (file.empty() || folder.empty() || std::filesystem::is_directory(folder, ignored)) return;
+  throw hamflow::FileError(file + " cannot be written: there is no folder " + folder.string());
+}
+
 int exit_status(const std::string& status) {
   if (status == "failed") return exit_failed;
   return status == "interrupted" ? exit_interrupted : exit_done;

@@ -29,6 +29,9 @@ void print_error(const std::string& message, const std::string& hint = {});
 /// Writes a text file that an option names.   @throws FileError
 void write_file(const std::string& file, const std::string& text);
 
+/// Before hours of work whose result could not be kept.   @throws FileError where the folder of the file is missing
+void require_folder_of(const std::string& file);
+
 /// The status of something that was carried out: "done", "failed" or "interrupted".
 int exit_status(const std::string& status);
 

@@ -109,7 +109,7 @@ int main(int argc, char** argv) {
   sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
       ->type_name("FILE");
   sweep_command
-      ->add_option("--colour", sweep.colour, "the column to draw, e.g. energy/max_error, observables/lyapunov1")
+      ->add_option("--colour", sweep.colour, "the column to draw, e.g. observables/lyapunov1 [energy/max_error]")
       ->type_name("COLUMN");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
   sweep_command->add_flag("--json", sweep.json,

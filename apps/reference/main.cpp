@@ -60,13 +60,18 @@ std::string starts(const ProblemInfo& info) {
   return text + "\n";
 }
 
+/// A start of its own has as many as every other.
+std::string degrees_of_freedom(const ProblemEntry& entry) {
+  const std::size_t n = entry.dimension > 0 ? static_cast<std::size_t>(entry.dimension) : entry.info.default_q.size();
+  return n > 0 ? std::to_string(n) : "as many as the start has";
+}
+
 std::string problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   const std::string variant =
       joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
   std::string text = fmt::format("### {}{}\n\n{}\n\n", info.name, variant.empty() ? "" : ", " + variant, info.formula);
-  text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n",
-                      entry.dimension > 0 ? std::to_string(entry.dimension) : "as many as the start has",
+  text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n", degrees_of_freedom(entry),
                       joined(info.coordinates), info.reference);
   std::vector<OptionInfo> keys = info.parameters;
   if (!info.frame.name.empty()) keys.push_back(info.frame);

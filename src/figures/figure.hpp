@@ -33,6 +33,7 @@ struct FigureData : FigureSamples {
   std::vector<double> curve_y;
   /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies, or the place of one; 0 otherwise.
   std::size_t space = 0;
+  std::vector<std::string> bodies{};  // their names, where they have some; empty: body 1, body 2, ...
   /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.
   FigureSamples opening{};
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.

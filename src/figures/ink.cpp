@@ -43,6 +43,9 @@ std::string drawn(const Series& series) {
     case Ink::marked:
       return fmt::format("with linespoints linecolor rgb '{}' dashtype {} linewidth 0.6 pointtype {} pointsize 0.4",
                          colour, series.mark.dash, series.mark.shape);
+    case Ink::marks:
+      return fmt::format("with points linecolor rgb '{}' linewidth 0.6 pointtype {} pointsize 0.5", colour,
+                         series.mark.shape);
     case Ink::band:
     case Ink::fields:
       break;

@@ -13,19 +13,48 @@ constexpr double key_line = 3.3;
 constexpr double text_points = 7;
 constexpr std::size_t most_in_one_column = 16;
 
-struct Shape {
-  std::size_t columns;
-  std::size_t rows;
+constexpr double letter = 1.42;  // mm, of 7 points
+constexpr double mark_width = 9;
+
+/// Where the lines of a legend stand, in columns as wide as their names.
+struct Layout {
+  struct Place {
+    double x = 0;
+    std::size_t row = 0;
+  };
+  std::vector<Place> places;
+  std::size_t rows = 0;
+  double width = 0;
 };
 
-Shape shape_of(const std::vector<LegendLine>& legend) {
-  const std::size_t columns = legend.size() > most_in_one_column ? 2 : 1;
-  return {columns, (legend.size() + columns - 1) / columns + columns};  // a heading is not left alone at the foot
+Layout layout_of(const std::vector<LegendLine>& legend, std::size_t columns) {
+  const std::size_t rows = (legend.size() + columns - 1) / columns + columns - 1;
+  Layout layout;
+  double left = 0;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const bool is_full = row == rows || (legend[i].heading && row + 1 == rows);  // no heading alone at the foot
+    if (is_full && i > 0) {
+      left = layout.width + 2;
+      row = 0;
+    }
+    layout.places.push_back({left, row++});
+    layout.rows = std::max(layout.rows, row);
+    const double name = letter * static_cast<double>(printed_length(legend[i].text));
+    layout.width = std::max(layout.width, left + name + (legend[i].heading ? 0 : mark_width));
+  }
+  return layout;
+}
+
+/// Two columns of a long legend, where the width has room for them.
+Layout layout_in(const std::vector<LegendLine>& legend, double width) {
+  if (legend.size() <= most_in_one_column) return layout_of(legend, 1);
+  const Layout two = layout_of(legend, 2);
+  return two.width <= width ? two : layout_of(legend, 1);
 }
 }  // namespace
 
 KeyShape key_of(const Panel& panel, double width) {
-  constexpr double letter = 1.42;  // mm, of 7 points
   std::size_t names = 0;
   std::size_t longest = 0;
   for (const Series& series : panel.series) {
@@ -50,28 +79,25 @@ void draw_key(Script& script, const KeyShape& shape, double right, double top) {
               script.across(right), script.up(top), shape.columns, shape.rows, script.font(text_points));
 }
 
-double legend_height(const std::vector<LegendLine>& legend) {
-  return line_height * static_cast<double>(shape_of(legend).rows);
+double legend_height(const std::vector<LegendLine>& legend, double width) {
+  return line_height * static_cast<double>(layout_in(legend, width).rows + 1);
 }
 
 void draw_legend(Script& script, const std::vector<LegendLine>& legend, double left, double top, double width) {
   script.line("unset label\nunset border\nunset tics\nunset grid\nset size noratio");
   script.box(0, script.width(), 0, script.height());
   script.line("set xrange [0:{:.6f}]\nset yrange [{:.6f}:0]", script.width(), script.height());
-  const Shape shape = shape_of(legend);
-  std::size_t at = 0;
+  const Layout layout = layout_in(legend, width);
   std::vector<std::string> plots;
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const LegendLine& entry = legend[i];
-    if (entry.heading && at % shape.rows == shape.rows - 1) ++at;
-    const double x = left + width / static_cast<double>(shape.columns) * static_cast<double>(at / shape.rows);
-    const double y = top + 2 + line_height * static_cast<double>(at % shape.rows);
-    ++at;
+    const double x = left + layout.places[i].x;
+    const double y = top + 2 + line_height * static_cast<double>(layout.places[i].row);
     if (entry.heading) {
       script.label(entry.text, x, y, "left textcolor rgb '#555555'", text_points);
       continue;
     }
-    script.label(entry.text, x + 9, y, "left", text_points);
+    script.label(entry.text, x + mark_width, y, "left", text_points);
     script.line("$mark{} << EOD\n{:.6f} {:.6f}\n{:.6f} {:.6f}\n{:.6f} {:.6f}\nEOD", i, x, y, x + 3.5, y, x + 7, y);
     plots.push_back(fmt::format("$mark{} using 1:2 with lines linecolor rgb '{}' dashtype {} linewidth 0.6 notitle", i,
                                 entry.mark.colour, entry.mark.dash));

@@ -21,7 +21,7 @@ double key_height(const KeyShape& shape);
 void draw_key(Script& script, const KeyShape& shape, double right, double top);
 
 /// The height of a legend in millimetres.
-double legend_height(const std::vector<LegendLine>& legend);
+double legend_height(const std::vector<LegendLine>& legend, double width);
 
 /// Draws it as a plot of its own that spans the page: the last of a multiplot.
 void draw_legend(Script& script, const std::vector<LegendLine>& legend, double left, double top, double width);

@@ -64,7 +64,7 @@ class PageWriter {
     }
     if (!page_.legend.empty()) {
       const double left = cell() * static_cast<double>(legend_column()) + left_of_box_;
-      draw_legend(script_, page_.legend, left, legend_top(), width_);
+      draw_legend(script_, page_.legend, left, legend_top(), legend_width());
     }
     script_.line("unset multiplot");
     return std::move(script_).text();
@@ -99,13 +99,18 @@ class PageWriter {
     for (std::size_t k = 0; k < page_.panels.size(); k += columns_) height += row(k);
     return height;
   }
+  /// To the border of the page.
+  double legend_width() const {
+    return page_.width - cell() * static_cast<double>(legend_column()) - left_of_box_ - edge;
+  }
   double legend_top() const {
     const double bottom = bottom_of_panels();
     return legend_column() > 0 ? bottom - row(page_.panels.size() - legend_column()) : bottom;
   }
   double full_height() const {
     double height = bottom_of_panels() + height_of_notes();
-    if (!page_.legend.empty()) height = std::max(height, legend_top() + legend_height(page_.legend) + edge);
+    if (!page_.legend.empty())
+      height = std::max(height, legend_top() + legend_height(page_.legend, legend_width()) + edge);
     return height;
   }
   /// The colours of a map and their tick labels.
@@ -203,7 +208,8 @@ class PageWriter {
   void axis(const char* name, const Axis& axis, const char* offset) {
     script_.line("set {}range [{:.12g}:{:.12g}]", name, axis.low, axis.high);
     const std::string ticks = joined(axis.ticks(), [](const Tick& tick) {
-      return fmt::format("{} {:.12g} {}", quoted(tick.label), tick.at, tick.minor ? 1 : 0);
+      const bool bare = tick.minor && tick.label.empty();  // gnuplot prints no label of a minor tick
+      return fmt::format("{} {:.12g} {}", quoted(tick.label), tick.at, bare ? 1 : 0);
     });
     script_.line("set {}tics ({}) {} {}", name, ticks, script_.font(tick_size), offset);
   }

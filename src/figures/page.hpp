@@ -12,9 +12,9 @@
 
 namespace hamflow::figures {
 
-/// How a series is drawn; `marked` is a line through marks, `level` a dashed line behind the others, `band` the field
-/// between two lines, `fields` coloured rectangles.
-enum class Ink { exact, dots, fine_dots, line, path, place, zero, centre, marked, level, band, fields };
+/// How a series is drawn; `marked` is a line through marks, `marks` are those alone, `level` is a dashed line behind
+/// the others, `band` the field between two lines, `fields` are coloured rectangles.
+enum class Ink { exact, dots, fine_dots, line, path, place, zero, centre, marked, marks, level, band, fields };
 
 /// What distinguishes the series of a page.
 struct Mark {

@@ -57,7 +57,10 @@ Panel curves_over(const ParameterMap& map) {
   for (std::size_t n = 0; n < names.size(); ++n) {
     std::vector<std::size_t>& own = members[names[n]];
     std::stable_sort(own.begin(), own.end(), [&](std::size_t a, std::size_t b) { return map.x[a] < map.x[b]; });
-    Series series{.ink = own.size() <= most_separate_dots ? Ink::marked : Ink::line, .name = names[n]};
+    const bool separate = own.size() <= most_separate_dots;
+    // Between words there is nothing that a line could show.
+    const Ink ink = !map.x_words.empty() ? Ink::marks : separate ? Ink::marked : Ink::line;
+    Series series{.ink = ink, .name = names[n]};
     series.mark = mark_of(n);
     series.mark.shape = shapes[n % 8];
     for (const std::size_t i : own) series.curve.add(map.x[i], map.value[i]);
@@ -133,7 +136,7 @@ void write_parameter_map(const ParameterMap& map, const std::filesystem::path& f
   if (!refused.empty()) throw Error(refused);
   Extent values;
   values.include(map.value);
-  if (values.empty()) throw Error("there is nothing to draw: " + map.value_label + " has no finite value");
+  if (values.empty()) throw Error("there is nothing to draw: no member has a finite value of the column");
   Page page{map.title, {map.y.empty() ? curves_over(map) : plane_over(map)}};
   page.panels[0].x_label = map.x_label;
   page.notes = map.notes;

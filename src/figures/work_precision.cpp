@@ -21,6 +21,9 @@ struct Entry {
   Mark mark;
 };
 
+/// Methods whose order varies come last.
+int rank(const WorkCurve& curve) { return curve.order > 0 ? curve.order : std::numeric_limits<int>::max(); }
+
 /// By order. Colours follow each other in an order in which neighbours differ; shapes are filled for explicit methods
 /// and open for implicit ones, whose lines are dashed, so that grey print shows the difference too.
 std::vector<Entry> marked(const std::vector<WorkCurve>& curves) {
@@ -31,7 +34,7 @@ std::vector<Entry> marked(const std::vector<WorkCurve>& curves) {
   std::vector<const WorkCurve*> sorted;
   for (const WorkCurve& curve : curves) sorted.push_back(&curve);
   std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const WorkCurve* a, const WorkCurve* b) { return a->order < b->order; });
+                   [](const WorkCurve* a, const WorkCurve* b) { return rank(*a) < rank(*b); });
   std::vector<Entry> all;
   for (std::size_t n = 0; n < sorted.size(); ++n) {
     const bool is_explicit = sorted[n]->explicit_step;
@@ -81,7 +84,10 @@ std::vector<LegendLine> legend_of(const std::vector<Entry>& entries) {
   std::vector<LegendLine> legend;
   int order = -1;
   for (const Entry& entry : entries) {
-    if (entry.curve->order != order) legend.push_back({true, "order " + std::to_string(entry.curve->order)});
+    if (entry.curve->order != order) {
+      legend.push_back(
+          {true, entry.curve->order > 0 ? "order " + std::to_string(entry.curve->order) : "order by tolerance"});
+    }
     order = entry.curve->order;
     legend.push_back({false, escaped(entry.curve->name), entry.mark});
   }

@@ -10,7 +10,7 @@ namespace hamflow {
 /// One method; one entry per step length, NaN where a run failed.
 struct WorkCurve {
   std::string name;
-  int order = 0;
+  int order = 0;  // 0: it varies along the curve
   bool explicit_step = true;
   std::vector<double> evaluations;
   std::vector<double> seconds;

@@ -54,6 +54,7 @@ std::string Complaint::text() const {
     }
     return out;
   };
+  if (line == 0 && key.starts_with("--")) return plain(key + ": error: " + message);
   const std::string where = line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : "--set";
   return plain(where + ": error: " + key + ": " + message);
 }

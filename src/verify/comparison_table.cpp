@@ -40,11 +40,14 @@ std::string comparison_table(const Comparison& c) {
   Lines lines{
       {"method", "order", "dt", "steps", "evals/step", "evaluations", "error", "energy error", "at the end", "time"}};
   std::string last;
+  int order = 0;
   for (const ComparisonPoint& p : c.points) {
-    std::vector<std::string> line{p.method == last ? "" : p.method, p.method == last ? "" : std::to_string(p.order),
+    const bool is_told = p.method == last && p.order == order;  // taylor takes its order from the tolerance
+    std::vector<std::string> line{p.method == last ? "" : p.method, is_told ? "" : std::to_string(p.order),
                                   p.tolerance ? fmt::format("tol {:.0e}", *p.tolerance) : fmt::format("{:.6g}", p.dt),
                                   std::to_string(p.steps)};
     last = p.method;
+    order = p.order;
     if (p.done()) {
       const double per_step = p.evaluations() / static_cast<double>(p.steps);
       for (const std::string& text : {fmt::format("{:.4g}", per_step), fmt::format("{:.0f}", p.evaluations()),

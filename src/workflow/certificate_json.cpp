@@ -54,6 +54,12 @@ Json certificate_json(const RunCertificate& c) {
   return all;
 }
 
+/// In two digits: "0.25", "6.3", "100".
+std::string percent_of(double share) {
+  const double percent = 100 * share;
+  return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+}
+
 std::string certificate_text(const Json& c) {
   std::string text = fmt::format("energy error {}: {}", c["drift"].get<std::string>(), c["reason"].get<std::string>());
   for (const auto& [key, map] : c["momentum_maps"].items()) {
@@ -64,8 +70,8 @@ std::string certificate_text(const Json& c) {
   if (!back.is_null()) {
     const auto steps = back["steps"].get<long long>();
     const auto proves = back["proves"].get<std::string>();
-    text += fmt::format("; {} step{} ({:.3g} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
-                        100 * back["share"].get<double>(), proves == "nothing" ? " prove nothing" : ": " + proves,
+    text += fmt::format("; {} step{} ({} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
+                        percent_of(back["share"].get<double>()), proves == "nothing" ? " prove nothing" : ": " + proves,
                         back["reason"].get<std::string>());
   }
   return text;

@@ -104,6 +104,7 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
     if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});
     last = p.method;
     WorkCurve& curve = data.curves.back();
+    if (p.order != curve.order) curve.order = 0;  // taylor takes the order that its tolerance asks for
     curve.evaluations.push_back(p.evaluations());
     curve.seconds.push_back(p.done() ? p.seconds : nothing);
     curve.error.push_back(p.done() ? p.error.value : nothing);

@@ -40,6 +40,12 @@ std::size_t space_of(const ProblemEntry& problem, const Texts& parameters, std::
   return 0;
 }
 
+/// Of problems whose bodies everybody knows by name.
+std::vector<std::string> names_of_bodies(const std::string& problem) {
+  if (problem == "solar-system") return {"Sun", "Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"};
+  return {};
+}
+
 /// H - H0 of a run beyond double, formed with all its digits; empty for others. Of a run that goes on the digits of the
 /// last samples may not be there yet: their differences are not known.
 std::vector<double> energy_differences(const fs::path& file, std::size_t samples) {
@@ -108,6 +114,7 @@ RunForFigure read_for_figure(const fs::path& run) {
   data.momenta = names.p;
   data.angles = problem.info.angles;
   data.space = space_of(problem, parameters, samples.q.size());
+  data.bodies = names_of_bodies(scenario.request.problem);
   data.t = std::move(samples.t);
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);
@@ -128,7 +135,7 @@ RunForFigure read_for_figure(const fs::path& run) {
   fs::path named = run;
   if (named.filename() == "run.h5" && named.has_parent_path()) named = named.parent_path();
   if (!named.has_filename()) named = named.parent_path();
-  result.name = named.stem().string();
+  result.name = (named.extension() == ".run" ? named.stem() : named.filename()).string();  // not "dt0" of dt0.1
   result.facts = facts_of(scenario);
   return result;
 }

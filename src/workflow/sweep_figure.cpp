@@ -45,7 +45,18 @@ std::string key_label(const Sweep& sweep, const std::string& path) {
   return last == "dt" ? "d{/:Italic t}" : figures::symbol(last);
 }
 
-std::string value_label(const std::string& column) {
+/// "angular momentum at the end".
+std::string invariant_label(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  std::string words = name.substr(0, slash);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  const std::string what = slash == std::string::npos ? "" : name.substr(slash + 1);
+  if (what == "initial") return figures::escaped(words) + " at the start";
+  if (what == "final") return figures::escaped(words) + " at the end";
+  return what == "max_error" ? "largest error of " + figures::escaped(words) : figures::escaped(name);
+}
+
+std::string value_label(const Sweep& sweep, const std::string& column) {
   static const std::map<std::string, std::string> known{{"energy/initial", "{/:Italic H}_0"},
                                                         {"energy/final", "{/:Italic H} at the end"},
                                                         {"energy/max_error", "max |{/:Italic H} − {/:Italic H}_0|"},
@@ -53,8 +64,14 @@ std::string value_label(const std::string& column) {
                                                         {"final/t", "{/:Italic t} at the end"}};
   const auto found = known.find(column);
   if (found != known.end()) return found->second;
+  if (column == "final/q" || column == "final/p") {
+    const Scenario& scenario = sweep.common();
+    const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+    return figures::symbol(column == "final/q" ? names.q.front() : names.p.front()) + " at the end";
+  }
   const std::size_t slash = column.find('/');
   const std::string name = slash == std::string::npos ? column : column.substr(slash + 1);
+  if (column.starts_with("invariants/")) return invariant_label(name);
   if (name.starts_with("lyapunov")) return "Lyapunov exponent " + figures::symbol("lambda" + name.substr(8));
   std::string words = name;
   std::replace(words.begin(), words.end(), '/', ' ');
@@ -120,7 +137,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
   const std::size_t over = lines == 0 ? 1 : 0;
   ParameterMap figure;
   figure.title = title_of(sweep);
-  figure.value_label = value_label(colour);
+  figure.value_label = value_label(sweep, colour);
   figure.x_label = key_label(sweep, varied[over].path);
   if (map) figure.y_label = key_label(sweep, varied[1].path);
   for (const SweepColumn& column : columns_of(sweep)) {

@@ -32,6 +32,8 @@ class Certificate(CommandCase):
         self.assertEqual(back["share"], back["steps"] / 4000)
         self.assertEqual(back["bounces"], 0)
         self.assertIn("certificate", self.hamflow("run", "kepler.toml", "--out", "none").stdout)
+        short = self.hamflow("run", "kepler.toml", "--set", "run.steps=20", "--out", "none").stdout
+        self.assertIn("20 steps (100 % of the run) there and back", short)
         self.hamflow("run", "kepler.toml", "--quiet")
         written = json.loads((self.folder / "kepler.run" / "summary.json").read_text())
         self.assertEqual(written["certificate"]["blocks"], 200)

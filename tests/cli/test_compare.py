@@ -166,7 +166,9 @@ class Compare(CommandCase):
         # They are ranked by evaluations like the others, and the table says what one of taylor is.
         ranked = {name for w in c["winners"] if w["by"] == "evaluations" for name in (w["method"], w.get("second"))}
         self.assertIn("taylor", ranked)
-        self.assertIn("coefficient", self.hamflow("compare", "henon.toml", "--methods", "taylor").stdout)
+        table = self.hamflow("compare", "henon.toml", "--methods", "taylor").stdout
+        self.assertIn("coefficient", table)
+        self.assertGreater(len(set(re.findall(r"^(?:taylor)?\s+(\d+)\s+tol ", table, re.M))), 1, table)  # its orders
 
     def test_a_tolerance_that_is_given_counts(self):
         done = self.hamflow("compare", "henon.toml", "--methods", "dop853(tolerance=1e-12),dop853(1e-6),stv4", "--dt",

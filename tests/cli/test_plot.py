@@ -5,7 +5,7 @@ import struct
 import subprocess
 import unittest
 
-from command import ELLIPSE, EXAMPLES, HAMFLOW, CommandCase
+from command import EXAMPLES, HAMFLOW, CommandCase
 
 KINDS = ("orbit", "phase", "time", "energy", "energy-error", "section", "condition")
 
@@ -66,6 +66,7 @@ class Plot(CommandCase):
         self.run_some(str(EXAMPLES / "solar_system.toml"), "run.steps=30", out="sun")
         labels = self.plot("sun", kind="orbit")
         self.assertEqual([labels.count(axis) for axis in "xyz"], [2, 2, 2])
+        self.assertTrue({"Sun", "Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"} <= set(labels), labels)
         self.assertEqual([self.plot("sun", "--y", "z", kind="orbit").count(axis) for axis in "xyz"], [1, 0, 1])
         self.assertIn("allowed x, y, z", self.refused("sun", "--kind", "orbit", "--y", "w"))
 
@@ -103,7 +104,7 @@ class Plot(CommandCase):
         self.assertTrue({"dt = 0.1", "dt = 0.05", "central-force, verlet"} <= set(labels), labels)
         labels = self.plot("verlet0.1", "stv40.05", kind="time")
         self.assertTrue({"verlet, dt = 0.1", "stv4, dt = 0.05"} <= set(labels), labels)
-        self.assertEqual(len(set(self.plot("verlet0.1", "verlet0.1", kind="energy")) & {"verlet0"}), 1)
+        self.assertEqual(len(set(self.plot("verlet0.1", "verlet0.1", kind="energy")) & {"verlet0.1"}), 1)
 
     def test_runs_that_do_not_fit(self):
         self.hamflow("run", "kepler.toml", "--out", "k")
@@ -126,11 +127,11 @@ class Plot(CommandCase):
 
     def test_figures_of_sweeps(self):
         def sweep(*vary):
-            self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--out", "none", "--figure", "s.svg",
+            method = [] if any(text.startswith("method") for text in vary) else ["--set", "method.name=stv4"]
+            self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", *method, "--out", "none", "--figure", "s.svg",
                          *[part for text in vary for part in ("--vary", text)])
             return texts((self.folder / "s.svg").read_text())
 
-        self.write("kepler.toml", ELLIPSE.replace('name = "cg"\nquadrature = 5', 'name = "stv4"'))
         lines = sweep("method.name=verlet,stv4", "run.dt=0.1,0.05,0.025")
         self.assertTrue({"verlet", "stv4", "dt", "max |H \u2212 H0|", "central-force"} <= set(lines), lines)
         self.assertTrue({"verlet", "stv4", "method"} <= set(sweep("method.name=verlet,stv4")))
@@ -138,6 +139,27 @@ class Plot(CommandCase):
             "problem.orbit.r_per=1:1.5:3", "problem.orbit.r_aph=2:3:4")})
         map_with_white = sweep("problem.orbit.r_per=1:1.5:3", "run.dt=0.1:1e200:2")
         self.assertIn("white: 3 of 6 members (3 non_finite)", map_with_white)
+
+    def test_figures_of_sweeps_are_refused_before_anything_runs(self):
+        def refused(status, *arguments):
+            done = self.hamflow("sweep", "kepler.toml", "--out", "none", *arguments, status=status)
+            self.assertNotIn("{/", done.stderr)
+            return done.stderr
+
+        dt = ("--vary", "run.dt=0.1,0.2")
+        self.assertIn("there is no folder nodir", refused(3, *dt, "--figure", "nodir/s.svg"))
+        self.assertIn("--colour: error: found final/t without --figure", refused(2, *dt, "--colour", "final/t"))
+        refused(1, "--vary", "run.dt=1e300,1e301", "--figure", "s.svg")  # no member has an end to draw
+        for arguments, key in ((("--methods", "stv5"), "--methods"), (("--methods", "stv4", "--dt", "x"), "--dt"),
+                               (("--methods", "stv4", "--figure", "a.gif"), "--figure")):
+            done = self.hamflow("compare", "kepler.toml", *arguments, status=2)
+            self.assertTrue(done.stderr.startswith(f"{key}: error: found "), done.stderr)
+        self.assertIn("no folder nodir", self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--figure",
+                                                      "nodir/a.svg", status=3).stderr)
+
+    def test_a_start_alone_has_no_exact_curve(self):
+        self.run_some("kepler.toml", "run.steps=0", out="k")
+        self.assertNotIn("exact", self.plot("k", kind="orbit"))
 
     def test_a_section_says_which_it_is(self):
         self.write("h.toml", '[problem]\nname = "henon-heiles"\ninitial = { q = [0, 0.1], p = [0.4, 0] }\n[method]\n'

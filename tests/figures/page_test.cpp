@@ -68,6 +68,17 @@ TEST(LogAxis, TicksArePowersOfTen) {
   }
 }
 
+TEST_F(Pages, GnuplotPrintsEveryLabelOfAnAxis) {
+  // It prints none of a tick of level 1.
+  Panel panel;
+  panel.x = log_axis({0.025, 0.1});
+  panel.y = plain_axis(0, 1, {7});
+  panel.series.push_back({Ink::line, "", {{0.025, 0.1}, {0, 1}}});
+  const std::string script = gnuplot_script({"title", {panel}}, Format::svg);
+  EXPECT_NE(script.find("'5·10^{\u22122}' -1.30102999566 0"), std::string::npos) << script;
+  EXPECT_NE(script.find("'' -1.39794000867 1"), std::string::npos) << script;
+}
+
 TEST_F(Pages, ATerminalStandsInEveryScriptAndCountsMillimetres) {
   Panel panel;
   panel.x = plain_axis(0, 1, {7, 40});
@@ -114,6 +125,26 @@ TEST_F(Pages, WorkPrecisionListsItsMethodsByOrder) {
   for (const char* extension : {".pdf", ".png"}) {
     EXPECT_NO_THROW(write_work_precision(two_methods(), folder_ / (std::string("work") + extension)));
   }
+}
+
+TEST_F(Pages, AnOrderThatVariesAndALongNameAreToldInFull) {
+  WorkPrecision data = two_methods();
+  for (int i = 0; i < 12; ++i) {
+    data.curves.push_back(data.curves[static_cast<std::size_t>(i % 3)]);
+    data.curves.back().name = "taylor(tolerance=1e-06,step_control=fixed," + std::to_string(i) + ")";
+    data.curves.back().order = i % 2 == 0 ? 0 : 6;
+  }
+  write_work_precision(data, folder_ / "work.svg");
+  const std::string svg = bytes_of(folder_ / "work.svg");
+  EXPECT_LT(svg.find(">order 6<"), svg.find(">order by tolerance<"));
+  ASSERT_NE(svg.find(">order by tolerance<"), std::string::npos);
+  EXPECT_EQ(svg.find(">order 0<"), std::string::npos);
+  static const std::regex name("translate\\(([0-9.]+),[^>]*>\\s*<text[^>]*><tspan[^>]*>taylor");
+  std::size_t names = 0;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), name), end; it != end; ++it, ++names) {
+    EXPECT_LT(std::stod((*it)[1]), 0.65 * 643) << "a second column would reach over the edge";
+  }
+  EXPECT_EQ(names, 12U);
 }
 
 TEST_F(Pages, WorkPrecisionWithoutErrorsIsRefused) {
@@ -188,6 +219,9 @@ TEST_F(Pages, WordsAreLinesOrPlacesOfAnAxis) {
   map.x = {0, 1, 2, 3};
   map.x_words = {"verlet", "stv4", "rk4", "cg"};
   write_parameter_map(map, folder_ / "words.svg");
+  static const std::regex line("<path stroke='rgb\\( 31,  78, 140\\)'  d='M[^ ]* L");
+  const std::string words = bytes_of(folder_ / "words.svg");
+  EXPECT_FALSE(std::regex_search(words, line)) << "there is nothing between two words";
   for (const char* text : {">verlet<", ">cg<"}) {
     EXPECT_NE(bytes_of(folder_ / "words.svg").find(text), std::string::npos) << text;
   }

@@ -50,7 +50,7 @@ set mytics 1
 set xlabel 'periods' offset 0,0.4
 set label 1 'rk4' at 1.2e4,0.08 textcolor rgb red
 set label 2 'kahan-li8' at 1.2e4,1.3e-11 textcolor rgb green
-set label 3 'cg' at 1.2e4,8e-15 textcolor rgb blue
+set label 3 'cg' at 1.2e4,4e-15 textcolor rgb blue
 largest = 0
 so_far(x) = (largest = abs(x + 0.25) > largest ? abs(x + 0.25) : largest)
 period = 25.1327412287183

@@ -1,5 +1,7 @@
 // How well the Newton iteration of an implicit step is conditioned, over time: condition and determinant of the
 // tangent, condition of M^-1, and iterations.   [Gross1999, figures 3.27, 3.28]
+#include <algorithm>
+
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 
@@ -47,6 +49,7 @@ Page page(const Figure& figure) {
     }
     if (panel.series.empty()) continue;
     panel.y = fit_axis(range, padding, {5});
+    if (name == "iterations" && panel.y.exponent == 0) panel.y.step = std::max(panel.y.step, 1.0);  // no halves
     panel.y_label = label;
     all.panels.push_back(panel);
   }

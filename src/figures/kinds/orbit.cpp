@@ -27,6 +27,10 @@ std::string obstacle(const FigureData& data) {
 
 std::size_t bodies(const FigureData& data) { return data.space < 2 ? 1 : data.q.size() / data.space; }
 
+std::string body_name(const FigureData& data, std::size_t body) {
+  return body < data.bodies.size() ? escaped(data.bodies[body]) : "body " + std::to_string(body + 1);
+}
+
 std::string apart(const Figure& figure) {
   const FigureData& first = figure.runs.front();
   for (const FigureData& run : figure.runs) {
@@ -89,9 +93,18 @@ Curve in_plane(const FigureData& data, const FigureSamples& samples, std::size_t
   return finite_points(samples.q[first + plane.first], samples.q[first + plane.second]);
 }
 
+/// Of a start alone the exact curve is a point.
+bool has_exact(const FigureData& data) {
+  Extent x;
+  Extent y;
+  x.include(data.curve_x);
+  y.include(data.curve_y);
+  return x.low < x.high || y.low < y.high;
+}
+
 Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened) {
   const FigureData& one = figure.runs.front();
-  const bool exact = figure.runs.size() == 1 && !one.curve_x.empty() && plane == Plane{0, 1};
+  const bool exact = figure.runs.size() == 1 && has_exact(one) && plane == Plane{0, 1};
   Panel panel;
   Extent x;
   Extent y;
@@ -102,7 +115,7 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
       Series how = series_of(figure, run);
       if (bodies(data) > 1) {
         how.mark = mark_of(body);
-        if (bodies(data) <= most_named_bodies) how.name = "body " + std::to_string(body + 1);
+        if (bodies(data) <= most_named_bodies) how.name = body_name(data, body);
       }
       if (!with_names) how.name.clear();
       const Curve track = in_plane(data, data, body, plane);
