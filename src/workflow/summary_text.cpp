@@ -57,7 +57,10 @@ std::string readable(const Json& s) {
                                                                : s["energy"]["max_relative_error"].get<double>()));
   for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
   if (s.contains("exact")) {
-    text += row("exact", fmt::format("at most {:.3g} off the exact state", s["exact"]["max_difference"].get<double>()));
+    const Json& off = s["exact"]["max_difference"];
+    text += row("exact", off.is_null() ? fmt::format("no further off than the closed form is known to, {:.2g}",
+                                                     s["exact"]["uncertainty"].get<double>())
+                                       : fmt::format("at most {:.3g} off the exact state", off.get<double>()));
   }
   if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
   if (s.contains("bodies")) {
