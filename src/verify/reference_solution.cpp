@@ -101,8 +101,9 @@ class ReferenceRun::Impl {
     full.arithmetic = reference_arithmetic(request.arithmetic);
     full.kernel = "exact";
     full.threads = 1;
-    // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long.
-    pieces_ = std::clamp<std::int64_t>(steps / 800, 16, 4096);
+    // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long. However long the run
+    // is, a piece is no longer than 800 steps, since only between pieces it can be stopped.
+    pieces_ = std::max<std::int64_t>(steps / 800, 16);
     const std::string end = beyond_double ? t_end : exact_digits(evaluate_number<double>(t_end));
     full.dt = "(" + end + ")/" + std::to_string(pieces_);
     const int digits = std::min(digits_of(request.arithmetic), 290);  // tolerances are doubles
