@@ -298,6 +298,14 @@ class Compare(CommandCase):
         self.assertEqual(c["status"], "interrupted")
         self.assertEqual((c["reference"]["kind"], c["rows"]), ("closed form", []))
 
+    def test_behind_a_fall_into_the_centre_there_is_no_reference(self):
+        self.write("fall.toml", "[problem]\nname='central-force'\npotential='kepler'\nmass=1\ninitial={q=[1,0],p=[0,0]}\n"
+                   "[method]\nname='stv4'\n[run]\ndt=0.01\nsteps=100\n")
+        before = self.compare("fall.toml", "--methods", "stv4", "--dt", "0.01")  # the fall takes pi/sqrt(8)
+        self.assertLess(before["rows"][0]["error"], 1e-4)
+        done = self.hamflow("compare", "fall.toml", "--methods", "stv4", "--set", "run.steps=300", status=1)
+        self.assertRegex(done.stderr, r"no reference: the motion cannot be followed beyond t = (0\.9|1)")
+
     def test_a_comparison_without_a_reference_states_no_uncertainty(self):
         process = subprocess.Popen([HAMFLOW, "compare", "henon.toml", "--methods", "stv4", "--set", "run.steps=100000000",
                                     "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
