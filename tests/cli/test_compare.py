@@ -298,6 +298,13 @@ class Compare(CommandCase):
         self.assertEqual(c["status"], "interrupted")
         self.assertEqual((c["reference"]["kind"], c["rows"]), ("closed form", []))
 
+    def test_trial_steps_of_a_reference_write_nothing(self):
+        self.write("double.toml", "[problem]\nname='double-pendulum'\ngravity=10\ninitial={q=[2.0,1.5],p=[0,0]}\n"
+                   "[method]\nname='rk4'\n[run]\ndt=0.01\nsteps=3200\n")
+        done = self.hamflow("compare", "double.toml", "--methods", "rk4", "--dt", "0.01", "--json")
+        self.assertEqual(done.stderr, "")
+        self.assertGreater(json.loads(done.stdout)["reference"]["uncertainty"], 1e-3)  # a chaotic motion
+
     def test_behind_a_fall_into_the_centre_there_is_no_reference(self):
         self.write("fall.toml", "[problem]\nname='central-force'\npotential='kepler'\nmass=1\ninitial={q=[1,0],p=[0,0]}\n"
                    "[method]\nname='stv4'\n[run]\ndt=0.01\nsteps=100\n")
