@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "guarded.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "progress.hpp"
 
 namespace hamflow::app {
 
@@ -66,6 +67,7 @@ int verify_command(const VerifyOptions& options) {
     for (const Region& region : regions) {
       for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
     }
+    end_on_interrupts();
     const std::vector<PropertyRow> rows = measure_all(specs, regions);
     std::cout << (options.json ? property_json(rows) : property_table(rows));
     const bool all_agree = std::all_of(rows.begin(), rows.end(), [](const PropertyRow& row) { return row.agrees(); });

@@ -6,23 +6,32 @@
 
 #include <cstdio>
 
+#include "commands.hpp"
+
 namespace hamflow::app {
 
 namespace {
 volatile sig_atomic_t asked_to_stop = 0;
 extern "C" void note_interrupt(int) { asked_to_stop = 1; }
-}  // namespace
+extern "C" void end_now(int) { _exit(exit_interrupted); }
 
-void catch_interrupts() {
-  asked_to_stop = 0;
+void handle_interrupts(void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = note_interrupt;
+  action.sa_handler = handler;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   struct sigaction before {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup means it
 }
+}  // namespace
+
+void catch_interrupts() {
+  asked_to_stop = 0;
+  handle_interrupts(note_interrupt);
+}
+
+void end_on_interrupts() { handle_interrupts(end_now); }
 
 bool interrupted() { return asked_to_stop != 0; }
 

@@ -166,6 +166,8 @@ std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count) {
 Comparison compare(const ComparisonRequest& asked, const std::function<bool(const ComparisonProgress&)>& progress) {
   const ProblemEntry& problem = find_problem(asked.request.problem, asked.request.variant);
   Comparison found{asked.request.problem, asked.request.arithmetic, asked.t_end, {}, {}, false};
+  found.reference.kind = "none";
+  found.reference.description = "none: the comparison was stopped before there was one";
   const bool beyond_double = digits_beyond_double(asked.request.arithmetic) > 0;
   std::vector<ComparisonJob> jobs = comparison_jobs(asked);
   ComparisonClock clock(jobs, beyond_double);
@@ -192,13 +194,11 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
     return true;
   };
   // A first look at the pace of everything, the shortest run of each method, tells how long the rest will take.
-  if (!follow_reference()) return found;
-  if (!carry_out_if([&](const ComparisonJob& job) { return job.work == 1; })) return found;
-  while (!reference.finished()) {
-    if (!follow_reference()) return found;
-  }
+  bool going = follow_reference() && carry_out_if([&](const ComparisonJob& job) { return job.work == 1; });
+  while (going && !reference.finished()) going = follow_reference();
+  if (!reference.finished()) return found;
   found.reference = reference.solution();
-  (void)carry_out_if([](const ComparisonJob&) { return true; });
+  if (going) (void)carry_out_if([](const ComparisonJob&) { return true; });
   for (ComparisonJob& job : jobs) {
     if (!job.finished) continue;
     judge(job, problem.info, found.reference);

@@ -60,10 +60,10 @@ std::string comparison_table(const Comparison& c) {
     }
     lines.push_back(line);
   }
-  std::string text =
-      fmt::format("{}, t = {}, {} arithmetic\nreference: {}; uncertain by {}\n\n", c.problem, shortest(c.t_end),
-                  c.arithmetic, c.reference.description, readable(c.reference.uncertainty));
-  text += aligned(lines);
+  std::string text = fmt::format("{}, t = {}, {} arithmetic\nreference: {}", c.problem, shortest(c.t_end), c.arithmetic,
+                                 c.reference.description);
+  if (c.reference.kind == "none") return text + "\n";
+  text += fmt::format("; uncertain by {}\n\n", readable(c.reference.uncertainty)) + aligned(lines);
   Lines best{{"error", "fewest evaluations", "", "", "least time", "", ""}};
   const std::vector<ComparisonWinner> all = winners(c);
   for (const ComparisonWinner& w : all) {

@@ -227,6 +227,9 @@ struct Conclusion {
   std::string reason;
 };
 
+/// Of a number below a limit, so that its text is below the limit too.
+double rounded_down(double x, double unit) { return std::floor(x / unit) * unit; }
+
 Conclusion undecided(std::string reason) { return {std::nullopt, std::move(reason)}; }
 
 Conclusion concluded(const EnergySeries& series, double largest, const RunDrift& found, const Trend& t) {
@@ -277,7 +280,7 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return undecided(
         fmt::format("no drift is seen, but over {:.1f} periods of the slowest oscillation a small one "
                     "cannot be excluded; to be called bounded needs {}",
-                    *found.periods, RunDrift::periods_to_be_bounded));
+                    rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_bounded));
   }
   return {DriftClass::bounded, grows + fmt::format(" over {:.0f} periods", *found.periods)};
 }
@@ -332,8 +335,8 @@ RunDrift classify_run(const EnergySeries& series) {
   if (!found.periods) {
     conclusion = undecided("nothing has turned back: no oscillation was seen");
   } else if (*found.periods < RunDrift::fewest_periods) {
-    conclusion = undecided(fmt::format("{:.2g} periods of the slowest oscillation are too few; a drift class needs {}",
-                                       *found.periods, RunDrift::fewest_periods));
+    conclusion = undecided(fmt::format("{:.3g} periods of the slowest oscillation are too few; a drift class needs {}",
+                                       rounded_down(*found.periods, 0.01), RunDrift::fewest_periods));
   }
   found.drift = conclusion.drift;
   found.reason = conclusion.reason;

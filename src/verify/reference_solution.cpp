@@ -39,12 +39,23 @@ Texts rounded(const Texts& parameters) {
   return all;
 }
 
+/// Whether the orbit ends in the centre, where H has no value: a closed form may go on behind it, which is no motion.
+bool falls_into_centre(const ProblemEntry& problem, const Texts& parameters, const Frame& start) {
+  if (!problem.describe_orbit) return false;
+  const OrbitFacts facts = problem.describe_orbit(parameters, start.q, start.p);
+  return std::any_of(facts.begin(), facts.end(), [](const auto& fact) {
+    const bool* falls = std::get_if<bool>(&fact.second);
+    return fact.first == "falls_into_centre" && falls != nullptr && *falls;
+  });
+}
+
 /// The closed form is computed in long double from the start in double. Its uncertainty: the rounding of what it
 /// returns, and 32 roundings of long double in each coordinate of the start, as the motion carries them to the end.
 std::optional<ReferenceSolution> closed_form(const Request& request, const ProblemEntry& problem, double t_end) {
   if (!problem.exact) return std::nullopt;
   const Frame start = problem.start(request);
   const Texts parameters = problem.derived(request.parameters, request.start);
+  if (falls_into_centre(problem, parameters, start)) return std::nullopt;  // an integration finds out when
   const auto exact = problem.exact(parameters, start.q, start.p, t_end);
   if (!exact) return std::nullopt;
   ReferenceSolution found{"closed form", "the closed form of the problem, in double", joined_state(*exact), {}, {}};
@@ -101,8 +112,9 @@ class ReferenceRun::Impl {
     full.arithmetic = reference_arithmetic(request.arithmetic);
     full.kernel = "exact";
     full.threads = 1;
-    // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long.
-    pieces_ = std::clamp<std::int64_t>(steps / 800, 16, 4096);
+    // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long. However long the run
+    // is, a piece is no longer than 800 steps, since only between pieces it can be stopped.
+    pieces_ = std::max<std::int64_t>(steps / 800, 16);
     const std::string end = beyond_double ? t_end : exact_digits(evaluate_number<double>(t_end));
     full.dt = "(" + end + ")/" + std::to_string(pieces_);
     const int digits = std::min(digits_of(request.arithmetic), 290);  // tolerances are doubles

@@ -152,6 +152,10 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
                         "becomes is not known",
                         brief(reversal.distance), apart.furthest / (moved * size))};
   }
+  if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
+    return {ReversalProof::to_rounding,
+            "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
+  }
   if (!at_most(reversal.distance, rounding)) return {ReversalProof::not_reversible, explained};
   if (rounding.value > parted * size) return {ReversalProof::nothing, explained + ", which is too much to tell"};
   if (!method.reversible) {

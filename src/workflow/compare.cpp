@@ -65,9 +65,15 @@ Json json_of(const Comparison& c, const std::string& status) {
              {"description", c.reference.description},
              {"q", part(0)},
              {"p", part(n)},
-             {"uncertainty", json_of(c.reference.uncertainty)}}},
+             {"uncertainty", c.reference.kind == "none" ? Json(nullptr) : json_of(c.reference.uncertainty)}}},
            {"rows", Json::array()},
            {"winners", Json::array()}};
+  if (c.reference.kind == "integration" && digits_beyond_double(c.arithmetic) == 0) {
+    // The uncertainty is that of all digits: q and p, rounded to double, may be further off than it.
+    const auto middle = c.reference.digits.begin() + static_cast<std::ptrdiff_t>(n);
+    all["reference"]["digits"] = {{"q", std::vector<std::string>(c.reference.digits.begin(), middle)},
+                                  {"p", std::vector<std::string>(middle, c.reference.digits.end())}};
+  }
   for (const ComparisonPoint& p : c.points) all["rows"].push_back(row_of(p));
   for (const ComparisonWinner& w : winners(c)) {
     all["winners"].push_back({{"error", json_of(w.error)}, {"by", w.by}, {"method", w.method}, {"work", w.work}});

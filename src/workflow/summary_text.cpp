@@ -60,8 +60,12 @@ std::string readable(const Json& s) {
                                     number_text(s["energy"]["max_relative_error"], "{:.3g}")));
   for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
   if (s.contains("exact")) {
-    text += row("exact",
-                fmt::format("at most {} off the exact state", number_text(s["exact"]["max_difference"], "{:.3g}")));
+    const Json& exact = s["exact"];
+    text += row(
+        "exact",
+        exact["max_difference"].is_null() && exact.contains("uncertainty")
+            ? fmt::format("no further off than the closed form is known to, {:.2g}", exact["uncertainty"].get<double>())
+            : fmt::format("at most {} off the exact state", number_text(exact["max_difference"], "{:.3g}")));
   }
   if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
   if (s.contains("bodies")) {

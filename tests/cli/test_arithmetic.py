@@ -41,6 +41,17 @@ class Arithmetic(CommandCase):
         s = self.run_with("method.name=stv4", "run.steps=3", "run.arithmetic=mp(80)")
         self.assertGreater(len(s["final"]["q"][0]), 75)
 
+    def test_a_closed_form_in_double_judges_no_further_than_it_is_known(self):
+        accurate = ("method={name='dop853',tolerance=1e-20}", "run.dt=0.1", "run.steps=2000", "run.arithmetic=quad")
+        exact = self.run_with(*accurate)["exact"]
+        self.assertIsNone(exact["max_difference"])
+        self.assertLess(exact["uncertainty"], 1e-12)
+        text = self.hamflow("run", KEPLER, *[x for s in accurate for x in ("--set", s)], "--out", "none").stdout
+        self.assertIn("no further off than the closed form is known to", text)
+        coarse = self.run_with("method.name=stv4", "run.dt=0.1", "run.steps=2000", "run.arithmetic=quad")["exact"]
+        self.assertGreater(coarse["max_difference"], coarse["uncertainty"])
+        self.assertNotIn("uncertainty", self.run_with("method.name=stv4")["exact"])
+
     def test_unknown_arithmetic(self):
         for name in ("quadd", "mp(x)", "mp(0)", "mp", "mp()", "mp(-3)", "mp(1e9)"):
             result = self.hamflow("run", KEPLER, "--set", f"run.arithmetic={name}", "--out", "none", status=2)

@@ -131,6 +131,18 @@ class Certificate(CommandCase):
         self.assertEqual(c["drift"], "undecided")
         self.assertIsNotNone(c["p_value"])
 
+    def test_a_reason_contradicts_no_number(self):
+        # 1.99 periods are too few, and are not called 2.
+        own = ["problem.mass=1"]
+        c, _ = self.certificate("{name='rk4'}", *own, steps=356)
+        self.assertLess(c["periods"], 2)
+        self.assertGreater(c["periods"], 1.985)
+        self.assertRegex(c["reason"], r"^1\.98 periods")
+        # A step there and back that is off by nothing but the sign of a zero.
+        back = self.certificate("{name='stv4'}", *own, steps=1)[0]["reversal_distance"]
+        self.assertEqual((back["distance"], back["bit_exact"]), (0, False))
+        self.assertIn("came back with every digit, but not the sign of a zero", back["reason"])
+
     def test_no_class_without_evidence(self):
         """The short runs that were classified wrongly once, and some that no one can classify."""
         for method, periods, allowed in (("rk4", 1, {"undecided"}), ("rk4", 2, {"undecided", "linear"}),

@@ -296,7 +296,60 @@ class Compare(CommandCase):
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
-        self.assertEqual(json.loads(out)["status"], "interrupted")
+        c = json.loads(out)
+        self.assertEqual(c["status"], "interrupted")
+        self.assertEqual((c["reference"]["kind"], c["rows"]), ("closed form", []))
+
+    def test_trial_steps_of_a_reference_write_nothing(self):
+        self.write("double.toml", "[problem]\nname='double-pendulum'\ngravity=10\ninitial={q=[2.0,1.5],p=[0,0]}\n"
+                   "[method]\nname='rk4'\n[run]\ndt=0.01\nsteps=3200\n")
+        done = self.hamflow("compare", "double.toml", "--methods", "rk4", "--dt", "0.01", "--json")
+        self.assertEqual(done.stderr, "")
+        self.assertGreater(json.loads(done.stdout)["reference"]["uncertainty"], 1e-3)  # a chaotic motion
+
+    def test_behind_a_fall_into_the_centre_there_is_no_reference(self):
+        self.write("fall.toml", "[problem]\nname='central-force'\npotential='kepler'\nmass=1\ninitial={q=[1,0],p=[0,0]}\n"
+                   "[method]\nname='stv4'\n[run]\ndt=0.01\nsteps=100\n")
+        before = self.compare("fall.toml", "--methods", "stv4", "--dt", "0.01")  # the fall takes pi/sqrt(8)
+        self.assertLess(before["rows"][0]["error"], 1e-4)
+        done = self.hamflow("compare", "fall.toml", "--methods", "stv4", "--set", "run.steps=300", status=1)
+        self.assertRegex(done.stderr, r"no reference: the motion cannot be followed beyond t = (0\.9|1)")
+
+    def test_a_comparison_without_a_reference_states_no_uncertainty(self):
+        process = subprocess.Popen([HAMFLOW, "compare", "henon.toml", "--methods", "stv4", "--set", "run.steps=100000000",
+                                    "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGTERM)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        reference = json.loads(out)["reference"]
+        self.assertEqual((reference["kind"], reference["uncertainty"]), ("none", None))
+
+    def test_a_long_comparison_in_more_digits_stops_soon(self):
+        process = subprocess.Popen([HAMFLOW, "compare", "kepler.toml", "--methods", "stv4", "--set", "run.steps=100000000",
+                                    "--set", "run.arithmetic=quad"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        time.sleep(1)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertLess(time.monotonic() - begin, 4)  # some 0.3 s on a machine that does nothing else
+        self.assertIn("reference: none", out)
+        self.assertNotIn("uncertain by", out)
+
+    def test_the_digits_of_a_reference_are_right_to_its_uncertainty(self):
+        own = ["--methods", "rk4", "--dt", "0.125", "--set", "run.dt=0.125", "--set",
+               "problem.initial={q=[0.0,0.125],p=[0.4375,0.125]}"]
+        for t_end in ("0.125", "50"):
+            with self.subTest(t_end):
+                of = self.compare("henon.toml", *own, "--set", f"run.t_end={t_end}")["reference"]
+                more = self.compare("henon.toml", *own, "--set", f"run.t_end={t_end}", "--set",
+                                    "run.arithmetic=mp(40)")["reference"]
+                with decimal.localcontext(prec=60):
+                    for key in ("q", "p"):
+                        self.assertEqual([float(x) for x in of["digits"][key]], of[key])
+                        for x, y in zip(of["digits"][key], more[key]):
+                            self.assertLessEqual(abs(decimal.Decimal(x) - decimal.Decimal(y)), of["uncertainty"])
 
 
 if __name__ == "__main__":

@@ -1,12 +1,22 @@
 """hamflow verify: exit 0 when every claim agrees with its measurement, 2 for a wrong request; the table and the JSON."""
 
 import json
+import signal
+import subprocess
+import time
 import unittest
 
-from command import CommandCase
+from command import HAMFLOW, CommandCase
 
 
 class Verify(CommandCase):
+    def test_ctrl_c(self):
+        for asked in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([HAMFLOW, "verify", "--all"], cwd=self.folder, stdout=subprocess.DEVNULL)
+            time.sleep(0.5)
+            process.send_signal(asked)
+            self.assertEqual(process.wait(timeout=10), 130)
+
     def test_table_of_claims_and_measurements(self):
         out = self.hamflow("verify", "stv4", "cg(1,5)").stdout
         self.assertIn("claimed / measured", out)
