@@ -33,6 +33,12 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
   }
 }
 
+/// What to do about an error of the parser whose text does not say it.
+std::string hint_to(std::string_view description) {
+  const bool no_value = description.find("could not determine value type") != std::string_view::npos;
+  return no_value ? "; allowed a number, true, false, a list, a table, or a text in quotes" : "";
+}
+
 }  // namespace
 
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every) {
@@ -64,7 +70,7 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
   } catch (const toml::parse_error& error) {
     complaints.push_back({name, static_cast<int>(error.source().begin.line),
                           static_cast<int>(error.source().begin.column), "syntax",
-                          "found no valid TOML: " + std::string(error.description())});
+                          "found no valid TOML: " + std::string(error.description()) + hint_to(error.description())});
     return std::nullopt;
   }
   document.file_method = method_named_in(root);
