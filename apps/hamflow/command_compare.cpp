@@ -115,7 +115,7 @@ int compare(const CompareOptions& options) {
   print_notes(reader.notes, options.quiet);
   print_notes(comparison_notes(reader.request), options.quiet);
   const bool writes = !options.out.empty() && options.out != "none";
-  if (writes) make_comparison_folder(options.out, options.force);
+  const auto alone = writes ? make_comparison_folder(options.out, options.force) : nullptr;
   const ComparisonReport report = carry_out(reader.request, options);
   std::cout << (options.json ? report.json : report.text);
   if (!options.csv.empty()) write_file(options.csv, report.csv);

@@ -49,7 +49,7 @@ void convert_given_state(const ConvertOptions& options) {
 void convert_scenario(const ConvertOptions& options) {
   const Scenario scenario = accepted(read_scenario(options.input, options.sets));
   if (options.json) {
-    print(state_json(options.to, converted_start(scenario, options.to)), options.output);
+    print(converted_start_json(scenario, options.to), options.output);
     return;
   }
   print(converted_scenario(scenario, options.to), options.output);

@@ -57,7 +57,7 @@ int sweep_command(const SweepCommandOptions& options) {
     const std::string wrong = draws ? sweep.refused_figure(options.figure, options.colour) : "";
     if (!wrong.empty()) throw RejectedLines{{wrong}};
     const bool writes = options.out != "none";
-    if (writes) make_sweep_folder(folder_for(options), options.force);
+    const auto alone = writes ? make_sweep_folder(folder_for(options), options.force) : nullptr;
     const SweepReport report = carry_out(sweep, options);
     if (writes) sweep.write(report, folder_for(options));
     if (draws) sweep.draw(options.figure, options.colour);

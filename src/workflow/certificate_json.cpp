@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "number_text.hpp"
+
 namespace hamflow {
 
 namespace {
 using Json = nlohmann::ordered_json;
-
-Json json_of(const LongNumber& x) { return x.text.empty() ? Json(x.value) : Json(x.text); }
 
 Json reversal_json(const ReversalEvidence& back) {
   const auto known = [](const std::optional<LongNumber>& x) { return x ? json_of(*x) : Json(nullptr); };

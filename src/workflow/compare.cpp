@@ -114,21 +114,21 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
 
 std::string refused_comparison_figure(const fs::path& file) { return refused_figure_file(file); }
 
-void make_comparison_folder(const fs::path& folder, bool replace) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !replace) {
-    throw FileError(folder.string() + " exists; give --force to replace the comparison in it, or --out another");
-  }
-  fs::create_directories(folder / "figures", error);
-  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+std::shared_ptr<const void> make_comparison_folder(const fs::path& folder, bool replace) {
+  make_folder(folder, FolderOf::comparison, replace);
+  return std::make_shared<FolderLock>(folder);
 }
 
 void write_comparison(const ComparisonReport& report, const fs::path& folder) {
   write_text(folder / "compare.json", report.json);
   write_text(folder / "compare.csv", report.csv);
   if (report.status != "done") return;
+  const fs::path figures = folder / "figures";
+  std::error_code error;
+  fs::create_directories(figures, error);
+  if (error) throw FileError("cannot make the folder " + figures.string() + ": " + error.message());
   for (const char* format : {".svg", ".pdf", ".png"}) {
-    draw_comparison(report.comparison, folder / "figures" / (std::string("work-precision") + format));
+    draw_comparison(report.comparison, figures / (std::string(comparison_figure) + format));
   }
 }
 

@@ -28,16 +28,20 @@ std::string refused_method(const Scenario& scenario, const std::string& to) {
   return refusal(scenario.request.method, in_coordinates(*scenario.problem, to));
 }
 
-/// The start as a table for `initial`, beyond double with all its digits.
-std::string start_table(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
-  const auto table = [](const std::string& q, const std::string& p) { return "{ q = " + q + ", p = " + p + " }"; };
-  const std::string& arithmetic = scenario.request.arithmetic;
-  if (longest_digits(arithmetic) == 0) return table(toml_list(start.q), toml_list(start.p));
+/// The start of a run in arithmetic beyond double, with all its digits.
+DigitState start_digits(const Scenario& scenario, const std::string& to) {
   Frame frame;
   make_simulation(scenario.request)->look(frame);
   const ProblemEntry& problem = *scenario.problem;
-  const DigitState state =
-      in_chart_of(in_coordinates(problem, to), problem, arithmetic, {frame.digits.q, frame.digits.p});
+  return in_chart_of(in_coordinates(problem, to), problem, scenario.request.arithmetic,
+                     {frame.digits.q, frame.digits.p});
+}
+
+/// The start as a table for `initial`, beyond double with all its digits.
+std::string start_table(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
+  const auto table = [](const std::string& q, const std::string& p) { return "{ q = " + q + ", p = " + p + " }"; };
+  if (longest_digits(scenario.request.arithmetic) == 0) return table(toml_list(start.q), toml_list(start.p));
+  const DigitState state = start_digits(scenario, to);
   const auto list = [](const std::vector<std::string>& texts) {
     return "[" + joined(texts, [](const std::string& text) { return "\"" + text + "\""; }) + "]";
   };
@@ -70,6 +74,13 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
 
 CanonicalState converted_start(const Scenario& scenario, const std::string& to) {
   return StateConverter(*scenario.problem, in_coordinates(*scenario.problem, to))({scenario.start_q, scenario.start_p});
+}
+
+std::string converted_start_json(const Scenario& scenario, const std::string& to) {
+  const CanonicalState start = converted_start(scenario, to);
+  if (longest_digits(scenario.request.arithmetic) == 0) return state_json(to, start);
+  const DigitState state = start_digits(scenario, to);
+  return json_text(Json{{"coordinates", to}, {"q", state.q}, {"p", state.p}});
 }
 
 std::string converted_scenario(const Scenario& scenario, const std::string& to) {

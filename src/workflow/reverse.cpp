@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
+#include "number_text.hpp"
 #include "summary.hpp"
 
 namespace hamflow {
@@ -53,8 +54,8 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"steps", r.steps},
          {"start", state(r.start)},
          {"returned", done ? state(r.end) : Json(nullptr)},
-         {"distance", done ? Json(r.distance.value) : Json(nullptr)},
-         {"relative_distance", done ? Json(r.relative_distance.value) : Json(nullptr)},
+         {"distance", done ? json_of(r.distance) : Json(nullptr)},
+         {"relative_distance", done ? json_of(r.relative_distance) : Json(nullptr)},
          {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},
          {"hash",
           {{"start", hex(r.start_hash)},
@@ -76,11 +77,7 @@ std::string readable_reversal(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {
     return fmt::format("{:<20}{}\n", label, text);
   };
-  const auto list = [](const Json& xs) {
-    return joined(xs, [](const Json& x) {
-      return x.is_string() ? x.get<std::string>() : fmt::format("{:.17g}", x.get<double>());
-    });
-  };
+  const auto list = [](const Json& xs) { return joined(xs, [](const Json& x) { return number_text(x, "{:.17g}"); }); };
   std::string text = row("status", s["status"].get<std::string>()) + row("problem", s["problem"].get<std::string>());
   text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
                                     s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
@@ -88,8 +85,8 @@ std::string readable_reversal(const Json& s) {
   text += row("start q", list(s["start"]["q"])) + row("start p", list(s["start"]["p"]));
   if (!s["returned"].is_null()) {
     text += row("returned q", list(s["returned"]["q"])) + row("returned p", list(s["returned"]["p"]));
-    text += row("distance", fmt::format("{:.3g} ({:.3g} of the start's size)", s["distance"].get<double>(),
-                                        s["relative_distance"].get<double>()));
+    text += row("distance", fmt::format("{} ({} of the start's size)", number_text(s["distance"], "{:.3g}"),
+                                        number_text(s["relative_distance"], "{:.3g}")));
     text += row("every bit", s["bit_exact"].get<bool>() ? "yes" : "no");
     text +=
         row("hash of the bits", fmt::format("{} -> {} -> {}", s["hash"]["start"].get<std::string>(),

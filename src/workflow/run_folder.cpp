@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "figure_kinds.hpp"
@@ -24,14 +25,31 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, none));
 }
 
-/// The files that a run or a sweep leaves, those included that a kill leaves half written. The checkpoint is the last:
-/// what a kill interrupts on the way is still a run.
+/// What a folder is of, and what it has beside figures/. The first file tells it from the others. The checkpoint is the
+/// last: what a kill interrupts on the way is still a run.
+struct KindOfFolder {
+  FolderOf what;
+  const char* name;  // in a sentence
+  std::vector<const char*> files;
+};
+
+const std::vector<KindOfFolder>& kinds_of_folders() {
+  static const std::vector<KindOfFolder> all{
+      {FolderOf::run, "run", {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"}},
+      {FolderOf::sweep, "sweep", {"sweep.h5", "sweep.csv", "summary.json"}},
+      {FolderOf::comparison, "comparison", {"compare.json", "compare.csv"}}};
+  return all;
+}
+
+const KindOfFolder& kind_of(FolderOf what) {
+  const auto& all = kinds_of_folders();
+  return *std::find_if(all.begin(), all.end(), [&](const KindOfFolder& kind) { return kind.what == what; });
+}
+
+/// The files that a folder has, those included that a kill leaves half written.
 Names names_of(FolderOf what) {
-  const std::vector<const char*> plain = what == FolderOf::run
-                                             ? std::vector{"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"}
-                                             : std::vector{"sweep.h5", "sweep.csv", "summary.json"};
   Names names;
-  for (const char* name : plain) {
+  for (const char* name : kind_of(what).files) {
     names.push_back(next_name(next_name(name)));
     names.push_back(next_name(name));
     names.emplace_back(name);
@@ -39,14 +57,23 @@ Names names_of(FolderOf what) {
   return names;
 }
 
-/// What is in figures/ under the name of a figure of a run.
-Names figures_in(const fs::path& folder) {
+/// The figures that are drawn into figures/. One of a sweep is drawn where it was asked for.
+std::vector<std::string> figures_of(FolderOf what) {
+  std::vector<std::string> names;
+  if (what == FolderOf::comparison) names.emplace_back(comparison_figure);
+  if (what != FolderOf::run) return names;
+  for (const FigureKindInfo& kind : figure_kinds()) names.push_back(kind.name);
+  return names;
+}
+
+/// What is in figures/ under the name of a figure of such a folder.
+Names figures_in(const fs::path& folder, FolderOf what) {
   Names names;
   std::error_code none;
   if (!fs::is_directory(fs::symlink_status(folder / "figures", none))) return names;
-  for (const FigureKindInfo& kind : figure_kinds()) {
+  for (const std::string& figure : figures_of(what)) {
     for (const char* format : {".svg", ".pdf", ".png"}) {
-      fs::path name = fs::path("figures") / (kind.name + format);
+      fs::path name = fs::path("figures") / (figure + format);
       if (is_there(folder / name)) names.push_back(std::move(name));
     }
   }
@@ -54,7 +81,7 @@ Names figures_in(const fs::path& folder) {
 }
 
 Names found_in(const fs::path& folder, FolderOf what) {
-  Names found = what == FolderOf::run ? figures_in(folder) : Names{};
+  Names found = figures_in(folder, what);
   for (fs::path& name : names_of(what)) {
     if (is_there(folder / name)) found.push_back(std::move(name));
   }
@@ -64,24 +91,24 @@ Names found_in(const fs::path& folder, FolderOf what) {
 void remove_file(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(fs::symlink_status(file, error))) {
-    throw FileError(file.string() + " is a folder, which no run leaves: it is not removed; give --out another");
+    throw FileError(file.string() + " is a folder, which hamflow leaves under no such name: it is not removed; " +
+                    "give --out another");
   }
   fs::remove(file, error);
   if (error) throw FileError("cannot remove " + file.string() + ": " + error.message());
 }
 
 void clear(const fs::path& folder, FolderOf what) {
-  const fs::path other = folder / (what == FolderOf::run ? "sweep.h5" : "run.h5");
-  if (is_there(other)) {
-    throw FileError(std::string("found ") + (what == FolderOf::run ? "a sweep" : "a run") + " in " + folder.string() +
-                    ", which --force does not replace; allowed a folder of a " +
-                    (what == FolderOf::run ? "run" : "sweep") + ", or --out another");
+  for (const KindOfFolder& other : kinds_of_folders()) {
+    if (other.what == what || !is_there(folder / other.files.front())) continue;
+    throw FileError(std::string("found a ") + other.name + " in " + folder.string() +
+                    ", which is not replaced; allowed a folder of a " + kind_of(what).name + ", or --out another");
   }
   const FolderLock lock(folder);
   for (const fs::path& name : found_in(folder, what)) remove_file(folder / name);
   std::error_code none;
   const fs::path figures = folder / "figures";
-  if (what == FolderOf::run && fs::is_directory(fs::symlink_status(figures, none)) && fs::is_empty(figures, none)) {
+  if (what != FolderOf::sweep && fs::is_directory(fs::symlink_status(figures, none)) && fs::is_empty(figures, none)) {
     fs::remove(figures, none);
   }
 }

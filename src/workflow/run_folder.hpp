@@ -1,4 +1,5 @@
-// The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/; that of a sweep: sweep.h5, sweep.csv.
+// The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/; that of a sweep: sweep.h5, sweep.csv;
+// that of a comparison: compare.json, compare.csv, figures/.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +9,14 @@
 namespace hamflow {
 
 /// What leaves a folder. Each knows its own files, and takes no others away.
-enum class FolderOf { run, sweep };
+enum class FolderOf { run, sweep, comparison };
 
-/// Makes the folder. With `force` an existing one is used, and what an earlier run (or sweep) left in it is removed,
-/// nothing else: of figures/ only the figures that hamflow draws.
-/// @throws FileError when it exists or cannot be made; with `force` when it is that of a sweep (or run)
+/// The stem of the figure that a comparison draws.
+constexpr const char* comparison_figure = "work-precision";
+
+/// Makes the folder. With `force` an existing one is used, and what an earlier one of its kind left in it is removed,
+/// nothing else: of figures/ only the figures that it draws.
+/// @throws FileError when it exists or cannot be made; with `force` when it is that of another kind
 void make_folder(const std::filesystem::path& folder, FolderOf what, bool force);
 
 /// The names of what a run left in an existing folder, e.g. "run.h5, figures/orbit.svg"; empty if it left nothing.

@@ -12,9 +12,15 @@
 
 namespace hamflow {
 
+nlohmann::ordered_json json_of(const LongNumber& x) {
+  return x.text.empty() ? nlohmann::ordered_json(x.value) : nlohmann::ordered_json(x.text);
+}
+
 std::string number_text(const nlohmann::ordered_json& x, const char* form) {
-  return x.is_null() || std::isnan(x.get<double>()) ? std::string("nan")
-                                                    : fmt::format(fmt::runtime(form), x.get<double>());
+  if (x.is_string()) return x.get<std::string>();
+  // A live summary holds what JSON writes as null: both have to read alike.
+  if (x.is_null() || !std::isfinite(x.get<double>())) return "nan";
+  return fmt::format(fmt::runtime(form), x.get<double>());
 }
 
 namespace {
@@ -23,8 +29,10 @@ using Json = nlohmann::ordered_json;
 std::string orbit_text(const Json& orbit) {
   std::string text = orbit["type"].get<std::string>();
   if (orbit.contains("conic")) text += " (" + orbit["conic"].get<std::string>() + ")";
-  text += fmt::format(", r = {:.6g} .. {:.6g}, apsidal angle {:.6g}", orbit["r_min"].get<double>(),
-                      orbit["r_max"].get<double>(), orbit["apsidal_angle"].get<double>());
+  const auto number = [&](const char* key) { return number_text(orbit[key], "{:.6g}"); };
+  const bool bounded = !orbit["r_max"].is_null() && std::isfinite(orbit["r_max"].get<double>());
+  text += fmt::format(", r = {} .. {}, apsidal angle {}", number("r_min"), bounded ? number("r_max") : "inf",
+                      number("apsidal_angle"));
   if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
   return text;
 }
@@ -34,15 +42,12 @@ std::string readable(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {
     return fmt::format("{:<20}{}\n", label, text);
   };
-  const auto number = [](const Json& x) {
-    if (x.is_string()) return x.get<std::string>();
-    return x.is_null() ? std::string("nan") : fmt::format("{:.17g}", x.get<double>());
-  };
+  const auto number = [](const Json& x) { return number_text(x, "{:.17g}"); };
   const auto list = [&](const Json& xs) { return joined(xs, number); };
   const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
   const auto watched = [&](const Json& x) {
-    return fmt::format("{} -> {}, at most {:.3g} off", shown(x["initial"]), shown(x["final"]),
-                       x["max_error"].is_null() ? 0.0 : x["max_error"].get<double>());
+    return fmt::format("{} -> {}, at most {} off", shown(x["initial"]), shown(x["final"]),
+                       number_text(x["max_error"], "{:.3g}"));
   };
   std::string text = row("status", s["status"].get<std::string>());
   text += row("problem", s["problem"].get<std::string>());
@@ -51,13 +56,12 @@ std::string readable(const Json& s) {
   text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
   text += row("final q", list(s["final"]["q"]));
   text += row("final p", list(s["final"]["p"]));
-  text += row("energy", watched(s["energy"]) + fmt::format(" ({:.3g} of its scale)",
-                                                           s["energy"]["max_relative_error"].is_null()
-                                                               ? 0.0
-                                                               : s["energy"]["max_relative_error"].get<double>()));
+  text += row("energy", fmt::format("{} ({} of its scale)", watched(s["energy"]),
+                                    number_text(s["energy"]["max_relative_error"], "{:.3g}")));
   for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
   if (s.contains("exact")) {
-    text += row("exact", fmt::format("at most {:.3g} off the exact state", s["exact"]["max_difference"].get<double>()));
+    text += row("exact",
+                fmt::format("at most {} off the exact state", number_text(s["exact"]["max_difference"], "{:.3g}")));
   }
   if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
   if (s.contains("bodies")) {
@@ -70,8 +74,8 @@ std::string readable(const Json& s) {
     for (const auto& [key, x] : s["diagnostics"].items()) {
       if (x.is_null()) continue;
       text += row(key == "condition_inverse_mass" ? "condition_M^-1" : key,
-                  fmt::format("{:.6g} (t = {:g}) .. {:.6g} (t = {:g})", x["min"].get<double>(),
-                              x["t_min"].get<double>(), x["max"].get<double>(), x["t_max"].get<double>()));
+                  fmt::format("{} (t = {:g}) .. {} (t = {:g})", number_text(x["min"], "{:.6g}"),
+                              x["t_min"].get<double>(), number_text(x["max"], "{:.6g}"), x["t_max"].get<double>()));
     }
   }
   text +=

@@ -188,6 +188,9 @@ void ScenarioSweep::draw(const fs::path& file, const std::string& column) const 
   draw_sweep_figure(*impl_->sweep, file, column);
 }
 
-void make_sweep_folder(const fs::path& folder, bool replace) { make_folder(folder, FolderOf::sweep, replace); }
+std::shared_ptr<const void> make_sweep_folder(const fs::path& folder, bool replace) {
+  make_folder(folder, FolderOf::sweep, replace);
+  return std::make_shared<FolderLock>(folder);
+}
 
 }  // namespace hamflow

@@ -141,6 +141,9 @@ class Convert(CommandCase):
             there, here = (json.loads(self.hamflow("convert", file, "--to", "cartesian", "--json").stdout)
                            for file in ("kepler.run", self.converted("kepler.run", "polar")))
             polar = json.loads(self.hamflow("convert", "kepler.run", "--to", "polar", "--json").stdout)
+            start = json.loads(self.hamflow("convert", "kepler.toml", "--to", "polar", "--json", *sets[:-1], "--set",
+                                            f"run.arithmetic={arithmetic}").stdout)
+            self.assertEqual([start["q"], start["p"]], [polar["q"][0], polar["p"][0]])
             self.assertEqual(there["t"], polar["t"])
             self.assertEqual(there["energy"], polar["energy"])
             with localcontext() as context:

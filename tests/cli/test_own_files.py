@@ -98,6 +98,42 @@ class OwnFiles(CommandCase):
         self.hamflow(*sweep, "w")
         self.refused("w", "--force", words=("found a sweep",))
 
+    def test_a_comparison_replaces_comparisons_alone(self):
+        compare = ("compare", "s.toml", "--methods", "verlet,stv4", "--dt", "0.1", "--json", "--out")
+        self.hamflow(*compare, "c")
+        mine = {"figures/mine.svg": "1", "notes.txt": "2", "summary.json": "3"}
+        for name, text in mine.items():
+            (self.folder / "c" / name).write_text(text)
+        (self.folder / "c" / "compare.csv.new").write_text("half")
+        before = self.contents("c")
+        self.hamflow(*compare, "c", status=3)
+        self.refused("c", "--force", words=("found a comparison", "not replaced"))
+        self.assertEqual(self.contents("c"), before)
+        # A comparison without a reference writes nothing: nothing of the one before stands for it.
+        wild = [x.replace("0.1", "1e300") for x in compare]
+        self.hamflow(*wild, "c", "--force", "--set", "run.dt=1e300", "--set", "run.steps=1", status=1)
+        self.assertEqual(sorted(self.contents("c")), sorted(mine))
+        for name, text in mine.items():
+            self.assertEqual((self.folder / "c" / name).read_text(), text)
+        self.run_to("r")
+        before = self.contents("r")
+        self.assertIn("found a run", self.hamflow(*compare, "r", "--force", status=3).stderr)
+        self.assertEqual(self.contents("r"), before)
+
+    def test_one_writer_in_a_folder_of_a_sweep_or_a_comparison(self):
+        for name, command in (("w", ("sweep", "s.toml", "--vary", "run.dt=0.01,0.02")),
+                              ("c", ("compare", "s.toml", "--methods", "stv4", "--dt", "0.01"))):
+            with self.subTest(command[0]):
+                long = subprocess.Popen([HAMFLOW, *command, "--out", name, "--set", "run.steps=100_000_000", "--quiet"],
+                                        cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                while not (self.folder / name).exists():
+                    time.sleep(0.01)
+                time.sleep(0.1)
+                said = self.hamflow(*command, "--out", name, "--force", status=3).stderr
+                long.kill()
+                long.wait()
+                self.assertIn("is writing into the folder", said)
+
     def test_files_of_another_run_are_not_gone_on_with(self):
         self.run_to("a")
         self.run_to("b")  # the same scenario

@@ -51,6 +51,20 @@ class Resume(CommandCase):
         out, _ = process.communicate(timeout=20)
         return process.returncode, json.loads(out)
 
+    def test_a_complete_run_says_the_same_again(self):
+        """Also where its summary holds what JSON writes as null: an unbounded orbit, overflowed derivatives."""
+        hooke = 'name = "central-force"\npotential = "hooke"\ninitial = { q = [1, 0], p = [0, "0.7"] }'
+        for method, run in (('name = "cg"', "dt = 0.1\nsteps = 400"), ('name = "stv4"', "dt = 1\nsteps = 300"),
+                            ('name = "stv4"', "dt = 1\nsteps = 300" + MEASURES.replace("q1", "x"))):
+            with self.subTest(method=method, run=run):
+                self.scenario(method, run, hooke)
+                first = self.hamflow("run", "s.toml", "--out", "r", "--force").stdout
+                again = self.hamflow("run", "s.toml", "--out", "r", "--resume").stdout
+                self.assertIn("null", (self.folder / "r" / "summary.json").read_text())
+                kept = [[line for line in text.splitlines() if not line.startswith(("wall", "written"))]
+                        for text in (first, again)]
+                self.assertEqual(*kept)
+
     def test_kills_at_random_moments(self):
         for method, run, problem in (
             ('name = "stv4"', "dt = 0.01\nsteps = 300_000\nrecord_every = 101", KEPLER),

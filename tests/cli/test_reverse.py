@@ -62,6 +62,16 @@ class Reverse(CommandCase):
                          "run.arithmetic=lattice")
         self.assertTrue(s["bit_exact"])
 
+    def test_a_distance_below_all_doubles(self):
+        s = self.reverse("kepler.toml", "--set", "method={name='stv4'}", "--set", "run.arithmetic=mp(400)", "--set",
+                         "run.steps=20")
+        self.assertFalse(s["bit_exact"])
+        for key in ("distance", "relative_distance"):
+            self.assertRegex(s[key], r"^\d\.\d+e-(39|40)\d$")
+        text = self.hamflow("reverse", "kepler.toml", "--set", "method={name='stv4'}", "--set", "run.arithmetic=mp(400)",
+                            "--set", "run.steps=20").stdout
+        self.assertIn(s["distance"], text)
+
     def test_failures_and_wrong_requests(self):
         s = self.reverse("kepler.toml", "--set", "run.dt=30", status=1)
         self.assertEqual(s["status"], "failed")

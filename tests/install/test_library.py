@@ -86,7 +86,7 @@ class Library(unittest.TestCase):
     def test_every_declared_function_links(self):
         """That it links is shown by setUpClass; here, that functions of each kind were asked for."""
         names = {name.partition("(")[0].removeprefix("hamflow::") for name in self.functions.values()}
-        for name in ("largest_lyapunov", "run_scenario", "find_method", "TangentFrame::TangentFrame", "EnergyBlocks::drift"):
+        for name in ("largest_lyapunov", "run_scenario", "find_method", "TangentFrame::TangentFrame", "EnergyBlocks::next_due"):
             self.assertIn(name, names)
         must(FOLDER / "build/declared")
 

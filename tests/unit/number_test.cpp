@@ -110,7 +110,7 @@ TEST(Number, EveryErrorNamesItsColumnWhatIsWrongAndWhatIsAllowed) {
       {"sin(1", 6, "the end before the ')' of (1", "')'"},
       {"atan2(1", 8, "the end before the ')' of (1", "')'"},
       // names
-      {"foo(3)", 1, "the unknown function foo", functions, "log"},  // two of three letters: the nearest there is
+      {"foo(3)", 1, "the unknown function foo", functions},  // nothing that is allowed is near it
       {"1 + sinus(2)", 5, "the unknown function sinus", functions, "sin"},
       {"integral(3)", 1, "the unknown function integral", functions},
       {"Sqrt(2)", 1, "the unknown function Sqrt", functions, "sqrt"},

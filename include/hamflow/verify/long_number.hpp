@@ -10,8 +10,7 @@ namespace hamflow {
 struct LongNumber {
   double value = 0;
   std::string text{};
-  LongNumber() = default;
-  LongNumber(double x) : value(x) {}         // NOLINT: every double is one of these
+  LongNumber(double x = 0) : value(x) {}     // NOLINT: every double is one of these
   operator double() const { return value; }  // NOLINT: what most readers want
 };
 

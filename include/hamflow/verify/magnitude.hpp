@@ -12,9 +12,8 @@ struct Magnitude {
   double log10 = -std::numeric_limits<double>::infinity();  // known there too
   std::string text{};                                       // "3.1416e-412" where the doubles end, else empty
 
-  Magnitude() = default;
-  Magnitude(double x) : value(x), log10(std::log10(x)) {}  // NOLINT: a double is one
-  explicit Magnitude(const std::string& decimal);          // of a number with any exponent
+  Magnitude(double x = 0) : value(x), log10(std::log10(x)) {}  // NOLINT: a double is one
+  explicit Magnitude(const std::string& decimal);              // of a number with any exponent
 
   friend bool operator<(const Magnitude& a, const Magnitude& b) { return a.log10 < b.log10; }
 };

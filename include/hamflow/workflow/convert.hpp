@@ -16,6 +16,8 @@ std::string state_json(const std::string& system, const CanonicalState& state);
 
 /// The start of a scenario in the coordinates `to`.   @throws Error when its problem has no such coordinates
 CanonicalState converted_start(const Scenario& scenario, const std::string& to);
+/// The same as JSON, in arithmetic beyond double as texts with all digits.
+std::string converted_start_json(const Scenario& scenario, const std::string& to);
 /// The text of the scenario in the coordinates `to`; comments are lost.
 /// @throws Error when its problem or its method cannot be used in them   @throws Rejection
 std::string converted_scenario(const Scenario& scenario, const std::string& to);

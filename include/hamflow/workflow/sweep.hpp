@@ -61,8 +61,9 @@ class ScenarioSweep {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Makes the folder for a sweep. With `replace` what an earlier one left in it is removed, nothing else.
-/// @throws FileError when it exists, or cannot be made
-void make_sweep_folder(const std::filesystem::path& folder, bool replace);
+/// Makes the folder for a sweep. With `replace` what an earlier one left in it is removed, nothing else. Nobody else
+/// writes into it while what is returned lives.
+/// @throws FileError when it exists and `replace` is false, is that of a run or a comparison, or cannot be made
+[[nodiscard]] std::shared_ptr<const void> make_sweep_folder(const std::filesystem::path& folder, bool replace);
 
 }  // namespace hamflow

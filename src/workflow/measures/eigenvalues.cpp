@@ -6,6 +6,7 @@
 #include "hamflow/verify/monodromy.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
+#include "number_text.hpp"
 #include "run_keys.hpp"
 
 namespace hamflow {
@@ -44,13 +45,14 @@ std::string eigenvalues_text(const Json& found) {
   constexpr std::size_t most_shown = 6;
   std::string line;
   for (std::size_t i = 0; i < std::min(found["values"].size(), most_shown); ++i) {
-    const double imaginary = found["values"][i][1].get<double>();
-    line += (i > 0 ? ", " : "") + fmt::format("{:.6g}", found["values"][i][0].get<double>()) +
-            (imaginary != 0 ? fmt::format("{:+.6g}i", imaginary) : "");
+    const Json& imaginary = found["values"][i][1];
+    line += (i > 0 ? ", " : "") + number_text(found["values"][i][0], "{:.6g}") +
+            (imaginary != 0 ? number_text(imaginary, "{:+.6g}") + "i" : "");
   }
   if (found["values"].size() > most_shown) line += ", ...";
-  return line + fmt::format("; products of pairs {:.2g} off 1, {:.2g} off symplectic",
-                            found["pair_defect"].get<double>(), found["symplectic_defect"].get<double>());
+  return line + fmt::format("; products of pairs {} off 1, {} off symplectic",
+                            number_text(found["pair_defect"], "{:.2g}"),
+                            number_text(found["symplectic_defect"], "{:.2g}"));
 }
 
 }  // namespace

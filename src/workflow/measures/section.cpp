@@ -5,6 +5,7 @@
 
 #include "measure.hpp"
 #include "measure_list.hpp"
+#include "number_text.hpp"
 #include "recorder.hpp"
 #include "run_keys.hpp"
 
@@ -41,8 +42,8 @@ MeasureKind measure_section() {
               -> std::unique_ptr<Measure> { return std::make_unique<SectionMeasure>(scenario, simulation, recorder); },
           .text =
               [](const Json& found) {
-                return fmt::format("{} points, at most {:.2g} off it", found["points"].get<std::int64_t>(),
-                                   found["max_residual"].get<double>());
+                return fmt::format("{} points, at most {} off it", found["points"].get<std::int64_t>(),
+                                   number_text(found["max_residual"], "{:.2g}"));
               }};
 }
 
