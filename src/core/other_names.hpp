@@ -33,6 +33,7 @@ t_end: t, tmax, t-max, tstop, t-stop, t-final
 arithmetic: precision
 degree: order
 mass: m
+quit: exit, bye
 --out: -o
 --force: -f
 --quiet: -q

@@ -35,8 +35,15 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
 
 /// What to do about an error of the parser whose text does not say it.
 std::string hint_to(std::string_view description) {
-  const bool no_value = description.find("could not determine value type") != std::string_view::npos;
-  return no_value ? "; allowed a number, true, false, a list, a table, or a text in quotes" : "";
+  const auto says = [&](std::string_view part) { return description.find(part) != std::string_view::npos; };
+  if (says("could not determine value type")) {
+    return "; allowed a number, true, false, a list, a table, or a text in quotes";
+  }
+  if (says("parsing decimal integer") || says("parsing floating-point")) {
+    return "; allowed numbers such as 0.5 and 1e-3, and formulas in quotes, \"2*pi/100\"";
+  }
+  if (says("parsing inline table")) return "; allowed a table in { } on one line, or a table [in.brackets] on many";
+  return "";
 }
 
 }  // namespace

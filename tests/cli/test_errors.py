@@ -105,6 +105,10 @@ record_every = true
         self.write("syntax.toml", "[problem\nname = 1\n")
         text = self.hamflow("run", "syntax.toml", status=2).stderr
         self.assertTrue(text.startswith("syntax.toml:1:9: error: syntax: "), text)
+        for line, hint in {"dt = 2*pi/100": 'formulas in quotes, "2*pi/100"', "dt = .1": "numbers such as 0.5",
+                           "name = pendulum": "a text in quotes", "section = { value = 0,\n direction = 1 }": "on one line"}.items():
+            self.write("syntax.toml", f"[run]\n{line}\n")
+            self.assertIn(hint, self.hamflow("run", "syntax.toml", status=2).stderr)
         self.write("empty.toml", "")
         text = self.hamflow("run", "empty.toml", status=2).stderr
         for key in ("problem.name", "method.name", "run.dt", "run.steps"):
