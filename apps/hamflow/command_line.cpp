@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hamflow/core/text.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -22,16 +23,42 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 }
 
 void reject_unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
     names.push_back(sub->get_name());
   }
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  throw CLI::ValidationError(
-      std::string("found the command '") + argv[1] + "'; allowed " + joined(names) + suggestion(argv[1], names),
-      CLI::ExitCodes::InvalidError);
+  const auto refuse = [](const std::string& message) {
+    throw CLI::ValidationError(message, CLI::ExitCodes::InvalidError);
+  };
+  if (argc < 2) refuse("found no command; allowed " + joined(names));
+  const std::string word = argv[1];
+  if (word.starts_with("-")) {
+    const std::vector<std::string> options{"--help", "-h", "--version"};
+    const bool known = std::find(options.begin(), options.end(), word) != options.end();
+    if (known || argc > 2) return;
+    refuse("found the option " + word + "; allowed " + joined(options) + " or a command" + suggestion(word, options));
+  }
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const std::string meant = word == "help"            ? "; did you mean --help?"
+                            : word.ends_with(".toml") ? "; did you mean run " + word + "?"
+                                                      : suggestion(word, names);
+  refuse("found the command '" + word + "'; allowed " + joined(names) + meant);
 }
+
+namespace {
+/// Of --steps, run.steps: a key that was taken for an option. Empty where there is none of that name.
+std::string key_for_option(const std::string& option) {
+  std::string name = option.substr(std::min(option.find_first_not_of('-'), option.size()));
+  std::replace(name.begin(), name.end(), '-', '_');
+  for (const DeclaredTable& table : declared_tables()) {
+    for (const OptionInfo& key : table.keys) {
+      if (key.name == name || key.name == name + "s") return table.name + "." + key.name;
+    }
+  }
+  if (name == "problem" || name == "method") return name + ".name";
+  return "";
+}
+}  // namespace
 
 std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
   std::string message;
@@ -43,8 +70,10 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
     for (const std::string& word : sub->remaining()) {
       if (!word.starts_with("-")) continue;
       const std::string name = word.substr(0, word.find('='));
+      const bool sets = std::find(names.begin(), names.end(), "--set") != names.end();
+      const std::string key = sets ? key_for_option(name) : "";
       message += (message.empty() ? "" : "\n") + sub->get_name() + ": found the option " + name + "; allowed " +
-                 joined(names) + suggestion(name, names);
+                 joined(names) + (key.empty() ? suggestion(name, names) : "; did you mean --set " + key + "=...?");
     }
   }
   return message.empty() || error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) ? error.what()

@@ -11,6 +11,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "meant.hpp"
 #include "option_text.hpp"
 #include "run_keys.hpp"
 
@@ -60,6 +61,18 @@ bool show_table(const std::string& name) {
     return true;
   }
   return false;
+}
+
+/// What `show` was asked for where there is nothing of that name: the choices of problems come first, since "kepler"
+/// is no slip of "euler".
+std::string meant_by(const std::string& name, const std::vector<std::string>& names) {
+  if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
+    return "; did you mean " + run_path(run_keys().arithmetic) + " = \"" + name + "\"?";
+  }
+  if (name == "methods" || name == "problems") return "; did you mean hamflow list " + name + "?";
+  std::string meant = suggested_problem(name);
+  if (meant.empty()) meant = suggestion(name, names);
+  return meant.empty() ? key_elsewhere(name) : meant;
 }
 
 std::string variant_text(const ProblemInfo& info) {
@@ -238,7 +251,7 @@ int show_command(const std::string& name) {
     for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
     const std::string method = name.substr(0, name.find('('));
     if (std::find(names.begin(), names.end(), method) == names.end()) {
-      throw Error("there is no problem, method or figure '" + name + "'" + suggestion(method, names) +
+      throw Error("there is no problem, method or figure '" + name + "'" + meant_by(method, names) +
                   " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)");
     }
     show_method(parse_method(name));

@@ -8,6 +8,7 @@
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
+#include "meant.hpp"
 #include "scenario_template.hpp"
 
 namespace hamflow::app {
@@ -29,7 +30,7 @@ const ProblemEntry& chosen(const NewOptions& options) {
   }
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
     throw Error("there is no problem '" + options.problem + "'; allowed " + joined(names) +
-                suggestion(options.problem, names));
+                suggested_problem(options.problem));
   }
   std::map<std::string, std::string> variant;
   for (const auto& [key, value] : options.variant) {

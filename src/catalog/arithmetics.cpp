@@ -28,7 +28,10 @@ void check_arithmetic(const std::string& arithmetic) {
   if (mp_digits(arithmetic) > 0) return;
   const std::vector<std::string>& names = arithmetics();
   if (arithmetic != "mp(d)" && std::find(names.begin(), names.end(), arithmetic) != names.end()) return;
-  throw Error("found '" + arithmetic + "'; allowed " + joined(names) + ", e.g. mp(50)" + suggestion(arithmetic, names));
+  const std::string digits = arithmetic.starts_with("mp") ? arithmetic.substr(2) : "";
+  const bool bare = !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;  // mp50
+  throw Error("found '" + arithmetic + "'; allowed " + joined(names) + ", e.g. mp(50)" +
+              (bare ? "; did you mean mp(" + digits + ")?" : suggestion(arithmetic, names)));
 }
 
 std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {

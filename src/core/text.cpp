@@ -1,7 +1,10 @@
 #include "hamflow/core/text.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <vector>
+
+#include "other_names.hpp"
 
 namespace hamflow {
 
@@ -31,6 +34,23 @@ std::string lower_case(std::string text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return text;
+}
+
+/// The candidate that others call `name`; empty where there is none.
+std::string called_otherwise(const std::string& name, std::span<const std::string> candidates) {
+  std::string said = lower_case(name);
+  std::replace(said.begin(), said.end(), '_', '-');
+  std::replace(said.begin(), said.end(), ' ', '-');
+  std::istringstream lines{std::string(other_names)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string::npos) continue;
+    const std::string here = line.substr(0, colon);
+    const std::vector<std::string> others = split_list(line.substr(colon + 2));
+    const bool is_meant = std::find(others.begin(), others.end(), said) != others.end();
+    if (is_meant && std::find(candidates.begin(), candidates.end(), here) != candidates.end()) return here;
+  }
+  return "";
 }
 }  // namespace
 
@@ -78,7 +98,8 @@ std::string nearest(const std::string& name, std::span<const std::string> candid
 }
 
 std::string suggestion(const std::string& name, std::span<const std::string> candidates) {
-  const std::string near = nearest(name, candidates);
+  const std::string known = called_otherwise(name, candidates);
+  const std::string near = known.empty() ? nearest(name, candidates) : known;
   return near.empty() ? "" : "; did you mean " + near + "?";
 }
 

@@ -334,7 +334,6 @@ std::vector<std::vector<T>> by_coordinate(const std::vector<T>& rows, std::size_
 namespace {
 RunSamples read_samples(const std::filesystem::path& path) {
   silence_hdf5();
-  if (!std::filesystem::exists(path)) throw FileError("there is no such file");
   const Hdf5Handle file = open_to_read(path);
   RunSamples run;
   run.description.scenario = read_text_dataset(file, "scenario");
@@ -379,7 +378,6 @@ RunSamples read_samples(const std::filesystem::path& path) {
 
 RunDigits read_digits(const std::filesystem::path& path) {
   silence_hdf5();
-  if (!std::filesystem::exists(path)) throw FileError("there is no such file");
   const Hdf5Handle file = open_to_read(path);
   RunDigits run;
   if (H5Lexists(file, "digits", H5P_DEFAULT) <= 0) return run;
@@ -400,6 +398,12 @@ RunDigits read_digits(const std::filesystem::path& path) {
 /// What goes wrong while a file is read names the file.
 template <class Read>
 auto naming(const std::filesystem::path& path, const Read& read) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) {
+    const bool of_sweep = std::filesystem::exists(path.parent_path() / "sweep.h5", unknown) && path.has_parent_path();
+    throw FileError(path.string() + " cannot be read: there is no such file" +
+                    (of_sweep ? "; this is the folder of a sweep: hamflow sweep --figure draws it" : ""));
+  }
   try {
     return read(path);
   } catch (const FileError& error) {

@@ -33,6 +33,19 @@ void list_settings(const toml::table& table, const std::string& path, std::map<s
   }
 }
 
+/// What to do about an error of the parser whose text does not say it.
+std::string hint_to(std::string_view description) {
+  const auto says = [&](std::string_view part) { return description.find(part) != std::string_view::npos; };
+  if (says("could not determine value type")) {
+    return "; allowed a number, true, false, a list, a table, or a text in quotes";
+  }
+  if (says("parsing decimal integer") || says("parsing floating-point")) {
+    return "; allowed numbers such as 0.5 and 1e-3, and formulas in quotes, \"2*pi/100\"";
+  }
+  if (says("parsing inline table")) return "; allowed a table in { } on one line, or a table [in.brackets] on many";
+  return "";
+}
+
 }  // namespace
 
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every) {
@@ -64,7 +77,7 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
   } catch (const toml::parse_error& error) {
     complaints.push_back({name, static_cast<int>(error.source().begin.line),
                           static_cast<int>(error.source().begin.column), "syntax",
-                          "found no valid TOML: " + std::string(error.description())});
+                          "found no valid TOML: " + std::string(error.description()) + hint_to(error.description())});
     return std::nullopt;
   }
   document.file_method = method_named_in(root);

@@ -1,5 +1,7 @@
 #include "scenario_family.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -54,7 +56,10 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
 
 std::string scenario_text(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw FileError("cannot read the scenario " + file);
+  if (std::filesystem::is_directory(file)) {
+    throw FileError("cannot read the scenario " + file + ": found a folder; allowed a TOML file");
+  }
+  if (!in) throw FileError("cannot read the scenario " + file + ": " + std::strerror(errno));
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();

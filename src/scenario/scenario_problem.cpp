@@ -1,6 +1,7 @@
 // [problem]: which one, and its parameters.
 #include <algorithm>
 
+#include "meant.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
 
@@ -25,12 +26,17 @@ const OptionInfo& problem_name_key() {
 }  // namespace
 
 void ScenarioReader::read_problem(TomlTable& table) {
-  const auto name = table.text(problem_name_key());
-  if (!name) {
-    const std::string meant = nearest(table.plain_string(problem_name_key().name).value_or(""), problem_names());
-    if (!meant.empty()) read_uncertain(table, meant);
+  const OptionInfo& key = problem_name_key();
+  const std::string given = table.plain_string(key.name).value_or("");
+  if (!given.empty() && !refused_value(key, given).empty()) {
+    const std::string meant = suggested_problem(given);
+    table.complain(key.name, "found \"" + given + "\"; allowed " + allowed_text(key) + meant);
+    const std::string near = nearest(given, problem_names());
+    if (meant == "; did you mean " + near + "?") read_uncertain(table, near);
     return;
   }
+  const auto name = table.text(key);
+  if (!name) return;
   scenario_.request.problem = *name;
   read_variant(table, *name);
   if (scenario_.problem == nullptr) {

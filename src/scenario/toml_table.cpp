@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "hamflow/core/problem_info.hpp"
+#include "meant.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {
@@ -54,7 +55,7 @@ std::string Complaint::text() const {
     }
     return out;
   };
-  if (line == 0 && key.starts_with("--")) return plain(key + ": error: " + message);
+  if (key.starts_with("--")) return plain(key + ": error: " + message);  // an option of the command
   const std::string where = line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : "--set";
   return plain(where + ": error: " + key + ": " + message);
 }
@@ -268,7 +269,10 @@ std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, 
 
 TomlTable TomlTable::table(const std::string& key) {
   const toml::node* node = find(key);
-  if (node != nullptr && !node->is_table()) complain(key, "found " + shown(*node) + "; allowed a table");
+  if (node != nullptr && !node->is_table()) {
+    const bool is_name = node->is_string() && (full(key) == "problem" || full(key) == "method");
+    complain(key, "found " + shown(*node) + "; allowed a table" + (is_name ? "; did you mean " + key + ".name?" : ""));
+  }
   return {node == nullptr ? nullptr : node->as_table(), full(key), file_, *complaints_};
 }
 
@@ -287,7 +291,9 @@ void TomlTable::finish() {
     // A value that was set from outside stands nowhere in the file, though its key may.
     const bool in_file = key.source().begin.line > 0 && !hamflow::is_set(node);
     const toml::source_region& where = in_file ? key.source() : node.source();
-    complain_at(where, name, "found an unknown key; allowed " + joined(known_) + suggestion(name, known_));
+    const std::string near = suggestion(name, known_);
+    const std::string meant = near.empty() ? key_elsewhere(full(name)) : near;
+    complain_at(where, name, "found an unknown key; allowed " + joined(known_) + meant);
   }
 }
 

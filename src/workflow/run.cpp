@@ -43,7 +43,8 @@ std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
 Scenario with_spacing_of(const Checkpoint& checkpoint, Scenario scenario, const RunSettings& settings) {
   if (scenario.record_every != checkpoint.record_every && scenario.record.empty()) {
     scenario.record_every = checkpoint.record_every;
-    note(settings, fmt::format("samples stay {} steps apart, as when the run began", checkpoint.record_every));
+    note(settings, fmt::format("samples stay {} {} apart, as when the run began", checkpoint.record_every,
+                               checkpoint.record_every == 1 ? "step" : "steps"));
   }
   return scenario;
 }

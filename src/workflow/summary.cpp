@@ -119,9 +119,7 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   }
   Json found{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};
   if (frame.digits.q.empty()) return found;
-  const double uncertainty = uncertainty_of_exact(scenario, frame.time, *exact);
-  if (distance <= uncertainty) found["max_difference"] = nullptr;
-  found["uncertainty"] = uncertainty;
+  found["uncertainty"] = uncertainty_of_exact(scenario, frame.time, *exact);
   return found;
 }
 

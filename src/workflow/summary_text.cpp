@@ -61,11 +61,12 @@ std::string readable(const Json& s) {
   for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
   if (s.contains("exact")) {
     const Json& exact = s["exact"];
-    text += row(
-        "exact",
-        exact["max_difference"].is_null() && exact.contains("uncertainty")
-            ? fmt::format("no further off than the closed form is known to, {:.2g}", exact["uncertainty"].get<double>())
-            : fmt::format("at most {} off the exact state", number_text(exact["max_difference"], "{:.3g}")));
+    const std::string off = number_text(exact["max_difference"], "{:.3g}");
+    const bool unknown = exact.contains("uncertainty") && !exact["max_difference"].is_null() &&
+                         exact["max_difference"].get<double>() <= exact["uncertainty"].get<double>();
+    text += row("exact", unknown ? fmt::format("at most {} off the closed form, which is known to {:.2g} only", off,
+                                               exact["uncertainty"].get<double>())
+                                 : fmt::format("at most {} off the exact state", off));
   }
   if (s.contains("orbit")) text += row("orbit", orbit_text(s["orbit"]));
   if (s.contains("bodies")) {

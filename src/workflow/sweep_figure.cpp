@@ -125,7 +125,12 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
     if (!column.numbers.empty() && column.width == 1) columns.push_back(column.name);
   }
   if (std::find(columns.begin(), columns.end(), colour) == columns.end()) {
-    return "--colour: error: found " + colour + "; allowed " + joined(columns) + suggestion(colour, columns);
+    const auto whole = std::find_if(columns.begin(), columns.end(),
+                                    [&](const std::string& column) { return column.ends_with("/" + colour); });
+    const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
+    const bool exponent = colour.find("lyapunov") != std::string::npos && meant.empty();
+    return "--colour: error: found " + colour + "; allowed " + joined(columns) + meant +
+           (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : "");
   }
   return {};
 }

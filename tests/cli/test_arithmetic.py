@@ -44,7 +44,7 @@ class Arithmetic(CommandCase):
     def test_a_closed_form_in_double_judges_no_further_than_it_is_known(self):
         accurate = ("method={name='dop853',tolerance=1e-20}", "run.dt=0.1", "run.steps=2000", "run.arithmetic=quad")
         exact = self.run_with(*accurate)["exact"]
-        self.assertIsNone(exact["max_difference"])
+        self.assertLessEqual(exact["max_difference"], exact["uncertainty"])
         self.assertLess(exact["uncertainty"], 1e-12)
         text = self.hamflow("run", KEPLER, *[x for s in accurate for x in ("--set", s)], "--out", "none").stdout
         self.assertIn("no further off than the closed form is known to", text)

@@ -105,14 +105,18 @@ record_every = true
         self.write("syntax.toml", "[problem\nname = 1\n")
         text = self.hamflow("run", "syntax.toml", status=2).stderr
         self.assertTrue(text.startswith("syntax.toml:1:9: error: syntax: "), text)
+        for line, hint in {"dt = 2*pi/100": 'formulas in quotes, "2*pi/100"', "dt = .1": "numbers such as 0.5",
+                           "name = pendulum": "a text in quotes", "section = { value = 0,\n direction = 1 }": "on one line"}.items():
+            self.write("syntax.toml", f"[run]\n{line}\n")
+            self.assertIn(hint, self.hamflow("run", "syntax.toml", status=2).stderr)
         self.write("empty.toml", "")
         text = self.hamflow("run", "empty.toml", status=2).stderr
         for key in ("problem.name", "method.name", "run.dt", "run.steps"):
             self.assertIn(f"empty.toml:1:1: error: {key}: found nothing", text)
 
     def test_files(self):
-        self.hamflow("run", "nowhere.toml", status=3)
-        self.hamflow("run", str(self.folder), status=3)
+        self.assertIn("nowhere.toml: No such file", self.hamflow("run", "nowhere.toml", status=3).stderr)
+        self.assertIn("found a folder", self.hamflow("run", str(self.folder), status=3).stderr)
         self.hamflow("run", "kepler.toml", "--out", "/proc/nowhere/x", status=3)
         self.hamflow("run", "kepler.toml")
         text = self.hamflow("run", "kepler.toml", status=3).stderr
@@ -124,6 +128,26 @@ record_every = true
         pathlib.Path(self.folder / "kepler.run" / "notes.txt").write_text("mine")
         self.hamflow("run", "kepler.toml", "--force")
         self.assertTrue((self.folder / "kepler.run" / "notes.txt").exists())
+
+    def test_what_a_beginner_meant(self):
+        for given, meant in {"problem.name=keplr": 'central-force with potential = "kepler"', "problem.name=pendulm": "pendulum",
+                             "problem.potential=newton": "kepler", "method.name=leapfrog": "verlet", "method.name=yoshida4": "stv4",
+                             "run.arithmetic=quadruple": "quad", "run.arithmetic=mp50": "mp(50)", "run.arithmetic=dd": "double-double",
+                             "quadrature=4": "method.quadrature", "dt=0.1": "run.dt", "method.dt=0.1": "run.dt", "mass=2": "problem.mass",
+                             "method=verlet": "method.name", "run.h=0.1": "dt", "run.dt='0,1'": "0.1"}.items():
+            first = self.complaint(given).splitlines()[0]
+            self.assertTrue(first.endswith(f"; did you mean {meant}?"), f"{given}: {first}")
+        self.assertEqual(len(self.complaint("problem.name=kepler").splitlines()), 1, "of another problem nothing is demanded")
+        for command, meant in {("show", "kepler"): 'central-force with potential = "kepler"', ("show", "quad"): 'run.arithmetic = "quad"',
+                               ("show", "lyapunov"): "run.lyapunov", ("show", "methods"): "hamflow list methods",
+                               ("new", "keplr"): 'central-force with potential = "kepler"', ("verify", "leapfrog"): "verlet",
+                               ("kepler.toml",): "run kepler.toml", ("help",): "--help", ("--versoin",): "--version",
+                               ("run", "kepler.toml", "--steps", "3"): "--set run.steps=...", ("run", "kepler.toml", "-o", "x"): "--out",
+                               ("run", "kepler.toml", "--method=rk4"): "--set method.name=..."}.items():
+            self.assertIn(f"did you mean {meant}?", self.hamflow(*command, status=2).stderr)
+        self.assertTrue(self.hamflow(status=2).stderr.startswith("found no command; allowed run, plot, "))
+        text = self.hamflow("compare", "kepler.toml", "--methods", "leapfrog", status=2).stderr
+        self.assertTrue(text.startswith("--methods: error: "), text)
 
     def test_command_line(self):
         self.hamflow(status=2)

@@ -125,6 +125,14 @@ class Plot(CommandCase):
         self.assertLess(int(power[3:].replace("\u2212", "-")), -19)
         self.assertIn("central-force, kahan-li8, dt = 0.005, quad", labels)
 
+    def test_what_is_no_run(self):
+        for name, said in {"nowhere.run": "there is no such file", "kepler.toml": "no run of hamflow"}.items():
+            text = self.hamflow("plot", name, "--kind", "orbit", "-o", "x.svg", status=3).stderr
+            self.assertIn(f"{name} cannot be read", text)
+            self.assertIn(said, text)
+        self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.1,0.05", "--out", "many")
+        self.assertIn("folder of a sweep", self.hamflow("plot", "many", "--kind", "orbit", "-o", "x.svg", status=3).stderr)
+
     def test_figures_of_sweeps(self):
         def sweep(*vary):
             method = [] if any(text.startswith("method") for text in vary) else ["--set", "method.name=stv4"]

@@ -284,6 +284,8 @@ steps = 200
                      "--figure", "map.svg")
         self.assertIn("<svg", (self.folder / "map.svg").read_text())
         for options, words in ((("--colour", "energy/least"), "allowed varied/run.dt"),
+                               (("--colour", "max_error"), "did you mean energy/max_error?"),
+                               (("--colour", "lyapunov1"), "with run.lyapunov = 1 there is observables/lyapunov1"),
                                (("--figure", "map.gif"), "allowed a file .svg")):
             figure = () if "--figure" in options else ("--figure", "map.svg")
             done = self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01:0.1:4", "--out", "none", *figure,

@@ -62,5 +62,12 @@ TEST(Text, SuggestionsEndASentence) {
   EXPECT_EQ(suggestion("completely-different", Words{"verlet"}), "");
 }
 
+TEST(Text, SuggestionsKnowTheNamesOfOthers) {
+  EXPECT_EQ(suggestion("Leapfrog", Words{"verlet", "stv4"}), "; did you mean verlet?");
+  EXPECT_EQ(suggestion("long double", Words{"double", "double-double"}), "; did you mean double-double?");
+  EXPECT_EQ(suggestion("t_max", Words{"dt", "t_end"}), "; did you mean t_end?");
+  EXPECT_EQ(suggestion("rk8", Words{"rk4"}), "; did you mean rk4?") << "what it stands for is no candidate";
+}
+
 }  // namespace
 }  // namespace hamflow

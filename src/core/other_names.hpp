@@ -1,0 +1,42 @@
+// Names by which others know what has another name here: of methods, arithmetics, problems, potentials, keys of a
+// scenario and options of the command. Small letters, words joined by '-'; a line is "here: said elsewhere, ...".
+#pragma once
+
+#include <string_view>
+
+namespace hamflow {
+
+inline constexpr std::string_view other_names = R"(
+verlet: leapfrog, leap-frog, stoermer-verlet, stormer-verlet, velocity-verlet, strang
+verlet-dkd: position-verlet
+stv4: yoshida, yoshida4, forest-ruth
+euler-a: symplectic-euler, semi-implicit-euler
+euler: explicit-euler, forward-euler
+rk4: runge-kutta
+dop853: rk8, dopri, dopri5, dopri8
+cg: midpoint, implicit-midpoint, discrete-gradient
+double: float64
+double-double: dd, long-double
+quad: quadruple, float128
+mp(d): mpfr
+compensated: kahan
+lattice: integer, fixed-point
+central-force: two-body, 2-body
+n-body: three-body, 3-body, gravity
+solar-system: planets
+harmonic: harmonic-oscillator
+fput: fermi-pasta-ulam
+kepler: newton, coulomb, gravitational
+hooke: spring
+dt: h, step-size, stepsize, timestep, time-step
+t_end: t, tmax, t-max, tstop, t-stop, t-final
+arithmetic: precision
+degree: order
+mass: m
+quit: exit, bye
+--out: -o
+--force: -f
+--quiet: -q
+)";
+
+}  // namespace hamflow

@@ -1,0 +1,15 @@
+// What a beginner may have meant by a name that stands elsewhere: a potential as a problem, a key in another table.
+#pragma once
+
+#include <string>
+
+namespace hamflow {
+
+/// "; did you mean ...?" for a problem that there is not: the name of one, or one of its choices, as in
+/// central-force with potential = "kepler". Empty where none is near.
+std::string suggested_problem(const std::string& name);
+
+/// "; did you mean run.dt?" for a dotted path whose last part is a key of another table. Empty where it is none.
+std::string key_elsewhere(const std::string& path);
+
+}  // namespace hamflow
