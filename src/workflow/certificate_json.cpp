@@ -64,7 +64,7 @@ std::string certificate_text(const Json& c) {
   if (!back.is_null()) {
     const auto steps = back["steps"].get<long long>();
     const auto proves = back["proves"].get<std::string>();
-    text += fmt::format("; {} step{} ({:.2g} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
+    text += fmt::format("; {} step{} ({:.3g} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
                         100 * back["share"].get<double>(), proves == "nothing" ? " prove nothing" : ": " + proves,
                         back["reason"].get<std::string>());
   }
