@@ -122,6 +122,26 @@ class ExtrapolatedMidpointMethod {
     }
     derivative(problem, q, p, rate);
   }
+  /// Whether a trial has left everything behind, so far that its columns cannot agree. The sine of an angle of
+  /// 10^(10^6) would take mp seconds, and leads further out.
+  bool is_astray(const Change& change) const {
+    for (std::size_t i = 0; i < change.q.size(); ++i) {
+      const double size =
+          std::fmax(std::fabs(static_cast<double>(change.q[i])), std::fabs(static_cast<double>(change.p[i])));
+      if (!(size <= far_)) return true;
+    }
+    return false;
+  }
+  /// How far that is: beyond 10^60 times the state and its rate.
+  double limit(const Real& tau) const {
+    double size = 0;
+    for (std::size_t i = 0; i < q_.size(); ++i) {
+      for (const Real& x : {q_[i], p_[i], Real(tau * first_.q[i]), Real(tau * first_.p[i])}) {
+        size = std::fmax(size, std::fabs(static_cast<double>(x)));
+      }
+    }
+    return 1e60 * size;
+  }
   /// The increment over tau in an even number of parts, smoothed at the end (II.9.13c).
   Change modified_midpoint(const P& problem, const Real& tau, int parts) {
     const Real h = tau / Real(parts);
@@ -131,10 +151,15 @@ class ExtrapolatedMidpointMethod {
     Change rate;
     combine(before, h, first_, now);
     for (int k = 1; k < parts; ++k) {
+      if (is_astray(now)) break;
       rate_at(problem, now, rate);
       combine(before, Real(2) * h, rate, after);
       before = now;
       now = after;
+    }
+    if (is_astray(now)) {
+      astray_ = true;
+      return now;
     }
     rate_at(problem, now, rate);
     combine(before, h, rate, after);
@@ -147,8 +172,11 @@ class ExtrapolatedMidpointMethod {
 
   /// The last row of the table goes into row_; returns the error over the tolerance.
   double attempt(const P& problem, const Real& tau) {
+    far_ = limit(tau);
+    astray_ = false;
     for (int j = 0; j < columns_; ++j) {
       std::vector<Change> next{modified_midpoint(problem, tau, 2 * (j + 1))};
+      if (astray_) return std::numeric_limits<double>::infinity();
       for (int k = 1; k <= j; ++k) {
         const Real ratio = Real(j + 1) / Real(j + 1 - k);
         const Real share = Real(1) / (ratio * ratio - Real(1));
@@ -186,6 +214,8 @@ class ExtrapolatedMidpointMethod {
   V q_, p_;
   Change first_;
   std::vector<Change> row_;
+  double far_ = 0;
+  bool astray_ = false;
   double proposed_ = 0;
   long long evaluations_ = 0;
 };
