@@ -70,13 +70,8 @@ std::string certificate_text(const Json& c) {
   if (!back.is_null()) {
     const auto steps = back["steps"].get<long long>();
     const auto proves = back["proves"].get<std::string>();
-<<<<<<< HEAD
     text += fmt::format("; {} step{} ({} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
                         percent_of(back["share"].get<double>()), proves == "nothing" ? " prove nothing" : ": " + proves,
-=======
-    text += fmt::format("; {} step{} ({:.3g} % of the run) there and back{}: {}", steps, steps == 1 ? "" : "s",
-                        100 * back["share"].get<double>(), proves == "nothing" ? " prove nothing" : ": " + proves,
->>>>>>> ready/o_claims
                         back["reason"].get<std::string>());
   }
   return text;
