@@ -36,6 +36,9 @@ std::string note_of(const MethodInfo& method, const std::string& arithmetic, boo
   return {};
 }
 
+const char* const below_the_digits =
+    "every digit of q and p came back; what is carried on below their last digit did not, or a zero has the other sign";
+
 Json state(const Frame& frame) {
   if (!frame.digits.q.empty()) return {{"q", frame.digits.q}, {"p", frame.digits.p}};
   return {{"q", frame.q}, {"p", frame.p}};
@@ -105,8 +108,12 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
   const bool even = even_in_momenta(*scenario.problem, scenario.request.parameters, states, simulation->energy_scale());
   report.expected_bit_exact = even && palindromic_on_lattice(scenario);
+  const Reversal& r = report.reversal;
   report.note =
       note_of(describe(scenario.request.method), scenario.request.arithmetic, even, report.expected_bit_exact);
+  if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
+    report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
+  }
   const Json json = json_of(scenario, *simulation, report);
   report.status = json["status"].get<std::string>();
   if (json.contains("error")) {

@@ -62,6 +62,13 @@ class Reverse(CommandCase):
                          "run.arithmetic=lattice")
         self.assertTrue(s["bit_exact"])
 
+    def test_digits_that_come_back_without_every_bit(self):
+        """cg carries on what its sums round off: that is part of the bits, and not of q and p."""
+        s = self.reverse("kepler.toml", "--set", "run.steps=5", "--set", "run.dt=0.01", "--set", "method={name='cg'}", "--set",
+                         "problem={name='henon-heiles', initial={q=[0.2, 0.1], p=[0.3, 0.1]}}")
+        self.assertEqual((s["start"] == s["returned"], s["distance"] == 0, s["bit_exact"]), (True, True, False))
+        self.assertIn("every digit of q and p came back", s["note"])
+
     def test_a_distance_below_all_doubles(self):
         s = self.reverse("kepler.toml", "--set", "method={name='stv4'}", "--set", "run.arithmetic=mp(400)", "--set",
                          "run.steps=20")
