@@ -1,0 +1,86 @@
+// A straight line of operations on doubles that is repeated: one step of a method, recorded (record/recording.hpp),
+// with all that is carried from step to step. It is what is translated into machine code (src/native), and what an
+// interpreter runs where that cannot be; both give the bits of the program that was recorded. Nothing may be reordered,
+// fused or simplified that is not equal for every input, zeros' signs included; only NaN's payloads are free.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace hamflow {
+
+enum class Instruction : std::uint8_t {
+  add,          // a + b
+  subtract,     // a - b
+  multiply,     // a b
+  divide,       // a/b
+  negate,       // -a
+  absolute,     // |a|
+  larger,       // a < b ? b : a
+  square_root,  // of a; correctly rounded
+  // Functions of the system's library, called.
+  exponential,
+  logarithm,
+  sine,
+  cosine,
+  tangent,
+  arcsine,
+  arccosine,
+  arctangent,
+  sinh,
+  cosh,
+  tanh,
+  arctangent2,  // atan2(a, b)
+  power         // pow(a, b)
+};
+
+/// The value of an earlier operation, of what is carried, or of a constant.
+struct Operand {
+  enum class Kind : std::uint8_t { carried, result, constant, none };
+  Kind kind = Kind::none;
+  std::uint32_t index = 0;
+  friend bool operator==(const Operand&, const Operand&) = default;
+};
+
+/// **Program**: values() are carried into a step; operations follow one another; the k-th output is carried out as the
+/// k-th value. Checks hold, or the step is not of this program.
+struct Program {
+  struct Operation {
+    Instruction instruction;
+    Operand a;
+    Operand b;  // none for functions of one number
+    friend bool operator==(const Operation&, const Operation&) = default;
+  };
+  struct Check {
+    enum class Kind : std::uint8_t { finite, equal, unequal, less, not_less };  // a alone, or a with b
+    Kind kind;
+    Operand a;
+    Operand b;
+    friend bool operator==(const Check&, const Check&) = default;
+  };
+  std::vector<Operation> operations;
+  std::vector<double> constants;
+  std::vector<Operand> outputs;
+  std::vector<Check> checks;
+
+  /// How many numbers are carried.
+  std::size_t values() const { return outputs.size(); }
+};
+
+/// A program made runnable. One object may be run by several threads at once.
+class StepLoop {
+ public:
+  virtual ~StepLoop() = default;
+  /// Repeats the program `steps` times on `carried`, in place. @return whether every check held in every step; if not,
+  /// `carried` is undefined
+  virtual bool run(std::span<double> carried, std::int64_t steps) const = 0;
+};
+
+/// In machine code where the processor and the system allow it and HAMFLOW_NATIVE is not 0, else interpreted.
+std::unique_ptr<const StepLoop> make_step_loop(const Program& program);
+/// Interpreted anywhere.
+std::unique_ptr<const StepLoop> make_interpreter(const Program& program);
+
+}  // namespace hamflow
