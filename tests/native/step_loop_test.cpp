@@ -187,8 +187,10 @@ TEST(StepLoop, IsInterpretedWhereThatIsAskedFor) {
   ASSERT_EQ(unsetenv("HAMFLOW_NATIVE"), 0);
   const auto other = make_step_loop(kepler_verlet(0.01));
   const bool has_native = native::make_machine_code(kepler_verlet(0.01)) != nullptr;
-  EXPECT_EQ(typeid(*loop) == typeid(*other), !has_native);
-  EXPECT_EQ(typeid(*loop), typeid(*make_interpreter(kepler_verlet(0.01))));
+  const auto interpreter = make_interpreter(kepler_verlet(0.01));
+  const StepLoop &asked = *loop, &native = *other, &interpreted = *interpreter;
+  EXPECT_EQ(typeid(asked), typeid(interpreted));
+  EXPECT_EQ(typeid(native) == typeid(interpreted), !has_native);
 }
 
 /// Memory to be mapped twice is a file without a name: where none may grow, none can be had.
