@@ -108,6 +108,7 @@
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "hamflow/numerics/normal_modes.hpp"
 #include "hamflow/numerics/pack.hpp"
+#include "hamflow/numerics/program.hpp"
 #include "hamflow/numerics/quadrature.hpp"
 #include "hamflow/numerics/root.hpp"
 #include "hamflow/numerics/taylor_series.hpp"
