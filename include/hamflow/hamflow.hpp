@@ -34,6 +34,7 @@
 #include "hamflow/formula/formula.hpp"
 #include "hamflow/formula/graph.hpp"
 #include "hamflow/formula/operations.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/methods/cg.hpp"
