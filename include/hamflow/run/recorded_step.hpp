@@ -3,7 +3,9 @@
 // carried, the kick that is kept as well as what the probe has seen, so that the program can be repeated by itself.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/tape.hpp"
@@ -21,11 +23,25 @@ struct RecordedStep {
   std::vector<CarriedField> fields;
 };
 
-/// More operations than this are left to the loops that are compiled for a problem.
-inline constexpr std::size_t most_recorded_operations = 60000;
+/// Longer steps take the ordinary road: straight code that no longer fits into the processor's cache of instructions
+/// is slower than the loops over bodies that are compiled (15 bodies with stv4, 6 with kahan-li8).
+inline constexpr std::size_t most_recorded_operations = 5000;
 
 /// The program of an exact recording: what the outputs and the guards need of the tape.
 Program program_of(const Tape<double>& tape);
+
+/// What a simulation offers to lanes: its step, and the numbers that go through it (run/recorded_simulation.hpp).
+class RecordedMember {
+ public:
+  virtual ~RecordedMember() = default;
+  /// The step from the present state; null where it cannot be recorded.
+  virtual std::shared_ptr<const RecordedStep> recorded_step() = 0;
+  /// The values that are carried into such a step. @return false where what the method keeps is not as recorded: one
+  /// step by the ordinary road mends it
+  virtual bool read_values(const RecordedStep& step, std::span<double> values) const = 0;
+  /// The values after so many steps, from those that were read.
+  virtual void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) = 0;
+};
 
 namespace detail {
 /// The numbers of a traced object, before the step and behind it.
