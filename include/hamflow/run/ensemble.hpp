@@ -6,30 +6,13 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "hamflow/numerics/lane_set.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
-
-/// The instructions that lanes are made of. Results do not depend on it.
-enum class LaneSet { none, generic, avx2, avx512 };
-
-constexpr std::string_view name(LaneSet set) {
-  switch (set) {
-    case LaneSet::none:
-      return "none";
-    case LaneSet::generic:
-      return "generic";
-    case LaneSet::avx2:
-      return "avx2";
-    case LaneSet::avx512:
-      return "avx512";
-  }
-  return "unknown";
-}
 
 /// The widest that this machine has.
 LaneSet widest_lanes();
