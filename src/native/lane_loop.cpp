@@ -11,7 +11,7 @@ namespace native {
 namespace {
 
 constexpr std::size_t registers_each = 4;  // to a number: while one waits for its square root, the others work
-constexpr std::size_t lane_chunk = 32;     // 1: 10 % slower for Kepler, 25 % for compensated sums; 12 to 40 differ little
+constexpr std::size_t lane_chunk = 32;  // 1: 10 % slower for Kepler, 25 % for compensated sums; 12 to 40 differ little
 
 /// Numbers where a whole register can be read at once.
 class Aligned {
