@@ -47,8 +47,20 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
       if (!read_values(*loop->step, values_)) return ordinary(steps);
     }
     if (!loop->steps->run(values_, steps) || !are_finite()) return ordinary(steps);
+    if (watch_) {
+      take_values(*loop->step, values_, steps);
+      return Outcome::done;
+    }
+    // Nobody has looked at the energy yet.
+    const auto z = z_;
+    const auto method = method_;
+    const auto clock = clock_;
     take_values(*loop->step, values_, steps);
-    return Outcome::done;
+    if (Base::is_finite(Base::problem(), z_)) return Outcome::done;
+    z_ = z;
+    method_ = method;
+    clock_ = clock;
+    return ordinary(steps);
   }
 
   std::shared_ptr<const RecordedStep> recorded_step() override {
