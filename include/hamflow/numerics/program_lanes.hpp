@@ -15,8 +15,8 @@ class LaneLoop {
   /// Repeats the program `steps` times in every lane.
   /// @param carried values() x lanes() numbers, in place: of value k in lane i at k lanes() + i
   /// @param constants of the j-th constant that differs, in the program's order, in lane i at j lanes() + i
-  /// @param failed lanes() flags; set where a check fails at any step, never cleared. What such a lane carries is undefined,
-  /// all others go on
+  /// @param failed lanes() flags; set where a check fails at any step, never cleared. What such a lane carries is
+  /// undefined, all others go on
   virtual void run(std::span<double> carried, std::span<const double> constants, std::int64_t steps,
                    std::span<bool> failed) const = 0;
 };
