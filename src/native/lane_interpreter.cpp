@@ -6,13 +6,12 @@
 namespace hamflow::native {
 namespace {
 
-constexpr std::size_t chunk = 8;  // numbers that the compiler may take at once
+constexpr std::size_t at_once = 8;  // numbers that the compiler may take at once
 
 template <class F>
-void each(std::size_t lanes, double* y, const double* a, const double* b, const F& f) {
-  for (std::size_t i = 0; i < lanes; i += chunk) {
-#pragma GCC ivdep
-    for (std::size_t j = i; j < i + chunk; ++j) y[j] = f(a[j], b[j]);  // y is neither a nor b
+void each(std::size_t lanes, double* __restrict y, const double* a, const double* b, const F& f) {
+  for (std::size_t i = 0; i < lanes; i += at_once) {
+    for (std::size_t j = i; j < i + at_once; ++j) y[j] = f(a[j], b[j]);
   }
 }
 

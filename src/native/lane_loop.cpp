@@ -10,8 +10,8 @@ namespace hamflow {
 namespace native {
 namespace {
 
-constexpr std::size_t registers_each = 4;  // to a number: while one waits for its square root, the others work
-constexpr std::size_t lane_chunk = 32;  // 1: 10 % slower for Kepler, 25 % for compensated sums; 12 to 40 differ little
+constexpr std::size_t per_number = 4;   // to a number: while one waits for its square root, the others work
+constexpr std::size_t run_of_one = 32;  // 1: 10 % slower for Kepler, 25 % for compensated sums; 12 to 40 differ little
 
 /// Numbers where a whole register can be read at once.
 class Aligned {
@@ -45,10 +45,10 @@ class LaneLoopOf final : public LaneLoop {
     const std::size_t numbers = step.values() * lanes_;
     const Aligned state(numbers);
     std::copy_n(carried.data(), numbers, state.data());
-    std::array<std::uint64_t, registers_each> flags{};
+    std::array<std::uint64_t, per_number> flags{};
     function_->entry()(state.data(), steps, varying.data(), flags.data());
     std::copy_n(state.data(), numbers, carried.data());
-    const std::size_t width = lanes_ / registers_each;
+    const std::size_t width = lanes_ / per_number;
     for (std::size_t i = 0; i < lanes_; ++i) failed[i] |= (flags[i / width] >> (i % width) & 1) != 0;
   }
 
@@ -70,11 +70,11 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
   native::LaneProgram ready = native::lane_program(program, differs);
   std::unique_ptr<const native::Function> function;
   if (const unsigned available = native::lane_registers(lanes); available > 0 && native::is_asked()) {
-    const Program step = native::interleaved(ready, native::registers_each, native::lane_chunk);
+    const Program step = native::interleaved(ready, native::per_number, native::run_of_one);
     function = native::assembled_lanes(native::placed(step, available), step.constants, ready.uniform,
-                                       native::registers_each, lanes);
+                                       native::per_number, lanes);
   }
-  const std::size_t count = native::registers_each * (lanes == LaneSet::avx512 ? 8 : 4);
+  const std::size_t count = native::per_number * (lanes == LaneSet::avx512 ? 8 : 4);
   return std::make_unique<native::LaneLoopOf>(std::move(ready), count, std::move(function));
 }
 
