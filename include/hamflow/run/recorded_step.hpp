@@ -77,13 +77,17 @@ struct RecordedTime {
   double direction = 1;
 };
 
+/// Which step of many is recorded: one that goes on from what the last one kept, or one from a state that was changed
+/// from outside, which carries nothing in but the state.
+enum class RecordedAt { steady, start };
+
 /// Records the step from (q, p).
 /// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
 /// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
 template <class A, class P, class M>
 std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, const RecordedTime& time,
-                                        bool watch) {
+                                        bool watch, RecordedAt at = RecordedAt::steady) {
   using Number = Trace<double>;
   PhasePoint<A, dynamic> z;
   z.store(cast<Number>(q), cast<Number>(p));
@@ -92,6 +96,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     probe.start(problem, z.positions(), z.momenta(), Number(time.start));
     // On constants, for what the method keeps of it.
     if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
+    if (at == RecordedAt::start) method.invalidate();
     Recorder<double> recorder(Folding::exact, most_recorded_operations);
     std::vector<bool> counts;
     for_each_carried(
@@ -107,8 +112,10 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
     detail::TracedFields after = detail::traced_fields(z, method, probe);
     RecordedStep recorded;
-    recorded.fields = detail::carried_fields(before, after, counts);
-    if (recorded.fields.empty()) return std::nullopt;
+    if (at == RecordedAt::steady) {
+      recorded.fields = detail::carried_fields(before, after, counts);
+      if (recorded.fields.empty()) return std::nullopt;
+    }
     after.traces.push_back(position);
     recorded.program = program_of(recorder.finish(after.traces));
     return recorded;
