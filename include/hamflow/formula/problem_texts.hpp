@@ -29,6 +29,7 @@ struct FormulaKeys {
   static constexpr const char* invariants = "invariants";
   static constexpr const char* constraints = "constraints";
   static constexpr const char* central_potential = "V";  // of central-force
+  static constexpr const char* unknown = "?";            // a parameter's value that choices do not keep
 };
 
 /// The problem `formula`. Parameters: name to a number expression "1/3" or a list "[1, 2]".
@@ -60,7 +61,7 @@ Choices formula_choices(const FormulaTexts& texts);
 /// The same of `central-force`, potential = "formula": V of r and the parameters.
 /// @param coordinates "cartesian" or "polar"   @throws FormulaError
 Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates);
-/// Back: the texts that choices were made of; of parameters the values that choices keep, others empty.
+/// Back: the texts that choices were made of; of parameters the values that choices keep, others "?".
 FormulaTexts formula_texts(const Choices& choices);
 
 }  // namespace hamflow
