@@ -113,6 +113,7 @@
 #include "hamflow/numerics/gauss_legendre.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "hamflow/numerics/normal_modes.hpp"
+#include "hamflow/numerics/outer_root.hpp"
 #include "hamflow/numerics/pack.hpp"
 #include "hamflow/numerics/program.hpp"
 #include "hamflow/numerics/quadrature.hpp"
