@@ -56,8 +56,9 @@ struct Request {
   std::string kernel = "exact";
   double position_unit = 0x1p-52;  // lattice spacings, powers of two
   double momentum_unit = 0x1p-52;
-  int threads = 1;    // for the forces of one step
-  bool watch = true;  // energy and invariants at every step
+  int threads = 1;     // for the forces of one step
+  bool watch = true;   // energy and invariants at every step
+  bool record = true;  // steps are recorded and compiled where they can be; the bits are the same
 };
 
 /// One problem of the catalogue (a problem with a choice of potential has one entry for each). Parameters are complete.
