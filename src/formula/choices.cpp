@@ -1,10 +1,12 @@
 #include "choices.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/model.hpp"
+#include "syntax.hpp"
 
 namespace hamflow {
 
@@ -98,6 +100,55 @@ FormulaTexts formula_texts(const Choices& choices) {
   texts.potential = of(FormulaKeys::potential);
   for (const auto& [name, text] : formula::pairs_of(of(FormulaKeys::parameters))) texts.parameters[name] = text;
   texts.invariants = formula::pairs_of(of(FormulaKeys::invariants));
+  return texts;
+}
+
+FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters) {
+  formula::Syntax syntax;
+  try {
+    syntax = formula::read_syntax(hamiltonian, {});
+  } catch (const Error& error) {
+    throw FormulaError(FormulaKeys::hamiltonian, error.what());
+  }
+  FormulaTexts texts;
+  texts.hamiltonian = hamiltonian;
+  texts.parameters = parameters;
+  std::set<std::string> locals;
+  for (const formula::Part& part : syntax.parts) {
+    if (part.kind == formula::Part::Kind::let || part.kind == formula::Part::Kind::sum) locals.emplace(part.word);
+  }
+  // In the order of the text; an operand stands before what is made of it.
+  std::vector<std::pair<std::size_t, std::string>> words;
+  for (const formula::Part& part : syntax.parts) {
+    if (part.kind == formula::Part::Kind::name && !locals.contains(std::string(part.word))) {
+      words.emplace_back(part.at, std::string(part.word));
+    }
+  }
+  std::sort(words.begin(), words.end());
+  std::set<std::string> all;
+  for (const auto& [at, word] : words) all.insert(word);
+  const auto coordinate_of = [&](const std::string& word) -> std::string {
+    if (parameters.contains(word)) return {};
+    if (word.starts_with("p_")) return word.substr(2);
+    const bool numbered = std::all_of(word.begin() + 1, word.end(), is_digit);
+    return word.starts_with('p') && numbered ? "q" + word.substr(1) : std::string();
+  };
+  std::map<std::string, std::string> momenta;  // of coordinates
+  for (const std::string& word : all) {
+    if (const std::string q = coordinate_of(word); !q.empty()) momenta[q] = word;
+  }
+  if (momenta.empty()) {
+    throw FormulaError(
+        FormulaKeys::hamiltonian,
+        "found \"" + shown(hamiltonian) + "\" without a momentum; allowed names such as p, p1, p_x for them");
+  }
+  std::set<std::string> taken;
+  for (const auto& [at, word] : words) {
+    const std::string q = momenta.contains(word) ? word : coordinate_of(word);
+    if (q.empty() || !taken.insert(q).second) continue;
+    texts.coordinates.push_back(q);
+    texts.momenta.push_back(momenta.at(q));
+  }
   return texts;
 }
 

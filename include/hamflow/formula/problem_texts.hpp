@@ -71,4 +71,10 @@ Choices central_formula_choices(const std::string& potential, const Texts& param
 /// Back: the texts that choices were made of; of parameters the values that choices keep, others "?".
 FormulaTexts formula_texts(const Choices& choices);
 
+/// The texts of a problem of which H alone is given. Momenta are the names p, p1, p2 ... and p_x for a name x: they
+/// tell the coordinates, q, q1, q2 ... and x, in the order in which either first occurs. Every other name is a
+/// parameter.
+/// @throws FormulaError when there is no momentum
+FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters = {});
+
 }  // namespace hamflow
