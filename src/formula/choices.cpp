@@ -41,8 +41,9 @@ Texts without_values(const Texts& parameters, const FormulaSymbols& symbols) {
   Texts all;
   for (const auto& [name, text] : parameters) {
     const bool list = !text.empty() && text.front() == '[';
+    const std::string& own = name;
     const bool needed = std::any_of(symbols.known.begin(), symbols.known.end(), [&](const auto& known) {
-      return known.first == name || known.first.starts_with(name + "[");
+      return known.first == own || known.first.starts_with(own + "[");
     });
     if (needed) {
       all[name] = text;
