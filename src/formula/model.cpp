@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "choices.hpp"
 #include "emission.hpp"
 #include "form.hpp"
 #include "names.hpp"
@@ -140,6 +141,8 @@ Model::Model(const FormulaTexts& texts) {
   for (const ProblemNames::Parameter& p : names.parameters) {
     for (std::size_t i = 0; i < std::max<std::size_t>(p.length, 1); ++i) places_.push_back({p.name, i});
   }
+  label_ = "formula";
+  for (const auto& [key, text] : choices_of(texts)) label_ += " " + key + " = " + text;
   const std::size_t n = size();
   using Keys = FormulaKeys;
   const auto refuse = [](const std::string& key, const std::string& message) { throw FormulaError(key, message); };

@@ -73,6 +73,11 @@ std::vector<std::string> written_out(const std::string& key, const std::string& 
   return all;
 }
 
+/// p of q, p1 of q1, p_x of x: as for every problem.
+std::string momentum_of(const std::string& coordinate) {
+  return coordinate.starts_with('q') ? "p" + coordinate.substr(1) : "p_" + coordinate;
+}
+
 /// The word of x[3].
 std::string word_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
@@ -108,8 +113,9 @@ ProblemNames names_of(const FormulaTexts& texts) {
     const auto some = written_out(key, texts.coordinates[i], parameters, names.whole);
     take(key, word_of(some[0]));
     const std::string momentum_key = texts.momenta.empty() ? key : place(FormulaKeys::momenta, i);
-    const auto their = texts.momenta.empty() ? written_out(key, "p_" + texts.coordinates[i], parameters, names.whole)
-                                             : written_out(momentum_key, texts.momenta[i], parameters, names.whole);
+    const auto their = texts.momenta.empty()
+                           ? written_out(key, momentum_of(texts.coordinates[i]), parameters, names.whole)
+                           : written_out(momentum_key, texts.momenta[i], parameters, names.whole);
     take(momentum_key, word_of(their[0]));
     const auto indexed = [](const std::string& name) { return name.back() == ']'; };
     if (some.size() != their.size() || indexed(some[0]) != indexed(their[0])) {

@@ -14,13 +14,6 @@
 
 namespace hamflow {
 
-/// What is found from the expression of a Hamiltonian.
-struct FormulaStructure {
-  bool separable = false;          // H = T(p) + V(q)
-  bool quadratic_kinetic = false;  // T = p^T M^-1 p/2 with constant M
-  bool time = false;               // H depends on t
-};
-
 namespace formula {
 
 /// Entries (row, column) of a symmetric or general matrix that are not 0 everywhere, in the order of code's outputs.
@@ -49,6 +42,8 @@ class Model {
   const std::vector<std::string>& momenta() const { return momenta_; }
   const std::vector<std::string>& invariants() const { return invariant_names_; }
   const FormulaStructure& structure() const { return structure_; }
+  /// The texts in one line, for saved states.
+  const std::string& label() const { return label_; }
   /// Coordinates, momenta, t, parameters, in the order of values; known: what indices needed.
   const FormulaSymbols& symbols() const { return symbols_; }
   std::size_t time_symbol() const { return 2 * size(); }
@@ -83,6 +78,7 @@ class Model {
   FormulaSymbols symbols_;
   std::vector<ParameterPlace> places_;
   FormulaStructure structure_;
+  std::string label_;
   std::unique_ptr<Derivation> derivation_;
   mutable std::mutex mutex_;
   mutable std::unique_ptr<HessianCode> hessian_;

@@ -35,7 +35,7 @@ struct FormulaKeys {
 /// The problem `formula`. Parameters: name to a number expression "1/3" or a list "[1, 2]".
 struct FormulaTexts {
   std::vector<std::string> coordinates{};  // "x"; "x[n]" with a number or whole parameter n: x[1] .. x[n]
-  std::vector<std::string> momenta{};      // empty: p_x, p_x[1] ..
+  std::vector<std::string> momenta{};      // empty: p of q, p1 of q1, p_x of x
   std::string hamiltonian{};               // or kinetic and potential
   std::string kinetic{};
   std::string potential{};
@@ -43,6 +43,13 @@ struct FormulaTexts {
   std::vector<std::pair<std::string, std::string>>
       invariants{};                        // name, formula of coordinates, momenta, parameters, t
   std::vector<std::string> constraints{};  // g(q) = 0
+};
+
+/// What is found from the expression of a Hamiltonian.
+struct FormulaStructure {
+  bool separable = false;          // H = T(p) + V(q)
+  bool quadratic_kinetic = false;  // T = p^T M^-1 p/2 with constant M
+  bool time = false;               // H depends on t
 };
 
 /// What is wrong with typed texts, and in which of them: "hamiltonian", "coordinates[1]", "invariants.L",
