@@ -6,6 +6,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/model.hpp"
+#include "names.hpp"
 #include "syntax.hpp"
 
 namespace hamflow {
@@ -86,6 +87,58 @@ Choices formula_choices(const FormulaTexts& texts) {
   FormulaTexts kept = texts;
   kept.parameters = formula::without_values(texts.parameters, model.symbols());
   return formula::choices_of(kept);
+}
+
+Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates) {
+  for (const char* taken : {"r", "x", "y", "phi", "p_r", "p_x", "p_y", "p_phi", CentralKeys::mass}) {
+    if (!parameters.contains(taken)) continue;
+    throw FormulaError(
+        std::string(FormulaKeys::parameters) + "." + taken,
+        std::string("found the name ") + taken + ", which central-force has itself; allowed another name");
+  }
+  // By itself first: errors point into what was typed.
+  const formula::ProblemNames names = formula::names_of({.coordinates = {"r"}, .parameters = parameters});
+  FormulaSymbols symbols = formula::symbols_of(names);
+  symbols.names[1] = "t";  // there is no momentum in V
+  symbols.names.erase(symbols.names.begin() + 2);
+  symbols.what = "names of V(r)";
+  std::set<std::string> needed;
+  try {
+    formula::Graph graph;
+    (void)formula::read_into(graph, potential, symbols, &needed);
+  } catch (const Error& error) {
+    throw FormulaError(FormulaKeys::central_potential, error.what());
+  }
+  std::erase_if(symbols.known, [&](const auto& known) { return !needed.contains(known.first); });
+  const Choices all{{CentralKeys::key, FormulaKeys::problem},
+                    {FormulaKeys::coordinates, coordinates},
+                    {FormulaKeys::central_potential, potential},
+                    {FormulaKeys::parameters, formula::named(formula::without_values(parameters, symbols))}};
+  FormulaTexts texts = central_formula_texts(all);
+  try {
+    (void)formula::Model(texts);
+  } catch (const FormulaError& error) {
+    throw FormulaError(FormulaKeys::central_potential, error.what());
+  }
+  return all;
+}
+
+FormulaTexts central_formula_texts(const Choices& choices) {
+  const std::string potential = "let r = sqrt(x^2 + y^2) in " + choices.at(FormulaKeys::central_potential);
+  FormulaTexts texts;
+  if (choices.at(FormulaKeys::coordinates) == CentralKeys::polar) {
+    texts = {.coordinates = {"r", "phi"},
+             .hamiltonian = "(p_r^2 + p_phi^2/r^2)/(2*mass) + (" + choices.at(FormulaKeys::central_potential) + ")",
+             .invariants = {{"angular_momentum", "p_phi"}}};
+  } else {
+    texts = {.coordinates = {"x", "y"},
+             .kinetic = "(p_x^2 + p_y^2)/(2*mass)",
+             .potential = potential,
+             .invariants = {{"angular_momentum", "x*p_y - y*p_x"}}};
+  }
+  texts.parameters = {{CentralKeys::mass, FormulaKeys::unknown}};
+  for (const auto& [name, text] : formula::pairs_of(choices.at(FormulaKeys::parameters))) texts.parameters[name] = text;
+  return texts;
 }
 
 FormulaTexts formula_texts(const Choices& choices) {
