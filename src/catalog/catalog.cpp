@@ -6,15 +6,21 @@
 
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
 #include "hamflow/core/text.hpp"
+#include "typed_problem.hpp"
 
 namespace hamflow {
 
 std::span<const ProblemEntry> problems() {
-  static const std::vector<ProblemEntry> all = generated_problems();
+  static const std::vector<ProblemEntry> all = [] {
+    std::vector<ProblemEntry> entries = generated_problems();
+    entries.push_back(formula_example());
+    return entries;
+  }();
   return all;
 }
 
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  if (is_typed(name, variant)) return typed_problem(name, variant);
   std::vector<std::string> names;
   const ProblemEntry* same_name = nullptr;
   for (const ProblemEntry& entry : problems()) {
@@ -36,6 +42,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
 }
 
 const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  if (is_typed(name, variant)) return typed_problem(name, variant);
   const ProblemEntry& any = find_problem(name, variant);
   const auto usual = [](const ProblemInfo& info, const std::string& key) {
     const auto listed = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };

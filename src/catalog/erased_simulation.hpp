@@ -47,16 +47,13 @@ std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Reque
         return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
       }
     };
-    if constexpr (std::is_same_v<R, double> && has_typed_kernel<M>() && !is_recorded<M>() &&
-                  (M::bijective || always_compensated<M>())) {
-      return std::unique_ptr<Simulation>();  // compiled with each problem
-    } else if constexpr (always_compensated<M>()) {
+    if constexpr (always_compensated<M>()) {
       return build(Compensated<R>{});
     } else if constexpr (!std::is_same_v<R, double>) {
       return build(Plain<R>{});
     } else {
       if (request.arithmetic == "compensated") return build(Compensated<R>{});
-      if constexpr (M::bijective && !has_typed_kernel<M>()) {
+      if constexpr (M::bijective) {
         if (request.arithmetic == "lattice") {
           Lattice lattice;
           lattice.position.set_unit(request.position_unit);

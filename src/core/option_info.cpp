@@ -117,7 +117,7 @@ std::string allowed_text(const OptionInfo& option) {
     case OptionType::text:
       return "a text that is not empty";
     case OptionType::table:
-      return "a table with " + joined(option_names(option.keys));
+      return option.keys.empty() ? "a table of texts by name" : "a table with " + joined(option_names(option.keys));
   }
   return {};
 }

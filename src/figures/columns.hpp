@@ -19,7 +19,7 @@ struct Column {
   std::function<std::vector<double>()> values;  // of the data that it was made of, as long as they live
 };
 
-/// All that can be drawn over each other: t, coordinates, momenta, energy, energy-error, diagnostics.
+/// All that can be drawn over each other: t, coordinates, momenta, energy, energy-error, observables, diagnostics.
 std::vector<Column> columns_of(const FigureData& data);
 /// Their names.
 std::vector<std::string> column_names(const FigureData& data);

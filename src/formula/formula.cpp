@@ -25,8 +25,8 @@ struct Local {
 /// Gives names their meaning: syntax to graph. Sums are written out, let shares a node.
 class Meaning {
  public:
-  Meaning(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols)
-      : graph_(graph), syntax_(syntax), symbols_(symbols) {
+  Meaning(Graph& graph, const Syntax& syntax, const FormulaSymbols& symbols, std::set<std::string>* whole)
+      : graph_(graph), syntax_(syntax), symbols_(symbols), whole_used_(whole) {
     for (std::size_t i = 0; i < symbols.names.size(); ++i) numbers_.emplace(symbols.names[i], static_cast<int>(i));
   }
 
@@ -234,6 +234,7 @@ class Meaning {
       refuse(part.at, name + ", which is " + shortest(value), "whole numbers from -2^53 to 2^53");
     if (value != std::nearbyint(value))
       refuse(part.at, name + ", which is " + shortest(value) + " and not whole", "whole numbers");
+    if (whole_used_ != nullptr) whole_used_->insert(name);
     return static_cast<std::int64_t>(value);
   }
 
@@ -295,6 +296,7 @@ class Meaning {
   Graph& graph_;
   const Syntax& syntax_;
   const FormulaSymbols& symbols_;
+  std::set<std::string>* whole_used_;
   std::unordered_map<std::string, int> numbers_;
   std::vector<Local> locals_;
   std::vector<std::optional<long double>> values_;
@@ -303,9 +305,9 @@ class Meaning {
 
 }  // namespace
 
-int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols) {
+int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols, std::set<std::string>* whole) {
   const Syntax syntax = read_syntax(text, symbols);
-  return Meaning(graph, syntax, symbols).read();
+  return Meaning(graph, syntax, symbols, whole).read();
 }
 
 }  // namespace formula

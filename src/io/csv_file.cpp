@@ -10,7 +10,7 @@
 namespace hamflow {
 
 CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
-                 const std::vector<InvariantColumn>& invariants)
+                 const std::vector<InvariantColumn>& more)
     : path_(file), out_(file) {
   if (!out_) throw FileError("cannot write " + file.string());
   std::string header = "step,t";
@@ -18,7 +18,7 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
     for (std::size_t i = 1; i <= dimension; ++i) header += fmt::format(",{}{}", letter, i);
   }
   header += ",energy";
-  for (const InvariantColumn& each : invariants) {
+  for (const InvariantColumn& each : more) {
     for (std::size_t k = 1; k <= each.size; ++k) {
       header += ',' + each.name + (each.size == 1 ? "" : "_" + std::to_string(k));
     }
@@ -43,7 +43,7 @@ void CsvFile::put(std::string_view text) {
   hash_ = fnv1a(std::as_bytes(std::span(text)), hash_);
 }
 
-void CsvFile::append(const Frame& frame) {
+void CsvFile::append(const Frame& frame, std::span<const double> observables) {
   fmt::memory_buffer line;
   const auto to = std::back_inserter(line);
   if (const FrameDigits& digits = frame.digits; !digits.q.empty()) {
@@ -58,6 +58,7 @@ void CsvFile::append(const Frame& frame) {
     fmt::format_to(to, ",{:.17g}", frame.energy);
   }
   for (const double x : frame.invariants) fmt::format_to(to, ",{:.17g}", x);
+  for (const double x : observables) fmt::format_to(to, ",{:.17g}", x);
   line.push_back('\n');
   put({line.data(), line.size()});
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,15 +18,16 @@ namespace hamflow {
 
 class CsvFile {
  public:
-  /// Columns step, t, q1.., p1.., energy and the invariants, each with its number of components. @throws FileError
-  CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<InvariantColumn>& invariants);
+  /// Columns step, t, q1.., p1.., energy, the invariants, each with its number of components, and observables.
+  /// @throws FileError
+  CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<InvariantColumn>& more);
   /// Goes on after the first `bytes` bytes of a file that is there, whose hash is `hash`. @throws FileError
   CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash);
   /// Appended so far, written or not.
   std::uint64_t bytes() const { return bytes_; }
   /// Of these bytes: what somebody else wrote has another one.
   std::uint64_t hash() const { return hash_; }
-  void append(const Frame& frame);
+  void append(const Frame& frame, std::span<const double> observables = {});
   /// @throws FileError when the disk is full
   void flush();
 

@@ -102,6 +102,10 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
     all.emplace_back(file, "invariants/" + each.name, H5T_IEEE_F64LE, each.size == 1 ? 0 : each.size, rows,
                      ColumnText{component_names(each), each.meaning, each.unit});
   }
+  for (const InvariantColumn& each : run.observables) {
+    all.emplace_back(file, "observables/" + each.name, H5T_IEEE_F64LE, 0, rows,
+                     ColumnText{{each.name}, each.meaning, each.unit});
+  }
   for (const auto& [name, meaning] : diagnostic_columns) {
     if (run.diagnostics) number(name, H5T_IEEE_F64LE, meaning);
   }
@@ -143,6 +147,7 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   impl->digits = description.digits_length > 0;
   impl->diagnostics = description.diagnostics;
   for (const InvariantColumn& each : description.invariants) impl->invariant_sizes.push_back(each.size);
+  if (!description.observables.empty()) (void)make_group(id, "observables");
   if (impl->digits) (void)make_group(id, "digits");
   if (description.section) {
     (void)make_group(id, "section");
@@ -205,7 +210,7 @@ RunFile::~RunFile() {
   if (impl_->failed) (void)impl_.release();
 }
 
-void RunFile::append(const Frame& frame) {
+void RunFile::append(const Frame& frame, std::span<const double> observables) {
   auto column = impl_->columns.begin();
   const auto number = [&](const auto& x) { (column++)->add(x); };
   const auto numbers = [&](const auto& row) {
@@ -220,6 +225,7 @@ void RunFile::append(const Frame& frame) {
     numbers(std::span(frame.invariants).subspan(at, size));
     at += size;
   }
+  for (const double x : observables) number(x);
   if (impl_->diagnostics) {
     const StepDiagnostics& d = frame.diagnostics;
     for (const double x :
@@ -332,6 +338,22 @@ std::vector<std::vector<T>> by_coordinate(const std::vector<T>& rows, std::size_
 }  // namespace
 
 namespace {
+/// The names in a group; none where it is not there.
+std::vector<std::string> names_in(hid_t file, const char* group_name) {
+  if (H5Lexists(file, group_name, H5P_DEFAULT) <= 0) return {};
+  const Hdf5Handle group(H5Gopen2(file, group_name, H5P_DEFAULT), H5Gclose, "open group " + std::string(group_name));
+  H5G_info_t info{};
+  check_hdf5(H5Gget_info(group, &info), "count the objects of " + std::string(group_name));
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    char name[256] = "";
+    check_hdf5(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT),
+               "read a name in " + std::string(group_name));
+    names.emplace_back(name);
+  }
+  return names;
+}
+
 RunSamples read_samples(const std::filesystem::path& path) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
@@ -354,10 +376,16 @@ RunSamples read_samples(const std::filesystem::path& path) {
     if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
     run.diagnostics.emplace_back(name + std::string("solver/").size(), read_column(file, name, one));
   }
+  for (const std::string& name : names_in(file, "observables")) {
+    run.observables.emplace_back(name, read_column(file, ("observables/" + name).c_str(), one));
+  }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
   std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
   for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
-  for (auto& column : run.diagnostics) column.second.resize(count);
+  for (const auto& column : run.observables) count = std::min(count, column.second.size());
+  for (auto* columns : {&run.diagnostics, &run.observables}) {
+    for (auto& column : *columns) column.second.resize(count);
+  }
   run.t.resize(count);
   run.energy.resize(count);
   run.q = by_coordinate(q, q_width, count);

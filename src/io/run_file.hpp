@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct RunDescription {
   std::string kernel;
   std::size_t dimension = 0;
   std::vector<InvariantColumn> invariants;
+  std::vector<InvariantColumn> observables{};  // expressions of the user, whose text is the meaning
   bool diagnostics = false;  // of implicit steps
   bool section = false;      // points of one are written
   std::size_t samples = 0;   // expected, so that a short run leaves a small file; 0: unknown
@@ -66,7 +68,8 @@ class RunFile {
   RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
           std::uint64_t section_rows = 0);
   ~RunFile();
-  void append(const Frame& frame);
+  /// @param observables a value for each
+  void append(const Frame& frame, std::span<const double> observables = {});
   void append(const SectionPoint& point);
   /// Appended so far, written or not.
   std::uint64_t rows() const;
@@ -89,6 +92,7 @@ struct RunSamples {
   std::vector<std::vector<double>> q;  // q[i][k]: coordinate i at sample k
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
+  std::vector<std::pair<std::string, std::vector<double>>> observables;  // by name
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;  // empty unless the run was asked for them
   std::vector<double> section_t;                                         // of the points of a section
   std::vector<std::vector<double>> section_q;

@@ -21,9 +21,11 @@ std::string explained_with_default(const OptionInfo& option) {
 }
 
 std::string example_text(const OptionInfo& option) {
+  if (option.type == OptionType::table && option.keys.empty()) return option.example;  // its keys are the user's
   if (option.type == OptionType::table) {
-    return "{ " + joined(option.keys, [](const OptionInfo& key) { return key.name + " = " + example_text(key); }) +
-           " }";
+    std::vector<OptionInfo> keys = option.keys;
+    std::erase_if(keys, [](const OptionInfo& key) { return key.condition.starts_with("in place of"); });
+    return "{ " + joined(keys, [](const OptionInfo& key) { return key.name + " = " + example_text(key); }) + " }";
   }
   if (!option.example.empty()) return toml_text(option, option.example);
   if (!option.default_value.empty()) return toml_text(option, option.default_value);

@@ -27,8 +27,15 @@ const SectionKeys& section_keys() {
       .coordinate = {.name = "coordinate",
                      .meaning = "a coordinate or momentum of the problem",
                      .type = OptionType::word,
-                     .required = true},
-      .value = {.name = "value", .default_value = "0", .meaning = "of the coordinate on the section"},
+                     .unset = "the expression",
+                     .condition = "exactly one of coordinate, expression"},
+      .expression = {.name = "expression",
+                     .meaning = "of coordinates, momenta, parameters and t",
+                     .type = OptionType::text,
+                     .unset = "the coordinate",
+                     .condition = "in place of coordinate",
+                     .example = "q1 - q2"},
+      .value = {.name = "value", .default_value = "0", .meaning = "of the coordinate, or expression, on the section"},
       .direction = {.name = "direction",
                     .default_value = "1",
                     .meaning = "1 upwards, -1 downwards, 0 both",
@@ -114,7 +121,8 @@ const RunKeys& run_keys() {
                   .meaning = "a Poincare section",
                   .type = OptionType::table,
                   .unset = "none",
-                  .keys = {section_keys().coordinate, section_keys().value, section_keys().direction}}};
+                  .keys = {section_keys().coordinate, section_keys().expression, section_keys().value,
+                           section_keys().direction}}};
   return keys;
 }
 
@@ -138,7 +146,13 @@ const OutputKeys& output_keys() {
                                            .words = figure_names(),
                                            .condition = "with the format h5",
                                            .example = "[energy-error]",
-                                           .free_on_resume = true}};
+                                           .free_on_resume = true},
+                               .observables = {.name = "observables",
+                                               .meaning = "expressions by name, { theta = \"atan2(y, x)\" }: recorded "
+                                                          "with every sample, averaged over every step",
+                                               .type = OptionType::table,
+                                               .unset = "none",
+                                               .example = "{ square = \"q1^2\" }"}};
   return keys;
 }
 
@@ -149,7 +163,7 @@ const std::vector<DeclaredTable>& declared_tables() {
     return std::vector<DeclaredTable>{{run_table,
                                        {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues,
                                         r.section, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
-                                      {output_table, {o.folder, o.formats, o.figures}}};
+                                      {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;
 }

@@ -17,14 +17,14 @@ struct LatticeKeys {
 };
 /// The keys of `run.section`. The words of `coordinate` are those of the problem.
 struct SectionKeys {
-  OptionInfo coordinate, value, direction;
+  OptionInfo coordinate, expression, value, direction;
 };
 struct RunKeys {
   OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, kernel, threads, lyapunov,
       eigenvalues, section;
 };
 struct OutputKeys {
-  OptionInfo folder, formats, figures;
+  OptionInfo folder, formats, figures, observables;
 };
 
 const LatticeKeys& lattice_keys();

@@ -69,23 +69,62 @@ void ScenarioReader::read_section(TomlTable& table) {
   Section wanted;
   if (const auto value = section.number(keys.value)) wanted.value = *value;
   if (const auto direction = section.whole(keys.direction)) wanted.direction = static_cast<int>(*direction);
-  if (scenario_.problem == nullptr || scenario_.start_q.empty()) {
-    section.know(keys.coordinate.name);
-  } else {
-    OptionInfo coordinate = keys.coordinate;
-    const std::size_t dimension = scenario_.start_q.size();
-    for (const auto& names : section_names(*scenario_.problem, scenario_.request.parameters, dimension)) {
-      coordinate.words.insert(coordinate.words.end(), names.begin(), names.end());
-    }
-    if (const auto name = section.text(coordinate)) {
-      const auto place = std::find(coordinate.words.begin(), coordinate.words.end(), *name);
-      const std::size_t at = static_cast<std::size_t>(place - coordinate.words.begin()) % (2 * dimension);
-      wanted.coordinate = at % dimension;
-      wanted.momentum = at >= dimension;
-      scenario_.section = wanted;
-    }
+  section.know_all({keys.coordinate.name, keys.expression.name});
+  const bool by_coordinate = section.has(keys.coordinate.name);
+  if (by_coordinate == section.has(keys.expression.name)) {
+    const std::string both = keys.coordinate.name + " and " + keys.expression.name;
+    section.complain(by_coordinate ? keys.expression.name : keys.coordinate.name,
+                     (by_coordinate ? "found " + both + " together" : "found neither " + both) +
+                         "; allowed exactly one of them");
+  } else if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {
+    by_coordinate ? read_section_coordinate(section, wanted) : read_section_expression(section, wanted);
   }
   section.finish();
+}
+
+void ScenarioReader::read_section_coordinate(TomlTable& section, Section wanted) {
+  OptionInfo coordinate = section_keys().coordinate;
+  const std::size_t dimension = scenario_.start_q.size();
+  for (const auto& names : section_names(*scenario_.problem, scenario_.request.parameters, dimension)) {
+    coordinate.words.insert(coordinate.words.end(), names.begin(), names.end());
+  }
+  const auto name = section.text(coordinate);
+  if (!name) return;
+  const auto place = std::find(coordinate.words.begin(), coordinate.words.end(), *name);
+  const std::size_t at = static_cast<std::size_t>(place - coordinate.words.begin()) % (2 * dimension);
+  wanted.coordinate = at % dimension;
+  wanted.momentum = at >= dimension;
+  scenario_.section = wanted;
+}
+
+void ScenarioReader::read_section_expression(TomlTable& section, Section wanted) {
+  const OptionInfo& key = section_keys().expression;
+  const auto expression = read_expression(section, key);
+  if (!expression) return;
+  const std::size_t dimension = scenario_.start_q.size();
+  std::size_t first = 0;
+  while (first < 2 * dimension && !expression->uses(first)) ++first;
+  if (first == 2 * dimension) {
+    section.complain(key.name, section.found(key.name) + ", which is the same for every state; allowed an expression " +
+                                   "with a coordinate or a momentum");
+    return;
+  }
+  wanted.coordinate = first % dimension;
+  wanted.momentum = first >= dimension;
+  wanted.expression = expression;
+  scenario_.section = wanted;
+}
+
+/// An expression of the state; where it is wrong, the complaint says at which column of it.
+std::optional<StateExpression> ScenarioReader::read_expression(TomlTable& table, const OptionInfo& key) {
+  const auto text = table.text(key);
+  if (!text || scenario_.problem == nullptr || scenario_.start_q.empty()) return std::nullopt;
+  try {
+    return StateExpression(*text, *scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
+  } catch (const Error& error) {
+    table.complain(key.name, error.what());
+    return std::nullopt;
+  }
 }
 
 }  // namespace hamflow

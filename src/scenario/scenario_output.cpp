@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "figure_kinds.hpp"
+#include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -18,6 +19,7 @@ void ScenarioReader::read_output(TomlTable& table) {
     table.complain(key,
                    "found figures without the format h5, from which they are drawn; allowed formats = [\"h5\", ...]");
   }
+  read_observables(table);
   FigureFacts facts{.degrees_of_freedom = scenario_.start_q.size(),
                     .diagnostics = has_method() && describe(scenario_.request.method).diagnostics,
                     .section = scenario_.section.has_value()};
@@ -33,6 +35,37 @@ void ScenarioReader::read_output(TomlTable& table) {
   for (const std::string& kind : scenario_.figures) {
     const std::string why_not = refused_figure(kind, facts);
     if (!why_not.empty()) table.complain(key, why_not);
+  }
+  table.finish();
+}
+
+/// A name that may stand in files and figures beside those of the state.
+void ScenarioReader::read_observables(TomlTable& output) {
+  const std::string& key = output_keys().observables.name;
+  if (!output.has(key)) {
+    output.know(key);
+    return;
+  }
+  TomlTable table = output.table(key);
+  std::vector<std::string> taken{"t", "step", "energy", "energy-error"};
+  if (scenario_.problem != nullptr) {
+    const StateNames names =
+        state_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
+    taken.insert(taken.end(), names.q.begin(), names.q.end());
+    taken.insert(taken.end(), names.p.begin(), names.p.end());
+    for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
+  }
+  for (const std::string& name : table.keys()) {
+    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+    const bool is_word = name.find_first_not_of(letters) == std::string::npos && !(name[0] >= '0' && name[0] <= '9');
+    if (!is_word || name.empty()) {
+      table.complain(name, "found the name \"" + name + "\"; allowed letters, digits and _");
+    } else if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+      table.complain(name, "found the name " + name + ", which a column of every run has; allowed another");
+    }
+    if (auto expression = read_expression(table, {.name = name, .type = OptionType::text})) {
+      scenario_.observables.push_back({name, *std::move(expression)});
+    }
   }
   table.finish();
 }

@@ -1,6 +1,7 @@
 // [problem]: which one, and its parameters.
 #include <algorithm>
 
+#include "formula_keys.hpp"
 #include "meant.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -12,6 +13,9 @@ std::vector<std::string> problem_names() {
   std::vector<std::string> names;
   for (const ProblemEntry& entry : problems()) {
     if (std::find(names.begin(), names.end(), entry.info.name) == names.end()) names.push_back(entry.info.name);
+  }
+  if (std::find(names.begin(), names.end(), FormulaKeys::problem) == names.end()) {
+    names.emplace_back(FormulaKeys::problem);
   }
   return names;
 }
@@ -38,7 +42,8 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const auto name = table.text(key);
   if (!name) return;
   scenario_.request.problem = *name;
-  read_variant(table, *name);
+  const bool typed = is_typed_problem(table, *name);
+  typed ? read_typed_problem(table, *name) : read_variant(table, *name);
   if (scenario_.problem == nullptr) {
     read_uncertain(table, *name);
     return;
@@ -46,6 +51,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
+    if (typed && scenario_.request.parameters.contains(parameter.name)) continue;  // among those of the user
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
       scenario_.request.parameters[parameter.name] = *text;
     }
@@ -117,6 +123,16 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
   table.finish();
 }
 
+/// The values of a selecting key.
+std::vector<std::string> ScenarioReader::choices_of_key(const std::string& name, const std::string& key) {
+  std::vector<std::string> all;
+  for (const ProblemEntry& entry : problems()) {
+    const std::string value = entry.info.name == name ? choice_of(entry.info, key) : "";
+    if (!value.empty() && std::find(all.begin(), all.end(), value) == all.end()) all.push_back(value);
+  }
+  return all;
+}
+
 void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
   // The choices of each selecting key, from the entries that carry the name.
   std::vector<std::string> keys;
@@ -131,6 +147,7 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
       if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
     }
   }
+  if (name == central_formula().problem) choices[central_formula().key].emplace_back(FormulaKeys::problem);
   bool complete_choice = true;
   for (const std::string& key : keys) {
     if (!table.has(key)) {

@@ -1,6 +1,7 @@
 // The walk through a parsed document, table by table.
 #pragma once
 
+#include "hamflow/formula/problem_texts.hpp"
 #include "run_keys.hpp"
 #include "toml_table.hpp"
 
@@ -46,6 +47,10 @@ class ScenarioReader {
   void read_problem(TomlTable& table);
   void read_uncertain(TomlTable& table, const std::string& name);
   void read_variant(TomlTable& table, const std::string& name);
+  static std::vector<std::string> choices_of_key(const std::string& name, const std::string& key);
+  void read_typed_problem(TomlTable& table, const std::string& name);
+  std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
+  Texts read_typed_parameters(TomlTable& table);
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -66,6 +71,10 @@ class ScenarioReader {
   void read_measures(TomlTable& table);
   void refuse_derivative(TomlTable& table, const std::string& key);
   void read_section(TomlTable& table);
+  void read_section_coordinate(TomlTable& section, Section wanted);
+  void read_section_expression(TomlTable& section, Section wanted);
+  std::optional<StateExpression> read_expression(TomlTable& table, const OptionInfo& key);
+  void read_observables(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
   void read_lattice(TomlTable& table);

@@ -335,6 +335,8 @@ class TemplateWriter {
     for (OptionInfo key : declared_table(output_table).keys) {
       if (key.name == output_keys().figures.name) {
         key.words = drawable_figures({.degrees_of_freedom = problem_.dimension});
+      } else if (key.name == output_keys().observables.name && problem_.dimension > 0) {
+        key.example = "{ square = \"" + problem_.info.coordinates[0] + "^2\" }";
       }
       write_option(key, key.name == output_keys().formats.name);
     }

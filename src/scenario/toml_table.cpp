@@ -90,6 +90,51 @@ void TomlTable::complain(const std::string& key, const std::string& message) {
   }
 }
 
+void TomlTable::complain_in(const std::string& part, const std::string& message) {
+  // The value itself, or the nearest that is there.
+  std::string there = part;
+  std::optional<toml::source_region> where;
+  while (table_ != nullptr && !where && !there.empty()) {
+    if (const toml::node* node = table_->at_path(there).node()) where = node->source();
+    const std::size_t last = there.find_last_of(".[");
+    there = last == std::string::npos ? "" : there.substr(0, last);
+  }
+  if (where && where->begin.line > 0) {
+    complain_at(*where, part, message);
+  } else {
+    complain(part, message);
+  }
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::pair<toml::source_position, std::string>> placed;
+  for (const auto& [key, value] : node()) placed.emplace_back(key.source().begin, key.str());
+  std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> all;
+  for (auto& [where, key] : placed) all.push_back(std::move(key));
+  return all;
+}
+
+std::optional<std::vector<std::string>> TomlTable::texts(const std::string& key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* array = node->as_array();
+  if (array == nullptr || array->empty()) {
+    complain(key, "found " + shown(*node) + "; allowed an array of texts");
+    return std::nullopt;
+  }
+  std::vector<std::string> all;
+  for (const toml::node& entry : *array) {
+    const auto* text = entry.as_string();
+    if (text == nullptr || text->get().empty()) {
+      complain_at(entry.source(), key, "found an array with " + shown(entry) + "; allowed an array of texts");
+      return std::nullopt;
+    }
+    all.push_back(text->get());
+  }
+  return all;
+}
+
 std::string TomlTable::found(const std::string& key) const {
   return has(key) ? "found " + shown(*table_->get(key)) : "found nothing";
 }

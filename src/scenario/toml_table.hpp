@@ -39,6 +39,10 @@ class TomlTable {
   /// An array of so many tables.
   std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
   TomlTable table(const std::string& key);
+  /// The keys that are there, in the order of the file.
+  std::vector<std::string> keys() const;
+  /// The entries of a list of texts that the user chooses; each is not empty.
+  std::optional<std::vector<std::string>> texts(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
   void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
   /// Whether the value came from the command line and not from the file.
@@ -52,6 +56,8 @@ class TomlTable {
   void missing(const std::string& key, const std::string& allowed);
   /// A complaint at the key's value, or at the table when the key is absent.
   void complain(const std::string& key, const std::string& message);
+  /// The same at a part of a value: "invariants.L", "coordinates[1]".
+  void complain_in(const std::string& part, const std::string& message);
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string found(const std::string& key) const;
 

@@ -69,6 +69,7 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
     const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
     if (!scenario.figures.empty()) edits.push_back({output_path(output_keys().figures), "[" + list + "]"});
   }
+  if (!scenario.observables.empty()) edits.push_back({output_path(output_keys().observables), {}});  // of old names
   return edited_scenario(scenario.text, edits);
 }
 

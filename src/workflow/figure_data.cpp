@@ -123,6 +123,7 @@ RunForFigure read_for_figure(const fs::path& run) {
     if (radius) sample_polar_curve(radius, data);
   }
   data.diagnostics = std::move(samples.diagnostics);
+  data.observables = std::move(samples.observables);
   if (problem.dimension == 1) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }

@@ -31,6 +31,12 @@ std::vector<InvariantColumn> invariant_columns(const Scenario& scenario) {
   return all;
 }
 
+std::vector<InvariantColumn> observable_columns(const Scenario& scenario) {
+  std::vector<InvariantColumn> all;
+  for (const NamedExpression& each : scenario.observables) all.push_back({each.name, 1, each.expression.text(), {}});
+  return all;
+}
+
 RunDescription description_of(const Scenario& scenario, std::size_t samples) {
   const Request& request = scenario.request;
   const MethodInfo method = describe(request.method);
@@ -44,6 +50,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .kernel = request.kernel,
           .dimension = scenario.start_q.size(),
           .invariants = invariant_columns(scenario),
+          .observables = observable_columns(scenario),
           .diagnostics = method.diagnostics,
           .section = scenario.section.has_value(),
           .samples = samples,

@@ -9,6 +9,9 @@ namespace hamflow {
 /// The invariants in the order of the problem, with the number of components that each has here.
 std::vector<InvariantColumn> invariant_columns(const Scenario& scenario);
 
+/// The observables of [output], with their expressions.
+std::vector<InvariantColumn> observable_columns(const Scenario& scenario);
+
 /// @param samples expected
 RunDescription description_of(const Scenario& scenario, std::size_t samples);
 

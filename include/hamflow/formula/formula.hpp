@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,7 +93,9 @@ Formula parse_formula(std::string_view text, const FormulaSymbols& symbols);
 
 namespace formula {
 /// The same into a graph that has other expressions of the same symbols already. @return its node
-int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols);
+/// @param whole receives the known names whose values indices and limits of sums needed
+int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols,
+              std::set<std::string>* whole = nullptr);
 }  // namespace formula
 
 }  // namespace hamflow

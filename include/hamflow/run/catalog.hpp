@@ -14,6 +14,7 @@
 
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/structure.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/step_map.hpp"
@@ -64,7 +65,9 @@ struct Request {
 /// One problem of the catalogue (a problem with a choice of potential has one entry for each). Parameters are complete.
 struct ProblemEntry {
   ProblemInfo info;
-  std::size_t dimension = 0;  // degrees of freedom; 0: as many as the start has coordinates
+  std::vector<std::string> momenta{};           // names; empty: momentum_name of the coordinates (run/state_names.hpp)
+  std::optional<FormulaStructure> structure{};  // of a typed Hamiltonian: what was found from its expression
+  std::size_t dimension = 0;                    // degrees of freedom; 0: as many as the start has coordinates
   /// What q and p have to be where they cannot have `size` numbers; empty where they can.
   std::function<std::string(const Texts& parameters, std::size_t size)> refused_size;
   /// The key at fault, and what is wrong with parameters that contradict each other.
@@ -131,6 +134,9 @@ int digits_beyond_double(const std::string& arithmetic);
 /// @throws Error naming what is allowed when there is no such arithmetic
 void check_arithmetic(const std::string& arithmetic);
 
+/// The problem `formula` as it stands in lists: an example. That of given texts is found by formula_choices
+/// (formula/problem_texts.hpp).
+ProblemEntry formula_example();
 /// @throws Error with the nearest name when there is no such name
 const MethodEntry& find_method(const std::string& name);
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant);

@@ -47,6 +47,7 @@ struct Scenario {
   std::string folder;                      // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
+  std::vector<NamedExpression> observables;  // recorded with the samples
   std::size_t lyapunov = 0;          // exponents to be measured
   bool eigenvalues = false;          // of the derivative of all steps
   std::optional<Section> section{};  // whose points are recorded

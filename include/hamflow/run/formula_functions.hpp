@@ -1,0 +1,71 @@
+// The functions of a typed Hamiltonian behind virtual calls (run/any_problem.hpp): what it offers is known when its
+// text has been read, not when this is compiled.
+#pragma once
+
+#include "hamflow/formula/bound_model.hpp"
+#include "hamflow/run/any_problem.hpp"
+
+namespace hamflow {
+
+/// For states of type S, with parameters of type R.
+template <class R, class S>
+class FormulaFunctions final : public Functions<S> {
+ public:
+  using typename Functions<S>::V;
+  using typename Functions<S>::M;
+  explicit FormulaFunctions(std::shared_ptr<const formula::BoundModel<R>> model) : model_(std::move(model)) {}
+
+  S energy(const V& q, const V& p) const override { return model_->template energy<S>(q, p); }
+  S kinetic(const V& p) const override { return model_->template kinetic<S>(p); }
+  S potential(const V& q) const override { return model_->template potential<S>(q); }
+  void velocity(const V& p, V& v) const override { model_->template velocity<S>(p, v); }
+  void force(const V& q, V& f) const override { model_->template force<S>(q, f); }
+  bool has_scaled_velocity() const override { return model_->has_scaled(); }
+  bool has_scaled_force() const override { return model_->has_scaled(); }
+  void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const override {
+    model_->template scaled_velocity<S>(S(factor), p, v);
+  }
+  void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
+    model_->template scaled_force<S>(S(factor), q, f);
+  }
+  void gradient(const V& q, const V& p, V& dq, V& dp) const override { model_->template gradient<S>(q, p, dq, dp); }
+  void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
+    model_->template hessian<S>(q, p, qq, qp, pp);
+  }
+  void force_and_hessian(const V& q, V& f, M& h) const override { model_->template force_and_hessian<S>(q, f, h); }
+  V invariants(const V& q, const V& p, const S& t) const override { return model_->template invariants<S>(q, p, t); }
+  std::vector<std::size_t> invariant_sizes() const override {
+    return std::vector<std::size_t>(model_->model().invariants().size(), 1);
+  }
+  std::string label() const override { return model_->model().label(); }
+  std::shared_ptr<const Functions<S>> reduced(const S&) const override { absent(); }
+  S cyclic_rate(const V&, const S&) const override { absent(); }
+  void velocity_of(const V&, const V&, V&) const override { absent(); }
+  void momentum_of(const V&, const V&, V&) const override { absent(); }
+  V rotation() const override { absent(); }
+
+ private:
+  [[noreturn]] static void absent() { throw std::logic_error("hamflow: a typed problem does not have this function"); }
+
+  std::shared_ptr<const formula::BoundModel<R>> model_;
+};
+
+/// What a typed Hamiltonian offers to methods.
+inline Capability capabilities_of(const FormulaStructure& structure) {
+  Capability all = Capability::smooth;
+  if (structure.separable) all = all | Capability::separable;
+  if (structure.quadratic_kinetic) all = all | Capability::quadratic_kinetic;
+  return all;
+}
+/// @throws FormulaError when it does not offer `wanted`
+inline void require_of_formula(const FormulaStructure& structure, Capability wanted) {
+  if (includes(capabilities_of(structure), wanted)) return;
+  throw FormulaError(FormulaKeys::hamiltonian,
+                     std::string("found an H that is ") +
+                         (structure.separable ? "not quadratic in p with constant coefficients" : "not T(p) + V(q)") +
+                         "; allowed " +
+                         (structure.separable ? "p^T M^-1 p/2 + V(q), else separable_formula_problem"
+                                              : "T(p) + V(q), else formula_problem"));
+}
+
+}  // namespace hamflow

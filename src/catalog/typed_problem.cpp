@@ -1,0 +1,117 @@
+#include "typed_problem.hpp"
+
+#include <mutex>
+
+#include "hamflow/problems/support/polar.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Keys = FormulaKeys;
+
+ParameterInfo parameter_info(const std::string& name, const std::string& text) {
+  const bool list = !text.empty() && text.front() == '[';
+  ParameterInfo info{.name = name, .meaning = list ? "a list" : "a number", .required = true};
+  if (list) {
+    info.type = OptionType::list;
+    info.length = list_parts(text).size();
+  }
+  return info;
+}
+
+/// Of the problem `formula`.
+ProblemEntry formula_entry(const Choices& choices) {
+  const FormulaTexts texts = formula_texts(choices);
+  const auto model = std::make_shared<const formula::Model>(texts);
+  ProblemEntry entry = entry_of_model(model);
+  entry.info.name = Keys::problem;
+  entry.info.formula =
+      "H = " + (texts.hamiltonian.empty() ? texts.kinetic + " + " + texts.potential : texts.hamiltonian);
+  entry.info.reference = "typed";
+  for (const auto& [key, text] : choices) {
+    entry.info.variant.emplace_back(key, text);
+    entry.info.example_choices.push_back(key);
+  }
+  entry.info.coordinates = model->coordinates();
+  for (const auto& [name, text] : texts.parameters) entry.info.parameters.push_back(parameter_info(name, text));
+  for (const auto& [name, text] : texts.invariants) entry.info.invariants.push_back({name, text});
+  return entry;
+}
+
+/// `central-force` with potential = "formula".
+ProblemEntry central_entry(const Choices& choices) {
+  const FormulaTexts texts = central_formula_texts(choices);
+  const bool polar = choices.at(Keys::coordinates) == CentralKeys::polar;
+  ProblemEntry entry = entry_of_model(std::make_shared<const formula::Model>(texts));
+  ProblemInfo& info = entry.info;
+  info.name = CentralKeys::problem;
+  for (const auto& [key, text] : choices) info.variant.emplace_back(key, text);
+  info.chart_key = Keys::coordinates;
+  info.formula = std::string("H = ") + (polar ? "(p_r^2 + p_phi^2/r^2)" : "|p|^2") +
+                 "/(2 mu) + V(r), V(r) = " + choices.at(Keys::central_potential);
+  info.reference = "Gross1999, (2.45)-(2.60)";
+  info.coordinates = texts.coordinates;
+  if (polar) info.angles = {"phi"};
+  info.parameters = {
+      {.name = CentralKeys::mass, .default_value = "1", .meaning = "reduced mass mu", .range = Range::positive}};
+  for (const auto& [name, text] : texts.parameters) {
+    if (name != CentralKeys::mass) info.parameters.push_back(parameter_info(name, text));
+  }
+  info.invariants = {
+      {"angular_momentum", texts.invariants[0].second, Components::one, polar ? Terms::momentum : Terms::moments}};
+  info.two_bodies = true;
+  if (polar) {
+    const auto changed = [](const auto& change) {
+      return [change](const std::vector<double>& q, const std::vector<double>& p) {
+        const Start<double, 2> s = change(Start<double, 2>{{q.at(0), q.at(1)}, {p.at(0), p.at(1)}});
+        Frame frame;
+        frame.q = {s.q[0], s.q[1]};
+        frame.p = {s.p[0], s.p[1]};
+        return frame;
+      };
+    };
+    entry.to_reference = changed([](const Start<double, 2>& s) { return to_cartesian(s); });
+    entry.from_reference = changed([](const Start<double, 2>& s) { return to_polar(s); });
+  }
+  return entry;
+}
+
+}  // namespace
+
+bool is_typed(const std::string& name, const Choices& choices) {
+  if (name == Keys::problem) return !choices.empty();
+  const auto potential = choices.find(CentralKeys::key);
+  return name == CentralKeys::problem && potential != choices.end() && potential->second == Keys::problem &&
+         choices.contains(Keys::central_potential);
+}
+
+const ProblemEntry& typed_problem(const std::string& name, const Choices& choices) {
+  static std::mutex mutex;
+  static std::map<Choices, std::shared_ptr<const ProblemEntry>> known;
+  Choices key = choices;
+  key["problem"] = name;
+  const std::scoped_lock lock(mutex);
+  std::shared_ptr<const ProblemEntry>& entry = known[key];
+  if (!entry) {
+    entry =
+        std::make_shared<const ProblemEntry>(name == Keys::problem ? formula_entry(choices) : central_entry(choices));
+  }
+  return *entry;
+}
+
+ProblemEntry formula_example() {
+  FormulaTexts texts;
+  texts.coordinates = {"x", "y"};
+  texts.hamiltonian = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y";
+  texts.parameters = {{"k", "1"}, {"m", "1"}};
+  ProblemEntry entry = formula_entry(formula_choices(texts));
+  for (ParameterInfo& parameter : entry.info.parameters) {
+    parameter.required = false;
+    parameter.default_value = texts.parameters.at(parameter.name);
+  }
+  entry.info.region = {.centre = {0.1, -0.15, 0.2, 0.15}, .spread = 0.05};
+  return entry;
+}
+
+}  // namespace hamflow

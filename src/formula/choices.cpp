@@ -1,0 +1,209 @@
+#include "choices.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "hamflow/core/text.hpp"
+#include "hamflow/core/text_place.hpp"
+#include "hamflow/formula/model.hpp"
+#include "names.hpp"
+#include "syntax.hpp"
+
+namespace hamflow {
+
+namespace formula {
+
+namespace {
+
+using Keys = FormulaKeys;
+
+std::string listed(const std::vector<std::string>& words) { return "[" + joined(words) + "]"; }
+/// name = text; name = text
+template <class Pairs>
+std::string named(const Pairs& pairs) {
+  return joined(
+      pairs, [](const auto& pair) { return pair.first + " = " + pair.second; }, "; ");
+}
+std::vector<std::pair<std::string, std::string>> pairs_of(const std::string& text) {
+  std::vector<std::pair<std::string, std::string>> all;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find("; ", begin), text.size());
+    const std::size_t sign = text.find(" = ", begin);
+    if (sign >= end) throw Error("found \"" + text.substr(begin, end - begin) + "\"; allowed name = text");
+    all.emplace_back(text.substr(begin, sign - begin), text.substr(sign + 3, end - sign - 3));
+    begin = end + 2;
+  }
+  return all;
+}
+
+/// The same parameters without the values that no name, index or sum needs.
+Texts without_values(const Texts& parameters, const FormulaSymbols& symbols) {
+  Texts all;
+  for (const auto& [name, text] : parameters) {
+    const bool list = !text.empty() && text.front() == '[';
+    const std::string& own = name;
+    const bool needed = std::any_of(symbols.known.begin(), symbols.known.end(), [&](const auto& known) {
+      return known.first == own || known.first.starts_with(own + "[");
+    });
+    if (needed) {
+      all[name] = text;
+    } else if (list) {
+      all[name] = listed(std::vector<std::string>(list_parts(text).size(), Keys::unknown));
+    } else {
+      all[name] = Keys::unknown;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+Choices choices_of(const FormulaTexts& texts) {
+  Choices all;
+  const auto put = [&](const char* key, const std::string& text) {
+    if (!text.empty()) all[key] = text;
+  };
+  put(Keys::coordinates, listed(texts.coordinates));
+  if (!texts.momenta.empty()) put(Keys::momenta, listed(texts.momenta));
+  put(Keys::hamiltonian, texts.hamiltonian);
+  put(Keys::kinetic, texts.kinetic);
+  put(Keys::potential, texts.potential);
+  put(Keys::parameters, named(texts.parameters));
+  put(Keys::invariants, named(texts.invariants));
+  put(Keys::constraints, joined(texts.constraints, "; "));
+  return all;
+}
+
+}  // namespace formula
+
+Choices formula_choices(const FormulaTexts& texts) {
+  for (const auto& [name, text] : texts.invariants) {
+    if (text.find(';') == std::string::npos && name.find_first_of(";=") == std::string::npos) continue;
+    throw FormulaError(std::string(FormulaKeys::invariants) + "." + name,
+                       "found ';' or '=' in it; allowed a name and a formula");
+  }
+  const formula::Model model(texts);  // says what is wrong
+  FormulaTexts kept = texts;
+  kept.parameters = formula::without_values(texts.parameters, model.symbols());
+  return formula::choices_of(kept);
+}
+
+Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates) {
+  for (const char* taken : {"r", "x", "y", "phi", "p_r", "p_x", "p_y", "p_phi", CentralKeys::mass}) {
+    if (!parameters.contains(taken)) continue;
+    throw FormulaError(
+        std::string(FormulaKeys::parameters) + "." + taken,
+        std::string("found the name ") + taken + ", which central-force has itself; allowed another name");
+  }
+  // By itself first: errors point into what was typed.
+  const formula::ProblemNames names = formula::names_of({.coordinates = {"r"}, .parameters = parameters});
+  FormulaSymbols symbols = formula::symbols_of(names);
+  symbols.names[1] = "t";  // there is no momentum in V
+  symbols.names.erase(symbols.names.begin() + 2);
+  symbols.what = "names of V(r)";
+  std::set<std::string> needed;
+  try {
+    formula::Graph graph;
+    (void)formula::read_into(graph, potential, symbols, &needed);
+  } catch (const Error& error) {
+    throw FormulaError(FormulaKeys::central_potential, error.what());
+  }
+  std::erase_if(symbols.known, [&](const auto& known) { return !needed.contains(known.first); });
+  const Choices all{{CentralKeys::key, FormulaKeys::problem},
+                    {FormulaKeys::coordinates, coordinates},
+                    {FormulaKeys::central_potential, potential},
+                    {FormulaKeys::parameters, formula::named(formula::without_values(parameters, symbols))}};
+  FormulaTexts texts = central_formula_texts(all);
+  try {
+    (void)formula::Model(texts);
+  } catch (const FormulaError& error) {
+    throw FormulaError(FormulaKeys::central_potential, error.what());
+  }
+  return all;
+}
+
+FormulaTexts central_formula_texts(const Choices& choices) {
+  const std::string potential = "let r = sqrt(x^2 + y^2) in " + choices.at(FormulaKeys::central_potential);
+  FormulaTexts texts;
+  if (choices.at(FormulaKeys::coordinates) == CentralKeys::polar) {
+    texts = {.coordinates = {"r", "phi"},
+             .hamiltonian = "(p_r^2 + p_phi^2/r^2)/(2*mass) + (" + choices.at(FormulaKeys::central_potential) + ")",
+             .invariants = {{"angular_momentum", "p_phi"}}};
+  } else {
+    texts = {.coordinates = {"x", "y"},
+             .kinetic = "(p_x^2 + p_y^2)/(2*mass)",
+             .potential = potential,
+             .invariants = {{"angular_momentum", "x*p_y - y*p_x"}}};
+  }
+  texts.parameters = {{CentralKeys::mass, FormulaKeys::unknown}};
+  for (const auto& [name, text] : formula::pairs_of(choices.at(FormulaKeys::parameters))) texts.parameters[name] = text;
+  return texts;
+}
+
+FormulaTexts formula_texts(const Choices& choices) {
+  const auto of = [&](const char* key) {
+    const auto found = choices.find(key);
+    return found == choices.end() ? std::string() : found->second;
+  };
+  FormulaTexts texts;
+  texts.coordinates = list_parts(of(FormulaKeys::coordinates));
+  if (const std::string momenta = of(FormulaKeys::momenta); !momenta.empty()) texts.momenta = list_parts(momenta);
+  texts.hamiltonian = of(FormulaKeys::hamiltonian);
+  texts.kinetic = of(FormulaKeys::kinetic);
+  texts.potential = of(FormulaKeys::potential);
+  for (const auto& [name, text] : formula::pairs_of(of(FormulaKeys::parameters))) texts.parameters[name] = text;
+  texts.invariants = formula::pairs_of(of(FormulaKeys::invariants));
+  return texts;
+}
+
+FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters) {
+  formula::Syntax syntax;
+  try {
+    syntax = formula::read_syntax(hamiltonian, {});
+  } catch (const Error& error) {
+    throw FormulaError(FormulaKeys::hamiltonian, error.what());
+  }
+  FormulaTexts texts;
+  texts.hamiltonian = hamiltonian;
+  texts.parameters = parameters;
+  std::set<std::string> locals;
+  for (const formula::Part& part : syntax.parts) {
+    if (part.kind == formula::Part::Kind::let || part.kind == formula::Part::Kind::sum) locals.emplace(part.word);
+  }
+  // In the order of the text; an operand stands before what is made of it.
+  std::vector<std::pair<std::size_t, std::string>> words;
+  for (const formula::Part& part : syntax.parts) {
+    if (part.kind == formula::Part::Kind::name && !locals.contains(std::string(part.word))) {
+      words.emplace_back(part.at, std::string(part.word));
+    }
+  }
+  std::sort(words.begin(), words.end());
+  std::set<std::string> all;
+  for (const auto& [at, word] : words) all.insert(word);
+  const auto coordinate_of = [&](const std::string& word) -> std::string {
+    if (parameters.contains(word)) return {};
+    if (word.starts_with("p_")) return word.substr(2);
+    const bool numbered = std::all_of(word.begin() + 1, word.end(), is_digit);
+    return word.starts_with('p') && numbered ? "q" + word.substr(1) : std::string();
+  };
+  std::map<std::string, std::string> momenta;  // of coordinates
+  for (const std::string& word : all) {
+    if (const std::string q = coordinate_of(word); !q.empty()) momenta[q] = word;
+  }
+  if (momenta.empty()) {
+    throw FormulaError(
+        FormulaKeys::hamiltonian,
+        "found \"" + shown(hamiltonian) + "\" without a momentum; allowed names such as p, p1, p_x for them");
+  }
+  std::set<std::string> taken;
+  for (const auto& [at, word] : words) {
+    const std::string q = momenta.contains(word) ? word : coordinate_of(word);
+    if (q.empty() || !taken.insert(q).second) continue;
+    texts.coordinates.push_back(q);
+    texts.momenta.push_back(momenta.at(q));
+  }
+  return texts;
+}
+
+}  // namespace hamflow

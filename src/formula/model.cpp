@@ -1,0 +1,343 @@
+#include "hamflow/formula/model.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "choices.hpp"
+#include "emission.hpp"
+#include "form.hpp"
+#include "names.hpp"
+
+namespace hamflow::formula {
+
+namespace {
+constexpr std::size_t longest = 4'000'000;  // factors of all forms: some hundred megabytes
+}  // namespace
+
+/// The texts as graph and forms, kept for second derivatives.
+struct Model::Derivation {
+  Derivation(const Graph& read, const std::vector<bool>& fixed_symbols)
+      : graph(read), fixed(fixed_symbols), forms(graph, fixed_symbols, longest) {}
+
+  /// Code that gives these forms. @param negative their negatives
+  struct Output {
+    int form;
+    bool negative = false;
+    int scale = -1;
+  };
+  std::shared_ptr<const Code> code(const std::vector<Output>& outputs) {
+    Graph out;
+    Emission emission(forms, out);
+    std::vector<int> nodes;
+    for (const Output& o : outputs) {
+      nodes.push_back(o.scale < 0 ? emission.value(o.form, o.negative)
+                                  : emission.scaled_value(o.form, o.scale, o.negative));
+    }
+    return std::make_shared<const Code>(code_of(out, nodes, fixed));
+  }
+  /// T + V, added up as two numbers.
+  std::shared_ptr<const Code> code_of_sum(int a, int b) {
+    Graph out;
+    Emission emission(forms, out);
+    const int left = emission.value(a);
+    const std::vector<int> nodes{out.node(Op::add, left, emission.value(b))};
+    return std::make_shared<const Code>(code_of(out, nodes, fixed));
+  }
+
+  int symbol(std::size_t index) { return forms.symbol(static_cast<int>(index)); }
+  int derivative(int form, std::size_t by) { return forms.derivative(form, static_cast<int>(by)); }
+
+  Graph graph;
+  std::vector<bool> fixed;
+  Forms forms;
+  int h = -1;
+  int t = -1;  // of a separable H
+  int v = -1;
+};
+
+namespace {
+
+/// Whether a factor depends on coordinates or the time, on momenta.
+struct Kinds {
+  bool q = false;
+  bool p = false;
+};
+Kinds kinds_of(const Forms& forms, const Factor& factor, std::size_t n) {
+  Kinds kinds;
+  for (const int v : forms.base_at(factor.base).variables) {
+    const auto symbol = static_cast<std::size_t>(v);
+    kinds.q = kinds.q || symbol < n || symbol == 2 * n;
+    kinds.p = kinds.p || (symbol >= n && symbol < 2 * n);
+  }
+  return kinds;
+}
+
+/// Constants before a sum are multiplied into it where its terms are of q and of p: (p^2 + q^2)/2.
+void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out) {
+  const std::vector<Term> terms = forms[form].terms;
+  for (const Term& term : terms) {
+    std::optional<std::size_t> group;
+    bool others = false;
+    for (std::size_t k = 0; k < term.factors.size(); ++k) {
+      const Factor& f = term.factors[k];
+      if (forms.is_constant(f)) continue;
+      const bool is_group = forms.base_at(f.base).kind == Base::Kind::group && f.exponent.is(1) && !group;
+      if (is_group) {
+        group = k;
+      } else {
+        others = true;
+      }
+    }
+    const auto mixed = [&](const Factor& f) {
+      const Kinds in = kinds_of(forms, f, n);
+      return in.q && in.p;
+    };
+    if (!group || others || !mixed(term.factors[*group])) {
+      out.push_back(term);
+      continue;
+    }
+    Term constants = term;
+    constants.factors.erase(constants.factors.begin() + static_cast<std::ptrdiff_t>(*group));
+    const int before = forms.of_terms({constants});
+    std::vector<Term> inner;
+    spread(forms, forms.base_at(term.factors[*group].base).a, n, inner);
+    for (const Term& part : inner) {
+      const Form& product = forms[forms.product(before, forms.of_terms({part}))];
+      out.insert(out.end(), product.terms.begin(), product.terms.end());
+    }
+  }
+}
+
+/// T and V of H, if every term is of one of them.
+std::optional<std::pair<int, int>> parts_of(Forms& forms, int h, std::size_t n) {
+  std::vector<Term> all;
+  spread(forms, h, n, all);
+  std::vector<Term> of_p;
+  std::vector<Term> of_q;
+  for (const Term& term : all) {
+    bool p = false;
+    bool q = false;
+    for (const Factor& f : term.factors) {
+      const Kinds in = kinds_of(forms, f, n);
+      q = q || in.q;
+      p = p || in.p;
+    }
+    if (p && q) return std::nullopt;
+    (p ? of_p : of_q).push_back(term);
+  }
+  return std::pair{forms.of_terms(of_p), forms.of_terms(of_q)};
+}
+
+/// The scalar s of derivatives s x_i, if all of them are one term with the same s.
+bool is_one_scalar(Forms& forms, const std::vector<int>& derivatives, std::size_t first) {
+  std::optional<int> scalar;
+  for (std::size_t i = 0; i < derivatives.size(); ++i) {
+    const int by = forms.symbol(static_cast<int>(first + i));
+    if (forms[derivatives[i]].terms.size() != 1) return false;
+    const int own = forms.product(derivatives[i], forms.power(by, {-1, 1}));
+    for (const Factor& f : forms[own].terms.at(0).factors) {
+      if (forms.base_at(f.base).kind == Base::Kind::symbol && !forms.is_constant(f)) return false;
+    }
+    if (scalar && *scalar != own) return false;
+    scalar = own;
+  }
+  return scalar.has_value();
+}
+
+}  // namespace
+
+Model::~Model() = default;
+
+Model::Model(const FormulaTexts& texts) {
+  const ProblemNames names = names_of(texts);
+  coordinates_ = names.coordinates;
+  momenta_ = names.momenta;
+  symbols_ = symbols_of(names);
+  for (const ProblemNames::Parameter& p : names.parameters) {
+    for (std::size_t i = 0; i < std::max<std::size_t>(p.length, 1); ++i) places_.push_back({p.name, i});
+  }
+  label_ = "formula";
+  for (const auto& [key, text] : choices_of(texts)) label_ += " " + key + " = " + text;
+  const std::size_t n = size();
+  using Keys = FormulaKeys;
+  const auto refuse = [](const std::string& key, const std::string& message) { throw FormulaError(key, message); };
+  const bool whole = !texts.hamiltonian.empty();
+  const bool split = !texts.kinetic.empty() && !texts.potential.empty();
+  if (whole && (!texts.kinetic.empty() || !texts.potential.empty())) {
+    refuse(Keys::hamiltonian, "found it beside " +
+                                  std::string(texts.kinetic.empty() ? Keys::potential : Keys::kinetic) +
+                                  "; allowed hamiltonian, or kinetic and potential");
+  }
+  if (!whole && !split) {
+    const bool none = texts.kinetic.empty() && texts.potential.empty();
+    refuse(none                    ? Keys::hamiltonian
+           : texts.kinetic.empty() ? Keys::kinetic
+                                   : Keys::potential,
+           "found none; allowed hamiltonian, or kinetic and potential");
+  }
+
+  Graph graph;
+  std::set<std::string> needed = names.whole;
+  const auto read = [&](const std::string& key, const std::string& text) {
+    try {
+      return read_into(graph, text, symbols_, &needed);
+    } catch (const Error& error) {
+      throw FormulaError(key, error.what());
+    }
+  };
+  std::vector<int> roots;
+  if (whole) {
+    roots.push_back(read(Keys::hamiltonian, texts.hamiltonian));
+  } else {
+    roots.push_back(read(Keys::kinetic, texts.kinetic));
+    roots.push_back(read(Keys::potential, texts.potential));
+  }
+  const std::size_t first_invariant = roots.size();
+  std::set<std::string> known_invariants;
+  for (const auto& [name, text] : texts.invariants) {
+    const std::string key = std::string(Keys::invariants) + "." + name;
+    if (!known_invariants.insert(name).second)
+      refuse(key, "found the name " + name + " a second time; allowed names that differ");
+    roots.push_back(read(key, text));
+    invariant_names_.push_back(name);
+  }
+  std::erase_if(symbols_.known, [&](const auto& entry) { return !needed.contains(entry.first); });
+
+  std::vector<bool> fixed(symbols_.names.size(), true);
+  fixed.resize(symbols_.names.size() + 2, false);  // the factor, the momentum of the time
+  for (std::size_t i = 0; i <= 2 * n; ++i) fixed[i] = false;
+  derivation_ = std::make_unique<Derivation>(graph, fixed);
+  Derivation& d = *derivation_;
+  const std::string key = whole ? Keys::hamiltonian : Keys::potential;
+  try {
+    if (whole) {
+      d.h = d.forms.of_node(roots[0]);
+      if (const auto parts = parts_of(d.forms, d.h, n)) {
+        d.t = parts->first;
+        d.v = parts->second;
+      }
+    } else {
+      d.t = d.forms.of_node(roots[0]);
+      d.v = d.forms.of_node(roots[1]);
+      const auto foreign = [&](int form, std::size_t first, const char* own, const char* of) {
+        for (std::size_t i = 0; i < n; ++i) {
+          if (!d.forms.depends(form, static_cast<int>(first + i))) continue;
+          refuse(own, "found " + symbols_.names[first + i] + " in it; allowed " + of +
+                          ", parameters and t; else hamiltonian");
+        }
+      };
+      foreign(d.t, 0, Keys::kinetic, "momenta");
+      foreign(d.v, n, Keys::potential, "coordinates");
+      d.h = d.forms.sum({d.t, d.v});
+      if (d.forms.depends(d.t, static_cast<int>(time_symbol()))) d.t = d.v = -1;
+    }
+    structure_.time = d.forms.depends(d.h, static_cast<int>(time_symbol()));
+    structure_.separable = d.t >= 0;
+    if (structure_.time) {
+      const int momentum = d.symbol(time_momentum_symbol());
+      d.h = d.forms.sum({d.h, momentum});
+      if (structure_.separable) d.t = d.forms.sum({d.t, momentum});
+    }
+    const std::size_t all = degrees();
+
+    std::vector<Derivation::Output> of_gradient;
+    std::vector<Derivation::Output> of_force;
+    std::vector<Derivation::Output> of_velocity;
+    std::vector<int> by_q;
+    std::vector<int> by_p;
+    for (std::size_t i = 0; i < all; ++i) by_q.push_back(d.derivative(d.v >= 0 ? d.v : d.h, position_symbol(i)));
+    for (std::size_t i = 0; i < all; ++i) by_p.push_back(d.derivative(d.t >= 0 ? d.t : d.h, momentum_symbol(i)));
+    for (const int form : by_q) of_gradient.push_back({form});
+    for (const int form : by_p) of_gradient.push_back({form});
+    gradient = d.code(of_gradient);
+    if (structure_.separable) {
+      energy = d.code_of_sum(d.t, d.v);
+      kinetic = d.code({{d.t}});
+      potential = d.code({{d.v}});
+      for (const int form : by_p) of_velocity.push_back({form});
+      for (const int form : by_q) of_force.push_back({form, true});
+      velocity = d.code(of_velocity);
+      force = d.code(of_force);
+      structure_.quadratic_kinetic = !structure_.time;
+      for (std::size_t i = 0; i < n && structure_.quadratic_kinetic; ++i) {
+        std::vector<int> rest{by_p[i]};
+        bool any = false;
+        for (std::size_t j = 0; j < n; ++j) {
+          const int second = d.derivative(by_p[i], n + j);
+          any = any || !d.forms.is_zero(second);
+          structure_.quadratic_kinetic = structure_.quadratic_kinetic && d.forms.is_constant(second);
+          if (!d.forms.is_zero(second))
+            rest.push_back(d.forms.scaled({-1, 1}, d.forms.product(second, d.symbol(n + j))));
+        }
+        structure_.quadratic_kinetic = structure_.quadratic_kinetic && any && d.forms.is_zero(d.forms.sum(rest));
+      }
+      if (n > 1 && structure_.quadratic_kinetic && is_one_scalar(d.forms, by_q, 0) && is_one_scalar(d.forms, by_p, n)) {
+        for (auto& o : of_force) o.scale = static_cast<int>(factor_symbol());
+        for (auto& o : of_velocity) o.scale = static_cast<int>(factor_symbol());
+        scaled_force = d.code(of_force);
+        scaled_velocity = d.code(of_velocity);
+      }
+    } else {
+      energy = d.code({{d.h}});
+    }
+  } catch (const FormulaError&) {
+    throw;
+  } catch (const Error& error) {
+    throw FormulaError(key, error.what());
+  }
+  std::vector<int> values;
+  for (std::size_t k = first_invariant; k < roots.size(); ++k) values.push_back(roots[k]);
+  invariant_values = std::make_shared<const Code>(code_of(graph, values, fixed));
+}
+
+const HessianCode& Model::hessian() const {
+  const std::scoped_lock lock(mutex_);
+  if (hessian_) return *hessian_;
+  Derivation& d = *derivation_;
+  const std::size_t n = degrees();
+  auto all = std::make_unique<HessianCode>();
+  std::vector<Derivation::Output> outputs;
+  const auto add = [&](Entries& entries, const auto& row_symbol, const auto& column_symbol, bool symmetric) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const int row = d.derivative(d.h, row_symbol(i));
+      for (std::size_t j = symmetric ? i : 0; j < n; ++j) {
+        const int entry = d.derivative(row, column_symbol(j));
+        if (d.forms.is_zero(entry)) continue;
+        entries.emplace_back(i, j);
+        outputs.push_back({entry});
+      }
+    }
+  };
+  const auto position = [this](std::size_t i) { return position_symbol(i); };
+  const auto momentum = [this](std::size_t i) { return momentum_symbol(i); };
+  add(all->qq, position, position, true);
+  add(all->qp, position, momentum, false);
+  add(all->pp, momentum, momentum, true);
+  all->code = d.code(outputs);
+  hessian_ = std::move(all);
+  return *hessian_;
+}
+
+const ForceAndHessianCode& Model::force_and_hessian() const {
+  const std::scoped_lock lock(mutex_);
+  if (force_and_hessian_) return *force_and_hessian_;
+  Derivation& d = *derivation_;
+  const std::size_t n = degrees();
+  auto all = std::make_unique<ForceAndHessianCode>();
+  std::vector<Derivation::Output> outputs;
+  for (std::size_t i = 0; i < n; ++i) outputs.push_back({d.derivative(d.v, position_symbol(i)), true});
+  for (std::size_t i = 0; i < n; ++i) {
+    const int row = d.derivative(d.v, position_symbol(i));
+    for (std::size_t j = i; j < n; ++j) {
+      const int entry = d.derivative(row, position_symbol(j));
+      if (d.forms.is_zero(entry)) continue;
+      all->entries.emplace_back(i, j);
+      outputs.push_back({entry});
+    }
+  }
+  all->code = d.code(outputs);
+  force_and_hessian_ = std::move(all);
+  return *force_and_hessian_;
+}
+
+}  // namespace hamflow::formula

@@ -1,0 +1,86 @@
+#include "hamflow/run/state_expression.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "hamflow/formula/formula.hpp"
+#include "hamflow/run/state_names.hpp"
+
+namespace hamflow {
+
+namespace {
+
+void append(std::vector<std::string>& all, const StateNames& names) {
+  all.insert(all.end(), names.q.begin(), names.q.end());
+  all.insert(all.end(), names.p.begin(), names.p.end());
+}
+
+/// The names that a state has, then the time, then parameters with their values: k, masses[1].
+FormulaSymbols symbols_of(const ProblemEntry& problem, const Texts& parameters, std::size_t size, bool& numbered,
+                          std::vector<double>& values) {
+  FormulaSymbols symbols{.names = {}, .known = {}, .what = "coordinates, momenta and parameters"};
+  const StateNames names = state_names(problem, parameters, size);
+  append(symbols.names, names);
+  const StateNames by_number = numbered_names(size);
+  numbered = problem.dimension == 0 && names.q != by_number.q;
+  if (numbered) append(symbols.names, by_number);
+  symbols.names.emplace_back("t");
+  const Parameters<double> given(parameters);
+  const auto add = [&](const std::string& name, double value) {
+    if (std::find(symbols.names.begin(), symbols.names.end(), name) != symbols.names.end()) return;
+    symbols.names.push_back(name);
+    symbols.known[name] = value;
+    values.push_back(value);
+  };
+  for (const ParameterInfo& parameter : problem.info.parameters) {
+    if (!given.has(parameter.name)) continue;
+    const std::vector<double>& list = given.list(parameter.name);
+    if (parameter.type != OptionType::list && list.size() == 1) add(parameter.name, list[0]);
+    if (parameter.type == OptionType::number) continue;
+    for (std::size_t i = 0; i < list.size(); ++i) add(parameter.name + "[" + std::to_string(i + 1) + "]", list[i]);
+  }
+  return symbols;
+}
+
+}  // namespace
+
+struct StateExpression::Read {
+  std::string text;
+  std::size_t size = 0;
+  std::vector<double> parameters;  // behind q, p, q and p by number where they have two names, and t
+  bool numbered = false;
+  Formula formula;
+  formula::BoundCode<double> code;
+};
+
+StateExpression::StateExpression(const std::string& text, const ProblemEntry& problem, const Texts& parameters,
+                                 std::size_t size) {
+  const auto read = std::make_shared<Read>();
+  read->text = text;
+  read->size = size;
+  const FormulaSymbols symbols = symbols_of(problem, parameters, size, read->numbered, read->parameters);
+  read->formula = parse_formula(text, symbols);
+  read->code = read->formula.bind<double>();
+  read_ = read;
+}
+
+const std::string& StateExpression::text() const { return read_->text; }
+
+bool StateExpression::uses(std::size_t k) const {
+  return read_->formula.uses(static_cast<int>(k)) ||
+         (read_->numbered && read_->formula.uses(static_cast<int>(k + 2 * read_->size)));
+}
+
+double StateExpression::operator()(const Frame& frame) const {
+  std::vector<double> values;
+  values.reserve(4 * read_->size + 1 + read_->parameters.size());
+  for (int spelling = 0; spelling < (read_->numbered ? 2 : 1); ++spelling) {
+    values.insert(values.end(), frame.q.begin(), frame.q.end());
+    values.insert(values.end(), frame.p.begin(), frame.p.end());
+  }
+  values.push_back(frame.time);
+  values.insert(values.end(), read_->parameters.begin(), read_->parameters.end());
+  return Formula::evaluate<double, double>(read_->code, values);
+}
+
+}  // namespace hamflow

@@ -1,0 +1,126 @@
+// output.observables: expressions of the user, averaged over every step; in a sweep three columns each.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "hamflow/core/text.hpp"
+#include "measure.hpp"
+#include "measure_list.hpp"
+#include "number_text.hpp"
+#include "run_keys.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The values of one expression over a run. The sum keeps what it loses, so that the mean of 10^9 steps has the digits of
+/// the values.
+struct Seen {
+  double initial = 0;
+  double final = 0;
+  double sum = 0;
+  double lost = 0;
+
+  void add(double x) {
+    final = x;
+    const double next = sum + x;
+    lost += std::abs(sum) >= std::abs(x) ? (sum - next) + x : (x - next) + sum;
+    sum = next;
+  }
+};
+
+class ObservablesMeasure final : public Measure, public Observer {
+ public:
+  explicit ObservablesMeasure(const std::vector<NamedExpression>& observables)
+      : observables_(observables), seen_(observables.size()) {}
+
+  Observer& observer() override { return *this; }
+  std::int64_t next_due(std::int64_t step) const override { return step; }
+  Verdict observe(const Frame& frame) override {
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const double x = observables_[i].expression(frame);
+      if (frame.step > 0) {
+        seen_[i].add(x);
+      } else {
+        seen_[i].initial = seen_[i].final = x;
+      }
+    }
+    steps_ = frame.step;
+    return Verdict::go_on;
+  }
+  void archive(Writer& ar) override { fields(ar); }
+  void archive(Reader& ar) override { fields(ar); }
+
+  /// {initial, mean, final} of each; without steps the mean is the initial value.
+  std::vector<double> values() const {
+    std::vector<double> all;
+    for (const Seen& seen : seen_) {
+      const double mean = steps_ > 0 ? (seen.sum + seen.lost) / static_cast<double>(steps_) : seen.initial;
+      all.insert(all.end(), {seen.initial, mean, seen.final});
+    }
+    return all;
+  }
+  Json summary() const override {
+    Json all = Json::object();
+    const std::vector<double> found = values();
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      all[observables_[i].name] = {{"initial", found[3 * i]}, {"mean", found[3 * i + 1]}, {"final", found[3 * i + 2]}};
+    }
+    return all;
+  }
+
+ private:
+  template <class Archive>
+  void fields(Archive& ar) {
+    ar(steps_);
+    for (Seen& seen : seen_) ar(seen.initial, seen.final, seen.sum, seen.lost);
+  }
+
+  const std::vector<NamedExpression>& observables_;
+  std::vector<Seen> seen_;
+  std::int64_t steps_ = 0;
+};
+
+/// By a run of its own, whose steps are those of the member.
+std::vector<double> observables_of(const Scenario& scenario) {
+  ObservablesMeasure measure(scenario.observables);
+  const auto simulation = make_simulation(scenario.request);
+  Observer* const observer = &measure;
+  (void)run(*simulation, scenario.steps, {&observer, 1});
+  return measure.values();
+}
+
+MemberObservables columns(const Scenario& first) {
+  MemberObservables all;
+  for (const NamedExpression& each : first.observables) {
+    for (const char* what : {"_initial", "_mean", "_final"}) all.names.push_back(each.name + what);
+  }
+  all.observe = observables_of;
+  return all;
+}
+
+}  // namespace
+
+MeasureKind measure_observables() {
+  return {.key = output_keys().observables.name,
+          .label = "observables",
+          .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
+          .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+            return std::make_unique<ObservablesMeasure>(scenario.observables);
+          },
+          .text =
+              [](const Json& found) {
+                std::vector<std::string> all;
+                for (const auto& [name, seen] : found.items()) {
+                  all.push_back(fmt::format("{} {} -> {}, mean {}", name, number_text(seen["initial"], "{:.6g}"),
+                                            number_text(seen["final"], "{:.6g}"), number_text(seen["mean"], "{:.17g}")));
+                }
+                return joined(all, "; ");
+              },
+          .columns = columns};
+}
+
+}  // namespace hamflow
