@@ -178,6 +178,7 @@
 #include "hamflow/run/simulation_of.hpp"
 #include "hamflow/run/simulation_state.hpp"
 #include "hamflow/run/splitting_named.hpp"
+#include "hamflow/run/state_expression.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/step_map.hpp"
 #include "hamflow/scenario/coordinates.hpp"
