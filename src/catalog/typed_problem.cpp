@@ -1,7 +1,8 @@
 #include "typed_problem.hpp"
 
-#include <deque>
 #include <mutex>
+
+#include "hamflow/problems/support/polar.hpp"
 
 namespace hamflow {
 
@@ -38,9 +39,52 @@ ProblemEntry formula_entry(const Choices& choices) {
   return entry;
 }
 
+/// `central-force` with potential = "formula".
+ProblemEntry central_entry(const Choices& choices) {
+  const FormulaTexts texts = central_formula_texts(choices);
+  const bool polar = choices.at(Keys::coordinates) == CentralKeys::polar;
+  ProblemEntry entry = entry_of_model(std::make_shared<const formula::Model>(texts));
+  ProblemInfo& info = entry.info;
+  info.name = CentralKeys::problem;
+  for (const auto& [key, text] : choices) info.variant.emplace_back(key, text);
+  info.chart_key = Keys::coordinates;
+  info.formula = std::string("H = ") + (polar ? "(p_r^2 + p_phi^2/r^2)" : "|p|^2") +
+                 "/(2 mu) + V(r), V(r) = " + choices.at(Keys::central_potential);
+  info.reference = "Gross1999, (2.45)-(2.60)";
+  info.coordinates = texts.coordinates;
+  if (polar) info.angles = {"phi"};
+  info.parameters = {
+      {.name = CentralKeys::mass, .default_value = "1", .meaning = "reduced mass mu", .range = Range::positive}};
+  for (const auto& [name, text] : texts.parameters) {
+    if (name != CentralKeys::mass) info.parameters.push_back(parameter_info(name, text));
+  }
+  info.invariants = {
+      {"angular_momentum", texts.invariants[0].second, Components::one, polar ? Terms::momentum : Terms::moments}};
+  info.two_bodies = true;
+  if (polar) {
+    const auto changed = [](const auto& change) {
+      return [change](const std::vector<double>& q, const std::vector<double>& p) {
+        const Start<double, 2> s = change(Start<double, 2>{{q.at(0), q.at(1)}, {p.at(0), p.at(1)}});
+        Frame frame;
+        frame.q = {s.q[0], s.q[1]};
+        frame.p = {s.p[0], s.p[1]};
+        return frame;
+      };
+    };
+    entry.to_reference = changed([](const Start<double, 2>& s) { return to_cartesian(s); });
+    entry.from_reference = changed([](const Start<double, 2>& s) { return to_polar(s); });
+  }
+  return entry;
+}
+
 }  // namespace
 
-bool is_typed(const std::string& name, const Choices& choices) { return name == Keys::problem && !choices.empty(); }
+bool is_typed(const std::string& name, const Choices& choices) {
+  if (name == Keys::problem) return !choices.empty();
+  const auto potential = choices.find(CentralKeys::key);
+  return name == CentralKeys::problem && potential != choices.end() && potential->second == Keys::problem &&
+         choices.contains(Keys::central_potential);
+}
 
 const ProblemEntry& typed_problem(const std::string& name, const Choices& choices) {
   static std::mutex mutex;
@@ -49,7 +93,10 @@ const ProblemEntry& typed_problem(const std::string& name, const Choices& choice
   key["problem"] = name;
   const std::scoped_lock lock(mutex);
   std::shared_ptr<const ProblemEntry>& entry = known[key];
-  if (!entry) entry = std::make_shared<const ProblemEntry>(formula_entry(choices));
+  if (!entry) {
+    entry =
+        std::make_shared<const ProblemEntry>(name == Keys::problem ? formula_entry(choices) : central_entry(choices));
+  }
   return *entry;
 }
 

@@ -37,12 +37,31 @@ std::string character_at(std::string_view text, std::size_t at) {
   return "'" + std::string(text.substr(at, end - at)) + "'";
 }
 
+namespace {
+/// Without control characters: a line's end as a blank, others as \\x07.
+std::string printable(const std::string& text) {
+  static constexpr const char* digits = "0123456789abcdef";
+  std::string all;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n' || c == '\r' || c == '\t') {
+      all += ' ';
+    } else if (code < 0x20 || code == 0x7f) {
+      all += std::string("\\x") + digits[code / 16] + digits[code % 16];
+    } else {
+      all += c;
+    }
+  }
+  return all;
+}
+}  // namespace
+
 void refuse_at(std::string_view text, std::size_t at, const std::string& what, const std::string& allowed,
                const std::string& meant) {
   const auto before = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
   const auto column = 1 + std::count_if(text.begin(), before, [](char c) { return !continues_character(c); });
-  throw Error("found \"" + shown(text, at) + "\", column " + std::to_string(column) + ": " + what + "; allowed " +
-              allowed + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  throw Error(printable("found \"" + shown(text, at) + "\", column " + std::to_string(column) + ": " + what +
+                        "; allowed " + allowed + (meant.empty() ? "" : "; did you mean " + meant + "?")));
 }
 
 }  // namespace hamflow

@@ -1,10 +1,13 @@
 #include "choices.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/model.hpp"
+#include "names.hpp"
+#include "syntax.hpp"
 
 namespace hamflow {
 
@@ -39,8 +42,9 @@ Texts without_values(const Texts& parameters, const FormulaSymbols& symbols) {
   Texts all;
   for (const auto& [name, text] : parameters) {
     const bool list = !text.empty() && text.front() == '[';
+    const std::string& own = name;
     const bool needed = std::any_of(symbols.known.begin(), symbols.known.end(), [&](const auto& known) {
-      return known.first == name || known.first.starts_with(name + "[");
+      return known.first == own || known.first.starts_with(own + "[");
     });
     if (needed) {
       all[name] = text;
@@ -85,6 +89,58 @@ Choices formula_choices(const FormulaTexts& texts) {
   return formula::choices_of(kept);
 }
 
+Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates) {
+  for (const char* taken : {"r", "x", "y", "phi", "p_r", "p_x", "p_y", "p_phi", CentralKeys::mass}) {
+    if (!parameters.contains(taken)) continue;
+    throw FormulaError(
+        std::string(FormulaKeys::parameters) + "." + taken,
+        std::string("found the name ") + taken + ", which central-force has itself; allowed another name");
+  }
+  // By itself first: errors point into what was typed.
+  const formula::ProblemNames names = formula::names_of({.coordinates = {"r"}, .parameters = parameters});
+  FormulaSymbols symbols = formula::symbols_of(names);
+  symbols.names[1] = "t";  // there is no momentum in V
+  symbols.names.erase(symbols.names.begin() + 2);
+  symbols.what = "names of V(r)";
+  std::set<std::string> needed;
+  try {
+    formula::Graph graph;
+    (void)formula::read_into(graph, potential, symbols, &needed);
+  } catch (const Error& error) {
+    throw FormulaError(FormulaKeys::central_potential, error.what());
+  }
+  std::erase_if(symbols.known, [&](const auto& known) { return !needed.contains(known.first); });
+  const Choices all{{CentralKeys::key, FormulaKeys::problem},
+                    {FormulaKeys::coordinates, coordinates},
+                    {FormulaKeys::central_potential, potential},
+                    {FormulaKeys::parameters, formula::named(formula::without_values(parameters, symbols))}};
+  FormulaTexts texts = central_formula_texts(all);
+  try {
+    (void)formula::Model(texts);
+  } catch (const FormulaError& error) {
+    throw FormulaError(FormulaKeys::central_potential, error.what());
+  }
+  return all;
+}
+
+FormulaTexts central_formula_texts(const Choices& choices) {
+  const std::string potential = "let r = sqrt(x^2 + y^2) in " + choices.at(FormulaKeys::central_potential);
+  FormulaTexts texts;
+  if (choices.at(FormulaKeys::coordinates) == CentralKeys::polar) {
+    texts = {.coordinates = {"r", "phi"},
+             .hamiltonian = "(p_r^2 + p_phi^2/r^2)/(2*mass) + (" + choices.at(FormulaKeys::central_potential) + ")",
+             .invariants = {{"angular_momentum", "p_phi"}}};
+  } else {
+    texts = {.coordinates = {"x", "y"},
+             .kinetic = "(p_x^2 + p_y^2)/(2*mass)",
+             .potential = potential,
+             .invariants = {{"angular_momentum", "x*p_y - y*p_x"}}};
+  }
+  texts.parameters = {{CentralKeys::mass, FormulaKeys::unknown}};
+  for (const auto& [name, text] : formula::pairs_of(choices.at(FormulaKeys::parameters))) texts.parameters[name] = text;
+  return texts;
+}
+
 FormulaTexts formula_texts(const Choices& choices) {
   const auto of = [&](const char* key) {
     const auto found = choices.find(key);
@@ -98,6 +154,55 @@ FormulaTexts formula_texts(const Choices& choices) {
   texts.potential = of(FormulaKeys::potential);
   for (const auto& [name, text] : formula::pairs_of(of(FormulaKeys::parameters))) texts.parameters[name] = text;
   texts.invariants = formula::pairs_of(of(FormulaKeys::invariants));
+  return texts;
+}
+
+FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters) {
+  formula::Syntax syntax;
+  try {
+    syntax = formula::read_syntax(hamiltonian, {});
+  } catch (const Error& error) {
+    throw FormulaError(FormulaKeys::hamiltonian, error.what());
+  }
+  FormulaTexts texts;
+  texts.hamiltonian = hamiltonian;
+  texts.parameters = parameters;
+  std::set<std::string> locals;
+  for (const formula::Part& part : syntax.parts) {
+    if (part.kind == formula::Part::Kind::let || part.kind == formula::Part::Kind::sum) locals.emplace(part.word);
+  }
+  // In the order of the text; an operand stands before what is made of it.
+  std::vector<std::pair<std::size_t, std::string>> words;
+  for (const formula::Part& part : syntax.parts) {
+    if (part.kind == formula::Part::Kind::name && !locals.contains(std::string(part.word))) {
+      words.emplace_back(part.at, std::string(part.word));
+    }
+  }
+  std::sort(words.begin(), words.end());
+  std::set<std::string> all;
+  for (const auto& [at, word] : words) all.insert(word);
+  const auto coordinate_of = [&](const std::string& word) -> std::string {
+    if (parameters.contains(word)) return {};
+    if (word.starts_with("p_")) return word.substr(2);
+    const bool numbered = std::all_of(word.begin() + 1, word.end(), is_digit);
+    return word.starts_with('p') && numbered ? "q" + word.substr(1) : std::string();
+  };
+  std::map<std::string, std::string> momenta;  // of coordinates
+  for (const std::string& word : all) {
+    if (const std::string q = coordinate_of(word); !q.empty()) momenta[q] = word;
+  }
+  if (momenta.empty()) {
+    throw FormulaError(
+        FormulaKeys::hamiltonian,
+        "found \"" + shown(hamiltonian) + "\" without a momentum; allowed names such as p, p1, p_x for them");
+  }
+  std::set<std::string> taken;
+  for (const auto& [at, word] : words) {
+    const std::string q = momenta.contains(word) ? word : coordinate_of(word);
+    if (q.empty() || !taken.insert(q).second) continue;
+    texts.coordinates.push_back(q);
+    texts.momenta.push_back(momenta.at(q));
+  }
   return texts;
 }
 

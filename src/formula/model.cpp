@@ -59,6 +59,21 @@ struct Model::Derivation {
 
 namespace {
 
+/// Whether a factor depends on coordinates, on momenta. The time is neither.
+struct Kinds {
+  bool q = false;
+  bool p = false;
+};
+Kinds kinds_of(const Forms& forms, const Factor& factor, std::size_t n) {
+  Kinds kinds;
+  for (const int v : forms.base_at(factor.base).variables) {
+    const auto symbol = static_cast<std::size_t>(v);
+    kinds.q = kinds.q || symbol < n;
+    kinds.p = kinds.p || (symbol >= n && symbol < 2 * n);
+  }
+  return kinds;
+}
+
 /// Constants before a sum are multiplied into it where its terms are of q and of p: (p^2 + q^2)/2.
 void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out) {
   const std::vector<Term> terms = forms[form].terms;
@@ -76,8 +91,8 @@ void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out) {
       }
     }
     const auto mixed = [&](const Factor& f) {
-      const std::vector<int>& in = forms.base_at(f.base).variables;
-      return static_cast<std::size_t>(in.front()) < n && static_cast<std::size_t>(in.back()) >= n;
+      const Kinds in = kinds_of(forms, f, n);
+      return in.q && in.p;
     };
     if (!group || others || !mixed(term.factors[*group])) {
       out.push_back(term);
@@ -105,7 +120,9 @@ std::optional<std::pair<int, int>> parts_of(Forms& forms, int h, std::size_t n) 
     bool p = false;
     bool q = false;
     for (const Factor& f : term.factors) {
-      for (const int v : forms.base_at(f.base).variables) (static_cast<std::size_t>(v) < n ? q : p) = true;
+      const Kinds in = kinds_of(forms, f, n);
+      q = q || in.q;
+      p = p || in.p;
     }
     if (p && q) return std::nullopt;
     (p ? of_p : of_q).push_back(term);

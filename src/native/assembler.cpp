@@ -203,7 +203,8 @@ class Errors final : public ErrorHandler {
 
 unsigned scalar_registers() {
   const auto& features = CpuInfo::host().features().x86();
-  return Environment::host().isFamilyX86() && Environment::host().is64Bit() && features.hasAVX() ? 16 : 0;
+  if (!Environment::host().isFamilyX86() || !Environment::host().is64Bit() || !features.hasAVX()) return 0;
+  return features.hasAVX512_F() && features.hasAVX512_VL() && features.hasAVX512_DQ() ? 32 : 16;
 }
 
 std::unique_ptr<const Function> assembled(const PlacedProgram& program, const std::vector<double>& constants) {

@@ -123,6 +123,7 @@ class Simplifier {
   Operand result_by_constant(const Operand& a, double factor, const Operation& product) {
     if (factor == 1) return a;
     if (factor == -1) return result({Instruction::negate, a, {}});
+    if (factor == 2) return result({Instruction::add, a, a});  // the sooner of the two
     return numbered(product);
   }
 

@@ -97,7 +97,7 @@ TEST(RandomPrograms, RegistersHoldWhatTheyShouldHoweverFewThereAre) {
     std::unique_ptr<const native::Function> function_;
   };
   for (unsigned registers = 4; registers <= native::scalar_registers(); ++registers) {  // no pass before
-    const Tally tally = compare(seed + registers, count / 10, up_to(1000),
+    const Tally tally = compare(seed + registers, count / 30, up_to(1000),
                                 [&](const Program& program) { return std::make_unique<Loop>(program, registers); });
     EXPECT_GT(tally.programs, 0u);
   }

@@ -1,6 +1,9 @@
 // Formulas: what a text means, in every number type.
 #include "hamflow/formula/formula.hpp"
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
@@ -141,6 +144,39 @@ TEST(Formula, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(complaint("x", chain), "found \"x\", column 1: x without an index; allowed x[1] to x[3]");
   EXPECT_EQ(complaint("x[k]", chain), "found \"x[k]\", column 3: k, which is 0.5 and not whole; allowed whole numbers");
   EXPECT_EQ(complaint("sum(i, 1, 1e9, x[1]*i)", chain).find("found \"sum(i, 1, 1e9, x[1]*i)\", column "), 0u);
+}
+
+/// Wrong texts with their messages, each with a column; none of them takes the program down.
+TEST(Formula, RefusesWrongTexts) {
+  const FormulaSymbols symbols{.names = {"x", "y", "p_x", "p_y", "t", "k", "n", "m[1]", "m[2]", "q.a[0]"},
+                               .known = {{"k", 0.5}, {"n", 3}, {"m[1]", 1}, {"m[2]", 2}}};
+  std::ifstream file(std::string(HAMFLOW_TEST_DATA) + "/wrong_formulas.json");
+  const auto all = nlohmann::json::parse(file);
+  EXPECT_GE(all.size(), 300U);
+  for (const auto& wrong : all) {
+    const auto message = wrong.at("message").get<std::string>();
+    EXPECT_EQ(complaint(wrong.at("text").get<std::string>(), symbols), message);
+    EXPECT_NE(message.find(", column "), std::string::npos);
+    EXPECT_NE(message.find("; allowed "), std::string::npos);
+  }
+}
+
+TEST(Formula, HasLimits) {
+  const auto many = [](int count, const std::string& text) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+  };
+  const auto says = [](const std::string& text, const std::string& what) {
+    const std::string message = complaint(text);
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+  };
+  says(many(300, "(") + "x" + many(300, ")"), "more than 200 nested");
+  says(many(300, "-") + "x", "more than 200 nested");
+  says(many(300, "sin(") + "x" + many(300, ")"), "more than 200 nested");
+  says(many(300, "x^") + "2", "more than 200 nested");
+  says(many(60000, "x+") + "x", "more than 10^5 characters");
+  EXPECT_EQ(parse_formula(many(20000, "x+") + "x", plane).symbols().size(), 1U);  // long is not deep
 }
 
 }  // namespace

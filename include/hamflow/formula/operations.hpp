@@ -99,7 +99,20 @@ S whole_power(const S& x, int n) {
 /// Up to here a whole power is a product.
 inline constexpr int largest_whole_power = 64;
 
-/// x^y. @param constant whether y is no function of the state
+/// Whether no derivative is carried.
+template <class S>
+bool carries_nothing(const S& x) {
+  if constexpr (IsDual<S>::value) {
+    for (const auto& slope : x.slope) {
+      if (!carries_nothing(slope) || !(value_of(slope) == base_scalar<S>(0))) return false;
+    }
+    return carries_nothing(x.value);
+  } else {
+    return true;
+  }
+}
+
+/// x^y, with an exponent that is no constant by way of the logarithm where the number type has no such power.
 template <class S>
 S any_power(const S& x, const S& y) {
   if constexpr (is_plain<S>) {
@@ -110,12 +123,7 @@ S any_power(const S& x, const S& y) {
     detail::refuse_exact(y);
     return exp(y * log(x));
   } else {
-    bool constant = true;
-    for (const auto& slope : y.slope) constant = constant && slope == decltype(y.value)(0);
-    if (constant) {
-      using R = base_scalar<S>;
-      if constexpr (std::is_same_v<decltype(y.value), R>) return pow(x, y.value);
-    }
+    if (carries_nothing(y)) return pow(x, value_of(y));
     return exp(y * log(x));
   }
 }

@@ -14,6 +14,7 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/formula/structure.hpp"
 
 namespace hamflow {
 
@@ -32,6 +33,14 @@ struct FormulaKeys {
   static constexpr const char* unknown = "?";            // a parameter's value that choices do not keep
 };
 
+/// What `central-force` calls a potential that is typed.
+struct CentralKeys {
+  static constexpr const char* problem = "central-force";
+  static constexpr const char* key = "potential";
+  static constexpr const char* mass = "mass";
+  static constexpr const char* polar = "polar";
+};
+
 /// The problem `formula`. Parameters: name to a number expression "1/3" or a list "[1, 2]".
 struct FormulaTexts {
   std::vector<std::string> coordinates{};  // "x"; "x[n]" with a number or whole parameter n: x[1] .. x[n]
@@ -43,13 +52,6 @@ struct FormulaTexts {
   std::vector<std::pair<std::string, std::string>>
       invariants{};                        // name, formula of coordinates, momenta, parameters, t
   std::vector<std::string> constraints{};  // g(q) = 0
-};
-
-/// What is found from the expression of a Hamiltonian.
-struct FormulaStructure {
-  bool separable = false;          // H = T(p) + V(q)
-  bool quadratic_kinetic = false;  // T = p^T M^-1 p/2 with constant M
-  bool time = false;               // H depends on t
 };
 
 /// What is wrong with typed texts, and in which of them: "hamiltonian", "coordinates[1]", "invariants.L",
@@ -68,7 +70,15 @@ Choices formula_choices(const FormulaTexts& texts);
 /// The same of `central-force`, potential = "formula": V of r and the parameters.
 /// @param coordinates "cartesian" or "polar"   @throws FormulaError
 Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates);
+/// A particle of mass `mass` in such a field, in the coordinates of the choices: the same as a whole Hamiltonian.
+FormulaTexts central_formula_texts(const Choices& choices);
 /// Back: the texts that choices were made of; of parameters the values that choices keep, others "?".
 FormulaTexts formula_texts(const Choices& choices);
+
+/// The texts of a problem of which H alone is given. Momenta are the names p, p1, p2 ... and p_x for a name x: they
+/// tell the coordinates, q, q1, q2 ... and x, in the order in which either first occurs. Every other name is a
+/// parameter.
+/// @throws FormulaError when there is no momentum
+FormulaTexts texts_of_hamiltonian(const std::string& hamiltonian, const Texts& parameters = {});
 
 }  // namespace hamflow

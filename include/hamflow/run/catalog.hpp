@@ -14,7 +14,7 @@
 
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/formula/structure.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/step_map.hpp"

@@ -57,5 +57,15 @@ inline Capability capabilities_of(const FormulaStructure& structure) {
   if (structure.quadratic_kinetic) all = all | Capability::quadratic_kinetic;
   return all;
 }
+/// @throws FormulaError when it does not offer `wanted`
+inline void require_of_formula(const FormulaStructure& structure, Capability wanted) {
+  if (includes(capabilities_of(structure), wanted)) return;
+  throw FormulaError(FormulaKeys::hamiltonian,
+                     std::string("found an H that is ") +
+                         (structure.separable ? "not quadratic in p with constant coefficients" : "not T(p) + V(q)") +
+                         "; allowed " +
+                         (structure.separable ? "p^T M^-1 p/2 + V(q), else separable_formula_problem"
+                                              : "T(p) + V(q), else formula_problem"));
+}
 
 }  // namespace hamflow
