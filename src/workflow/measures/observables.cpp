@@ -40,6 +40,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   Observer& observer() override { return *this; }
   std::int64_t next_due(std::int64_t step) const override { return step; }
   Verdict observe(const Frame& frame) override {
+    if (frame.step <= steps_) return Verdict::go_on;  // a run that goes on shows its last state again
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       const double x = observables_[i].expression(frame);
       if (frame.step > 0) {
@@ -81,7 +82,7 @@ class ObservablesMeasure final : public Measure, public Observer {
 
   const std::vector<NamedExpression>& observables_;
   std::vector<Seen> seen_;
-  std::int64_t steps_ = 0;
+  std::int64_t steps_ = -1;  // the last that was seen
 };
 
 /// By a run of its own, whose steps are those of the member.
