@@ -7,10 +7,13 @@
 
 #include "commands.hpp"
 #include "figure_kinds.hpp"
+#include "formula_keys.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "hamflow/scenario/rejection.hpp"
+#include "hamflow/scenario/scenario.hpp"
 #include "meant.hpp"
 #include "option_text.hpp"
 #include "run_keys.hpp"
@@ -75,8 +78,19 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
   return meant.empty() ? key_elsewhere(name) : meant;
 }
 
-std::string variant_text(const ProblemInfo& info) {
-  return joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
+/// The choices that find an entry in lists; those of a typed problem are its texts.
+std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& entry) {
+  return entry.structure ? std::vector<std::pair<std::string, std::string>>() : entry.info.variant;
+}
+
+std::string variant_text(const ProblemEntry& entry) {
+  return joined(variant_of(entry), [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
+}
+
+std::string structure_text(const FormulaStructure& structure) {
+  std::string text = structure.separable ? "separable, H = T(p) + V(q)" : "not separable";
+  if (structure.quadratic_kinetic) text += ", T quadratic";
+  return text + (structure.time ? ", dependent on t" : "");
 }
 
 /// Of what `coordinates` declares: a name, (z1), or dots.
@@ -92,11 +106,36 @@ std::string degrees_of_freedom(const ProblemEntry& entry) {
   return n > 0 ? std::to_string(n) : "as many as the start has";
 }
 
+void show_problem(const ProblemEntry& entry);
+
+/// The keys of a problem with a Hamiltonian of the user, of which the catalogue has an example.
+void show_formula(const ProblemEntry& example) {
+  std::cout << fmt::format("{}\n  a Hamiltonian as it is typed, e.g. {}\n", example.info.name, example.info.formula);
+  std::cout << "  keys of [problem]:\n";
+  for (const OptionInfo& option : formula_options()) std::cout << option_row(option);
+  for (const std::string& line : formula_language()) std::cout << filled(line);
+  std::cout << "  initial = { q = [...], p = [...] } or { q, v }, or with energy and one component \"+\" or \"-\"\n"
+               "  a scenario to begin with: hamflow new formula; what is found of one: hamflow show my.toml\n";
+}
+
+/// What a scenario describes: its problem, typed or not, and how it starts.
+void show_scenario(const Scenario& scenario) {
+  show_problem(*scenario.problem);
+  for (const auto& [name, value] : scenario.request.parameters) {
+    if (!value.empty()) std::cout << fmt::format("  here: {} = {}\n", name, value);
+  }
+  const auto list = [](const std::vector<double>& xs) { return joined(xs, shortest); };
+  std::cout << fmt::format(
+      "  start: q = [{}], p = [{}], H = {}\n", list(scenario.start_q), list(scenario.start_p),
+      shortest(scenario.problem->energy(scenario.request.parameters, scenario.start_q, scenario.start_p)));
+}
+
 void show_problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
-                           info.variant.empty() ? "" : " with " + variant_text(info), info.formula,
+                           variant_of(entry).empty() ? "" : " with " + variant_text(entry), info.formula,
                            degrees_of_freedom(entry), info.reference);
+  if (entry.structure) std::cout << "  found: " << structure_text(*entry.structure) << "\n";
   if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
   for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
   if (!info.frame.name.empty()) std::cout << option_row(info.frame);
@@ -120,7 +159,8 @@ void show_problem(const ProblemEntry& entry) {
   std::cout << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
                "largest, \"-\" "
                "the smallest root of H = E\n";
-  std::cout << fmt::format("  momenta: {}\n", joined(info.coordinates, declared_momentum));
+  std::cout << fmt::format("  momenta: {}\n",
+                           entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);
 }
 
@@ -200,7 +240,7 @@ nlohmann::ordered_json problems_json() {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const ProblemEntry& entry : problems()) {
     all.push_back({{"name", entry.info.name},
-                   {"variant", entry.info.variant},
+                   {"variant", variant_of(entry)},
                    {"formula", entry.info.formula},
                    {"degrees_of_freedom", entry.dimension}});
   }
@@ -210,7 +250,7 @@ nlohmann::ordered_json problems_json() {
 void print_problems() {
   for (const ProblemEntry& entry : problems()) {
     std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
-                             entry.info.variant.empty() ? "" : "  (" + variant_text(entry.info) + ")");
+                             variant_of(entry).empty() ? "" : "  (" + variant_text(entry) + ")");
   }
 }
 
@@ -234,12 +274,16 @@ int list_command(const std::string& what, bool all, bool json) {
 
 int show_command(const std::string& name) {
   return guarded(false, [&] {
+    if (name.ends_with(".toml")) {
+      show_scenario(accepted(read_scenario(name, {})));
+      return exit_done;
+    }
     bool found = false;
     std::vector<std::string> names;
     for (const ProblemEntry& entry : problems()) {
       names.push_back(entry.info.name);
       if (entry.info.name != name) continue;
-      show_problem(entry);
+      entry.structure ? show_formula(entry) : show_problem(entry);
       found = true;
     }
     if (found || show_table(name)) return exit_done;

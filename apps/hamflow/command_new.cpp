@@ -26,7 +26,9 @@ const ProblemEntry& chosen(const NewOptions& options) {
   for (const ProblemEntry& entry : problems()) {
     add_once(names, entry.info.name);
     if (entry.info.name != options.problem) continue;
-    for (const auto& [key, value] : entry.info.variant) add_once(choices[key], value);
+    for (const auto& [key, value] : entry.info.variant) {
+      if (!entry.structure) add_once(choices[key], value);
+    }
   }
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
     throw Error("there is no problem '" + options.problem + "'; allowed " + joined(names) +

@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
   new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
   for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
     for (const auto& [key, value] : entry.info.variant) {
-      if (!fresh.variant.contains(key))
+      if (!entry.structure && !fresh.variant.contains(key))
         new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
     }
   }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "figure_kinds.hpp"
+#include "formula_keys.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "method_keys.hpp"
@@ -66,7 +67,17 @@ std::string degrees_of_freedom(const ProblemEntry& entry) {
   return n > 0 ? std::to_string(n) : "as many as the start has";
 }
 
+/// The problem whose Hamiltonian is typed.
+std::string typed_problem(const ProblemEntry& example) {
+  std::string text =
+      fmt::format("### {}\n\nA Hamiltonian as it is typed, e.g. `{}`.\n\n", example.info.name, example.info.formula);
+  text += table(formula_options());
+  for (const std::string& sentence : formula_language()) text += "- " + sentence + "\n";
+  return text + "\n`initial = { q, p }` with canonical momenta, or `{ q, v }` with velocities.\n\n";
+}
+
 std::string problem(const ProblemEntry& entry) {
+  if (entry.structure) return typed_problem(entry);
   const ProblemInfo& info = entry.info;
   const std::string variant =
       joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
@@ -121,7 +132,9 @@ std::string keys() {
 std::string page() {
   std::string text =
       "# Reference\n\nMade by `./dev docs` from the declarations in the code; a test compares the two. Keys stand in "
-      "the tables of a\nscenario; numbers may be given as texts such as \"1/3\" or \"2*pi/100\".\n\n## [problem]\n\n";
+      "the tables of a\nscenario; numbers may be given as texts such as \"1/3\" or \"2*pi/100\".\n\n## [problem]\n\n"
+      "Of every state one component of p, or of v, may be left to the energy: `initial = { q = [0, 0.1], p = [\"+\", "
+      "0.1],\nenergy = 0.125 }`, `\"+\"` the largest, `\"-\"` the smallest root of H = energy.\n\n";
   for (const ProblemEntry& entry : problems()) text += problem(entry);
   text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);

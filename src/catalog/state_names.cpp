@@ -37,6 +37,8 @@ StateNames state_names(const ProblemEntry& problem, const Texts& parameters, std
   for (std::size_t i = 0; space > 0 && i < size; ++i) {
     names.q.push_back(std::string(1, "xyz"[i % space]) + std::to_string(i / space + 1));
   }
+  names.p = problem.momenta;
+  if (!names.p.empty()) return names;
   for (const std::string& name : names.q) names.p.push_back(momentum_name(name));
   return names;
 }

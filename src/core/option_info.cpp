@@ -111,7 +111,7 @@ std::string allowed_text(const OptionInfo& option) {
     case OptionType::word:
       return joined(option.words);
     case OptionType::word_list:
-      return "a list out of " + joined(option.words);
+      return option.words.empty() ? "an array of texts" : "a list out of " + joined(option.words);
     case OptionType::yes_no:
       return option.words.empty() ? "true, false" : "true, false, or " + joined(option.words);
     case OptionType::text:

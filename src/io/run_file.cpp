@@ -347,8 +347,9 @@ std::vector<std::string> names_in(hid_t file, const char* group_name) {
   std::vector<std::string> names;
   for (hsize_t i = 0; i < info.nlinks; ++i) {
     char name[256] = "";
-    check_hdf5(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT),
-               "read a name in " + std::string(group_name));
+    const bool read =
+        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) >= 0;
+    check_hdf5(read ? 0 : -1, "read a name in " + std::string(group_name));
     names.emplace_back(name);
   }
   return names;

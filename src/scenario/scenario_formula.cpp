@@ -1,5 +1,5 @@
-// [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The texts are checked and
-// become an entry of the catalogue; everything after that is as for any problem.
+// [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The texts are checked
+// and become an entry of the catalogue; everything after that is as for any problem.
 #include <algorithm>
 
 #include "formula_keys.hpp"
@@ -20,6 +20,59 @@ std::vector<std::pair<std::string, std::string>> named_texts(TomlTable table) {
 }
 
 }  // namespace
+
+const std::vector<OptionInfo>& formula_options() {
+  using Keys = FormulaKeys;
+  static const std::vector<OptionInfo> options{
+      {.name = Keys::coordinates,
+       .meaning = "their names; x[n], with a number or a whole parameter n, stands for x[1] to x[n]",
+       .type = OptionType::word_list,
+       .required = true,
+       .example = "[x, y]"},
+      {.name = Keys::momenta,
+       .meaning = "their names",
+       .type = OptionType::word_list,
+       .unset = "p of q, p1 of q1, p_x of x, p_x[1] of x[1]",
+       .example = "[p_x, p_y]"},
+      {.name = Keys::hamiltonian,
+       .meaning = "H, of coordinates, momenta, parameters and t",
+       .type = OptionType::text,
+       .unset = "the sum of kinetic and potential",
+       .example = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y"},
+      {.name = Keys::kinetic,
+       .meaning = "T, of the momenta",
+       .type = OptionType::text,
+       .unset = "found in hamiltonian",
+       .condition = "in place of hamiltonian",
+       .example = "(p_x^2 + p_y^2)/(2*m)"},
+      {.name = Keys::potential,
+       .meaning = "V, of the coordinates",
+       .type = OptionType::text,
+       .unset = "found in hamiltonian",
+       .condition = "in place of hamiltonian",
+       .example = "k*(x^2 + y^2)/2 + x^2*y"},
+      {.name = Keys::parameters,
+       .meaning = "numbers and lists by name; m[1] is the first of a list",
+       .type = OptionType::table,
+       .unset = "none",
+       .example = "{ k = 1, m = 1 }"},
+      {.name = Keys::invariants,
+       .meaning = "what is watched beside H, formulas by name",
+       .type = OptionType::table,
+       .unset = "none",
+       .example = "{ angular_momentum = \"x*p_y - y*p_x\" }"}};
+  return options;
+}
+
+const std::vector<std::string>& formula_language() {
+  static const std::vector<std::string> sentences{
+      "a formula: + - * / ^ (** is ^; to the right; -x^2 = -(x^2)), sqrt exp log sin cos tan asin acos atan atan2 sinh "
+      "cosh "
+      "tanh abs, pi, t for the time, names of coordinates, momenta and parameters",
+      "let r = sqrt(x^2 + y^2), u = 1/r in ... names what occurs several times; sum(i, 1, n - 1, (x[i+1] - x[i])^2) "
+      "sums"};
+  return sentences;
+}
 
 bool is_typed_problem(TomlTable& table, const std::string& name) {
   if (name == FormulaKeys::problem) return true;
@@ -61,8 +114,8 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   texts.potential = formula(Keys::potential);
   const bool whole = table.has(Keys::hamiltonian);
   const bool parts = table.has(Keys::kinetic) || table.has(Keys::potential);
-  const std::string allowed = std::string("either ") + Keys::hamiltonian + ", or " + Keys::kinetic + " and " +
-                              Keys::potential;
+  const std::string allowed =
+      std::string("either ") + Keys::hamiltonian + ", or " + Keys::kinetic + " and " + Keys::potential;
   if (whole && parts) {
     const char* const part = table.has(Keys::kinetic) ? Keys::kinetic : Keys::potential;
     table.complain(part, std::string("found ") + part + " beside " + Keys::hamiltonian + "; allowed " + allowed);
@@ -74,7 +127,9 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   }
   table.know_all({Keys::invariants, Keys::constraints});
   if (table.has(Keys::invariants)) texts.invariants = named_texts(table.table(Keys::invariants));
-  texts.constraints = table.texts(Keys::constraints).value_or(texts.constraints);
+  if (table.has(Keys::constraints)) {
+    table.complain(Keys::constraints, "found constraints, which no method takes here; allowed coordinates without any");
+  }
   if (complaints_.size() != before) return std::nullopt;
   return texts;
 }
@@ -90,7 +145,8 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
       request.variant = formula_choices(*texts);
     } else {
       (void)table.plain_string(central_formula().key);
-      const auto potential = table.text({.name = FormulaKeys::central_potential, .type = OptionType::text, .required = true});
+      const auto potential =
+          table.text({.name = FormulaKeys::central_potential, .type = OptionType::text, .required = true});
       request.parameters = read_typed_parameters(table);
       const std::vector<std::string> words = choices_of_key(name, FormulaKeys::coordinates);
       const auto chart = table.text(

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "figure_kinds.hpp"
+#include "formula_keys.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/scenario.hpp"
@@ -173,6 +174,10 @@ class TemplateWriter {
   void write_problem() {
     page_.section("problem");
     page_.line("name = \"" + info_.name + "\"");
+    if (problem_.structure) {
+      write_typed();
+      return;
+    }
     for (const auto& [key, value] : info_.variant) {
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {
@@ -186,6 +191,17 @@ class TemplateWriter {
       page_.line(code, joined(all));
     }
     for (const ParameterInfo& parameter : info_.parameters) write_parameter(parameter);
+    write_starts();
+  }
+
+  /// The example of a Hamiltonian that the user replaces.
+  void write_typed() {
+    const auto given = [&](const std::string& name) {
+      return std::any_of(info_.variant.begin(), info_.variant.end(),
+                         [&](const auto& one) { return one.first == name; });
+    };
+    for (const OptionInfo& option : formula_options()) write_option(option, given(option.name));
+    for (const std::string& sentence : formula_language()) page_.prose(sentence);
     write_starts();
   }
 

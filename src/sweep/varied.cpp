@@ -1,9 +1,11 @@
 #include "varied.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/formula.hpp"
 
 namespace hamflow {
 
@@ -34,6 +36,38 @@ std::size_t common_length(const std::vector<Vary>& keys) {
   }
   return first == nullptr ? 1 : first->texts.size();
 }
+
+bool has_word(const std::string& text, const std::string& word) {
+  const auto is_letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]))) return true;
+  }
+  return false;
+}
+
+/// A formula without let and sum, with texts in the place of its names.
+std::string written_out(const formula::Graph& graph, int at, const std::vector<std::string>& values) {
+  using formula::Op;
+  constexpr std::size_t longest = 100'000;
+  const formula::Node& node = graph[at];
+  if (node.op == Op::number) return graph.text(node);
+  if (node.op == Op::pi) return "pi";
+  if (node.op == Op::symbol) return "(" + values.at(static_cast<std::size_t>(node.a)) + ")";
+  const std::string a = written_out(graph, node.a, values);
+  const std::string b = formula::takes_two(node.op) ? written_out(graph, node.b, values) : "";
+  if (a.size() + b.size() > longest) throw Error("found a formula that is too long when its sums are written out");
+  if (node.op == Op::negate) return "(-" + a + ")";
+  if (node.op >= Op::add && node.op <= Op::power) {
+    return "(" + a + "+-*/^"[static_cast<std::size_t>(node.op) - static_cast<std::size_t>(Op::add)] + b + ")";
+  }
+  for (const formula::FunctionName& function : formula::functions()) {
+    if (function.op == node.op) return std::string(function.name) + "(" + a + (b.empty() ? "" : ", " + b) + ")";
+  }
+  return a;
+}
 }  // namespace
 
 Varied::Varied(std::vector<Vary> keys, bool in_step) : keys_(std::move(keys)), in_step_(in_step) {
@@ -47,7 +81,7 @@ std::size_t Varied::key_of(const std::string& path) const {
 }
 
 /// @param behind the keys whose formulas name this one
-void Varied::check_formula(std::size_t key, std::vector<std::size_t> behind) const {
+void Varied::check_formula(std::size_t key, std::vector<std::size_t> behind) {
   const Vary& own = keys_[key];
   const std::string in_formula = own.path + ": found ";
   std::vector<std::string> others;
@@ -67,6 +101,15 @@ void Varied::check_formula(std::size_t key, std::vector<std::size_t> behind) con
                   " itself; allowed formulas of keys that have values");
     }
     check_formula(other, behind);
+  }
+  if (own.formula.empty() || behind.size() > 1) return;
+  try {
+    const Formula formula = parse_formula(own.formula, {.names = others, .known = {}, .what = "other varied keys"});
+    if (has_word(own.formula, "let") || has_word(own.formula, "sum")) {
+      formulas_[key] = std::make_shared<const Formula>(formula);
+    }
+  } catch (const Error& error) {
+    throw Error(own.path + ": " + error.what());
   }
 }
 
@@ -97,6 +140,16 @@ std::string Varied::text(std::size_t member, std::size_t key) const {
   const Vary& own = keys_[key];
   if (own.formula.empty()) return own.texts[place(member, key)];
   std::string all;
+  if (const auto formula = formulas_.find(key); formula != formulas_.end()) {
+    std::vector<std::string> values;
+    for (std::size_t other = 0; other < keys_.size(); ++other) {
+      if (other != key && keys_[other].is_number()) {
+        const bool named = formula->second->uses(static_cast<int>(values.size()));
+        values.push_back(named ? without_quotes(text(member, other)) : "0");
+      }
+    }
+    return written_out(formula->second->graph(), formula->second->root(), values);
+  }
   std::size_t done = 0;
   for (const NamedPath& named : paths_in(own.formula)) {
     all += own.formula.substr(done, named.at - done) + "(" + without_quotes(text(member, key_of(named.path))) + ")";

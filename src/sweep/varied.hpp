@@ -1,12 +1,16 @@
 // All keys that a sweep varies, and which values each member has.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "vary.hpp"
 
 namespace hamflow {
+
+class Formula;
 
 class Varied {
  public:
@@ -37,9 +41,10 @@ class Varied {
 
  private:
   std::size_t key_of(const std::string& path) const;
-  void check_formula(std::size_t key, std::vector<std::size_t> behind) const;
+  void check_formula(std::size_t key, std::vector<std::size_t> behind);
 
   std::vector<Vary> keys_;
+  std::map<std::size_t, std::shared_ptr<const Formula>> formulas_;  // of those with let or sum, which no number has
   bool in_step_ = false;
   std::size_t members_ = 0;
 };

@@ -73,7 +73,9 @@ void add_section(const Section& section, const StateNames& names, RunSamples& sa
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
   std::vector<std::pair<std::string, std::string>> facts{{"problem", request.problem}};
-  for (const auto& [key, value] : request.variant) facts.emplace_back(key, value);
+  for (const auto& [key, value] : request.variant) {
+    if (!scenario.problem->structure) facts.emplace_back(key, value);  // a typed problem's are long texts
+  }
   facts.emplace_back("method", describe(request.method).name);
   facts.emplace_back("dt", request.dt);
   facts.emplace_back("arithmetic", request.arithmetic);

@@ -31,9 +31,7 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
   }
   if (wants("csv")) {
     const std::filesystem::path file = folder / "trajectory.csv";
-    std::vector<InvariantColumn> columns = invariant_columns(scenario);
-    for (InvariantColumn& each : observable_columns(scenario)) columns.push_back(std::move(each));
-    csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), columns)
+    csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), csv_columns(scenario))
                            : std::make_unique<CsvFile>(file, from->csv_bytes, from->csv_hash);
   }
 }
@@ -57,8 +55,7 @@ std::span<const std::string> Recorder::times(std::int64_t step) const {
 
 Verdict Recorder::observe(const Frame& frame) {
   if (!by_times() && frame.step % scenario_.record_every != 0) before_the_end_ = sizes();
-  std::vector<double> observables;
-  for (const NamedExpression& each : scenario_.observables) observables.push_back(each.expression(frame));
+  const std::vector<double> observables = observable_values(scenario_, frame);
   if (h5_) h5_->append(frame, observables);
   if (csv_) csv_->append(frame, observables);
   last_ = frame.step;

@@ -37,6 +37,18 @@ std::vector<InvariantColumn> observable_columns(const Scenario& scenario) {
   return all;
 }
 
+std::vector<double> observable_values(const Scenario& scenario, const Frame& frame) {
+  std::vector<double> all;
+  for (const NamedExpression& each : scenario.observables) all.push_back(each.expression(frame));
+  return all;
+}
+
+std::vector<InvariantColumn> csv_columns(const Scenario& scenario) {
+  std::vector<InvariantColumn> all = invariant_columns(scenario);
+  for (InvariantColumn& each : observable_columns(scenario)) all.push_back(std::move(each));
+  return all;
+}
+
 RunDescription description_of(const Scenario& scenario, std::size_t samples) {
   const Request& request = scenario.request;
   const MethodInfo method = describe(request.method);

@@ -11,6 +11,10 @@ std::vector<InvariantColumn> invariant_columns(const Scenario& scenario);
 
 /// The observables of [output], with their expressions.
 std::vector<InvariantColumn> observable_columns(const Scenario& scenario);
+/// Their values in a state.
+std::vector<double> observable_values(const Scenario& scenario, const Frame& frame);
+/// What trajectory.csv has beside the state: invariants, then observables.
+std::vector<InvariantColumn> csv_columns(const Scenario& scenario);
 
 /// @param samples expected
 RunDescription description_of(const Scenario& scenario, std::size_t samples);

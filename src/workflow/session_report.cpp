@@ -63,14 +63,14 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));
   {
     RunFile h5(whole.part(), description);
-    for (const Frame& sample : kept) h5.append(sample);
+    for (const Frame& sample : kept) h5.append(sample, observable_values(present, sample));
     h5.flush();
   }
   whole.put_in_place();
   if (std::find(present.formats.begin(), present.formats.end(), "csv") != present.formats.end()) {
     WholeFile text(folder / "trajectory.csv", next_name(folder / "trajectory.csv"));
-    CsvFile csv(text.part(), present.start_q.size(), invariant_columns(present));
-    for (const Frame& sample : kept) csv.append(sample);
+    CsvFile csv(text.part(), present.start_q.size(), csv_columns(present));
+    for (const Frame& sample : kept) csv.append(sample, observable_values(present, sample));
     csv.flush();
     text.put_in_place();
   }

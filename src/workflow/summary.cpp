@@ -24,7 +24,10 @@ Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e
 
 Json parameters_of(const Scenario& scenario) {
   Json parameters = Json::object();
-  for (const auto& [key, value] : scenario.problem->info.variant) parameters[key] = value;
+  const std::optional<FormulaStructure>& structure = scenario.problem->structure;
+  for (const auto& [key, value] : scenario.problem->info.variant) {
+    if (!structure) parameters[key] = value;  // those of a typed problem are its texts, which the scenario has
+  }
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
     if (!values.has(parameter.name)) continue;
@@ -38,6 +41,11 @@ Json parameters_of(const Scenario& scenario) {
   if (!scenario.problem->info.frame.name.empty()) {
     parameters[scenario.problem->info.frame.name] =
         scenario.request.start.barycentric ? StartFrames::barycentric : StartFrames::given;
+  }
+  if (structure) {
+    parameters["structure"] = {{"separable", structure->separable},
+                               {"quadratic_kinetic", structure->quadratic_kinetic},
+                               {"time", structure->time}};
   }
   return parameters;
 }

@@ -1,0 +1,334 @@
+"""Hamiltonians as they are typed: every command treats them like built-in ones, and what is wrong in them is pointed at."""
+
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from command import HAMFLOW, CommandCase
+
+try:
+    import h5py
+except ImportError:  # the tests that need it are left out
+    h5py = None
+
+HENON = """
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + k*(x^2*y - y^3/3)"
+parameters = { k = 1 }
+initial = { q = [0.1, 0.2], p = [0.3, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 200
+"""
+
+BUILT_IN = """
+[problem]
+name = "henon-heiles"
+initial = { q = [0.1, 0.2], p = [0.3, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 200
+"""
+
+# H of a charge in a field, no T(p) + V(q): momenta with names of their own, a list, let and sum.
+CHARGE = """
+[problem]
+name = "formula"
+coordinates = ["u[2]"]
+momenta = ["w[2]"]
+hamiltonian = "let a = b*u[2]/2, c = -b*u[1]/2 in ((w[1] + a)^2 + (w[2] + c)^2)/(2*m) + sum(i, 1, 2, e[i]*u[i]^2)"
+parameters = { b = 1, m = "1/2", e = [0.5, 0.25] }
+invariants = { H = "((w[1] + b*u[2]/2)^2 + (w[2] - b*u[1]/2)^2)/(2*m) + e[1]*u[1]^2 + e[2]*u[2]^2" }
+initial = { q = [1, 0], p = [0.1, 0.2] }
+[method]
+name = "cg"
+[run]
+dt = 0.05
+steps = 50
+"""
+
+
+class FormulaCase(CommandCase):
+    def setUp(self):
+        super().setUp()
+        self.write("f.toml", HENON)
+        self.write("b.toml", BUILT_IN)
+        self.write("c.toml", CHARGE)
+
+    def sets(self, sets):
+        return [word for one in sets for word in ("--set", one)]
+
+
+class Commands(FormulaCase):
+    def test_summary(self):
+        run = self.summary("f.toml")
+        self.assertEqual(run["problem"], "formula")
+        self.assertEqual(run["parameters"], {"k": 1.0, "structure": {"separable": True, "quadratic_kinetic": True,
+                                                                     "time": False}})
+        charge = self.summary("c.toml")
+        self.assertEqual(charge["parameters"]["structure"], {"separable": False, "quadratic_kinetic": False,
+                                                             "time": False})
+        self.assertEqual(charge["parameters"]["e"], [0.5, 0.25])
+        self.assertEqual(charge["energy"]["initial"], charge["invariants"]["H"]["initial"])
+        self.assertLess(charge["invariants"]["H"]["max_error"], 1e-6)
+
+    def test_parts_instead_of_the_whole(self):
+        parts = HENON.replace('hamiltonian = "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2',
+                              'kinetic = "(p_x^2 + p_y^2)/2"\npotential = "(x^2 + y^2)/2')
+        self.write("parts.toml", parts)
+        self.assertEqual(self.summary("parts.toml")["final"], self.summary("f.toml")["final"])
+
+    def test_the_built_in_problem(self):
+        # Rounding may differ where terms are grouped otherwise: some steps, some units of rounding.
+        for method, arithmetic in (("stv4", "double"), ("rk4", "double"), ("cg(1,5)", "double"),
+                                   ("dop853", "double"), ("taylor", "double"), ("stv4", "compensated"), ("stv4", "lattice"),
+                                   ("rk4", "quad"), ("yoshida6", "mp(40)")):
+            sets = self.sets([f"method.name={method}", f"run.arithmetic={arithmetic}", "run.steps=20"])
+            typed, built_in = self.summary("f.toml", *sets), self.summary("b.toml", *sets)
+            for key in "qp":
+                for a, b in zip(typed["final"][key], built_in["final"][key], strict=True):
+                    self.assertAlmostEqual(float(a), float(b), delta=1e-13, msg=f"{method} {arithmetic}")
+
+    def test_names_of_coordinates(self):
+        self.hamflow("run", "c.toml", "--set", 'output.formats=["h5","csv"]', "--out", "c.run", "--quiet")
+        header = (self.folder / "c.run/trajectory.csv").read_text().splitlines()[0]
+        self.assertEqual(header, "step,t,q1,q2,p1,p2,energy,H")
+        self.hamflow("plot", "c.run", "--kind", "time", "--y", "u[1],w[2]", "-o", "c.svg")
+        wrong = self.hamflow("plot", "c.run", "--kind", "time", "--y", "u[3]", "-o", "c.svg", status=2)
+        self.assertIn("u[1], u[2], w[1], w[2]", wrong.stderr)
+        if h5py is None:
+            self.skipTest("h5py is not installed")
+        with h5py.File(self.folder / "c.run/run.h5") as file:
+            self.assertEqual([name.decode() for name in file.attrs["coordinates"]], ["u[1]", "u[2]"])
+            self.assertEqual([name.decode() for name in file.attrs["momenta"]], ["w[1]", "w[2]"])
+
+    def test_reverse_compare_verify(self):
+        back = json.loads(self.hamflow("reverse", "f.toml", "--set", "run.arithmetic=lattice", "--json").stdout)
+        self.assertTrue(back["bit_exact"])
+        rows = json.loads(self.hamflow("compare", "f.toml", "--methods", "stv4,rk4,cg(1,5)", "--dt", "0.1,0.05", "--out",
+                                       "none", "--json", "--quiet").stdout)["rows"]
+        self.assertEqual({row["status"] for row in rows}, {"done"})
+        self.assertTrue(all(row["error"] < 1e-2 for row in rows))
+        verified = json.loads(self.hamflow("verify", "verlet", "--problem", "formula", "--json").stdout)
+        self.assertTrue(verified["methods"][0]["agrees"])
+        self.hamflow("convert", "f.toml", "--to", "polar", status=2)
+
+    def test_shell(self):
+        done = subprocess.run([HAMFLOW, "shell", "f.toml", "--quiet", "--set", "output.observables={ r = 'x^2' }"], cwd=self.folder, text=True, capture_output=True,
+                              input="step 10\ndt 0.05\nstep 10\nshow q\nreverse\nstep 10\nsave s.run\nquit\n", timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.hamflow("plot", "s.run", "--kind", "time", "--y", "r,x", "-o", "s.svg")
+
+    def test_sweep(self):
+        out = self.hamflow("sweep", "f.toml", "--vary", "problem.parameters.k=0.5:1.5:5", "--out", "none", "--json",
+                           "--quiet").stdout
+        rows = json.loads(out)["rows"]
+        for row in rows[::2]:
+            one = self.summary("f.toml", "--set", f"problem.parameters.k={row['problem.parameters.k']!r}")
+            self.assertEqual((row["final"], row["energy"]["max_error"]), (one["final"], one["energy"]["max_error"]))
+        self.assertEqual(len({row["final"]["q"][0] for row in rows}), 5)
+        self.hamflow("sweep", "f.toml", "--vary", "problem.parameters.k=0.5:1.5:3", "--vary", "run.dt=0.1,0.05", "--out",
+                     "none", "--quiet", "--figure", "k.svg")
+
+    def test_measures(self):
+        sets = self.sets(["run.lyapunov=true", "run.eigenvalues=true", "run.section={ coordinate = 'x' }"])
+        typed = self.summary("f.toml", *sets)
+        built_in = self.summary("b.toml", *self.sets(["run.lyapunov=true", "run.eigenvalues=true",
+                                                      "run.section={ coordinate = 'q1' }"]))
+        self.assertEqual(typed["section"]["points"], built_in["section"]["points"])
+        for a, b in zip(typed["lyapunov"]["exponents"], built_in["lyapunov"]["exponents"], strict=True):
+            self.assertAlmostEqual(a, b, delta=1e-9)
+        for a, b in zip(typed["eigenvalues"]["values"], built_in["eigenvalues"]["values"], strict=True):
+            self.assertAlmostEqual(a[0], b[0], delta=1e-8 * (1 + abs(b[0])))
+
+    def test_start_of_energy(self):
+        one = self.summary("f.toml", "--set", 'problem.initial={ q = [0, 0.1], p = ["+", 0.1], energy = 0.125 }')
+        two = self.summary("b.toml", "--set", 'problem.initial={ q = [0, 0.1], p = ["+", 0.1], energy = 0.125 }')
+        self.assertAlmostEqual(one["start"]["p"][0], two["start"]["p"][0], delta=2.0**-51)
+
+    def test_figures(self):
+        self.hamflow("run", "f.toml", "--set", 'output.figures=["orbit","time","energy","energy-error","phase"]', "--out",
+                     "f.run", "--quiet")
+        self.assertEqual(len(list((self.folder / "f.run/figures").iterdir())), 15)
+        one = HENON.replace('["x", "y"]', '["q"]').replace("(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + k*(x^2*y - y^3/3)",
+                                                           "p^2/2 - k*cos(q)")
+        one = one.replace("q = [0.1, 0.2], p = [0.3, 0.1]", "q = [1], p = [0]")
+        self.write("one.toml", one)
+        self.hamflow("run", "one.toml", "--set", 'output.figures=["phase"]', "--out", "one.run", "--quiet")
+
+    def test_resume_after_a_kill(self):
+        sets = self.sets(["run.steps=300000", "run.checkpoint_every=20000", "output.observables={ r = 'sqrt(x^2+y^2)' }",
+                          "run.section={ expression = 'x - y' }"])
+        self.hamflow("run", "f.toml", *sets, "--out", "whole.run", "--quiet")
+        run = subprocess.Popen([HAMFLOW, "run", "f.toml", *sets, "--out", "cut.run", "--quiet"], cwd=self.folder)
+        checkpoint = self.folder / "cut.run/checkpoint.bin"
+        while run.poll() is None and not (checkpoint.exists() and checkpoint.stat().st_size > 2000):
+            time.sleep(0.01)
+        run.send_signal(signal.SIGKILL)
+        run.wait()
+        self.hamflow("run", "f.toml", *sets, "--out", "cut.run", "--resume", "--quiet")
+        whole, cut = (json.loads((self.folder / f"{name}.run/summary.json").read_text()) for name in ("whole", "cut"))
+        for key in ("final", "energy", "section", "observables", "certificate"):
+            self.assertEqual(cut[key], whole[key], key)
+
+    def test_show_and_new(self):
+        shown = self.hamflow("show", "formula").stdout
+        for key in ("coordinates", "momenta", "hamiltonian", "kinetic", "potential", "parameters", "invariants"):
+            self.assertIn(key, shown)
+        self.assertIn("let r = ", shown)
+        facts = self.hamflow("show", "c.toml").stdout
+        self.assertIn("not separable", facts)
+        self.assertIn("momenta: w[1], w[2]", facts)
+        self.write("new.toml", self.hamflow("new", "formula").stdout)
+        self.assertEqual(self.summary("new.toml")["status"], "done")
+        self.assertIn("formula", self.hamflow("list", "problems").stdout)
+
+
+class Expressions(FormulaCase):
+    def test_sections_on_expressions(self):
+        by_name = self.summary("b.toml", "--set", "run.section={ coordinate = 'q1', value = 0.05 }")
+        typed = self.summary("b.toml", "--set", "run.section={ expression = 'q1 - 0.05' }")
+        self.assertEqual(typed["section"]["points"], by_name["section"]["points"])
+        self.assertGreater(typed["section"]["points"], 1)
+        self.hamflow("run", "f.toml", "--set", "run.section={ expression = 'x*p_y - y*p_x', direction = 0 }", "--set",
+                     "run.steps=2000", "--set", 'output.figures=["section"]', "--out", "s.run", "--quiet")
+        if h5py is None:
+            return
+        with h5py.File(self.folder / "s.run/run.h5") as file:
+            q, p = file["section/q"][()], file["section/p"][()]
+        self.assertGreater(len(q), 10)
+        for (x, y), (p_x, p_y) in zip(q, p, strict=True):
+            self.assertAlmostEqual(x * p_y - y * p_x, 0, delta=1e-15)
+
+    def test_wrong_sections(self):
+        for section, words in (
+            ("{ expression = 'q1 - q3' }", "column 6: the unknown"),
+            ("{ expression = '2 + lambda' }", "which is the same for every state"),
+            ("{ expression = 'q1', coordinate = 'q1' }", "found coordinate and expression together; allowed exactly one"),
+            ("{ value = 1 }", "found neither coordinate and expression; allowed exactly one"),
+            ("{ expression = 'q1 +' }", "column 5: the end where a number has to be"),
+        ):
+            text = self.hamflow("run", "b.toml", "--set", f"run.section={section}", "--out", "none", status=2).stderr
+            self.assertIn(words, text, section)
+
+    OBSERVE = ["--set", "output.observables={ theta = 'atan2(q2, q1)', l = 'lambda*t' }"]
+
+    def test_observables(self):
+        self.hamflow("run", "b.toml", *self.OBSERVE, "--set", "run.record_every=1", "--set", 'output.formats=["h5","csv"]',
+                     "--out", "o.run", "--quiet")
+        with open(self.folder / "o.run/trajectory.csv") as file:
+            rows = list(csv.DictReader(file))
+        theta = [float(row["theta"]) for row in rows]
+        for row, x in zip(rows, theta, strict=True):
+            self.assertAlmostEqual(x, math.atan2(float(row["q2"]), float(row["q1"])), delta=1e-15)
+            self.assertEqual(float(row["l"]), float(row["t"]))
+        found = json.loads((self.folder / "o.run/summary.json").read_text())["observables"]
+        self.assertEqual((found["theta"]["initial"], found["theta"]["final"]), (theta[0], theta[-1]))
+        self.assertAlmostEqual(found["theta"]["mean"], math.fsum(theta[1:]) / (len(theta) - 1), delta=1e-15)
+        # Over every step, however few are recorded.
+        few = self.summary("b.toml", *self.OBSERVE, "--set", "run.record_every=100")["observables"]
+        self.assertEqual(few, found)
+        self.hamflow("plot", "o.run", "--kind", "time", "--y", "theta,l", "-o", "theta.svg")
+        self.hamflow("plot", "o.run", "--kind", "phase", "--x", "theta", "--y", "q1", "-o", "theta.svg")
+        if h5py is not None:
+            with h5py.File(self.folder / "o.run/run.h5") as file:
+                self.assertEqual(file["observables/theta"][()].tolist(), theta)
+                self.assertEqual(file["observables/theta"].attrs["meaning"].decode(), "atan2(q2, q1)")
+
+    def test_observables_in_sweeps(self):
+        out = self.hamflow("sweep", "b.toml", *self.OBSERVE, "--vary", "problem.lambda=0.5,1", "--out", "none", "--json",
+                           "--quiet").stdout
+        one = self.summary("b.toml", *self.OBSERVE, "--set", "problem.lambda=0.5")["observables"]
+        row = json.loads(out)["rows"][0]
+        for name in ("theta", "l"):
+            for what in ("initial", "mean", "final"):
+                self.assertEqual(row[f"{name}_{what}"], one[name][what])
+
+    def test_wrong_observables(self):
+        for value, words in (
+            ("{ theta = 'atan2(q2)' }", "output.observables.theta: found"),
+            ("{ theta = 'q4' }", "did you mean"),
+            ("{ theta = 1 }", "allowed a text that is not empty"),
+            ("{ q1 = 'q2' }", "found the name q1, which a column of every run has"),
+            ("{ 'a/b' = 'q2' }", "allowed letters, digits and _"),
+        ):
+            text = self.hamflow("run", "b.toml", "--set", f"output.observables={value}", "--out", "none", status=2).stderr
+            self.assertIn(words, text, value)
+
+    def test_let_and_sum_in_varied_values(self):
+        rows = json.loads(self.hamflow("sweep", "b.toml", "--vary", "problem.lambda=0.5,1", "--vary",
+                                       "run.dt=let u = problem.lambda/10 in sum(i, 1, 3, u^i)", "--out", "none", "--json",
+                                       "--quiet").stdout)["rows"]
+        for row in rows:
+            u = row["problem.lambda"] / 10
+            self.assertAlmostEqual(row["run.dt"], u + u**2 + u**3, delta=1e-16)
+
+
+class Wrong(FormulaCase):
+    """Every error names the file, the line, the column, the key, and the column inside the formula."""
+
+    def errors(self, text):
+        self.write("wrong.toml", text)
+        done = self.hamflow("run", "wrong.toml", "--out", "none", "--json", status=2)
+        return json.loads(done.stdout)["errors"], done.stderr
+
+    def test_formulas(self):
+        line = HENON.splitlines().index(next(row for row in HENON.splitlines() if row.startswith("hamiltonian"))) + 1
+        for formula, words in (
+            ("(p_x^2 + p_y^2)/2 + kk*x", "did you mean k?"),
+            ("(p_x^2 + p_y^2)/2 + 2x", "column 22"),
+            ("(p_x^2 + p_y^2)/2 + sinn(x)", "did you mean sin?"),
+            ("(p_x^2 + p_y^2)/2 + x/0", "divided by 0"),
+            ("(p_x^2 + p_y^2)/2 + 9^9^9^9", "column"),
+            ("(p_x^2 + p_y^2/2", "')'"),
+            ("", "a text that is not empty"),
+        ):
+            found, text = self.errors(HENON.replace("(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + k*(x^2*y - y^3/3)", formula))
+            self.assertEqual(len(found), 1, text)
+            self.assertEqual((found[0]["key"], found[0]["line"]), ("problem.hamiltonian", line), text)
+            self.assertIn(words, found[0]["message"])
+            self.assertIn(f"wrong.toml:{line}:", text)
+
+    def test_keys(self):
+        for old, new, key, words in (
+            ('coordinates = ["x", "y"]', 'coordinates = ["x", "sin"]', "problem.coordinates", "sin"),
+            ('coordinates = ["x", "y"]', 'coordinates = ["x", 2]', "problem.coordinates", "allowed an array of texts"),
+            ('coordinates = ["x", "y"]', "", "problem.coordinates", "found nothing; allowed an array of names"),
+            ('coordinates = ["x", "y"]', 'coordinats = ["x", "y"]', "problem.coordinats", "did you mean coordinates?"),
+            ("hamiltonian =", 'kinetic = "p_x^2"\nhamiltonian =', "problem.kinetic", "beside hamiltonian; allowed either"),
+            ("hamiltonian =", "potential =", "problem.kinetic", "found nothing; allowed either hamiltonian, or"),
+            ("{ k = 1 }", "{ k = true }", "problem.parameters.k", "a number"),
+            ("{ k = 1 }", "{ k = 1, pi = 3 }", "problem.parameters.pi", "pi"),
+            ("{ k = 1 }", "{ k = 1, x = 3 }", "problem.coordinates", "found the name x a second time"),
+            ("{ k = 1 }", "{ k = 1 }\ninvariants = { L = \"x*p_z\" }", "problem.invariants.L", "p_z"),
+            ("{ k = 1 }", "{ k = 1 }\nconstraints = [\"x^2 - 1\"]", "problem.constraints", "allowed"),
+            ("q = [0.1, 0.2]", "q = [0.1, 0.2, 0.3]", "problem.initial.q", "2 numbers"),
+        ):
+            found, text = self.errors(HENON.replace(old, new, 1))
+            message = [error["message"] for error in found if error["key"].startswith(key)]
+            self.assertTrue(message, f"{new}\n{text}")
+            self.assertIn(words, message[0])
+
+    def test_methods_that_need_a_sum(self):
+        text = self.hamflow("run", "c.toml", "--set", "method.name=stv4", "--out", "none", status=2).stderr
+        self.assertIn("method.name", text)
+        self.assertIn("separable", text)
+
+    def test_other_errors_are_told_at_once(self):
+        found, text = self.errors(HENON.replace("k*(x", "kk*(x").replace("dt = 0.1", "dt = 0"))
+        self.assertEqual([error["key"] for error in found], ["problem.hamiltonian", "run.dt"], text)
+
+
+if __name__ == "__main__":
+    unittest.main()
