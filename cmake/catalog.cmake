@@ -56,7 +56,13 @@ macro(hamflow_problem_unit header name body)
   set(unit_entry ErasedEntry)
   set(entry erased)
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
-  list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
+  # The force of many bodies is worth its optimisation; that of a few coordinates is recorded.
+  file(STRINGS "${PROJECT_SOURCE_DIR}/include/hamflow/problems/${header}.hpp" of_any_size REGEX "dynamic" LIMIT_COUNT 1)
+  if(of_any_size)
+    list(APPEND HAMFLOW_UNITS "${unit}")
+  else()
+    list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
+  endif()
   string(APPEND declarations "ProblemEntry entry_${name}();\nErasedEntry erased_${name}();\n")
   string(APPEND problem_calls "joined(entry_${name}(), erased_${name}()), ")
   string(APPEND erased_calls "erased_${name}(), ")
@@ -171,6 +177,7 @@ namespace hamflow {
 @declarations@
 inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
   entry.simulate_erased = erased.simulate;
+  entry.simulate_member = erased.simulate_member;
   entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Texts& parameters, const MethodSpec& method,
                                                                      std::size_t size) {
     return accepts(method) ? make(parameters, method, size) : nullptr;

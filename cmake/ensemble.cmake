@@ -1,5 +1,5 @@
-# Blocks of SIMD lanes for ensembles, a library of its own that only `hamflow sweep` and the benchmark need. One unit a
-# problem, generated like those of the catalogue; problems that lanes cannot take cost next to nothing.
+# Blocks of SIMD lanes for ensembles, a library of its own that only `hamflow sweep` and the benchmark need. Lanes are recorded
+# steps; only kernel = "fast" has a unit for each problem that offers it, generated like those of the catalogue.
 set(ensemble_units)
 set(ensemble_declarations "")
 set(ensemble_calls "")
@@ -20,13 +20,11 @@ macro(hamflow_ensemble_unit)
   string(APPEND ensemble_declarations "EnsembleEntry ensemble_${name}();\n")
   string(APPEND ensemble_calls "ensemble_${name}(), ")
 endmacro()
-foreach(name IN LISTS problem_names)
-  hamflow_pascal_case(type ${name})
-  set(header ${name})
-  set(family "${type}<R>")
-  hamflow_ensemble_unit()
-endforeach()
 foreach(potential IN LISTS potential_names)
+  file(STRINGS "${PROJECT_SOURCE_DIR}/include/hamflow/problems/potentials/${potential}.hpp" fast REGEX "fast_slope" LIMIT_COUNT 1)
+  if(NOT fast)
+    continue()
+  endif()
   hamflow_pascal_case(type ${potential})
   set(name central_force_${potential})
   set(header potentials/${potential})
@@ -42,9 +40,9 @@ inline std::vector<EnsembleEntry> generated_ensembles() { return {@ensemble_call
 }  // namespace hamflow
 ]] @ONLY)
 
-add_library(hamflow_ensemble STATIC src/catalog/ensemble_catalog.cpp ${ensemble_units})
+add_library(hamflow_ensemble STATIC src/catalog/ensemble_catalog.cpp src/catalog/recorded_block.cpp ${ensemble_units})
 set_target_properties(hamflow_ensemble PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-set_source_files_properties(src/catalog/ensemble_catalog.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(src/catalog/ensemble_catalog.cpp src/catalog/recorded_block.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_include_directories(hamflow_ensemble PRIVATE "${PROJECT_SOURCE_DIR}/src/catalog" "${generated}")
 target_link_libraries(hamflow_ensemble PUBLIC hamflow PRIVATE $<BUILD_INTERFACE:hamflow_warnings>)
 # -Wno-psabi: packs go by value through functions that are inlined in the end; GCC 4.6 passed them otherwise. clang

@@ -74,6 +74,10 @@ struct ErasedEntry {
   /// that chart itself.
   std::function<DigitState(const std::string& arithmetic, const DigitState&)> to_reference{};
   std::function<DigitState(const std::string& arithmetic, const DigitState&)> from_reference{};
+  /// In double, from numbers.
+  std::function<std::unique_ptr<Simulation>(const Request&, const Parameters<double>&, const std::vector<double>& q,
+                                            const std::vector<double>& p, double h)>
+      simulate_member{};
 };
 
 /// action.template operator()<R>() with the number type of an arithmetic beyond double.

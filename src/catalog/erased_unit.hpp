@@ -1,6 +1,8 @@
 // One problem behind virtual calls, in every number type. The build makes one translation unit of it per problem.
 #pragma once
 
+#include <algorithm>
+
 #include "erased.hpp"
 #include "mp_simulation.hpp"
 #include "problem_start.hpp"
@@ -15,6 +17,16 @@ class ErasedUnit : ProblemStart<Family> {
  public:
   static ErasedEntry entry() {
     ErasedEntry e{simulate, step_map};
+    e.simulate_member = [](const Request& request, const Parameters<double>& parameters, const std::vector<double>& q,
+                           const std::vector<double>& p, double h) {
+      const auto moved = [](const std::vector<double>& x) {
+        auto y = zeros<double, dynamic>(x.size());
+        std::copy(x.begin(), x.end(), y.begin());
+        return y;
+      };
+      return simulate_erased<double>(
+          {functions_of<double>(In::template make<double>(parameters, q.size())), moved(q), moved(p), h}, request);
+    };
     if constexpr (HasChart<Family<double>>) {
       e.to_reference = [](const std::string& arithmetic, const DigitState& state) {
         return in_arithmetic(arithmetic, [&]<class R>() { return texts_of(Family<R>::to_reference(read<R>(state))); });

@@ -4,6 +4,7 @@
 #include "mp_simulation.hpp"
 #include "problem_start.hpp"
 #include "recipes.hpp"
+#include "timed_simulation.hpp"
 #include "typed_problem.hpp"
 
 namespace hamflow {
@@ -18,7 +19,7 @@ using ModelPointer = std::shared_ptr<const formula::Model>;
 template <class R>
 ErasedFunctions<R> functions_of(const ModelPointer& model, const Texts& parameters) {
   const auto bound = std::make_shared<const formula::BoundModel<R>>(model, Parameters<R>(parameters));
-  ErasedFunctions<R> all{capabilities_of(model->structure()), model->size(),
+  ErasedFunctions<R> all{capabilities_of(model->structure()), model->degrees(),
                          std::make_shared<FormulaFunctions<R, R>>(bound),
                          std::make_shared<FormulaFunctions<R, Trace<R>>>(bound), nullptr};
   if constexpr (std::is_same_v<R, double>) all.dual = std::make_shared<FormulaFunctions<R, Dual<double, 1>>>(bound);
@@ -43,7 +44,7 @@ StateOf<R> start_of(const ModelPointer& model, const FormulaFace<R>& problem, co
         throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
                     std::to_string(texts.size()));
       }
-      Vector<R, dynamic> out(texts.size());
+      Vector<R, dynamic> out(model->degrees());  // the time and its momentum begin at 0
       for (std::size_t i = 0; i < texts.size(); ++i) {
         out[i] = is_left_to_energy(texts[i]) ? free : evaluate_number<R>(texts[i]);
       }
@@ -60,7 +61,9 @@ template <class R>
 std::unique_ptr<Simulation> simulate_in(const ModelPointer& model, const Request& request) {
   const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters);
   const StateOf<R> s = start_of<R>(model, functions.template as<Capability::smooth>(), request);
-  return simulate_erased<R>({functions, s.q, s.p, evaluate_number<R>(request.dt)}, request);
+  auto simulation = simulate_erased<R>({functions, s.q, s.p, evaluate_number<R>(request.dt)}, request);
+  if (!model->structure().time || !simulation) return simulation;
+  return std::make_unique<TimedSimulation>(std::move(simulation));
 }
 
 bool accepts(Capability offered, const MethodSpec& method) {
@@ -73,16 +76,18 @@ bool accepts(Capability offered, const MethodSpec& method) {
   });
 }
 
-Vector<double, dynamic> vector_of(const std::vector<double>& x) {
-  Vector<double, dynamic> v(x.size());
+/// @param size degrees of freedom: the time begins at 0
+Vector<double, dynamic> vector_of(const std::vector<double>& x, std::size_t size) {
+  Vector<double, dynamic> v(size);
   for (std::size_t i = 0; i < x.size(); ++i) v[i] = x[i];
   return v;
 }
 
-Frame frame_of(const StateOf<double>& s) {
+/// @param size coordinates that have names
+Frame frame_of(const StateOf<double>& s, std::size_t size) {
   Frame frame;
-  frame.q.assign(s.q.begin(), s.q.end());
-  frame.p.assign(s.p.begin(), s.p.end());
+  frame.q.assign(s.q.begin(), s.q.begin() + size);
+  frame.p.assign(s.p.begin(), s.p.begin() + size);
   return frame;
 }
 
@@ -114,27 +119,31 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
   e.step_map = [model, offered](const Texts& parameters, const MethodSpec& method,
                                 std::size_t) -> std::unique_ptr<StepMap> {
     if (!accepts(offered, method)) return nullptr;
+    if (model->structure().time) {
+      throw Error("found an H that depends on t; allowed H without t where single steps are measured");
+    }
     return erased_step_map({functions_of<double>(model, parameters), functions_of<long double>(model, parameters),
                             functions_of<Quad>(model, parameters)},
                            method);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };
-  e.energy = [face](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-    return face(parameters).energy(vector_of(q), vector_of(p));
+  const std::size_t degrees = model->degrees();
+  e.energy = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    return face(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
   };
-  e.rates = [face](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-    Vector<double, dynamic> dq(q.size());
-    Vector<double, dynamic> dp(q.size());
-    face(parameters).gradient(vector_of(q), vector_of(p), dq, dp);
-    return std::vector<double>(dp.begin(), dp.end());
+  e.rates = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    Vector<double, dynamic> dq(degrees);
+    Vector<double, dynamic> dp(degrees);
+    face(parameters).gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
+    return std::vector<double>(dp.begin(), dp.begin() + q.size());
   };
-  e.regular = [face](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
-    Vector<double, dynamic> dq(q.size());
-    Vector<double, dynamic> dp(q.size());
+  e.regular = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    Vector<double, dynamic> dq(degrees);
+    Vector<double, dynamic> dp(degrees);
     const auto problem = face(parameters);
-    problem.gradient(vector_of(q), vector_of(p), dq, dp);
-    double sum = abs(problem.energy(vector_of(q), vector_of(p)));
+    problem.gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
+    double sum = abs(problem.energy(vector_of(q, degrees), vector_of(p, degrees)));
     for (std::size_t i = 0; i < dq.size(); ++i) sum += abs(dq[i]) + abs(dp[i]);
     return sum <= std::numeric_limits<double>::max();
   };
@@ -142,7 +151,7 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
     return std::vector<std::size_t>(model->invariants().size(), 1);
   };
   e.start = [model, face](const Request& request) {
-    return frame_of(start_of<double>(model, face(request.parameters), request));
+    return frame_of(start_of<double>(model, face(request.parameters), request), model->size());
   };
   return e;
 }

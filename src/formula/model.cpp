@@ -17,9 +17,7 @@ constexpr std::size_t longest = 4'000'000;  // factors of all forms: some hundre
 /// The texts as graph and forms, kept for second derivatives.
 struct Model::Derivation {
   Derivation(const Graph& read, const std::vector<bool>& fixed_symbols)
-      : graph(read), fixed(fixed_symbols), forms(graph, fixed_symbols, longest) {
-    fixed.push_back(false);  // the factor
-  }
+      : graph(read), fixed(fixed_symbols), forms(graph, fixed_symbols, longest) {}
 
   /// Code that gives these forms. @param negative their negatives
   struct Output {
@@ -59,7 +57,7 @@ struct Model::Derivation {
 
 namespace {
 
-/// Whether a factor depends on coordinates, on momenta. The time is neither.
+/// Whether a factor depends on coordinates or the time, on momenta.
 struct Kinds {
   bool q = false;
   bool p = false;
@@ -68,7 +66,7 @@ Kinds kinds_of(const Forms& forms, const Factor& factor, std::size_t n) {
   Kinds kinds;
   for (const int v : forms.base_at(factor.base).variables) {
     const auto symbol = static_cast<std::size_t>(v);
-    kinds.q = kinds.q || symbol < n;
+    kinds.q = kinds.q || symbol < n || symbol == 2 * n;
     kinds.p = kinds.p || (symbol >= n && symbol < 2 * n);
   }
   return kinds;
@@ -206,6 +204,7 @@ Model::Model(const FormulaTexts& texts) {
   std::erase_if(symbols_.known, [&](const auto& entry) { return !needed.contains(entry.first); });
 
   std::vector<bool> fixed(symbols_.names.size(), true);
+  fixed.resize(symbols_.names.size() + 2, false);  // the factor, the momentum of the time
   for (std::size_t i = 0; i <= 2 * n; ++i) fixed[i] = false;
   derivation_ = std::make_unique<Derivation>(graph, fixed);
   Derivation& d = *derivation_;
@@ -230,17 +229,24 @@ Model::Model(const FormulaTexts& texts) {
       foreign(d.t, 0, Keys::kinetic, "momenta");
       foreign(d.v, n, Keys::potential, "coordinates");
       d.h = d.forms.sum({d.t, d.v});
+      if (d.forms.depends(d.t, static_cast<int>(time_symbol()))) d.t = d.v = -1;
     }
     structure_.time = d.forms.depends(d.h, static_cast<int>(time_symbol()));
     structure_.separable = d.t >= 0;
+    if (structure_.time) {
+      const int momentum = d.symbol(time_momentum_symbol());
+      d.h = d.forms.sum({d.h, momentum});
+      if (structure_.separable) d.t = d.forms.sum({d.t, momentum});
+    }
+    const std::size_t all = degrees();
 
     std::vector<Derivation::Output> of_gradient;
     std::vector<Derivation::Output> of_force;
     std::vector<Derivation::Output> of_velocity;
     std::vector<int> by_q;
     std::vector<int> by_p;
-    for (std::size_t i = 0; i < n; ++i) by_q.push_back(d.derivative(d.v >= 0 ? d.v : d.h, i));
-    for (std::size_t i = 0; i < n; ++i) by_p.push_back(d.derivative(d.t >= 0 ? d.t : d.h, n + i));
+    for (std::size_t i = 0; i < all; ++i) by_q.push_back(d.derivative(d.v >= 0 ? d.v : d.h, position_symbol(i)));
+    for (std::size_t i = 0; i < all; ++i) by_p.push_back(d.derivative(d.t >= 0 ? d.t : d.h, momentum_symbol(i)));
     for (const int form : by_q) of_gradient.push_back({form});
     for (const int form : by_p) of_gradient.push_back({form});
     gradient = d.code(of_gradient);
@@ -274,7 +280,6 @@ Model::Model(const FormulaTexts& texts) {
     } else {
       energy = d.code({{d.h}});
     }
-    if (structure_.time) time_derivative = d.code({{d.derivative(d.h, time_symbol())}});
   } catch (const FormulaError&) {
     throw;
   } catch (const Error& error) {
@@ -289,23 +294,25 @@ const HessianCode& Model::hessian() const {
   const std::scoped_lock lock(mutex_);
   if (hessian_) return *hessian_;
   Derivation& d = *derivation_;
-  const std::size_t n = size();
+  const std::size_t n = degrees();
   auto all = std::make_unique<HessianCode>();
   std::vector<Derivation::Output> outputs;
-  const auto add = [&](Entries& entries, std::size_t row_first, std::size_t column_first, bool symmetric) {
+  const auto add = [&](Entries& entries, const auto& row_symbol, const auto& column_symbol, bool symmetric) {
     for (std::size_t i = 0; i < n; ++i) {
-      const int row = d.derivative(d.h, row_first + i);
+      const int row = d.derivative(d.h, row_symbol(i));
       for (std::size_t j = symmetric ? i : 0; j < n; ++j) {
-        const int entry = d.derivative(row, column_first + j);
+        const int entry = d.derivative(row, column_symbol(j));
         if (d.forms.is_zero(entry)) continue;
         entries.emplace_back(i, j);
         outputs.push_back({entry});
       }
     }
   };
-  add(all->qq, 0, 0, true);
-  add(all->qp, 0, n, false);
-  add(all->pp, n, n, true);
+  const auto position = [this](std::size_t i) { return position_symbol(i); };
+  const auto momentum = [this](std::size_t i) { return momentum_symbol(i); };
+  add(all->qq, position, position, true);
+  add(all->qp, position, momentum, false);
+  add(all->pp, momentum, momentum, true);
   all->code = d.code(outputs);
   hessian_ = std::move(all);
   return *hessian_;
@@ -315,14 +322,14 @@ const ForceAndHessianCode& Model::force_and_hessian() const {
   const std::scoped_lock lock(mutex_);
   if (force_and_hessian_) return *force_and_hessian_;
   Derivation& d = *derivation_;
-  const std::size_t n = size();
+  const std::size_t n = degrees();
   auto all = std::make_unique<ForceAndHessianCode>();
   std::vector<Derivation::Output> outputs;
-  for (std::size_t i = 0; i < n; ++i) outputs.push_back({d.derivative(d.v, i), true});
+  for (std::size_t i = 0; i < n; ++i) outputs.push_back({d.derivative(d.v, position_symbol(i)), true});
   for (std::size_t i = 0; i < n; ++i) {
-    const int row = d.derivative(d.v, i);
+    const int row = d.derivative(d.v, position_symbol(i));
     for (std::size_t j = i; j < n; ++j) {
-      const int entry = d.derivative(row, j);
+      const int entry = d.derivative(row, position_symbol(j));
       if (d.forms.is_zero(entry)) continue;
       all->entries.emplace_back(i, j);
       outputs.push_back({entry});

@@ -9,8 +9,7 @@
 
 namespace hamflow {
 
-CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension,
-                 const std::vector<InvariantColumn>& more)
+CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<InvariantColumn>& more)
     : path_(file), out_(file) {
   if (!out_) throw FileError("cannot write " + file.string());
   std::string header = "step,t";

@@ -44,10 +44,10 @@ struct RunDescription {
   std::size_t dimension = 0;
   std::vector<InvariantColumn> invariants;
   std::vector<InvariantColumn> observables{};  // expressions of the user, whose text is the meaning
-  bool diagnostics = false;  // of implicit steps
-  bool section = false;      // points of one are written
-  std::size_t samples = 0;   // expected, so that a short run leaves a small file; 0: unknown
-  std::string created;       // empty: now
+  bool diagnostics = false;                    // of implicit steps
+  bool section = false;                        // points of one are written
+  std::size_t samples = 0;                     // expected, so that a short run leaves a small file; 0: unknown
+  std::string created;                         // empty: now
   double dt = 0;
   std::string dt_text{};                   // as it was given
   std::vector<std::string> coordinates{};  // a name for each number of q; none: they are not written

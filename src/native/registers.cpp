@@ -48,7 +48,7 @@ class Allocator {
     for (event_ = 0; event_ < end_; ++event_) {
       const auto [is_check, index] = events_[event_];
       if (is_check) {
-        place_check(program_.checks[index]);
+        place_check(index);
       } else if (is_call(program_.operations[index].instruction)) {
         place_call(program_.operations[index], values_ + index);
       } else {
@@ -218,12 +218,13 @@ class Allocator {
     if (uses_.next(number) != never) bind(number, to);
   }
 
-  void place_check(const Program::Check& check) {
+  void place_check(std::uint32_t index) {
+    const Program::Check& check = program_.checks[index];
     const auto [first, second] = operands(check.a, check.b, never);
     pass(check.a, check.b);
     const std::uint32_t spare = take_register(never, first.index);
     const bool has_two = check.b.kind != Operand::Kind::none;
-    result_.body.push_back({Line::Kind::check, {}, check.kind, reg(spare), first, has_two ? second : nowhere});
+    result_.body.push_back({Line::Kind::check, {}, check.kind, reg(spare), first, has_two ? second : nowhere, index});
     after_line(check.a, check.b);
   }
 

@@ -31,6 +31,7 @@ struct Line {
   Instruction instruction{};
   Program::Check::Kind check{};
   Place to, a, b;
+  std::uint32_t index = 0;  // of the check in the program
 };
 
 /// What is done once before the steps, in every step, and once after the last.

@@ -1,6 +1,4 @@
-#include <cstdlib>
-#include <string_view>
-
+#include "is_asked.hpp"
 #include "machine_code.hpp"
 #include "passes.hpp"
 
@@ -40,8 +38,7 @@ std::unique_ptr<const StepLoop> make_machine_code(const Program& program) {
 }  // namespace native
 
 std::unique_ptr<const StepLoop> make_step_loop(const Program& program) {
-  const char* const asked = std::getenv("HAMFLOW_NATIVE");
-  if (asked == nullptr || std::string_view(asked) != "0") {
+  if (native::is_asked()) {
     if (auto loop = native::make_machine_code(program)) return loop;
   }
   return make_interpreter(native::simplified(program));

@@ -12,7 +12,7 @@ SectionFinder::SectionFinder(const Simulation& simulation, const Section& sectio
     : simulation_(simulation), section_(section), found_(std::move(found)) {}
 
 double SectionFinder::distance(const Frame& frame) const {
-  if (section_.expression) return (*section_.expression)(frame) - section_.value;
+  if (section_.expression) return (*section_.expression)(frame)-section_.value;
   return (section_.momentum ? frame.p : frame.q)[section_.coordinate] - section_.value;
 }
 

@@ -73,9 +73,9 @@ void ScenarioReader::read_section(TomlTable& table) {
   const bool by_coordinate = section.has(keys.coordinate.name);
   if (by_coordinate == section.has(keys.expression.name)) {
     const std::string both = keys.coordinate.name + " and " + keys.expression.name;
-    section.complain(by_coordinate ? keys.expression.name : keys.coordinate.name,
-                     (by_coordinate ? "found " + both + " together" : "found neither " + both) +
-                         "; allowed exactly one of them");
+    section.complain(
+        by_coordinate ? keys.expression.name : keys.coordinate.name,
+        (by_coordinate ? "found " + both + " together" : "found neither " + both) + "; allowed exactly one of them");
   } else if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {
     by_coordinate ? read_section_coordinate(section, wanted) : read_section_expression(section, wanted);
   }

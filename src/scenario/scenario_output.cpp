@@ -49,8 +49,7 @@ void ScenarioReader::read_observables(TomlTable& output) {
   TomlTable table = output.table(key);
   std::vector<std::string> taken{"t", "step", "energy", "energy-error"};
   if (scenario_.problem != nullptr) {
-    const StateNames names =
-        state_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
+    const StateNames names = state_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
     taken.insert(taken.end(), names.q.begin(), names.q.end());
     taken.insert(taken.end(), names.p.begin(), names.p.end());
     for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);

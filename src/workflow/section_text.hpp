@@ -19,8 +19,9 @@ inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
 
 /// "section x = 0, x increasing", enhanced text.
 inline std::string section_text(const Section& section, const StateNames& names) {
-  const std::string x = section.expression ? figures::escaped(section.expression->text())
-                                           : figures::symbol((section.momentum ? names.p : names.q)[section.coordinate]);
+  const std::string x = section.expression
+                            ? figures::escaped(section.expression->text())
+                            : figures::symbol((section.momentum ? names.p : names.q)[section.coordinate]);
   const std::string way =
       section.direction == 0 ? "in both directions" : x + (section.direction > 0 ? " increasing" : " decreasing");
   return fmt::format("section {} = {}, {}", x, figures::escaped(shortest(section.value)), way);

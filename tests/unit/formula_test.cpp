@@ -1,8 +1,10 @@
 // Formulas: what a text means, in every number type.
 #include "hamflow/formula/formula.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/double_double.hpp"
@@ -177,6 +179,24 @@ TEST(Formula, HasLimits) {
   says(many(300, "x^") + "2", "more than 200 nested");
   says(many(60000, "x+") + "x", "more than 10^5 characters");
   EXPECT_EQ(parse_formula(many(20000, "x+") + "x", plane).symbols().size(), 1U);  // long is not deep
+}
+
+/// What libFuzzer found worth keeping (./dev fuzz): each is read, or refused with a column.
+TEST(Formula, ReadsTheCorpusOfTheFuzzer) {
+  const FormulaSymbols symbols{.names = {"x", "y", "p_x", "p_y", "t", "k", "n", "m[1]", "m[2]", "q.a[0]"},
+                               .known = {{"k", 0.5}, {"n", 3}, {"m[1]", 1}, {"m[2]", 2}}};
+  int read = 0;
+  int refused = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(HAMFLOW_TEST_DATA) + "/../fuzz/corpus")) {
+    std::ifstream file(entry.path());
+    std::stringstream text;
+    text << file.rdbuf();
+    const std::string message = complaint(text.str(), symbols);
+    (message == "nothing thrown" ? read : refused) += 1;
+    if (message != "nothing thrown") EXPECT_NE(message.find(", column "), std::string::npos) << message;
+  }
+  EXPECT_GT(read, 10);
+  EXPECT_GT(refused, 10);
 }
 
 }  // namespace

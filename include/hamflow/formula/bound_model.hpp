@@ -34,7 +34,7 @@ class BoundModel {
   }
 
   const Model& model() const { return *model_; }
-  std::size_t size() const { return model_->size(); }
+  std::size_t size() const { return model_->degrees(); }
 
   template <class S>
   using V = Vector<S, dynamic>;
@@ -115,11 +115,15 @@ class BoundModel {
   template <class S, class Put>
   void run(const BoundCode<R>& code, const V<S>& q, const V<S>& p, const S& t, const Put& put,
            const S* factor = nullptr) const {
-    const std::size_t n = size();
+    const std::size_t n = model_->size();
+    const bool timed = model_->structure().time;
     code.template run<S>(
         [&](int symbol) -> const S& {
           const auto i = static_cast<std::size_t>(symbol);
-          return i < n ? q[i] : i < 2 * n ? p[i - n] : i == 2 * n ? t : *factor;
+          if (i < n) return q[i];
+          if (i < 2 * n) return p[i - n];
+          if (i == 2 * n) return timed ? q[n] : t;
+          return i == model_->factor_symbol() ? *factor : p[n];
         },
         put);
   }

@@ -36,8 +36,13 @@ class Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  /// Degrees of freedom.
+  /// Coordinates that have names.
   std::size_t size() const { return coordinates_.size(); }
+  /// Degrees of freedom of the functions below: where H depends on t, the time is one more coordinate, the last, with
+  /// the momentum E, and they are those of H(q, p, t) + E. Along a motion t' = 1 and E' = -dH/dt, so that H + E is
+  /// conserved: its deviation is H - H(0) - int dH/dt. Separable H stay so if T does not depend on t: kicks are at the
+  /// time of their stage.
+  std::size_t degrees() const { return size() + (structure_.time ? 1 : 0); }
   const std::vector<std::string>& coordinates() const { return coordinates_; }  // x[1], x[2], ...
   const std::vector<std::string>& momenta() const { return momenta_; }
   const std::vector<std::string>& invariants() const { return invariant_names_; }
@@ -47,8 +52,12 @@ class Model {
   /// Coordinates, momenta, t, parameters, in the order of values; known: what indices needed.
   const FormulaSymbols& symbols() const { return symbols_; }
   std::size_t time_symbol() const { return 2 * size(); }
-  /// The symbol of the factor of scaled_force and scaled_velocity, behind all others.
+  /// The symbol of the factor of scaled_force and scaled_velocity, behind all others, and that of the momentum of t.
   std::size_t factor_symbol() const { return symbols_.names.size(); }
+  std::size_t time_momentum_symbol() const { return symbols_.names.size() + 1; }
+  /// The symbols of the i-th coordinate and of its momentum, the time's included.
+  std::size_t position_symbol(std::size_t i) const { return i < size() ? i : time_symbol(); }
+  std::size_t momentum_symbol(std::size_t i) const { return i < size() ? size() + i : time_momentum_symbol(); }
   /// Of a parameter symbol: its name and its place in the list.
   struct ParameterPlace {
     std::string name;
@@ -61,7 +70,6 @@ class Model {
 
   std::shared_ptr<const Code> energy, kinetic, potential, velocity, force, gradient;  // gradient: dH/dq, then dH/dp
   std::shared_ptr<const Code> invariant_values;
-  std::shared_ptr<const Code> time_derivative;  // dH/dt, where H depends on t
   /// Of a force that is one scalar times the position, as in central fields: factor f, factor v, where the factor meets
   /// the constants (core/derivatives.hpp); else null.
   std::shared_ptr<const Code> scaled_force, scaled_velocity;

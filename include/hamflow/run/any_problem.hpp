@@ -88,7 +88,9 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   void velocity(const V& p, V& v) const override {
-    if constexpr (Separable<P>) {
+    if constexpr (Separable<P> && n == dynamic) {
+      hamflow::velocity(problem_, p, v);
+    } else if constexpr (Separable<P>) {
       X out = zeros<S, n>(p.size());
       hamflow::velocity(problem_, in(p), out);
       put(out, v);
@@ -97,7 +99,9 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   void force(const V& q, V& f) const override {
-    if constexpr (Separable<P>) {
+    if constexpr (Separable<P> && n == dynamic) {
+      hamflow::force(problem_, q, f);
+    } else if constexpr (Separable<P>) {
       X out = zeros<S, n>(q.size());
       hamflow::force(problem_, in(q), out);
       put(out, f);
@@ -108,7 +112,9 @@ class FunctionsOf final : public Functions<S> {
   bool has_scaled_velocity() const override { return drifts_by; }
   bool has_scaled_force() const override { return kicks_by; }
   void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const override {
-    if constexpr (drifts_by) {
+    if constexpr (drifts_by && n == dynamic) {
+      problem_.scaled_velocity(factor, p, v);
+    } else if constexpr (drifts_by) {
       X out = zeros<S, n>(p.size());
       problem_.scaled_velocity(factor, in(p), out);
       put(out, v);
@@ -117,7 +123,9 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
-    if constexpr (kicks_by) {
+    if constexpr (kicks_by && n == dynamic) {
+      problem_.scaled_force(factor, q, f);
+    } else if constexpr (kicks_by) {
       X out = zeros<S, n>(q.size());
       problem_.scaled_force(factor, in(q), out);
       put(out, f);

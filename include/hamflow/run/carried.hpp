@@ -28,7 +28,7 @@ class ArchiveWalk {
   explicit ArchiveWalk(Leaf& leaf) : leaf_(leaf) {}
   template <class... Fields>
   void operator()(Fields&... fields) {
-    (visit(fields), ...);
+    (visit(const_cast<std::remove_const_t<Fields>&>(fields)), ...);  // NOLINT: one list of fields for both directions
   }
 
  private:

@@ -81,6 +81,10 @@ struct ProblemEntry {
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The same problem behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;
+  /// The same in double from numbers, for the lanes of ensembles: of the request the method counts.
+  std::function<std::unique_ptr<Simulation>(const Request&, const Parameters<double>&, const std::vector<double>& q,
+                                            const std::vector<double>& p, double h)>
+      simulate_member;
   /// Null where the method is not accepted.
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
   /// The parameters with those that follow from a geometric start set.

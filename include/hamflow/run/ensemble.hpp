@@ -1,35 +1,17 @@
 // **Ensemble**: many members of one problem and one method, one in each SIMD lane. Members differ in start, parameters
-// and step length. Every lane has the bits of the member run alone: the kernel is that of a single run (the same
-// function templates) in another number type.
+// and step length. Every lane has the bits of the member run alone.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "hamflow/numerics/lane_set.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
-
-/// The instructions that lanes are made of. Results do not depend on it.
-enum class LaneSet { none, generic, avx2, avx512 };
-
-constexpr std::string_view name(LaneSet set) {
-  switch (set) {
-    case LaneSet::none:
-      return "none";
-    case LaneSet::generic:
-      return "generic";
-    case LaneSet::avx2:
-      return "avx2";
-    case LaneSet::avx512:
-      return "avx512";
-  }
-  return "unknown";
-}
 
 /// The widest that this machine has.
 LaneSet widest_lanes();
@@ -66,8 +48,9 @@ class EnsembleBlock {
   virtual MemberEnd look(std::size_t lane) const = 0;
 };
 
-/// Null where members of such a request cannot run in lanes: the problem is not separable, of any size or not made of
-/// numbers alone, the method is no splitting, the arithmetic not double.
+/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, the arithmetic is
+/// not double, or the kernel is "fast" and has none. load() is false where the members' steps are not the same but for
+/// constants.
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes);
 
 }  // namespace hamflow

@@ -23,7 +23,7 @@ FormulaProblem<c> typed_problem(const FormulaTexts& texts) {
   auto model = std::make_shared<const formula::Model>(texts);
   require_of_formula(model->structure(), c);
   const auto bound = std::make_shared<const formula::BoundModel<double>>(model, Parameters<double>(texts.parameters));
-  return {model->size(), std::make_shared<FormulaFunctions<double, double>>(bound),
+  return {model->degrees(), std::make_shared<FormulaFunctions<double, double>>(bound),
           std::make_shared<FormulaFunctions<double, Trace<double>>>(bound),
           std::make_shared<FormulaFunctions<double, Dual<double, 1>>>(bound)};
 }

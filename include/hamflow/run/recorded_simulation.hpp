@@ -22,7 +22,7 @@ using StepRecorder = std::function<std::optional<RecordedStep>(
     const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time)>;
 
 template <class P, class M, Arithmetic A>
-class RecordedSimulation final : public SimulationOf<P, M, A> {
+class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMember {
   using Base = SimulationOf<P, M, A>;
   using Base::clock_;
   using Base::method_;
@@ -39,16 +39,44 @@ class RecordedSimulation final : public SimulationOf<P, M, A> {
   Outcome advance(std::int64_t steps) override {
     const Loop* const loop = loop_for(clock_.step_length(), steps);
     if (loop == nullptr || steps < 1) return ordinary(steps);
-    if (!load(*loop)) {
+    values_.resize(loop->step->program.values());
+    if (!read_values(*loop->step, values_)) {
       // One step leaves what the method keeps for the next one.
       const Outcome outcome = ordinary(1);
       if (outcome != Outcome::done || --steps == 0) return outcome;
-      if (!load(*loop)) return ordinary(steps);
+      if (!read_values(*loop->step, values_)) return ordinary(steps);
     }
     if (!loop->steps->run(values_, steps) || !are_finite()) return ordinary(steps);
-    scatter(loop->fields, values_, steps, z_, method_, probe_);
+    if (watch_) {
+      take_values(*loop->step, values_, steps);
+      return Outcome::done;
+    }
+    // Nobody has looked at the energy yet.
+    const auto z = z_;
+    const auto method = method_;
+    const auto clock = clock_;
+    take_values(*loop->step, values_, steps);
+    if (Base::is_finite(Base::problem(), z_)) return Outcome::done;
+    z_ = z;
+    method_ = method;
+    clock_ = clock;
+    return ordinary(steps);
+  }
+
+  std::shared_ptr<const RecordedStep> recorded_step() override {
+    if (!*recorder_) return nullptr;
+    const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
+                            static_cast<double>(clock_.direction())};
+    auto step = (*recorder_)(z_.positions(), z_.momenta(), clock_.step_length(), time);
+    return step ? std::make_shared<const RecordedStep>(*std::move(step)) : nullptr;
+  }
+  bool read_values(const RecordedStep& step, std::span<double> values) const override {
+    values.back() = static_cast<double>(clock_.position());
+    return gather(step.fields, values, z_, method_, probe_);
+  }
+  void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
+    scatter(step.fields, values, steps, z_, method_, probe_);
     clock_.advance(steps);
-    return Outcome::done;
   }
   bool is_recorded() const override {
     return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
@@ -62,9 +90,8 @@ class RecordedSimulation final : public SimulationOf<P, M, A> {
   static constexpr std::int64_t worth_recording = 200;
   struct Loop {
     double h = 0;
-    std::vector<CarriedField> fields;
+    std::shared_ptr<const RecordedStep> step;
     std::unique_ptr<const StepLoop> steps;  // null: the step cannot be recorded
-    std::size_t values = 0;
   };
 
   Outcome ordinary(std::int64_t steps) {
@@ -73,12 +100,6 @@ class RecordedSimulation final : public SimulationOf<P, M, A> {
     const Outcome outcome = Base::advance(steps);
     probe_ = probe;
     return outcome;
-  }
-  /// The values that the loop carries. @return false where they are not as recorded
-  bool load(const Loop& loop) {
-    values_.resize(loop.values);
-    values_.back() = static_cast<double>(clock_.position());
-    return gather(loop.fields, values_, z_, method_, probe_);
   }
   bool are_finite() const {
     double most = 0;
@@ -95,13 +116,8 @@ class RecordedSimulation final : public SimulationOf<P, M, A> {
     if (asked_ < worth_recording || !*recorder_) return nullptr;
     auto made = std::make_shared<Loop>();
     made->h = h;
-    const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
-                            static_cast<double>(clock_.direction())};
-    if (auto recorded = (*recorder_)(z_.positions(), z_.momenta(), h, time)) {
-      made->values = recorded->program.values();
-      made->fields = std::move(recorded->fields);
-      made->steps = make_step_loop(recorded->program);
-    }
+    made->step = recorded_step();
+    if (made->step) made->steps = make_step_loop(made->step->program);
     loops_[loops_[0] ? 1 : 0] = made;
     return made->steps ? made.get() : nullptr;
   }

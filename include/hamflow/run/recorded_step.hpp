@@ -3,7 +3,9 @@
 // carried, the kick that is kept as well as what the probe has seen, so that the program can be repeated by itself.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/tape.hpp"
@@ -21,11 +23,25 @@ struct RecordedStep {
   std::vector<CarriedField> fields;
 };
 
-/// More operations than this are left to the loops that are compiled for a problem.
-inline constexpr std::size_t most_recorded_operations = 60000;
+/// Longer steps take the ordinary road: straight code that no longer fits into the processor's cache of instructions
+/// is slower than the loops over bodies that are compiled (15 bodies with stv4, 6 with kahan-li8).
+inline constexpr std::size_t most_recorded_operations = 5000;
 
 /// The program of an exact recording: what the outputs and the guards need of the tape.
 Program program_of(const Tape<double>& tape);
+
+/// What a simulation offers to lanes: its step, and the numbers that go through it (run/recorded_simulation.hpp).
+class RecordedMember {
+ public:
+  virtual ~RecordedMember() = default;
+  /// The step from the present state; null where it cannot be recorded.
+  virtual std::shared_ptr<const RecordedStep> recorded_step() = 0;
+  /// The values that are carried into such a step. @return false where what the method keeps is not as recorded: one
+  /// step by the ordinary road mends it
+  virtual bool read_values(const RecordedStep& step, std::span<double> values) const = 0;
+  /// The values after so many steps, from those that were read.
+  virtual void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) = 0;
+};
 
 namespace detail {
 /// The numbers of a traced object, before the step and behind it.
@@ -61,13 +77,17 @@ struct RecordedTime {
   double direction = 1;
 };
 
+/// Which step of many is recorded: one that goes on from what the last one kept, or one from a state that was changed
+/// from outside, which carries nothing in but the state.
+enum class RecordedAt { steady, start };
+
 /// Records the step from (q, p).
 /// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
 /// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
 template <class A, class P, class M>
 std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, const RecordedTime& time,
-                                        bool watch) {
+                                        bool watch, RecordedAt at = RecordedAt::steady) {
   using Number = Trace<double>;
   PhasePoint<A, dynamic> z;
   z.store(cast<Number>(q), cast<Number>(p));
@@ -76,6 +96,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     probe.start(problem, z.positions(), z.momenta(), Number(time.start));
     // On constants, for what the method keeps of it.
     if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
+    if (at == RecordedAt::start) method.invalidate();
     Recorder<double> recorder(Folding::exact, most_recorded_operations);
     std::vector<bool> counts;
     for_each_carried(
@@ -91,8 +112,10 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
     detail::TracedFields after = detail::traced_fields(z, method, probe);
     RecordedStep recorded;
-    recorded.fields = detail::carried_fields(before, after, counts);
-    if (recorded.fields.empty()) return std::nullopt;
+    if (at == RecordedAt::steady) {
+      recorded.fields = detail::carried_fields(before, after, counts);
+      if (recorded.fields.empty()) return std::nullopt;
+    }
     after.traces.push_back(position);
     recorded.program = program_of(recorder.finish(after.traces));
     return recorded;

@@ -1,6 +1,6 @@
-// Poincare sections: the states in which a coordinate, or an expression, x passes a value, found on partial steps. Between two steps of
-// opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so that a point of the
-// section lies on the energy level of the method like any of its steps.
+// Poincare sections: the states in which a coordinate, or an expression, x passes a value, found on partial steps.
+// Between two steps of opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so
+// that a point of the section lies on the energy level of the method like any of its steps.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct Section {
   std::size_t coordinate = 0;  // of q, or of p; beside an expression the first of which it is made
   bool momentum = false;
   double value = 0;
-  int direction = 1;  // 1: x increases along the run, -1: it decreases, 0: both
+  int direction = 1;                            // 1: x increases along the run, -1: it decreases, 0: both
   std::optional<StateExpression> expression{};  // x, in place of the coordinate
 };
 

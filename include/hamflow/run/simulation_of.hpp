@@ -158,6 +158,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     return why;
   }
 
+ protected:
   /// Here and not in the base, where several methods would share it: what a call by reference gets cannot live in
   /// registers.
   static bool is_finite(const P& problem, const PhasePoint<A, n>& z) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace hamflow {
 /// A state in R, first q, then p, n numbers each.
 template <class R>
 using State = std::vector<R>;
+
+/// Steps with tangent vectors by another way than dual numbers (run/recorded_tangents.hpp). False: it does not know
+/// these steps, and has changed nothing.
+using TangentSteps =
+    std::function<bool(State<double>& z, std::vector<State<double>>& tangents, double h, std::int64_t steps)>;
 
 class StepMap {
  public:

@@ -48,12 +48,12 @@ struct Scenario {
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
   std::vector<NamedExpression> observables;  // recorded with the samples
-  std::size_t lyapunov = 0;          // exponents to be measured
-  bool eigenvalues = false;          // of the derivative of all steps
-  std::optional<Section> section{};  // whose points are recorded
-  std::vector<std::string> notes;    // worth saying, but no errors
-  std::optional<TwoBodies> bodies;   // of a start by two bodies in space
-  std::vector<double> start_q;       // in double, canonical
+  std::size_t lyapunov = 0;                  // exponents to be measured
+  bool eigenvalues = false;                  // of the derivative of all steps
+  std::optional<Section> section{};          // whose points are recorded
+  std::vector<std::string> notes;            // worth saying, but no errors
+  std::optional<TwoBodies> bodies;           // of a start by two bodies in space
+  std::vector<double> start_q;               // in double, canonical
   std::vector<double> start_p;
   std::map<std::string, Setting> settings;  // every key that was given, by its dotted path
 };

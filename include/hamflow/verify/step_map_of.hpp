@@ -57,6 +57,8 @@ class StepMapOf final : public StepMap {
         recipe_(std::move(recipe)),
         size_(degrees_of_freedom(problem_)) {}
 
+  void take_tangents_by(TangentSteps way) { tangent_steps_ = std::move(way); }
+
   std::size_t dimension() const override { return size_; }
   MethodInfo claims() const override { return recipe_.template bind<P, Arithmetic<double>>(problem_).info(); }
   bool advance(State<double>& z, double h, std::int64_t steps) const override { return go(problem_, z, h, steps); }
@@ -101,6 +103,7 @@ class StepMapOf final : public StepMap {
     if constexpr (Recipe::implicit) {
       return implicit_tangents(z, tangents, h, steps);
     } else {
+      if (tangent_steps_ && tangent_steps_(z, tangents, h, steps)) return true;
       const State<double> from = z;
       if (!go(problem_, z, h, steps)) return false;
       for (State<double>& tangent : tangents) {
@@ -289,6 +292,7 @@ class StepMapOf final : public StepMap {
   typename detail::QuadProblem<Family, quad>::type quad_problem_;
   Recipe recipe_;
   std::size_t size_;
+  TangentSteps tangent_steps_;
 };
 
 }  // namespace hamflow

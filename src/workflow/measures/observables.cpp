@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The values of one expression over a run. The sum keeps what it loses, so that the mean of 10^9 steps has the digits of
-/// the values.
+/// The values of one expression over a run. The sum keeps what it loses, so that the mean of 10^9 steps has the digits
+/// of the values.
 struct Seen {
   double initial = 0;
   double final = 0;
@@ -106,22 +106,23 @@ MemberObservables columns(const Scenario& first) {
 }  // namespace
 
 MeasureKind measure_observables() {
-  return {.key = output_keys().observables.name,
-          .label = "observables",
-          .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
-          .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
-            return std::make_unique<ObservablesMeasure>(scenario.observables);
+  return {
+      .key = output_keys().observables.name,
+      .label = "observables",
+      .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
+      .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+        return std::make_unique<ObservablesMeasure>(scenario.observables);
+      },
+      .text =
+          [](const Json& found) {
+            std::vector<std::string> all;
+            for (const auto& [name, seen] : found.items()) {
+              all.push_back(fmt::format("{} {} -> {}, mean {}", name, number_text(seen["initial"], "{:.6g}"),
+                                        number_text(seen["final"], "{:.6g}"), number_text(seen["mean"], "{:.17g}")));
+            }
+            return joined(all, "; ");
           },
-          .text =
-              [](const Json& found) {
-                std::vector<std::string> all;
-                for (const auto& [name, seen] : found.items()) {
-                  all.push_back(fmt::format("{} {} -> {}, mean {}", name, number_text(seen["initial"], "{:.6g}"),
-                                            number_text(seen["final"], "{:.6g}"), number_text(seen["mean"], "{:.17g}")));
-                }
-                return joined(all, "; ");
-              },
-          .columns = columns};
+      .columns = columns};
 }
 
 }  // namespace hamflow

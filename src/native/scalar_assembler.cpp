@@ -1,67 +1,20 @@
-// The lines of a placed program in instructions of x86-64 with AVX, one line after the other.
-//
-// rbx: the array of what is carried; r12: steps left; r13: constants that differ from lane to lane; r14: failed lanes.
-// The frame is aligned to 64 bytes: arguments of a library call for lanes first, then the slots.
-#include <asmjit/x86.h>
-
+// The lines of a placed program in scalar instructions of AVX, one line after the other.
 #include <stdexcept>
 
 #include "functions.hpp"
-#include "memory.hpp"
+#include "loop_assembler.hpp"
 
 namespace hamflow::native {
 namespace {
 
 using namespace asmjit;  // NOLINT
-namespace Inst = x86::Inst;
 
-class ScalarAssembler {
+class ScalarAssembler final : public LoopAssembler {
  public:
   ScalarAssembler(const PlacedProgram& program, const std::vector<double>& constants, CodeHolder& code)
-      : program_(program), constants_(constants), a_(&code) {
-    table_ = a_.newLabel();
-    failed_ = a_.newLabel();
-  }
-
-  void run() {
-    const Label loop = a_.newLabel(), after = a_.newLabel(), leave = a_.newLabel();
-    enter();
-    for (const Line& line : program_.entry) one(line);
-    a_.test(x86::r12, x86::r12);
-    a_.jle(after);
-    demand(a_.align(AlignMode::kCode, 32));
-    a_.bind(loop);
-    for (const Line& line : program_.body) one(line);
-    a_.dec(x86::r12);
-    a_.jnz(loop);
-    a_.bind(after);
-    for (const Line& line : program_.exit) one(line);
-    a_.mov(x86::eax, 1);
-    a_.bind(leave);
-    exit();
-    a_.bind(failed_);
-    a_.xor_(x86::eax, x86::eax);
-    a_.jmp(leave);
-    embed_table();
-  }
+      : LoopAssembler(program, 8 * program.slots, code), constants_(constants) {}
 
  private:
-  static constexpr int saved = 4;  // registers below rbp
-  void enter() {
-    a_.push(x86::rbp);
-    a_.mov(x86::rbp, x86::rsp);
-    for (const x86::Gp& r : {x86::rbx, x86::r12, x86::r13, x86::r14}) a_.push(r);
-    a_.sub(x86::rsp, Imm(8 * program_.slots));
-    a_.and_(x86::rsp, -64);
-    a_.mov(x86::rbx, x86::rdi);
-    a_.mov(x86::r12, x86::rsi);
-  }
-  void exit() {
-    a_.lea(x86::rsp, x86::ptr(x86::rbp, -8 * saved));
-    for (const x86::Gp& r : {x86::r14, x86::r13, x86::r12, x86::rbx, x86::rbp}) a_.pop(r);
-    a_.ret();
-  }
-
   static x86::Xmm xmm(const Place& place) { return x86::xmm(place.index); }
   x86::Mem memory(const Place& place) const {
     const auto offset = static_cast<std::int32_t>(8 * place.index);
@@ -87,20 +40,7 @@ class ScalarAssembler {
     }
   }
 
-  void one(const Line& line) {
-    switch (line.kind) {
-      case Line::Kind::move:
-        return move(line);
-      case Line::Kind::operation:
-        return operation(line);
-      case Line::Kind::call:
-        return call(line.instruction);
-      case Line::Kind::check:
-        return check(line);
-    }
-  }
-
-  void move(const Line& line) {
+  void move(const Line& line) override {
     if (line.to.kind != Place::Kind::reg) {
       a_.vmovsd(memory(line.to), xmm(line.a));
     } else if (line.a.kind == Place::Kind::reg) {
@@ -110,7 +50,7 @@ class ScalarAssembler {
     }
   }
 
-  void operation(const Line& line) {
+  void operation(const Line& line) override {
     const x86::Xmm to = xmm(line.to), a = xmm(line.a);
     switch (line.instruction) {
       case Instruction::add:
@@ -137,14 +77,14 @@ class ScalarAssembler {
     }
   }
 
-  void call(Instruction instruction) {
+  void call(Instruction instruction) override {
     const auto one = function_of_one(instruction);
     a_.mov(x86::rax, Imm(one ? reinterpret_cast<std::uintptr_t>(one)
                              : reinterpret_cast<std::uintptr_t>(function_of_two(instruction))));
     a_.call(x86::rax);
   }
 
-  void check(const Line& line) {
+  void check(const Line& line) override {
     using Check = Program::Check::Kind;
     const x86::Xmm a = xmm(line.a);
     if (line.check == Check::finite) {  // x - x is NaN where x is not finite
@@ -179,24 +119,13 @@ class ScalarAssembler {
   }
 
   static constexpr std::int32_t sign_mask = 0, magnitude_mask = 16, masks = 32;  // bytes
-  void embed_table() {
-    a_.align(AlignMode::kData, 64);
-    a_.bind(table_);
+  void embed_table() override {
     constexpr std::uint64_t sign = 1ull << 63;
-    const std::uint64_t both[4] = {sign, sign, ~sign, ~sign};
-    a_.embed(both, sizeof both);
+    embed({sign, sign, ~sign, ~sign});
     if (!constants_.empty()) a_.embed(constants_.data(), 8 * constants_.size());
   }
 
-  const PlacedProgram& program_;
   const std::vector<double>& constants_;
-  x86::Assembler a_;
-  Label table_, failed_;
-};
-
-class Errors final : public ErrorHandler {
- public:
-  void handleError(Error error, const char*, BaseEmitter*) override { demand(error); }
 };
 
 }  // namespace
@@ -208,12 +137,7 @@ unsigned scalar_registers() {
 }
 
 std::unique_ptr<const Function> assembled(const PlacedProgram& program, const std::vector<double>& constants) {
-  Errors errors;
-  CodeHolder code;
-  demand(code.init(Environment::host()));
-  code.setErrorHandler(&errors);
-  ScalarAssembler(program, constants, code).run();
-  return made_executable(code);
+  return assembled_by<ScalarAssembler>(program, constants);
 }
 
 }  // namespace hamflow::native

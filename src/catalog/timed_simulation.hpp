@@ -1,0 +1,57 @@
+// A simulation of H(q, p, t), which carries the time as its last coordinate (formula/model.hpp), without that
+// coordinate: what a look shows has the coordinates that have names.
+#pragma once
+
+#include "hamflow/run/simulation.hpp"
+
+namespace hamflow {
+
+class TimedSimulation final : public Simulation {
+ public:
+  explicit TimedSimulation(std::unique_ptr<Simulation> extended) : extended_(std::move(extended)) {}
+
+  Outcome advance(std::int64_t steps) override { return extended_->advance(steps); }
+  std::int64_t step() const override { return extended_->step(); }
+  void look(Frame& frame) const override {
+    extended_->look(frame);
+    strip(frame);
+  }
+  void reverse_time() override { extended_->reverse_time(); }
+  void negate_momenta() override { extended_->negate_momenta(); }
+  std::vector<std::byte> bits() const override { return extended_->bits(); }
+  Excursion energy() const override { return extended_->energy(); }
+  double energy_scale() const override { return extended_->energy_scale(); }
+  std::vector<InvariantExcursion> invariants() const override { return extended_->invariants(); }
+  Effort effort() const override { return extended_->effort(); }
+  StepDiagnostics diagnostics() const override { return extended_->diagnostics(); }
+  MethodInfo method() const override { return extended_->method(); }
+  std::string failure() const override { return extended_->failure(); }
+  bool is_recorded() const override { return extended_->is_recorded(); }
+  std::vector<std::byte> save() const override { return extended_->save(); }
+  void restore(std::span<const std::byte> saved) override { extended_->restore(saved); }
+  std::unique_ptr<Simulation> clone() const override { return std::make_unique<TimedSimulation>(extended_->clone()); }
+  Outcome look_ahead(const std::string& time, Frame& frame) const override {
+    const Outcome outcome = extended_->look_ahead(time, frame);
+    strip(frame);
+    return outcome;
+  }
+  Outcome look_part(double theta, Frame& frame) const override {
+    const Outcome outcome = extended_->look_part(theta, frame);
+    strip(frame);
+    return outcome;
+  }
+
+ private:
+  static void strip(Frame& frame) {
+    for (auto* numbers : {&frame.q, &frame.p}) {
+      if (!numbers->empty()) numbers->pop_back();
+    }
+    for (auto* texts : {&frame.digits.q, &frame.digits.p}) {
+      if (!texts->empty()) texts->pop_back();
+    }
+  }
+
+  std::unique_ptr<Simulation> extended_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,203 @@
+// The lines of a placed program in vector instructions of AVX2 or AVX-512. A place is one register of numbers; check c
+// is one of the register c mod registers of its numbers.
+#include <stdexcept>
+
+#include "functions.hpp"
+#include "lanes.hpp"
+#include "loop_assembler.hpp"
+
+namespace hamflow::native {
+namespace {
+
+using namespace asmjit;  // NOLINT
+
+// Functions of the library, lane by lane.
+template <std::size_t width>
+void call_of_one(FunctionOfOne f, double* y, const double* a) {
+  for (std::size_t i = 0; i < width; ++i) y[i] = f(a[i]);
+}
+template <std::size_t width>
+void call_of_two(FunctionOfTwo f, double* y, const double* a, const double* b) {
+  for (std::size_t i = 0; i < width; ++i) y[i] = f(a[i], b[i]);
+}
+
+/// @tparam Register Ymm or Zmm
+template <class Register>
+class LaneAssembler final : public LoopAssembler {
+  static constexpr bool wide = std::is_same_v<Register, x86::Zmm>;
+  static constexpr std::size_t width = wide ? 8 : 4, bytes = 8 * width;
+  static constexpr std::size_t arguments = 3 * bytes;  // of a call: result and operands, at rsp
+
+ public:
+  LaneAssembler(const PlacedProgram& program, const std::vector<double>& constants, std::size_t uniform,
+                std::size_t registers, CodeHolder& code)
+      : LoopAssembler(program, arguments + bytes * program.slots, code),
+        constants_(constants),
+        uniform_(uniform),
+        registers_(registers) {}
+
+ private:
+  static Register reg(const Place& place) { return Register(place.index); }
+  static std::int32_t offset(std::size_t index) { return static_cast<std::int32_t>(bytes * index); }
+
+  bool is_uniform(const Place& place) const { return place.kind == Place::Kind::constant && place.index < uniform_; }
+
+  x86::Mem memory(const Place& place) const {
+    switch (place.kind) {
+      case Place::Kind::home:
+        return x86::ptr(x86::rbx, offset(place.index));
+      case Place::Kind::slot:
+        return x86::ptr(x86::rsp, static_cast<std::int32_t>(arguments) + offset(place.index));
+      case Place::Kind::constant:
+        if (!is_uniform(place)) return x86::ptr(x86::r13, offset(place.index - uniform_));
+        return in_table(place.index + 2);
+      default:
+        throw std::logic_error("machine code: a place that is not in memory");
+    }
+  }
+  /// A number of the table in every lane: AVX-512 reads it once for all, for AVX2 it stands there as often.
+  x86::Mem in_table(std::size_t index) const {
+    if constexpr (wide) return x86::ptr(table_, static_cast<std::int32_t>(8 * index))._1to8();
+    return x86::ptr(table_, offset(index));
+  }
+
+  template <class Emit>
+  void with(const Place& place, const Emit& emit) {
+    if (place.kind == Place::Kind::reg) {
+      emit(reg(place));
+    } else {
+      emit(memory(place));
+    }
+  }
+
+  void move(const Line& line) override {
+    if (line.to.kind != Place::Kind::reg) {
+      a_.vmovupd(memory(line.to), reg(line.a));
+    } else if (line.a.kind == Place::Kind::reg) {
+      a_.vmovapd(reg(line.to), reg(line.a));
+    } else if (wide && is_uniform(line.a)) {
+      a_.vbroadcastsd(reg(line.to), x86::qword_ptr(table_, static_cast<std::int32_t>(8 * (line.a.index + 2))));
+    } else {
+      a_.vmovupd(reg(line.to), memory(line.a));
+    }
+  }
+
+  void operation(const Line& line) override {
+    const Register to = reg(line.to), a = reg(line.a);
+    switch (line.instruction) {
+      case Instruction::add:
+        return with(line.b, [&](const auto& b) { a_.vaddpd(to, a, b); });
+      case Instruction::subtract:
+        return with(line.b, [&](const auto& b) { a_.vsubpd(to, a, b); });
+      case Instruction::multiply:
+        return with(line.b, [&](const auto& b) { a_.vmulpd(to, a, b); });
+      case Instruction::divide:
+        return with(line.b, [&](const auto& b) { a_.vdivpd(to, a, b); });
+      case Instruction::larger:  // the second where they are equal or one is NaN
+        return with(line.b, [&](const auto& b) { a_.vmaxpd(to, a, b); });
+      case Instruction::negate:
+        a_.vxorpd(to, a, in_table(0));
+        return;
+      case Instruction::absolute:
+        a_.vandpd(to, a, in_table(1));
+        return;
+      case Instruction::square_root:
+        a_.vsqrtpd(to, a);
+        return;
+      default:
+        throw std::logic_error("machine code: an instruction that is a call");
+    }
+  }
+
+  void call(Instruction instruction) override {
+    const FunctionOfOne one = function_of_one(instruction);
+    const auto address = [](auto* f) { return Imm(reinterpret_cast<std::uintptr_t>(f)); };
+    a_.vmovupd(x86::ptr(x86::rsp, offset(1)), Register(0));
+    if (!one) a_.vmovupd(x86::ptr(x86::rsp, offset(2)), Register(1));
+    leave_lanes();
+    a_.mov(x86::rdi, one ? address(one) : address(function_of_two(instruction)));
+    a_.mov(x86::rsi, x86::rsp);
+    a_.lea(x86::rdx, x86::ptr(x86::rsp, offset(1)));
+    a_.lea(x86::rcx, x86::ptr(x86::rsp, offset(2)));
+    a_.mov(x86::rax, one ? address(&call_of_one<width>) : address(&call_of_two<width>));
+    a_.call(x86::rax);
+    gather();
+  }
+
+  /// Register 0 from the numbers at rsp, one at a time: a whole register would wait until all stores have left the
+  /// queue.
+  void gather() {
+    const auto number = [](std::size_t i) { return x86::qword_ptr(x86::rsp, static_cast<std::int32_t>(8 * i)); };
+    for (std::uint32_t pair = 0; pair < width / 2; ++pair) {
+      a_.vmovsd(x86::xmm(pair), number(2 * pair));
+      a_.vmovhpd(x86::xmm(pair), x86::xmm(pair), number(2 * pair + 1));
+    }
+    a_.vinsertf128(x86::ymm0, x86::ymm0, x86::xmm1, 1);
+    if constexpr (wide) {
+      a_.vinsertf128(x86::ymm2, x86::ymm2, x86::xmm3, 1);
+      a_.vinsertf64x4(x86::zmm0, x86::zmm0, x86::ymm2, 1);
+    }
+  }
+
+  /// What is compiled for older processors is slow while the upper halves of registers are in use.
+  void leave_lanes() override { a_.vzeroupper(); }
+
+  void check(const Line& line) override {
+    using Check = Program::Check::Kind;
+    enum Predicate { equal = 0x00, unordered = 0x03, unequal = 0x04, less = 0x11, not_less = 0x15 };  // quiet
+    const Register a = reg(line.a), spare = reg(line.to);
+    switch (line.check) {  // the lanes in which it does not hold
+      case Check::finite:  // x - x is NaN where x is not finite
+        a_.vsubpd(spare, a, a);
+        return fail(line, spare, spare, unordered);
+      case Check::equal:
+        return with(line.b, [&](const auto& b) { fail(line, a, b, unequal); });
+      case Check::unequal:
+        return with(line.b, [&](const auto& b) { fail(line, a, b, equal); });
+      case Check::less:
+        return with(line.b, [&](const auto& b) { fail(line, a, b, not_less); });
+      case Check::not_less:
+        return with(line.b, [&](const auto& b) { fail(line, a, b, less); });
+    }
+  }
+  template <class B>
+  void fail(const Line& line, const Register& a, const B& b, int predicate) {
+    if constexpr (wide) {
+      a_.vcmppd(x86::k1, a, b, Imm(predicate));
+      a_.kmovb(x86::eax, x86::k1);
+    } else {
+      a_.vcmppd(reg(line.to), a, b, Imm(predicate));
+      a_.vmovmskpd(x86::eax, reg(line.to));
+    }
+    a_.or_(x86::dword_ptr(x86::r14, static_cast<std::int32_t>(8 * (line.index % registers_))), x86::eax);
+  }
+
+  void embed_table() override {
+    constexpr std::uint64_t sign = 1ull << 63;
+    std::vector<std::uint64_t> words;
+    const auto add = [&](std::uint64_t word) { words.insert(words.end(), wide ? 1 : width, word); };
+    add(sign);
+    add(~sign);
+    for (std::size_t c = 0; c < uniform_; ++c) add(std::bit_cast<std::uint64_t>(constants_[c]));
+    embed(words);
+  }
+
+  const std::vector<double>& constants_;
+  std::size_t uniform_, registers_;
+};
+
+}  // namespace
+
+unsigned lane_registers(LaneSet lanes) {
+  const unsigned scalar = scalar_registers();  // 32 with AVX-512
+  if (lanes == LaneSet::avx512) return scalar == 32 ? 32 : 0;
+  return lanes == LaneSet::avx2 && scalar > 0 && CpuInfo::host().features().x86().hasAVX2() ? 16 : 0;
+}
+
+std::unique_ptr<const Function> assembled_lanes(const PlacedProgram& program, const std::vector<double>& constants,
+                                                std::size_t uniform, std::size_t registers, LaneSet lanes) {
+  if (lanes == LaneSet::avx512) return assembled_by<LaneAssembler<x86::Zmm>>(program, constants, uniform, registers);
+  return assembled_by<LaneAssembler<x86::Ymm>>(program, constants, uniform, registers);
+}
+
+}  // namespace hamflow::native

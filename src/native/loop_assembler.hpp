@@ -1,0 +1,59 @@
+// The loop around the steps of a placed program, on x86-64: what scalars and lanes share.
+//
+// rbx: the array of what is carried; r12: steps left; r13: constants that differ from lane to lane; r14: failed lanes.
+// The frame is aligned to 64 bytes.
+#pragma once
+
+#include <asmjit/x86.h>
+
+#include "memory.hpp"
+
+namespace hamflow::native {
+
+class LoopAssembler {
+ public:
+  virtual ~LoopAssembler() = default;
+  /// The whole function.
+  void run();
+
+ protected:
+  /// @param frame bytes on the stack that lines use, from rsp on
+  LoopAssembler(const PlacedProgram& program, std::size_t frame, asmjit::CodeHolder& code);
+
+  virtual void move(const Line& line) = 0;
+  virtual void operation(const Line& line) = 0;
+  virtual void call(Instruction instruction) = 0;
+  virtual void check(const Line& line) = 0;
+  virtual void leave_lanes() {}  // before the function returns
+  virtual void embed_table() = 0;
+
+  void embed(const std::vector<std::uint64_t>& words) { a_.embed(words.data(), 8 * words.size()); }
+
+  asmjit::x86::Assembler a_;
+  asmjit::Label table_;   // of constants, behind the code
+  asmjit::Label failed_;  // ends with 0
+
+ private:
+  void enter();
+  void exit();
+  void emit(const Line& line);
+
+  const PlacedProgram& program_;
+  std::size_t frame_;
+};
+
+/// Assembles and maps. @tparam Assembler made of (program, constants..., code)
+template <class Assembler, class... Constants>
+std::unique_ptr<const Function> assembled_by(const PlacedProgram& program, const Constants&... constants) {
+  class Errors final : public asmjit::ErrorHandler {
+   public:
+    void handleError(asmjit::Error error, const char*, asmjit::BaseEmitter*) override { demand(error); }
+  } errors;
+  asmjit::CodeHolder code;
+  demand(code.init(asmjit::Environment::host()));
+  code.setErrorHandler(&errors);
+  Assembler(program, constants..., code).run();
+  return made_executable(code);
+}
+
+}  // namespace hamflow::native

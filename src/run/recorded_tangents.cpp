@@ -1,0 +1,114 @@
+#include "hamflow/run/recorded_tangents.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+
+#include "hamflow/numerics/program_tangent.hpp"
+
+namespace hamflow {
+
+namespace {
+/// Which values of a program move with its first ones.
+std::vector<bool> moving_values(const Program& program, std::size_t first_values) {
+  std::vector<bool> results(program.operations.size());
+  const auto moves = [&](const Operand& x) {
+    if (x.kind == Operand::Kind::carried) return x.index < first_values;
+    return x.kind == Operand::Kind::result && results[x.index];
+  };
+  for (std::size_t i = 0; i < program.operations.size(); ++i) {
+    results[i] = moves(program.operations[i].a) || moves(program.operations[i].b);
+  }
+  std::vector<bool> all;
+  for (const Operand& output : program.outputs) all.push_back(moves(output));
+  return all;
+}
+
+/// The loops for steps of one length with so many vectors: one step from a state, and steps that follow.
+struct Loops {
+  double h = 0;
+  std::size_t vectors = 0;
+  std::size_t values = 0;
+  std::vector<std::size_t> moving;  // values whose slopes are carried; the state comes first
+  std::unique_ptr<const StepLoop> start;
+  std::unique_ptr<const StepLoop> steady;  // null: this is no way
+};
+
+class RecordedTangents {
+ public:
+  explicit RecordedTangents(TangentRecorder recorder) : recorder_(std::move(recorder)) {}
+
+  bool advance(State<double>& z, std::vector<State<double>>& tangents, double h, std::int64_t steps) {
+    if (steps < 1 || tangents.empty()) return false;
+    const std::shared_ptr<const Loops> loops = loops_for(z, h, tangents.size());
+    if (!loops->steady) return false;
+    const std::size_t moving = loops->moving.size();
+    std::vector<double> carried(loops->values + loops->vectors * moving);
+    std::copy(z.begin(), z.end(), carried.begin());
+    for (std::size_t j = 0; j < tangents.size(); ++j) {
+      std::copy(tangents[j].begin(), tangents[j].end(), slopes(carried, *loops, j));
+    }
+    if (!loops->start->run(carried, 1) || !loops->steady->run(carried, steps - 1)) return false;
+    std::copy_n(carried.begin(), z.size(), z.begin());
+    for (std::size_t j = 0; j < tangents.size(); ++j) {
+      std::copy_n(slopes(carried, *loops, j), z.size(), tangents[j].begin());
+    }
+    return true;
+  }
+
+ private:
+  static std::vector<double>::iterator slopes(std::vector<double>& carried, const Loops& loops, std::size_t j) {
+    return carried.begin() + static_cast<std::ptrdiff_t>(loops.values + j * loops.moving.size());
+  }
+
+  std::shared_ptr<const Loops> loops_for(const State<double>& z, double h, std::size_t vectors) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& loops : made_) {
+      if (loops->h == h && loops->vectors == vectors) return loops;
+    }
+    made_.push_back(make(z, h, vectors));
+    return made_.back();
+  }
+
+  std::shared_ptr<const Loops> make(const State<double>& z, double h, std::size_t vectors) const {
+    auto loops = std::make_shared<Loops>();
+    loops->h = h;
+    loops->vectors = vectors;
+    const std::size_t n = z.size() / 2;
+    auto q = zeros<double, dynamic>(n);
+    auto p = zeros<double, dynamic>(n);
+    std::copy_n(z.begin(), n, q.begin());
+    std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(n), n, p.begin());
+    const auto start = recorder_(q, p, h, RecordedAt::start);
+    const auto steady = recorder_(q, p, h, RecordedAt::steady);
+    if (!start || !steady || start->program.values() != steady->program.values()) return loops;
+    loops->values = start->program.values();
+    const std::vector<bool> moves = moving_values(start->program, z.size());
+    const auto flags = std::make_unique<bool[]>(moves.size());
+    for (std::size_t k = 0; k < moves.size(); ++k) {
+      flags[k] = moves[k] || k < z.size();
+      if (flags[k]) loops->moving.push_back(k);
+    }
+    const std::span<const bool> wanted(flags.get(), moves.size());
+    const auto with_start = with_tangents(start->program, wanted, vectors);
+    const auto with_steady = with_tangents(steady->program, wanted, vectors);
+    if (!with_start || !with_steady) return loops;
+    loops->start = make_step_loop(*with_start);
+    loops->steady = make_step_loop(*with_steady);
+    return loops;
+  }
+
+  TangentRecorder recorder_;
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<const Loops>> made_;
+};
+}  // namespace
+
+TangentSteps recorded_tangents(TangentRecorder recorder) {
+  auto shared = std::make_shared<RecordedTangents>(std::move(recorder));
+  return [shared](State<double>& z, std::vector<State<double>>& tangents, double h, std::int64_t steps) {
+    return shared->advance(z, tangents, h, steps);
+  };
+}
+
+}  // namespace hamflow
