@@ -286,6 +286,11 @@ int show_command(const std::string& name) {
       entry.structure ? show_formula(entry) : show_problem(entry);
       found = true;
     }
+    if (name == CentralKeys::problem) {
+      std::cout
+          << "central-force with potential = \"formula\": V as it is typed (its language: hamflow show formula)\n";
+      for (const OptionInfo& option : central_formula_options()) std::cout << option_row(option);
+    }
     if (found || show_table(name)) return exit_done;
     for (const FigureKindInfo& kind : figure_kinds()) {
       names.push_back(kind.name);

@@ -136,6 +136,10 @@ std::string page() {
       "Of every state one component of p, or of v, may be left to the energy: `initial = { q = [0, 0.1], p = [\"+\", "
       "0.1],\nenergy = 0.125 }`, `\"+\"` the largest, `\"-\"` the smallest root of H = energy.\n\n";
   for (const ProblemEntry& entry : problems()) text += problem(entry);
+  text += fmt::format(
+      "### {}, {} = \"{}\"\n\nH = |p|^2/(2 mu) + V(r), in both coordinates, with `mass`, `initial` and `bodies`.\n\n",
+      CentralKeys::problem, CentralKeys::key, FormulaKeys::problem);
+  text += table(central_formula_options());
   text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);
   for (const DeclaredTable& declared : declared_tables())

@@ -110,7 +110,7 @@ ProblemEntry formula_example() {
     parameter.required = false;
     parameter.default_value = texts.parameters.at(parameter.name);
   }
-  entry.info.region = {.centre = {0.1, -0.15, 0.2, 0.15}, .spread = 0.05};
+  entry.info.region = {.parameters = texts.parameters, .centre = {0.1, -0.15, 0.2, 0.15}, .spread = 0.05};
   return entry;
 }
 

@@ -10,15 +10,10 @@
 
 namespace hamflow {
 
-/// The built-in problem that takes a typed potential, and the key that says so.
-struct CentralFormula {
-  const char* problem;
-  const char* key;
-};
-inline CentralFormula central_formula() { return {"central-force", "potential"}; }
-
 /// The keys of the problem `formula`, in the order in which they are shown.
 const std::vector<OptionInfo>& formula_options();
+/// Those of `central-force` with a typed potential, beside the others that it has.
+const std::vector<OptionInfo>& central_formula_options();
 /// What a formula may be made of, in some sentences.
 const std::vector<std::string>& formula_language();
 

@@ -19,7 +19,52 @@ std::vector<std::pair<std::string, std::string>> named_texts(TomlTable table) {
   return all;
 }
 
+/// Whether two problems differ in nothing but values of parameters that the choices of the first do not keep.
+bool have_same_choices(const FormulaTexts& one, const Choices& choices, const FormulaTexts& other) {
+  const auto same_parameter = [&](const std::string& name, const std::string& text) {
+    const auto there = other.parameters.find(name);
+    if (there == other.parameters.end()) return false;
+    if (formula_texts(choices).parameters.at(name).find(FormulaKeys::unknown) == std::string::npos) {
+      return text == there->second;
+    }
+    const auto is_list = [](const std::string& any) { return any.starts_with("["); };
+    return is_list(text) == is_list(there->second) && list_parts(text).size() == list_parts(there->second).size();
+  };
+  return one.coordinates == other.coordinates && one.momenta == other.momenta && one.hamiltonian == other.hamiltonian &&
+         one.kinetic == other.kinetic && one.potential == other.potential && one.invariants == other.invariants &&
+         one.parameters.size() == other.parameters.size() &&
+         std::all_of(one.parameters.begin(), one.parameters.end(),
+                     [&](const auto& parameter) { return same_parameter(parameter.first, parameter.second); });
+}
+
+/// The members of a sweep are read one after the other: what was found for the one before holds for the next.
+const Choices& remembered_choices(const FormulaTexts& texts) {
+  thread_local FormulaTexts last;
+  thread_local Choices found;
+  if (found.empty() || !have_same_choices(last, found, texts)) {
+    found = formula_choices(texts);
+    last = texts;
+  }
+  return found;
+}
+
 }  // namespace
+
+const std::vector<OptionInfo>& central_formula_options() {
+  static const std::vector<OptionInfo> options{{.name = FormulaKeys::central_potential,
+                                                .meaning = "V of r and the parameters",
+                                                .type = OptionType::text,
+                                                .required = true,
+                                                .condition = "with potential = \"formula\"",
+                                                .example = "-k/r - a/r^3"},
+                                               {.name = FormulaKeys::parameters,
+                                                .meaning = "numbers and lists by name; m[1] is the first of a list",
+                                                .type = OptionType::table,
+                                                .unset = "none",
+                                                .condition = "with potential = \"formula\"",
+                                                .example = "{ k = 1, a = 0.01 }"}};
+  return options;
+}
 
 const std::vector<OptionInfo>& formula_options() {
   using Keys = FormulaKeys;
@@ -76,7 +121,7 @@ const std::vector<std::string>& formula_language() {
 
 bool is_typed_problem(TomlTable& table, const std::string& name) {
   if (name == FormulaKeys::problem) return true;
-  return name == central_formula().problem && table.plain_string(central_formula().key) == FormulaKeys::problem;
+  return name == CentralKeys::problem && table.plain_string(CentralKeys::key) == FormulaKeys::problem;
 }
 
 /// Parameters with names of the user.
@@ -142,11 +187,10 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
       const auto texts = read_formula_texts(table);
       if (!texts) return;
       request.parameters = texts->parameters;
-      request.variant = formula_choices(*texts);
+      request.variant = remembered_choices(*texts);
     } else {
-      (void)table.plain_string(central_formula().key);
-      const auto potential =
-          table.text({.name = FormulaKeys::central_potential, .type = OptionType::text, .required = true});
+      (void)table.plain_string(CentralKeys::key);
+      const auto potential = table.text(central_formula_options().front());
       request.parameters = read_typed_parameters(table);
       const std::vector<std::string> words = choices_of_key(name, FormulaKeys::coordinates);
       const auto chart = table.text(

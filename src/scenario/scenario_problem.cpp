@@ -147,7 +147,7 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
       if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
     }
   }
-  if (name == central_formula().problem) choices[central_formula().key].emplace_back(FormulaKeys::problem);
+  if (name == CentralKeys::problem) choices[CentralKeys::key].emplace_back(FormulaKeys::problem);
   bool complete_choice = true;
   for (const std::string& key : keys) {
     if (!table.has(key)) {

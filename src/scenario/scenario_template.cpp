@@ -174,7 +174,7 @@ class TemplateWriter {
   void write_problem() {
     page_.section("problem");
     page_.line("name = \"" + info_.name + "\"");
-    if (problem_.structure) {
+    if (info_.name == FormulaKeys::problem) {
       write_typed();
       return;
     }

@@ -10,6 +10,7 @@
 
 #include "certificate_json.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/numerics/inverse_cube.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
@@ -26,7 +27,9 @@ Json parameters_of(const Scenario& scenario) {
   Json parameters = Json::object();
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
   for (const auto& [key, value] : scenario.problem->info.variant) {
-    if (!structure) parameters[key] = value;  // those of a typed problem are its texts, which the scenario has
+    // Those of the problem `formula` are its texts, which the scenario has.
+    const bool is_text = scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters;
+    if (!structure || !is_text) parameters[key] = value;
   }
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
