@@ -84,6 +84,11 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     scatter(step.fields, values, steps, z_, method_, probe_);
     clock_.advance(steps);
   }
+  [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
+    Base::restore(saved);
+    loops_ = {};  // where time begins is a constant of theirs
+    step_ = nullptr;
+  }
   bool is_recorded() const override {
     return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
   }
