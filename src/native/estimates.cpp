@@ -70,11 +70,11 @@ class Rewriter {
 
   /// What the state is computed from exists once, but that others see a quotient as it was.
   void rewrite(std::size_t i) {
-    const auto& [instruction, a, b, c] = old_.operations[i];
+    const Program::Operation& old = old_.operations[i];
     const auto copied = [&](const std::vector<Operand>& places) {
-      return add(instruction, moved(a, places), moved(b, places), moved(c, places));
+      return add(old.instruction, moved(old.a, places), moved(old.b, places), moved(old.c, places));
     };
-    const auto pattern = pattern_of(old_, old_.operations[i]);
+    const auto pattern = pattern_of(old_, old);
     if (in_state_[i] && pattern) {
       const Operand exact = copied(exact_);
       fast_.push_back(series(moved(pattern->u, fast_), moved(pattern->k, fast_), pattern->is_cube));
