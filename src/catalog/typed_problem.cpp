@@ -77,6 +77,15 @@ ProblemEntry central_entry(const Choices& choices) {
   return entry;
 }
 
+/// What lists of problems show of typed ones, and what is measured of them.
+FormulaTexts example_texts() {
+  FormulaTexts texts;
+  texts.coordinates = {"x", "y"};
+  texts.hamiltonian = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y";
+  texts.parameters = {{"k", "1"}, {"m", "1"}};
+  return texts;
+}
+
 }  // namespace
 
 bool is_typed(const std::string& name, const Choices& choices) {
@@ -94,17 +103,16 @@ const ProblemEntry& typed_problem(const std::string& name, const Choices& choice
   const std::scoped_lock lock(mutex);
   std::shared_ptr<const ProblemEntry>& entry = known[key];
   if (!entry) {
-    entry =
-        std::make_shared<const ProblemEntry>(name == Keys::problem ? formula_entry(choices) : central_entry(choices));
+    const bool is_example = name == Keys::problem && choices == formula_choices(example_texts());
+    entry = std::make_shared<const ProblemEntry>(is_example              ? formula_example()
+                                                 : name == Keys::problem ? formula_entry(choices)
+                                                                         : central_entry(choices));
   }
   return *entry;
 }
 
 ProblemEntry formula_example() {
-  FormulaTexts texts;
-  texts.coordinates = {"x", "y"};
-  texts.hamiltonian = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y";
-  texts.parameters = {{"k", "1"}, {"m", "1"}};
+  const FormulaTexts texts = example_texts();
   ProblemEntry entry = formula_entry(formula_choices(texts));
   for (ParameterInfo& parameter : entry.info.parameters) {
     parameter.required = false;
