@@ -117,6 +117,9 @@ void show_problem(const ProblemEntry& entry) {
       info.default_q.empty() ? ""
                              : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
                                            fmt::join(info.default_p, ", ")));
+  std::cout << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
+               "largest, \"-\" "
+               "the smallest root of H = E\n";
   std::cout << fmt::format("  momenta: {}\n", joined(info.coordinates, declared_momentum));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);
 }

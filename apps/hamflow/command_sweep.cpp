@@ -54,13 +54,14 @@ int sweep_command(const SweepCommandOptions& options) {
                          .name = options.scenario,
                          .sets = options.sets,
                          .varied = options.varied,
+                         .zip = options.zip,
                          .threads = options.threads,
                          .lanes = options.lanes});
     print_notes(sweep.notes(), options.quiet);
     if (!sweep.complaints().empty()) throw RejectedLines{sweep.complaints()};
     const bool draws = !options.figure.empty();
-    const std::string colour = options.colour.empty() ? "energy/max_error" : options.colour;
-    const std::string wrong = draws ? sweep.refused_figure(options.figure, colour) : refused_colour(options.colour);
+    const std::string wrong =
+        draws ? sweep.refused_figure(options.figure, options.colour) : refused_colour(options.colour);
     if (!wrong.empty()) throw RejectedLines{{wrong}};
     require_folder_of(options.figure);
     const bool writes = options.out != "none";
@@ -68,7 +69,7 @@ int sweep_command(const SweepCommandOptions& options) {
     const SweepReport report = carry_out(sweep, options);
     if (writes) sweep.write(report, folder_for(options));
     print(sweep, report, writes, options);
-    if (draws && report.status != "failed") sweep.draw(options.figure, colour);
+    if (draws && report.status != "failed") sweep.draw(options.figure, options.colour);
     return exit_status(report.status);
   });
 }

@@ -23,7 +23,8 @@ int run_command(const RunOptions& options);
 
 struct SweepCommandOptions {
   std::string scenario;
-  std::vector<std::string> varied;  // PATH=a:b:n or PATH=v1,v2,...
+  std::vector<std::string> varied;  // PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA
+  bool zip = false;                 // values in step, not every combination
   std::vector<std::string> sets;
   std::string out;    // a folder, "none", or empty for <stem>.sweep
   std::string lanes;  // auto, none, generic, avx2, avx512
@@ -32,7 +33,7 @@ struct SweepCommandOptions {
   bool json = false;
   bool quiet = false;
   std::string figure;  // a file; empty: none
-  std::string colour;  // a column; empty: energy/max_error
+  std::string colour;  // a column; empty: the section where there is one, else energy/max_error
 };
 int sweep_command(const SweepCommandOptions& options);
 

@@ -85,16 +85,21 @@ int main(int argc, char** argv) {
       app, "sweep", "Run a scenario for many values of some keys: one table, one row each, on all cores",
       "  hamflow sweep kepler.toml --vary problem.orbit.r_aph=1:5:1000\n"
       "  hamflow sweep pendulum.toml --vary 'problem.initial.q[0]=-3:3:200' --vary 'problem.initial.p[0]=-2:2:200'\n"
+      "  hamflow sweep henon.toml --vary problem.initial.q[1]=-0.4:0.6:100 --figure section.png\n"
+      "  hamflow sweep kepler.toml --vary 'problem.initial.q[0]=1:2:9' --vary "
+      "'problem.initial.p[1]=sqrt(1/problem.initial.q[0])'\n"
       "  hamflow sweep kepler.toml --vary method.name=verlet,stv4,yoshida6 --vary run.dt=0.1,0.05,0.025 --json "
       "--out none\n");
   sweep_command->add_option("scenario", sweep.scenario, "the scenario, a TOML file")->required()->type_name("FILE");
   sweep_command
-      ->add_option("--vary", sweep.varied,
-                   "a key and its values: PATH=a:b:n, n values from a to b, or PATH=v1,v2,...; of several, every "
-                   "combination, the last one changing fastest")
+      ->add_option(
+          "--vary", sweep.varied,
+          "a key and its values: PATH=a:b:n, n values from a to b, PATH=v1,v2,..., or PATH=FORMULA, in which "
+          "other varied keys stand by their paths; of several, every combination, the last one changing fastest")
       ->required()
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false);
+  sweep_command->add_flag("--zip", sweep.zip, "the n-th value of each key together, not every combination");
   sweep_command->add_option("--set", sweep.sets, "override a key for all members, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -106,10 +111,14 @@ int main(int argc, char** argv) {
       ->transform(whole_number(0, hamflow::most_sweep_threads));
   sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
       ->type_name("SET");
-  sweep_command->add_option("--figure", sweep.figure, "draw --colour over the one or two keys varied: .svg, .pdf, .png")
+  sweep_command
+      ->add_option("--figure", sweep.figure,
+                   "draw --colour over the one or two keys varied, without --colour the section of all "
+                   "members: .svg, .pdf, .png")
       ->type_name("FILE");
   sweep_command
-      ->add_option("--colour", sweep.colour, "the column to draw, e.g. observables/lyapunov1 [energy/max_error]")
+      ->add_option("--colour", sweep.colour,
+                   "the column to draw, e.g. observables/lyapunov1 [the section; without one energy/max_error]")
       ->type_name("COLUMN");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
   sweep_command->add_flag("--json", sweep.json,

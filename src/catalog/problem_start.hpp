@@ -4,6 +4,7 @@
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "start_of_energy.hpp"
 
 namespace hamflow {
 
@@ -50,6 +51,18 @@ struct ProblemStart {
   template <class R>
   static Start<R, n> start(const Request& request) {
     const StartSpec& spec = request.start;
+    if (!spec.energy.empty()) {
+      const Family<R> problem = make<R>(parameters_of<R>(request), spec.q.size());
+      const auto at = [&](const R& free) { return start_with<R>(request, free); };
+      return at(left_to_energy(problem, at, request.start));
+    }
+    return start_with<R>(request, R(0));
+  }
+
+  /// @param free the component that is left to the energy, where one is
+  template <class R>
+  static Start<R, n> start_with(const Request& request, const R& free) {
+    const StartSpec& spec = request.start;
     Start<R, n> s;
     if (spec.geometric()) {
       if constexpr (HasStart<P>) {
@@ -69,7 +82,9 @@ struct ProblemStart {
                     std::to_string(texts.size()));
       }
       out = zeros<R, n>(texts.size());
-      for (std::size_t i = 0; i < texts.size(); ++i) out[i] = evaluate_number<R>(texts[i]);
+      for (std::size_t i = 0; i < texts.size(); ++i) {
+        out[i] = is_left_to_energy(texts[i]) ? free : evaluate_number<R>(texts[i]);
+      }
     };
     fill(spec.q, s.q);
     fill(spec.v.empty() ? spec.p : spec.v, s.p);

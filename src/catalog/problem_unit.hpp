@@ -177,7 +177,7 @@ class ProblemUnit : ProblemStart<Family> {
   template <class R>
   using Fast = FastKernel<Family<R>>;
 
-  /// Null where the request has no typed kernel: it then runs behind virtual calls.
+  /// Null where the request has no typed kernel: it then runs behind virtual calls, and what can be recorded is.
   static std::unique_ptr<Simulation> simulate(const Request& request) {
     return visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
       if constexpr (!M::template accepts<P> || !has_typed_kernel<M>()) {
@@ -194,12 +194,13 @@ class ProblemUnit : ProblemStart<Family> {
           }
         }
         if constexpr (M::bijective) {
-          if (request.arithmetic == "compensated") {
-            return build<Compensated<double>>(request, with_few_shapes(recipe));
-          }
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }
-        return request.arithmetic == "double" ? build<Plain<double>>(request, recipe) : nullptr;
+        if constexpr (!is_recorded<M>()) {
+          return request.arithmetic == "double" ? build<Plain<double>>(request, recipe) : nullptr;
+        } else {
+          return nullptr;
+        }
       }
     });
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/text_place.hpp"
 
 namespace hamflow {
 
@@ -34,44 +35,6 @@ constexpr std::array<std::pair<std::string_view, NumberAction>, 14> functions{{{
 constexpr const char* operators = "an operator (+ - * / ^)";
 constexpr const char* operands = "a number, pi, a function such as sqrt(2), or '('";
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_space(char c) { return c == ' ' || c == '\t'; }
-/// Not the first byte of a character in UTF-8.
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
-std::string lower(std::string_view word) {
-  std::string all(word);
-  for (char& c : all) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return all;
-}
-
-/// A text, or what stands around one place of it where it is long.
-std::string shown(std::string_view text, std::size_t at = 0) {
-  constexpr std::size_t most = 60;
-  if (text.size() <= most) return std::string(text);
-  std::size_t begin = std::min(at > most / 2 ? at - most / 2 : 0, text.size() - most);
-  std::size_t end = begin + most;
-  while (begin > 0 && continues_character(text[begin])) --begin;
-  while (end < text.size() && continues_character(text[end])) ++end;
-  return (begin > 0 ? "..." : "") + std::string(text.substr(begin, end - begin)) + (end < text.size() ? "..." : "");
-}
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-[[noreturn]] void refuse(std::string_view text, std::size_t at, const std::string& what, const std::string& allowed,
-                         const std::string& meant = "") {
-  const auto before = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
-  const auto column = 1 + std::count_if(text.begin(), before, [](char c) { return !continues_character(c); });
-  throw Error("found \"" + shown(text, at) + "\", column " + std::to_string(column) + ": " + what + "; allowed " +
-              allowed + (meant.empty() ? "" : "; did you mean " + meant + "?"));
-}
-
 const NumberAction* find_function(std::string_view word) {
   for (const auto& [name, action] : functions) {
     if (name == word) return &action;
@@ -86,7 +49,7 @@ class NumberReader {
   explicit NumberReader(std::string_view text) : formula_{text, {}} {}
 
   NumberFormula read() {
-    if (text().size() > longest) refuse(text(), longest, "more than 10^6 characters", "at most 10^6");
+    if (text().size() > longest) refuse_at(text(), longest, "more than 10^6 characters", "at most 10^6");
     (void)sum();
     skip_space();
     if (at_ < text().size()) fail_after_number("the end");
@@ -105,35 +68,30 @@ class NumberReader {
   // ---- what is wrong ----
 
   /// The character here, or "the end".
-  std::string found_here() const {
-    if (at_ >= text().size()) return "the end";
-    std::size_t end = at_ + 1;
-    while (end < text().size() && continues_character(text()[end])) ++end;
-    return "'" + std::string(text().substr(at_, end - at_)) + "'";
-  }
+  std::string found_here() const { return character_at(text(), at_); }
   [[noreturn]] void fail_before_number() const {
-    refuse(text(), at_, found_here() + " where a number has to be", operands);
+    refuse_at(text(), at_, found_here() + " where a number has to be", operands);
   }
   /// The text goes on after a complete formula: mostly a forgotten sign of multiplication.
   [[noreturn]] void fail_after_number(const char* where_it_ends) {
     const std::size_t at = at_;
     const char last = trimmed(text().substr(0, at)).back();
     const std::string go_on = operators + std::string(" or ") + where_it_ends;
-    if (here() == ')') refuse(text(), at, "')' without its '('", go_on);
+    if (here() == ')') refuse_at(text(), at, "')' without its '('", go_on);
     if (here() == ',' && is_digit(last) && at + 1 < text().size() && is_digit(text()[at + 1])) {
-      refuse(text(), at, "',' in a number", "a point before decimals", with(at, at + 1, "."));
+      refuse_at(text(), at, "',' in a number", "a point before decimals", with(at, at + 1, "."));
     }
     const bool factor = here() == '(' || is_letter(here()) || is_digit(here());
-    if (!factor) refuse(text(), at, found_here() + " after a complete number", go_on);
+    if (!factor) refuse_at(text(), at, found_here() + " after a complete number", go_on);
     const std::string_view next = word();
-    const bool exponent = lower(next).starts_with('e') && is_digit(last) && !is_space(text()[at - 1]);
+    const bool exponent = lower(next).starts_with('e') && is_digit(last) && !is_blank(text()[at - 1]);
     const bool known = next == "pi" || next == "Pi" || find_function(next) != nullptr;
     const bool times = known || text()[at] == '(' || (is_digit(text()[at]) && !is_digit(last) && last != '.');
     std::size_t gap = at;
-    while (gap > 0 && is_space(text()[gap - 1])) --gap;
-    refuse(text(), at, "no operator before " + (next.empty() ? shown(text().substr(at, 1)) : std::string(next)),
-           operators + std::string(exponent ? ", or an exponent such as 2e-3" : ""),
-           times && text().size() < 60 ? with(gap, at, "*") : "");
+    while (gap > 0 && is_blank(text()[gap - 1])) --gap;
+    refuse_at(text(), at, "no operator before " + (next.empty() ? shown(text().substr(at, 1)) : std::string(next)),
+              operators + std::string(exponent ? ", or an exponent such as 2e-3" : ""),
+              times && text().size() < 60 ? with(gap, at, "*") : "");
   }
   /// The text with [begin, end) replaced.
   std::string with(std::size_t begin, std::size_t end, const char* replacement) const {
@@ -143,7 +101,7 @@ class NumberReader {
   // ---- reading ----
 
   void skip_space() {
-    while (is_space(here())) ++at_;
+    while (is_blank(here())) ++at_;
   }
   bool take(std::string_view token) {
     skip_space();
@@ -158,7 +116,7 @@ class NumberReader {
   }
   Span add(NumberAction action, std::size_t at, Span span) {
     if (formula_.steps.size() == most_operations) {
-      refuse(text(), at, "more than 10^4 operations", "at most 10^4");
+      refuse_at(text(), at, "more than 10^4 operations", "at most 10^4");
     }
     formula_.steps.push_back({action, at, span.begin, span.end});
     return span;
@@ -201,7 +159,7 @@ class NumberReader {
   Span unary() {
     skip_space();
     if (++depth_ > deepest) {
-      refuse(text(), at_, "more than 200 nested signs, powers and parentheses", "at most 200");
+      refuse_at(text(), at_, "more than 200 nested signs, powers and parentheses", "at most 200");
     }
     const std::size_t sign = at_;
     Span x{};
@@ -226,7 +184,8 @@ class NumberReader {
   std::size_t closed(std::size_t opened) {
     skip_space();
     if (here() == ')') return ++at_;
-    if (at_ == text().size()) refuse(text(), at_, "the end before the ')' of " + shown(text().substr(opened)), "')'");
+    if (at_ == text().size())
+      refuse_at(text(), at_, "the end before the ')' of " + shown(text().substr(opened)), "')'");
     fail_after_number("')'");
   }
   Span atom() {
@@ -247,14 +206,14 @@ class NumberReader {
   [[noreturn]] void fail_at_symbol(std::string_view name, std::size_t begin) const {
     const std::string word(name);
     if (find_function(name) != nullptr) {
-      refuse(text(), begin, "the function " + word + " without parentheses",
-             word + (name == "atan2" ? "(y, x)" : "(x)"));
+      refuse_at(text(), begin, "the function " + word + " without parentheses",
+                word + (name == "atan2" ? "(y, x)" : "(x)"));
     }
     // Short words are near everything: at least a letter has to be the same.
     const std::vector<std::string> symbols{"pi"};
     const std::string near = nearest(lower(name), symbols);
     const bool alike = near.find_first_of(lower(name)) != std::string::npos;
-    refuse(text(), begin, "the unknown symbol " + word, "numbers, pi, functions such as sqrt(2)", alike ? near : "");
+    refuse_at(text(), begin, "the unknown symbol " + word, "numbers, pi, functions such as sqrt(2)", alike ? near : "");
   }
   Span function(std::string_view name, std::size_t begin) {
     const std::size_t opened = at_;
@@ -262,22 +221,22 @@ class NumberReader {
     if (action == nullptr) {
       std::vector<std::string> names;
       for (const auto& [known, its_action] : functions) names.emplace_back(known);
-      refuse(text(), begin, "the unknown function " + std::string(name), hamflow::joined(names),
-             nearest(lower(name), names));
+      refuse_at(text(), begin, "the unknown function " + std::string(name), hamflow::joined(names),
+                nearest(lower(name), names));
     }
     const bool two = *action == NumberAction::atan2;
     take("(");
     (void)sum();
     skip_space();
     if (two) {
-      if (here() == ')') refuse(text(), at_, "atan2 of one number", "atan2(y, x)");
+      if (here() == ')') refuse_at(text(), at_, "atan2 of one number", "atan2(y, x)");
       if (!take(",")) (void)closed(opened);
       (void)sum();
       skip_space();
     }
     if (here() == ',') {
-      refuse(text(), at_, std::string(name) + " of more than " + (two ? "two numbers" : "one number"),
-             std::string(name) + (two ? "(y, x)" : "(x)"));
+      refuse_at(text(), at_, std::string(name) + " of more than " + (two ? "two numbers" : "one number"),
+                std::string(name) + (two ? "(y, x)" : "(x)"));
     }
     const std::size_t end = closed(opened);
     return add(*action, begin, {begin, end});
@@ -287,10 +246,10 @@ class NumberReader {
     bool point = false;
     bool digits = false;
     for (; is_digit(here()) || here() == '.'; ++at_) {
-      if (here() == '.' && point) refuse(text(), at_, "a second point in a number", "a decimal number such as 0.1");
+      if (here() == '.' && point) refuse_at(text(), at_, "a second point in a number", "a decimal number such as 0.1");
       (here() == '.' ? point : digits) = true;
     }
-    if (!digits) refuse(text(), begin, "'.' without digits", "a decimal number such as 0.1");
+    if (!digits) refuse_at(text(), begin, "'.' without digits", "a decimal number such as 0.1");
     if (here() == 'e' || here() == 'E') {
       std::size_t after = at_ + 1;
       if (after < text().size() && (text()[after] == '+' || text()[after] == '-')) ++after;
@@ -317,15 +276,15 @@ NumberFormula read_number(std::string_view text) { return NumberReader(text).rea
 
 void refuse_division_by_zero(const NumberFormula& formula, const NumberStep& step) {
   const std::string divisor = part(formula, step.at + 1, step.end);
-  refuse(formula.text, step.at,
-         part(formula, step.begin, step.at) + " divided by " + divisor + (divisor == "0" ? "" : ", which is 0"),
-         "a divisor other than 0");
+  refuse_at(formula.text, step.at,
+            part(formula, step.begin, step.at) + " divided by " + divisor + (divisor == "0" ? "" : ", which is 0"),
+            "a divisor other than 0");
 }
 
 void refuse_value(const NumberFormula& formula, const NumberStep& step, bool infinite) {
-  refuse(formula.text, step.at,
-         part(formula, step.begin, step.end) + (infinite ? " is infinite or too large" : " is not a real number"),
-         "finite real numbers");
+  refuse_at(formula.text, step.at,
+            part(formula, step.begin, step.end) + (infinite ? " is infinite or too large" : " is not a real number"),
+            "finite real numbers");
 }
 
 }  // namespace detail
@@ -338,10 +297,10 @@ std::int64_t evaluate_whole(std::string_view text) {
   const auto value = evaluate_number<long double>(text);  // beyond 2^53 a double would hide what is not whole
   if (std::abs(value) <= most && value == std::nearbyint(value)) return static_cast<std::int64_t>(value);
   const bool large = std::abs(value) > most;
-  detail::refuse(text, 0,
-                 (large ? std::string("a number") : shortest(static_cast<double>(value))) +
-                     (large ? " beyond 2^53" : ", which is not whole"),
-                 "whole numbers from -2^53 to 2^53, such as 1000, 1e6 or 10^6");
+  refuse_at(text, 0,
+            (large ? std::string("a number") : shortest(static_cast<double>(value))) +
+                (large ? " beyond 2^53" : ", which is not whole"),
+            "whole numbers from -2^53 to 2^53, such as 1000, 1e6 or 10^6");
 }
 
 std::string shortest(double x) {

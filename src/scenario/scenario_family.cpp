@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "method_keys.hpp"
@@ -41,6 +42,10 @@ std::size_t ScenarioFamily::add_value(const std::string& text) {
   return impl_->values.size() - 1;
 }
 
+void ScenarioFamily::replace_value(std::size_t number, const std::string& text) {
+  impl_->values[number] = parsed_value(text);
+}
+
 Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values) {
   Reading reading;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -49,8 +54,17 @@ Reading ScenarioFamily::read(const std::vector<std::string>& paths, const std::v
   }
   if (!reading.complaints.empty()) return reading;
   drop_excluded(impl_->document.root);  // the same keys for every member
-  Scenario scenario = ScenarioReader(impl_->document, impl_->name, reading.complaints).read();
-  if (reading.complaints.empty()) reading.scenario = std::move(scenario);
+  ScenarioReader reader(impl_->document, impl_->name, reading.complaints);
+  Scenario scenario = reader.read();
+  reading.no_start = reader.no_start();
+  if (reading.complaints.empty()) {
+    reading.scenario = std::move(scenario);
+  } else if (reading.complaints.size() == 1 && !reading.no_start.empty()) {
+    const std::size_t size = scenario.request.start.q.size();
+    scenario.start_q.assign(size, std::numeric_limits<double>::quiet_NaN());
+    scenario.start_p = scenario.start_q;
+    reading.startless = std::move(scenario);
+  }
   return reading;
 }
 

@@ -22,7 +22,9 @@ class ScenarioFamily {
   const std::vector<Complaint>& complaints() const;
   /// Prepares a value that members may have, so that it is parsed once. @return its number
   std::size_t add_value(const std::string& text);
-  /// Sets paths[i] to the value of number values[i] and reads the scenario. Its text is empty.
+  void replace_value(std::size_t number, const std::string& text);
+  /// Sets paths[i] to the value of number values[i] and reads the scenario. Its text is empty. Where nothing is wrong
+  /// but that no start has the energy asked for, `startless` is set in the place of `scenario`.
   Reading read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values);
   /// What is common to all members: the scenario with every --set, before anything is varied.
   const std::string& text() const;

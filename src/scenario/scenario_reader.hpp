@@ -39,6 +39,9 @@ class ScenarioReader {
     return scenario_;
   }
 
+  /// Why no start has the energy asked for; empty where one has, or none was asked for.
+  const std::string& no_start() const { return no_start_; }
+
  private:
   void read_problem(TomlTable& table);
   void read_uncertain(TomlTable& table, const std::string& name);
@@ -50,6 +53,7 @@ class ScenarioReader {
   void read_bodies(TomlTable& table);
   bool check_size(TomlTable& table);
   void read_initial(TomlTable& table);
+  void read_start_energy(TomlTable& initial);
   void read_frame(TomlTable& table);
   void check_start(TomlTable& table);
   void read_method(TomlTable& table);
@@ -70,6 +74,7 @@ class ScenarioReader {
   TomlTable root_;
   std::vector<Complaint>& complaints_;
   std::string file_method_;
+  std::string no_start_;
   Scenario scenario_;
 };
 

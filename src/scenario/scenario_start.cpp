@@ -131,20 +131,36 @@ void ScenarioReader::read_initial(TomlTable& table) {
     initial.complain(initial.has("p") ? "v" : "p", initial.has("p") ? "found p and v together; allowed one of them"
                                                                     : "found neither p nor v; allowed one of them");
   }
-  const auto texts = [&](const char* key) {
-    OptionInfo list = list_key(key, problem.dimension);
-    list.required = list.name == "q";
-    return initial.numbers(list).value_or(std::vector<std::string>{});
-  };
+  const auto texts = [&](const OptionInfo& list) { return initial.numbers(list).value_or(std::vector<std::string>{}); };
   for (const std::string& other : {std::string("orbit"), problem.info.start_key}) {
     if (other.empty() || !table.has(other)) continue;
     table.complain("initial", "found it beside " + other + "; allowed one of them");
     return;
   }
-  spec.q = texts("q");
-  spec.p = texts("p");
-  spec.v = texts("v");
+  spec.q = texts(list_key("q", problem.dimension));
+  spec.p = texts(open_list_key("p", problem.dimension));
+  spec.v = texts(open_list_key("v", problem.dimension));
+  read_start_energy(initial);
   initial.finish();
+}
+
+/// `energy`, beside a state of which exactly one component is left to it.
+void ScenarioReader::read_start_energy(TomlTable& initial) {
+  StartSpec& spec = scenario_.request.start;
+  const OptionInfo key = number_key("energy");
+  const std::string list = spec.v.empty() ? "p" : "v";
+  const std::vector<std::string>& given = spec.v.empty() ? spec.p : spec.v;
+  const auto open = std::count_if(given.begin(), given.end(), is_left_to_energy);
+  const auto energy = initial.text(key);
+  if (open > 1) {
+    initial.complain(list, "found " + std::to_string(open) + " components left to the energy; allowed one");
+  } else if (open == 1 && !initial.has(key.name)) {
+    initial.missing(key.name, "a number: the value of H from which the open component of " + list + " follows");
+  } else if (open == 0 && energy && !given.empty()) {
+    initial.complain(key.name, "found it beside all components of " + list + "; allowed with one of them \"+\", the " +
+                                   "largest root of H = energy, or \"-\", the smallest");
+  }
+  if (open == 1 && energy) spec.energy = *energy;
 }
 
 /// A start by `initial` is meant as it is given, unless the scenario says otherwise.
@@ -221,6 +237,11 @@ void ScenarioReader::check_start(TomlTable& table) {
   Frame start;
   try {
     start = problem.start(request);
+  } catch (const NoStart& none) {
+    no_start_ = none.what();
+    TomlTable initial = table.table("initial");
+    initial.complain("energy", initial.found("energy") + ", but " + none.what());
+    return;
   } catch (const Error& error) {
     table.complain(table.has("initial") ? "initial" : "orbit", error.what());
     return;

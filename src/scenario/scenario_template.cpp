@@ -240,8 +240,9 @@ class TemplateWriter {
 
   void write_state() {
     constexpr std::size_t longest = 12;
-    std::string comment =
-        "q = [" + joined(info_.coordinates) + "] with canonical momenta p, or { q, v } with velocities";
+    std::string comment = "q = [" + joined(info_.coordinates) +
+                          "] with canonical momenta p, or { q, v } with velocities; energy = E "
+                          "beside one component \"+\" or \"-\": the largest, the smallest root of H = E";
     std::string q;
     std::string p;
     if (!example_.q.empty()) {

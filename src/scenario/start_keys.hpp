@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamflow/core/option_info.hpp"
+#include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
 
@@ -15,6 +16,10 @@ inline OptionInfo kind_key(const std::vector<std::string>& kinds) {
 }
 inline OptionInfo list_key(const std::string& name, std::size_t length) {
   return {.name = name, .type = OptionType::list, .length = length, .required = true};
+}
+/// p or v of a state, of which one component may be left to the energy.
+inline OptionInfo open_list_key(const std::string& name, std::size_t length) {
+  return {.name = name, .type = OptionType::list, .length = length, .words = {largest_root, smallest_root}};
 }
 
 }  // namespace hamflow

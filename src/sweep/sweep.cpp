@@ -4,10 +4,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <limits>
+#include <optional>
 #include <system_error>
 #include <thread>
 
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/section.hpp"
 #include "memory.hpp"
 
 namespace hamflow {
@@ -43,15 +45,15 @@ int on_threads(int threads, const Work& work) {
 
 }  // namespace
 
-Sweep::Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
-             std::vector<Vary> varied, SweepOptions options)
+Sweep::Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets, Varied varied,
+             SweepOptions options)
     : varied_(std::move(varied)), options_(std::move(options)), raw_text_(text), name_(name), sets_(sets) {
-  ScenarioFamily family(text, name, sets);
-  text_ = family.text();
-  for (const Complaint& complaint : family.complaints()) complaints_.push_back(complaint.text());
+  MemberReader reader(varied_, text, name, sets);
+  text_ = reader.family().text();
+  for (const Complaint& complaint : reader.family().complaints()) complaints_.push_back(complaint.text());
   if (!complaints_.empty()) return;
-  const std::size_t members = member_count(varied_);
-  if (const std::string wrong = refused_members(members, coordinates_of_first(family), available_memory());
+  const std::size_t members = varied_.members();
+  if (const std::string wrong = refused_members(members, coordinates_of_first(reader), available_memory());
       !wrong.empty()) {
     complaints_.push_back("--vary: error: " + wrong);
     return;
@@ -61,60 +63,30 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
   threads_ = std::max(threads_, 1);
   read_members(name);
+  if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
 }
 
 /// 0 where it cannot be read, which is told later.
-std::size_t Sweep::coordinates_of_first(ScenarioFamily& family) const {
-  std::vector<std::string> paths;
-  std::vector<std::size_t> first;
-  for (const Vary& vary : varied_) {
-    paths.push_back(vary.path);
-    first.push_back(family.add_value(vary.texts.front()));
-  }
-  const Reading reading = family.read(paths, first);
-  return reading.scenario ? reading.scenario->start_q.size() : 0;
-}
-
-std::string Sweep::described(std::size_t member) const {
-  const std::vector<std::size_t> values = values_of_member(varied_, member);
-  std::string text = "member " + std::to_string(member);
-  for (std::size_t k = 0; k < varied_.size(); ++k) {
-    text += (k == 0 ? ": " : ", ") + varied_[k].path + "=" + varied_[k].texts[values[k]];
-  }
-  return text;
+std::size_t Sweep::coordinates_of_first(MemberReader& reader) const {
+  const Reading reading = reader.read(0);
+  const std::optional<Scenario>& any = reading.scenario ? reading.scenario : reading.startless;
+  return any ? any->start_q.size() : 0;
 }
 
 void Sweep::read_members(const std::string& name) {
   std::atomic<std::size_t> next{0};
   constexpr std::size_t batch = 64;
   const auto work = [&] {
-    ScenarioFamily family(raw_text_, name, sets_);
-    std::vector<std::string> paths;
-    std::vector<std::size_t> first;
-    for (const Vary& vary : varied_) {
-      paths.push_back(vary.path);
-      for (std::size_t i = 0; i < vary.texts.size(); ++i) {
-        const std::size_t number = family.add_value(vary.texts[i]);
-        if (i == 0) first.push_back(number);
-      }
-    }
+    MemberReader reader(varied_, raw_text_, name, sets_);
     for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
       for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
-        std::vector<std::size_t> values = values_of_member(varied_, member);
-        for (std::size_t k = 0; k < values.size(); ++k) values[k] += first[k];
-        const Reading reading = family.read(paths, values);
+        const Reading reading = reader.read(member);
         if (reading.scenario) {
           add(member, *reading.scenario);
-          continue;
-        }
-        const std::lock_guard lock(mutex_);
-        for (const Complaint& complaint : reading.complaints) {
-          std::string text = complaint.text();
-          const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
-            return path.starts_with(complaint.key) || complaint.key.starts_with(path);
-          });
-          if (complaint.line == 0 && of_vary) text = "--vary" + text.substr(std::string("--set").size());
-          found_[text].push_back(member);
+        } else if (reading.startless) {
+          leave_without_start(member, reading);
+        } else {
+          add_complaints(member, reading, reader.paths());
         }
       }
     }
@@ -127,6 +99,25 @@ void Sweep::read_members(const std::string& name) {
   for (auto& [key, group] : groups_) std::sort(group.members.begin(), group.members.end());
 }
 
+void Sweep::add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths) {
+  const std::lock_guard lock(mutex_);
+  for (const Complaint& complaint : reading.complaints) {
+    std::string text = complaint.text();
+    const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+      return path.starts_with(complaint.key) || complaint.key.starts_with(path);
+    });
+    if (complaint.line == 0 && of_vary) text = "--vary" + text.substr(std::string("--set").size());
+    found_[text].push_back(member);
+  }
+}
+
+void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
+  const std::lock_guard lock(mutex_);
+  take_as_common(member, *reading.startless);
+  rows_[member].no_start = true;
+  rows_[member].message = reading.no_start;
+}
+
 void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found) {
   constexpr std::size_t most = 10;
   std::vector<std::pair<std::size_t, std::string>> lines;
@@ -134,7 +125,7 @@ void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found)
     const std::size_t first = *std::min_element(members.begin(), members.end());
     const bool all = members.size() == rows_.size();
     lines.emplace_back(first, all ? text
-                                  : text + " (" + described(first) +
+                                  : text + " (" + varied_.described(first) +
                                         (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") +
                                         ")");
   }
@@ -145,15 +136,22 @@ void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found)
   }
 }
 
-/// Rows of one table have the same columns.
-void Sweep::check_alike(std::size_t member, const Scenario& scenario) {
-  if (scenario.start_q.size() == common_.start_q.size() && scenario.problem->info.name == common_.problem->info.name) {
-    return;
+/// Rows of one table have the same columns. What the first member with a start has, all have.
+void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
+  const bool has_start = !scenario.start_p.empty() && scenario.start_p.front() == scenario.start_p.front();
+  const bool alike = common_.problem == nullptr || (scenario.start_q.size() == common_.start_q.size() &&
+                                                    scenario.problem->info.name == common_.problem->info.name);
+  if (!alike) {
+    found_
+        ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
+         "that is one problem of one size"]
+            .push_back(member);
   }
-  found_
-      ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
-       "that is one problem of one size"]
-          .push_back(member);
+  const bool better = has_start == common_has_start_ ? member < common_member_ : has_start;
+  if (common_.problem != nullptr && !better) return;
+  common_ = scenario;
+  common_member_ = member;
+  common_has_start_ = has_start;
 }
 
 void Sweep::add(std::size_t member, const Scenario& scenario) {
@@ -173,18 +171,15 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   key += '\n' + std::to_string(scenario.steps);
 
   const std::lock_guard lock(mutex_);
-  if (common_.problem == nullptr || member == 0) {
-    common_ = scenario;
-  } else {
-    check_alike(member, scenario);
-  }
+  take_as_common(member, scenario);
   auto [at, is_new] = groups_.try_emplace(key);
   Group& group = at->second;
   if (is_new) {
     group.request = request;
     group.shape = shape;
     group.steps = scenario.steps;
-    const auto block = make_ensemble_block(request, options_.lanes);
+    // Points of a section are sought on the partial steps of a simulation of its own.
+    const auto block = scenario.section ? nullptr : make_ensemble_block(request, options_.lanes);
     group.lanes = block == nullptr || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
   }
   group.members.push_back(member);
@@ -250,8 +245,8 @@ class Sweep::Worker {
       row.energy = end.energy;
       row.energy_scale = end.energy_scale;
       row.invariants = std::move(end.invariants);
-      if (complete && sweep_.options_.observables.observe) {
-        row.observables = sweep_.options_.observables.observe(scenario_of(members[lane]));
+      if (complete && sweep_.observables_.observe) {
+        row.observables = sweep_.observables_.observe(scenario_of(members[lane]));
       }
       if (complete && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(members[lane]), row);
     }
@@ -260,13 +255,24 @@ class Sweep::Worker {
   void run_alone(std::size_t member) {
     const Scenario scenario = scenario_of(member);
     const auto simulation = make_simulation(scenario.request);
+    MemberRow& row = sweep_.rows_[member];
+    std::optional<SectionFinder> finder;
+    std::vector<Observer*> observers;
+    if (scenario.section) {
+      finder.emplace(*simulation, *scenario.section, [&](const SectionPoint& point) {
+        row.section.push_back(point.time);
+        row.section.insert(row.section.end(), point.q.begin(), point.q.end());
+        row.section.insert(row.section.end(), point.p.begin(), point.p.end());
+      });
+      observers.push_back(&*finder);
+    }
     std::int64_t counted = 0;
-    const Outcome outcome = hamflow::run(*simulation, scenario.steps, {}, [&](std::int64_t step) {
+    const Outcome outcome = hamflow::run(*simulation, scenario.steps, observers, [&](std::int64_t step) {
       sweep_.steps_taken_ += step - counted;
       counted = step;
       return !sweep_.stop_;
     });
-    MemberRow& row = sweep_.rows_[member];
+    if (finder) row.section_residual = finder->max_residual();
     Frame frame;
     simulation->look(frame);
     row.status = outcome;
@@ -279,8 +285,8 @@ class Sweep::Worker {
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();
     row.message = outcome == Outcome::not_converged ? simulation->failure() : std::string(message(outcome));
-    if (outcome == Outcome::done && sweep_.options_.observables.observe) {
-      row.observables = sweep_.options_.observables.observe(scenario);
+    if (outcome == Outcome::done && sweep_.observables_.observe) {
+      row.observables = sweep_.observables_.observe(scenario);
     }
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
   }
@@ -291,26 +297,15 @@ class Sweep::Worker {
 
   /// Read anew: 10^5 scenarios at once would fill the memory.
   Scenario scenario_of(std::size_t member) {
-    if (!family_) {
-      family_ = std::make_unique<ScenarioFamily>(sweep_.raw_text_, sweep_.name_, sweep_.sets_);
-      for (const Vary& vary : sweep_.varied_) paths_.push_back(vary.path);
-    }
-    std::vector<std::size_t> values = values_of_member(sweep_.varied_, member);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const auto key = std::pair(k, values[k]);
-      if (!numbers_.contains(key)) numbers_[key] = family_->add_value(sweep_.varied_[k].texts[values[k]]);
-      values[k] = numbers_[key];
-    }
-    Reading reading = family_->read(paths_, values);
+    if (!reader_) reader_.emplace(sweep_.varied_, sweep_.raw_text_, sweep_.name_, sweep_.sets_);
+    Reading reading = reader_->read(member);
     if (!reading.scenario) throw Error("a member of the sweep can no longer be read");
     return *std::move(reading.scenario);
   }
 
   Sweep& sweep_;
   std::map<const Group*, std::unique_ptr<EnsembleBlock>> blocks_;
-  std::unique_ptr<ScenarioFamily> family_;
-  std::vector<std::string> paths_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers_;
+  std::optional<MemberReader> reader_;
 };
 
 void Sweep::run(const std::function<bool(std::int64_t)>& pulse) {

@@ -11,14 +11,15 @@
 #include <vector>
 
 #include "hamflow/run/ensemble.hpp"
-#include "scenario_family.hpp"
-#include "vary.hpp"
+#include "member_reader.hpp"
+#include "varied.hpp"
 
 namespace hamflow {
 
 /// The result of a member; of one that failed, its last good state.
 struct MemberRow {
   Outcome status = Outcome::not_run;
+  bool no_start = false;  // no start has the energy asked for: it cannot be run
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;
@@ -28,8 +29,14 @@ struct MemberRow {
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
-  std::string message;    // of a failure
-  bool nonsense = false;  // done, but its energy is off by more than it can be
+  std::vector<double> section;  // of each point of the section t, q, p
+  double section_residual = 0;  // the largest
+  std::string message;          // of a failure, and why there is no start
+  bool nonsense = false;        // done, but its energy is off by more than it can be
+
+  /// As it is called in files.
+  std::string status_name() const { return no_start ? "no_start" : std::string(name(status)); }
+  std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
 };
 
 /// Further columns, e.g. an exponent: numbers computed for each member from its scenario, on the member's thread.
@@ -41,7 +48,8 @@ struct MemberObservables {
 struct SweepOptions {
   int threads = 0;  // 0: all cores
   LaneSet lanes = LaneSet::none;
-  MemberObservables observables{};
+  /// Of all members, from one that has a start.
+  std::function<MemberObservables(const Scenario&)> observables_of{};
   /// Asked of members that are done with an energy error above their scale.
   std::function<bool(const Scenario&, const MemberRow&)> is_nonsense{};
 };
@@ -49,18 +57,18 @@ struct SweepOptions {
 class Sweep {
  public:
   /// Reads and checks every member. Where something is wrong, complaints() lists it and nothing can be run.
-  Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
-        std::vector<Vary> varied, SweepOptions options);
+  Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets, Varied varied,
+        SweepOptions options);
 
   /// One line each, at most ten.
   const std::vector<std::string>& complaints() const { return complaints_; }
   std::size_t members() const { return rows_.size(); }
-  const std::vector<Vary>& varied() const { return varied_; }
+  const Varied& varied() const { return varied_; }
   const std::vector<MemberRow>& rows() const { return rows_; }
-  /// The first member's scenario, for what all have in common.
+  /// The scenario of the first member that has a start, for what all have in common.
   const Scenario& common() const { return common_; }
   const std::string& text() const { return text_; }
-  const MemberObservables& observables() const { return options_.observables; }
+  const MemberObservables& observables() const { return observables_; }
   int threads() const { return threads_; }
   LaneSet lanes() const { return in_lanes_ > 0 ? options_.lanes : LaneSet::none; }
   std::size_t lane_count() const { return lane_count_; }
@@ -89,20 +97,24 @@ class Sweep {
   };
   class Worker;
 
-  std::size_t coordinates_of_first(ScenarioFamily& family) const;
+  std::size_t coordinates_of_first(MemberReader& reader) const;
   void read_members(const std::string& name);
   void add(std::size_t member, const Scenario& scenario);
-  void check_alike(std::size_t member, const Scenario& scenario);
+  void take_as_common(std::size_t member, const Scenario& scenario);
+  void leave_without_start(std::size_t member, const Reading& reading);
+  void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
   void report(const std::map<std::string, std::vector<std::size_t>>& found);
-  std::string described(std::size_t member) const;
 
-  std::vector<Vary> varied_;
+  Varied varied_;
   SweepOptions options_;
+  MemberObservables observables_;
   std::string raw_text_;
   std::string name_;
   std::vector<std::string> sets_;
   std::string text_;
   Scenario common_;
+  std::size_t common_member_ = 0;
+  bool common_has_start_ = false;
   std::vector<std::string> complaints_;
   std::vector<MemberStart> starts_;  // of members in lanes
   std::vector<MemberRow> rows_;

@@ -37,15 +37,14 @@ SweepColumn numbers(const Sweep& sweep, std::string name, const F& value) {
 }
 
 void add_varied(const Sweep& sweep, std::vector<SweepColumn>& columns) {
-  for (std::size_t k = 0; k < sweep.varied().size(); ++k) {
-    const Vary& vary = sweep.varied()[k];
-    SweepColumn column{"varied/" + vary.path};
+  const Varied& varied = sweep.varied();
+  for (std::size_t key = 0; key < varied.size(); ++key) {
+    SweepColumn column{"varied/" + varied.keys()[key].path};
     for (std::size_t member = 0; member < sweep.members(); ++member) {
-      const std::size_t value = values_of_member(sweep.varied(), member)[k];
-      if (vary.numbers.empty()) {
-        column.texts.push_back(vary.texts[value]);
+      if (varied.keys()[key].is_number()) {
+        column.numbers.push_back(varied.number(member, key));
       } else {
-        column.numbers.push_back(vary.numbers[value]);
+        column.texts.push_back(varied.text(member, key));
       }
     }
     columns.push_back(std::move(column));
@@ -74,12 +73,12 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
 
 /// A third is no double: a member is run again from the text.
 void add_given(const Sweep& sweep, std::vector<SweepColumn>& columns) {
-  for (std::size_t k = 0; k < sweep.varied().size(); ++k) {
-    const Vary& vary = sweep.varied()[k];
-    if (vary.numbers.empty()) continue;
-    SweepColumn column{"digits/varied/" + vary.path};
+  const Varied& varied = sweep.varied();
+  for (std::size_t key = 0; key < varied.size(); ++key) {
+    if (!varied.keys()[key].is_number()) continue;
+    SweepColumn column{"digits/varied/" + varied.keys()[key].path};
     for (std::size_t member = 0; member < sweep.members(); ++member) {
-      column.texts.push_back(without_quotes(vary.texts[values_of_member(sweep.varied(), member)[k]]));
+      column.texts.push_back(without_quotes(varied.text(member, key)));
     }
     columns.push_back(std::move(column));
   }
@@ -160,7 +159,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   SweepColumn status{"member/status"};
   SweepColumn steps{"member/steps"};
   for (const MemberRow& row : sweep.rows()) {
-    status.texts.emplace_back(name(row.status));
+    status.texts.push_back(row.status_name());
     steps.counts.push_back(row.steps);
   }
   columns.push_back(std::move(status));
@@ -187,6 +186,26 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   return columns;
 }
 
+std::vector<SweepColumn> section_columns_of(const Sweep& sweep) {
+  if (!sweep.common().section) return {};
+  const std::size_t n = sweep.common().start_q.size();
+  SweepColumn member{"section/member"};
+  SweepColumn t{"section/t"};
+  SweepColumn q{"section/q", n, false};
+  SweepColumn p{"section/p", n, false};
+  for (std::size_t i = 0; i < sweep.members(); ++i) {
+    const std::vector<double>& points = sweep.rows()[i].section;
+    for (auto at = points.begin(); at != points.end(); at += static_cast<std::ptrdiff_t>(1 + 2 * n)) {
+      const auto middle = at + static_cast<std::ptrdiff_t>(1 + n);
+      member.counts.push_back(static_cast<std::int64_t>(i));
+      t.numbers.push_back(*at);
+      q.numbers.insert(q.numbers.end(), at + 1, middle);
+      p.numbers.insert(p.numbers.end(), middle, middle + static_cast<std::ptrdiff_t>(n));
+    }
+  }
+  return {std::move(member), std::move(t), std::move(q), std::move(p)};
+}
+
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description) {
   silence_hdf5();
   WholeFile whole(file, next_name(file));
@@ -200,6 +219,7 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "kernel", request.kernel);
   write_text_dataset(id, "scenario", sweep.text());
   for (const SweepColumn& column : columns_of(sweep)) write_column(id, column);
+  for (const SweepColumn& column : section_columns_of(sweep)) write_column(id, column);
   id.close_now("write " + file.string() + " (is the disk full?)");
   whole.put_in_place();
 }

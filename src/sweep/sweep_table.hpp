@@ -25,6 +25,10 @@ struct SweepColumn {
 /// numbers of /varied as they were given. What a member does not have is NaN, or an empty text.
 std::vector<SweepColumn> columns_of(const Sweep& sweep);
 
+/// The points of all members' sections, a row a point: /section/member (its number), t, q, p. None where no section is
+/// asked for.
+std::vector<SweepColumn> section_columns_of(const Sweep& sweep);
+
 /// What is the same for all rows.
 struct SweepDescription {
   std::string version;

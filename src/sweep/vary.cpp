@@ -1,16 +1,20 @@
 #include "vary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "hamflow/core/number.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow {
 
 namespace {
 
-constexpr std::size_t most_members = 10'000'000;
-constexpr const char* forms = "allowed PATH=a:b:n, n values from a to b, or PATH=v1,v2,...";
+constexpr std::size_t most_values = 10'000'000;
+constexpr const char* forms =
+    "allowed PATH=a:b:n, n values from a to b, PATH=v1,v2,..., or PATH=FORMULA of other varied keys";
 
 /// Split where `separator` stands outside of parentheses, brackets and quotes.
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -61,6 +65,40 @@ double range_end(const std::string& text, const std::string& whole) {
 
 }  // namespace
 
+std::vector<NamedPath> paths_in(const std::string& formula) {
+  constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+  const auto is_letter = [&](char c) {
+    return c != '\0' && std::string_view(letters).find(c) != std::string_view::npos;
+  };
+  std::vector<NamedPath> all;
+  for (std::size_t at = 0; at < formula.size();) {
+    if (!is_letter(formula[at])) {
+      ++at;
+      continue;
+    }
+    std::size_t end = std::min(formula.find_first_not_of(letters, at), formula.size());
+    const std::string table = formula.substr(at, end - at);
+    const bool starts_path = table == "problem" || table == "method" || table == run_table || table == output_table;
+    if (starts_path && end < formula.size() && formula[end] == '.') {
+      // Dots between names, indices in brackets.
+      while (end < formula.size()) {
+        const bool goes_on = formula[end] == '.' && end + 1 < formula.size() && is_letter(formula[end + 1]);
+        const std::size_t close = formula[end] == '[' ? formula.find(']', end) : std::string::npos;
+        if (goes_on) {
+          end = std::min(formula.find_first_not_of(letters, end + 1), formula.size());
+        } else if (close != std::string::npos) {
+          end = close + 1;
+        } else {
+          break;
+        }
+      }
+      all.push_back({formula.substr(at, end - at), at});
+    }
+    at = end;
+  }
+  return all;
+}
+
 Vary parse_vary(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
@@ -70,6 +108,11 @@ Vary parse_vary(const std::string& text) {
   const std::string values = text.substr(equals + 1);
   const std::vector<std::string> range = split(values, ':');
   if (range.size() == 1) {
+    const bool quoted = without_quotes(trimmed(values)) != trimmed(values);
+    if (!quoted && !paths_in(values).empty()) {
+      vary.formula = trimmed(values);
+      return vary;
+    }
     vary.is_list = true;
     for (const std::string& part : split(values, ',')) {
       vary.texts.push_back(trimmed(part));
@@ -89,7 +132,7 @@ Vary parse_vary(const std::string& text) {
   const double a = range_end(trimmed(range[0]), text);
   const double b = range_end(trimmed(range[1]), text);
   const double count = range_end(trimmed(range[2]), text);
-  if (!(count >= 1) || count != std::floor(count) || count > static_cast<double>(most_members)) {
+  if (!(count >= 1) || count != std::floor(count) || count > static_cast<double>(most_values)) {
     throw Error("found n = " + trimmed(range[2]) + " in \"" + text + "\"; allowed a whole number from 1 to 10000000");
   }
   const auto n = static_cast<std::size_t>(count);
@@ -107,26 +150,6 @@ Vary parse_vary(const std::string& text) {
 std::string without_quotes(const std::string& text) {
   const bool quoted = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
   return quoted ? text.substr(1, text.size() - 2) : text;
-}
-
-std::size_t member_count(const std::vector<Vary>& varied) {
-  std::size_t count = 1;
-  for (const Vary& vary : varied) {
-    if (vary.texts.size() > most_members / count) {
-      throw Error("found more than 10000000 members; allowed fewer values for each key");
-    }
-    count *= vary.texts.size();
-  }
-  return count;
-}
-
-std::vector<std::size_t> values_of_member(const std::vector<Vary>& varied, std::size_t member) {
-  std::vector<std::size_t> values(varied.size());
-  for (std::size_t k = varied.size(); k-- > 0;) {
-    values[k] = member % varied[k].texts.size();
-    member /= varied[k].texts.size();
-  }
-  return values;
 }
 
 }  // namespace hamflow

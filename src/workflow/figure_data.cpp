@@ -11,6 +11,7 @@
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
+#include "section_text.hpp"
 #include "text.hpp"
 
 namespace hamflow {
@@ -60,17 +61,13 @@ std::vector<double> energy_differences(const fs::path& file, std::size_t samples
   return differences;
 }
 
-void add_section(const Section& section, RunSamples& samples, FigureData& data) {
-  const std::size_t shown = (section.coordinate + 1) % data.q.size();
+void add_section(const Section& section, const StateNames& names, RunSamples& samples, FigureData& data) {
+  const std::size_t shown = coordinate_shown(section, data.q.size());
   data.section_q = std::move(samples.section_q[shown]);
   data.section_p = std::move(samples.section_p[shown]);
   data.section_coordinate = data.coordinates[shown];
   data.section_momentum = data.momenta[shown];
-  const std::string x =
-      figures::symbol(section.momentum ? data.momenta[section.coordinate] : data.coordinates[section.coordinate]);
-  const std::string way =
-      section.direction == 0 ? "in both directions" : x + (section.direction > 0 ? " increasing" : " decreasing");
-  data.section_text = fmt::format("section {} = {}, {}", x, figures::escaped(shortest(section.value)), way);
+  data.section_text = section_text(section, names);
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
@@ -130,7 +127,7 @@ RunForFigure read_for_figure(const fs::path& run) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
   if (scenario.section && samples.description.section && data.q.size() >= 2) {
-    add_section(*scenario.section, samples, data);
+    add_section(*scenario.section, names, samples, data);
   }
   fs::path named = run;
   if (named.filename() == "run.h5" && named.has_parent_path()) named = named.parent_path();

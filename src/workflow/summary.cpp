@@ -80,6 +80,16 @@ Json orbit_of(const Scenario& scenario) {
   return facts;
 }
 
+/// The state that follows from the energy of a start, in the digits of the run.
+Json start_of(const Scenario& scenario) {
+  if (digits_beyond_double(scenario.request.arithmetic) == 0) {
+    return {{"q", scenario.start_q}, {"p", scenario.start_p}};
+  }
+  Frame frame;
+  make_simulation(scenario.request)->look(frame);
+  return {{"q", frame.digits.q}, {"p", frame.digits.p}};
+}
+
 /// How far the closed form, in double, may be off in a run of more digits: what the roundings of the start, of the time
 /// and of what it returns become.
 double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact) {
@@ -182,6 +192,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["parameters"] = parameters_of(scenario);
   s["dt"] = scenario.dt;
   s["steps"] = simulation.step();
+  if (!scenario.request.start.energy.empty()) s["start"] = start_of(scenario);
   s["final"] = {{"t", frame.time}, {"q", frame.q}, {"p", frame.p}};
   s["energy"] = excursion(energy);
   s["energy"]["scale"] = scale;

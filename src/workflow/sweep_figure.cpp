@@ -6,10 +6,12 @@
 #include <limits>
 #include <map>
 
+#include "figure.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "parameter_map.hpp"
 #include "run_keys.hpp"
+#include "section_text.hpp"
 #include "sweep_table.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
@@ -18,17 +20,39 @@ namespace hamflow {
 
 namespace {
 constexpr std::size_t few = 8;  // values of a list that are drawn as lines
+constexpr const char* usual_colour = "energy/max_error";
 
-bool is_few(const Vary& vary) { return vary.numbers.empty() || (vary.is_list && vary.texts.size() <= few); }
+bool draws_section(const Sweep& sweep, const std::string& colour) { return colour.empty() && sweep.common().section; }
 
-/// Which of two keys has a line for each value: one of words, else the list of fewer values; none: a map.
-std::size_t key_of_lines(const std::vector<Vary>& varied) {
-  if (varied.size() < 2) return varied.size();
-  const auto rank = [](const Vary& vary) {
-    return vary.numbers.empty() ? 0 : is_few(vary) ? vary.texts.size() : std::numeric_limits<std::size_t>::max();
+bool is_few(const Vary& vary) { return !vary.is_number() || (vary.is_list && vary.texts.size() <= few); }
+
+/// The keys over which a column is drawn: all but those that follow from others.
+struct FigureKeys {
+  std::vector<std::size_t> free;
+  std::size_t over = 0;  // along the horizontal axis
+  bool map = false;      // `above` is along the vertical one
+  std::size_t above = 0;
+  bool has_lines = false;  // a line for each value of `lines`
+  std::size_t lines = 0;
+};
+
+/// Of two keys one of words has a line for each value, else the list of fewer values; none: a map.
+FigureKeys figure_keys(const Varied& varied) {
+  FigureKeys keys{.free = varied.free_keys()};
+  if (keys.free.empty()) return keys;
+  keys.over = keys.free[0];
+  if (keys.free.size() < 2) return keys;
+  const auto rank = [&](std::size_t key) {
+    const Vary& vary = varied.keys()[key];
+    return !vary.is_number() ? 0 : is_few(vary) ? vary.texts.size() : std::numeric_limits<std::size_t>::max();
   };
-  const std::size_t key = rank(varied[0]) <= rank(varied[1]) ? 0 : 1;
-  return is_few(varied[key]) ? key : varied.size();
+  const bool first = rank(keys.free[0]) <= rank(keys.free[1]);
+  keys.lines = keys.free[first ? 0 : 1];
+  keys.has_lines = is_few(varied.keys()[keys.lines]);
+  keys.map = !keys.has_lines;
+  keys.above = keys.free[1];
+  if (keys.has_lines) keys.over = keys.free[first ? 1 : 0];
+  return keys;
 }
 
 /// The last part of a key, and the coordinate that an entry of a start belongs to.
@@ -81,7 +105,8 @@ std::string value_label(const Sweep& sweep, const std::string& column) {
 std::string title_of(const Sweep& sweep) {
   const Request& request = sweep.common().request;
   const auto is_varied = [&](const std::string& path) {
-    return std::any_of(sweep.varied().begin(), sweep.varied().end(),
+    const std::vector<Vary>& keys = sweep.varied().keys();
+    return std::any_of(keys.begin(), keys.end(),
                        [&](const Vary& vary) { return vary.path == path || path.starts_with(vary.path + "."); });
   };
   std::string title = request.problem;
@@ -96,7 +121,7 @@ std::string note_of(const Sweep& sweep, bool map) {
   std::size_t count = 0;
   for (const MemberRow& row : sweep.rows()) {
     if (row.status == Outcome::done) continue;
-    ++failed[std::string(name(row.status))];
+    ++failed[row.status_name()];
     ++count;
   }
   if (count == 0) return {};
@@ -106,25 +131,57 @@ std::string note_of(const Sweep& sweep, bool map) {
       fmt::format("{}: {} of {} members ({})", map ? "white" : "not drawn", count, sweep.members(), joined(parts)));
 }
 
+/// The points of all members, each in a colour of its own as long as there are colours.
+Figure section_figure_of(const Sweep& sweep) {
+  const Scenario& common = sweep.common();
+  const std::size_t n = common.start_q.size();
+  const StateNames names = state_names(*common.problem, common.request.parameters, n);
+  const std::size_t shown = coordinate_shown(*common.section, n);
+  Figure figure;
+  for (const MemberRow& row : sweep.rows()) {
+    if (row.section.empty()) continue;
+    FigureData data;
+    data.title = title_of(sweep);
+    data.coordinates = names.q;
+    data.momenta = names.p;
+    data.q.resize(n);
+    data.p.resize(n);
+    data.section_coordinate = names.q[shown];
+    data.section_momentum = names.p[shown];
+    data.section_text = section_text(*common.section, names);
+    for (std::size_t at = 0; at < row.section.size(); at += 1 + 2 * n) {
+      data.section_q.push_back(row.section[at + 1 + shown]);
+      data.section_p.push_back(row.section[at + 1 + n + shown]);
+    }
+    figure.runs.push_back(std::move(data));
+  }
+  return figure;
+}
+
 }  // namespace
 
 std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour) {
   const std::string wrong = refused_figure_file(file);
   if (!wrong.empty()) return "--figure: error: " + wrong;
-  const std::vector<Vary>& varied = sweep.varied();
-  if (varied.size() > 2) {
-    return "--figure: error: found " + std::to_string(varied.size()) + " varied keys; allowed one or two";
+  if (draws_section(sweep, colour)) {
+    const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(), .section = true};
+    const std::string refused = refused_figure("section", facts);
+    return refused.empty() ? "" : "--figure: error: " + refused;
   }
-  const std::size_t lines = key_of_lines(varied);
-  if (lines < varied.size() && varied[lines].texts.size() > most_map_lines) {
-    return fmt::format("--figure: error: found {} values of {}, a line each; allowed up to {}",
-                       varied[lines].texts.size(), varied[lines].path, most_map_lines);
+  const FigureKeys keys = figure_keys(sweep.varied());
+  if (keys.free.size() > 2) {
+    return "--figure: error: found " + std::to_string(keys.free.size()) + " varied keys; allowed one or two";
+  }
+  if (keys.has_lines && sweep.varied().keys()[keys.lines].texts.size() > most_map_lines) {
+    const Vary& lines = sweep.varied().keys()[keys.lines];
+    return fmt::format("--figure: error: found {} values of {}, a line each; allowed up to {}", lines.texts.size(),
+                       lines.path, most_map_lines);
   }
   std::vector<std::string> columns;
   for (const SweepColumn& column : columns_of(sweep)) {
     if (!column.numbers.empty() && column.width == 1) columns.push_back(column.name);
   }
-  if (std::find(columns.begin(), columns.end(), colour) == columns.end()) {
+  if (!colour.empty() && std::find(columns.begin(), columns.end(), colour) == columns.end()) {
     const auto whole = std::find_if(columns.begin(), columns.end(),
                                     [&](const std::string& column) { return column.ends_with("/" + colour); });
     const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
@@ -135,38 +192,43 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
   return {};
 }
 
-void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour) {
-  const std::vector<Vary>& varied = sweep.varied();
-  const std::size_t lines = key_of_lines(varied);
-  const bool map = varied.size() == 2 && lines == varied.size();
-  const std::size_t over = lines == 0 ? 1 : 0;
+void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& column) {
+  if (draws_section(sweep, column)) {
+    const Figure figure = section_figure_of(sweep);
+    if (figure.runs.empty()) throw FileError("cannot draw " + file.string() + ": no member has a point of the section");
+    write_figure(figure, "section", file);
+    return;
+  }
+  const std::string colour = column.empty() ? usual_colour : column;
+  const Varied& varied = sweep.varied();
+  const FigureKeys keys = figure_keys(varied);
   ParameterMap figure;
   figure.title = title_of(sweep);
   figure.value_label = value_label(sweep, colour);
-  figure.x_label = key_label(sweep, varied[over].path);
-  if (map) figure.y_label = key_label(sweep, varied[1].path);
-  for (const SweepColumn& column : columns_of(sweep)) {
-    if (column.name == colour) figure.value = column.numbers;
+  figure.x_label = key_label(sweep, varied.keys()[keys.over].path);
+  if (keys.map) figure.y_label = key_label(sweep, varied.keys()[keys.above].path);
+  for (const SweepColumn& one : columns_of(sweep)) {
+    if (one.name == colour) figure.value = one.numbers;
   }
-  if (varied[over].numbers.empty()) {
-    for (const std::string& text : varied[over].texts) figure.x_words.push_back(figures::escaped(text));
+  const Vary& x = varied.keys()[keys.over];
+  if (!x.is_number()) {
+    for (const std::string& text : x.texts) figure.x_words.push_back(figures::escaped(text));
   }
   for (std::size_t member = 0; member < sweep.members(); ++member) {
-    const std::vector<std::size_t> at = values_of_member(varied, member);
-    const Vary& x = varied[over];
-    figure.x.push_back(x.numbers.empty() ? static_cast<double>(at[over]) : x.numbers[at[over]]);
-    if (map) figure.y.push_back(varied[1].numbers[at[1]]);
-    if (lines < varied.size()) {
-      const Vary& line = varied[lines];
-      const std::string text = figures::escaped(line.texts[at[lines]]);
-      figure.line.push_back(line.numbers.empty() ? text : key_label(sweep, line.path) + " = " + text);
+    figure.x.push_back(x.is_number() ? varied.number(member, keys.over)
+                                     : static_cast<double>(varied.place(member, keys.over)));
+    if (keys.map) figure.y.push_back(varied.number(member, keys.above));
+    if (keys.has_lines) {
+      const Vary& line = varied.keys()[keys.lines];
+      const std::string text = figures::escaped(varied.text(member, keys.lines));
+      figure.line.push_back(line.is_number() ? key_label(sweep, line.path) + " = " + text : text);
     }
     // What a member that broke off reached belongs to another time than the others.
     if (sweep.rows()[member].status != Outcome::done) {
       figure.value[member] = std::numeric_limits<double>::quiet_NaN();
     }
   }
-  const std::string note = note_of(sweep, map);
+  const std::string note = note_of(sweep, keys.map);
   if (!note.empty()) figure.notes.push_back(note);
   write_parameter_map(figure, file);
 }

@@ -13,8 +13,29 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_failures = 10;
 
 std::size_t count(const Sweep& sweep, Outcome status) {
-  return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(),
-                                                [&](const MemberRow& row) { return row.status == status; }));
+  return static_cast<std::size_t>(std::count_if(sweep.rows().begin(), sweep.rows().end(), [&](const MemberRow& row) {
+    return row.status == status && !row.no_start;
+  }));
+}
+std::size_t count_without_start(const Sweep& sweep) {
+  return static_cast<std::size_t>(
+      std::count_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return row.no_start; }));
+}
+
+/// The first members that failed. That there is no start at an energy is seldom worth a line each.
+Json failures_of(const Sweep& sweep) {
+  Json all = Json::array();
+  const bool nothing_else = count_without_start(sweep) == sweep.members();
+  for (std::size_t member = 0; member < sweep.members() && all.size() < most_failures; ++member) {
+    const MemberRow& row = sweep.rows()[member];
+    if (row.message.empty() || (row.no_start && !nothing_else)) continue;
+    all.push_back({{"member", member},
+                   {"kind", row.status_name()},
+                   {"step", row.no_start ? 0 : row.steps + 1},
+                   {"t", row.t},
+                   {"message", row.message}});
+  }
+  return all;
 }
 
 /// Of all members together. That dt is long, or an orbit falls into the centre, is said by a run of a single member.
@@ -34,15 +55,18 @@ Json sweep_warnings(const Sweep& sweep) {
 
 Json varied_of(const Sweep& sweep) {
   Json varied = Json::object();
-  for (const Vary& vary : sweep.varied()) {
+  const std::vector<Vary>& keys = sweep.varied().keys();
+  for (std::size_t key = 0; key < keys.size(); ++key) {
+    const Vary& vary = keys[key];
     Json& entry = varied[vary.path];
-    entry["count"] = vary.texts.size();
-    if (vary.numbers.empty()) {
+    entry["count"] = vary.formula.empty() ? vary.texts.size() : sweep.members();
+    if (!vary.is_number()) {
       entry["values"] = vary.texts;
-    } else {
-      entry["first"] = vary.numbers.front();
-      entry["last"] = vary.numbers.back();
+      continue;
     }
+    entry["first"] = sweep.varied().number(0, key);
+    entry["last"] = sweep.varied().number(sweep.members() - 1, key);
+    if (!vary.formula.empty()) entry["formula"] = vary.formula;
   }
   return varied;
 }
@@ -52,18 +76,19 @@ Json varied_of(const Sweep& sweep) {
 Json sweep_row(const Sweep& sweep, std::size_t member) {
   const MemberRow& row = sweep.rows()[member];
   Json json = Json::object();
-  const std::vector<std::size_t> values = values_of_member(sweep.varied(), member);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const Vary& vary = sweep.varied()[k];
-    const std::string& text = vary.texts[values[k]];
-    json[vary.path] = vary.numbers.empty() ? Json(text) : Json(vary.numbers[values[k]]);
-    if (vary.numbers.empty() || !sweep.beyond_double()) continue;
+  const Varied& varied = sweep.varied();
+  for (std::size_t key = 0; key < varied.size(); ++key) {
+    const Vary& vary = varied.keys()[key];
+    const std::string text = varied.text(member, key);
+    json[vary.path] = vary.is_number() ? Json(varied.number(member, key)) : Json(text);
+    if (!vary.is_number() || !sweep.beyond_double()) continue;
     // A third is no double: the row gives what the member can be run again from.
     const std::string given = without_quotes(text);
-    if (given != shortest(vary.numbers[values[k]])) json[vary.path] = given;
+    if (given != shortest(varied.number(member, key))) json[vary.path] = given;
   }
-  json["status"] = std::string(name(row.status));
+  json["status"] = row.status_name();
   json["steps"] = row.steps;
+  if (row.no_start) json["message"] = row.message;
   if (row.status == Outcome::not_run) return json;
   json["final"] = {{"t", row.t}, {"q", row.q}, {"p", row.p}};
   json["energy"] = {{"initial", row.energy.initial},
@@ -82,6 +107,9 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   }
   for (std::size_t i = 0; i < row.observables.size(); ++i) {
     json[sweep.observables().names[i]] = row.observables[i];
+  }
+  if (sweep.common().section) {
+    json["section"] = {{"points", row.section_points()}, {"max_residual", row.section_residual}};
   }
   if (!row.message.empty()) json["message"] = row.message;
   return json;
@@ -102,6 +130,7 @@ Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
   s["done"] = done;
   s["failed"] = failed;
   s["unfinished"] = unfinished;
+  if (const std::size_t without = count_without_start(sweep); without > 0) s["no_start"] = without;
   s["varied"] = varied_of(sweep);
   s["wall_seconds"] = seconds;
   s["member_steps_per_second"] = seconds > 0 ? static_cast<double>(steps) / seconds : 0.0;
@@ -112,16 +141,12 @@ Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
   if (sweep.beyond_double()) s["note"] = "members beyond double run one by one on the threads: lanes are for double";
   s["threads"] = sweep.threads();
   s["warnings"] = sweep_warnings(sweep);
-  s["failures"] = Json::array();
-  for (std::size_t member = 0; member < sweep.members() && s["failures"].size() < most_failures; ++member) {
-    const MemberRow& row = sweep.rows()[member];
-    if (row.message.empty()) continue;
-    s["failures"].push_back({{"member", member},
-                             {"kind", std::string(name(row.status))},
-                             {"step", row.steps + 1},
-                             {"t", row.t},
-                             {"message", row.message}});
+  if (sweep.common().section) {
+    std::size_t points = 0;
+    for (const MemberRow& row : sweep.rows()) points += row.section_points();
+    s["section"] = {{"points", points}};
   }
+  s["failures"] = failures_of(sweep);
   return s;
 }
 
@@ -134,12 +159,17 @@ std::string readable_sweep(const Json& s) {
   line("members",
        fmt::format("{} ({} done, {} failed, {} unfinished)", s["members"].get<std::size_t>(),
                    s["done"].get<std::size_t>(), s["failed"].get<std::size_t>(), s["unfinished"].get<std::size_t>()));
+  if (s.contains("no_start")) {
+    line("no start",
+         fmt::format("{} of the failed: the energy is out of their reach", s["no_start"].get<std::size_t>()));
+  }
   for (const auto& [path, entry] : s["varied"].items()) {
     line("varied", entry.contains("first")
                        ? fmt::format("{}: {} values, {:g} .. {:g}", path, entry["count"].get<std::size_t>(),
                                      entry["first"].get<double>(), entry["last"].get<double>())
                        : fmt::format("{}: {} values", path, entry["count"].get<std::size_t>()));
   }
+  if (s.contains("section")) line("section", fmt::format("{} points", s["section"]["points"].get<std::size_t>()));
   line("lanes", fmt::format("{} ({}), {} members in lanes, threads {}", s["lanes"].get<std::size_t>(),
                             s["instruction_set"].get<std::string>(), s["members_in_lanes"].get<std::size_t>(),
                             s["threads"].get<int>()));

@@ -56,9 +56,10 @@ bool belongs_to_single_runs(const std::string& path) {
 }
 
 /// What is wrong with the request beside its scenario goes into `wrong`, a line each.
-std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
+Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
   std::vector<Vary> varied;
-  if (request.varied.empty()) wrong.emplace_back("--vary: error: found none; allowed PATH=a:b:n or PATH=v1,v2,...");
+  if (request.varied.empty())
+    wrong.emplace_back("--vary: error: found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
   if (request.threads < 0 || request.threads > most_sweep_threads) {
     wrong.push_back("--threads: error: found " + std::to_string(request.threads) + "; allowed 1 to " +
                     std::to_string(most_sweep_threads) + ", 0 for all");
@@ -95,9 +96,12 @@ std::vector<Vary> varied_of(const SweepRequest& request, SweepOptions& how, std:
                       " replaces; allowed one of them");
     }
   }
-  try_to("--vary: error: ", [&] { (void)member_count(varied); });
+  Varied all;
+  if (wrong.empty()) {
+    try_to(request.zip ? "--zip: error: " : "--vary: error: ", [&] { all = Varied(std::move(varied), request.zip); });
+  }
   try_to("", [&] { how.lanes = lanes_named(request.lanes); });
-  return varied;
+  return all;
 }
 
 }  // namespace
@@ -106,16 +110,19 @@ class ScenarioSweep::Impl {
  public:
   explicit Impl(const SweepRequest& request) {
     SweepOptions how{.threads = request.threads};
-    const std::vector<Vary> varied = varied_of(request, how, complaints);
+    Varied varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
-    how.observables = columns_of_measures(request, varied);
+    how.observables_of = [this](const Scenario& common) {
+      notes = notes_on(common);
+      return sweep_columns(common);
+    };
     how.is_nonsense = [](const Scenario& scenario, const MemberRow& row) {
       Frame end;
       end.q = row.q;
       end.p = row.p;
       return is_energy_nonsense(scenario, row.energy, row.energy_scale, end);
     };
-    sweep.emplace(request.text, request.name, request.sets, varied, how);
+    sweep.emplace(request.text, request.name, request.sets, std::move(varied), how);
     complaints = sweep->complaints();
   }
 
@@ -124,18 +131,14 @@ class ScenarioSweep::Impl {
   std::optional<Sweep> sweep;
 
  private:
-  /// Of what the first member requests; what belongs to single runs is left out.
-  MemberObservables columns_of_measures(const SweepRequest& request, const std::vector<Vary>& varied) {
-    std::vector<std::string> sets = request.sets;
-    for (const Vary& vary : varied) sets.push_back(vary.path + "=" + vary.texts.front());
-    const Reading first = read_scenario_text(request.text, request.name, sets);
-    if (!first.scenario) return {};  // the sweep complains
-    notes.insert(notes.end(), first.scenario->notes.begin(), first.scenario->notes.end());
+  /// What belongs to single runs is left out.
+  static std::vector<std::string> notes_on(const Scenario& common) {
+    std::vector<std::string> all = common.notes;
     for (const MeasureKind& kind : measure_kinds()) {
-      if (kind.columns != nullptr || !kind.requested(*first.scenario)) continue;
-      notes.push_back("run." + kind.key + " belongs to single runs: a sweep leaves it out");
+      if (kind.columns != nullptr || kind.points_in_sweeps || !kind.requested(common)) continue;
+      all.push_back("run." + kind.key + " belongs to single runs: a sweep leaves it out");
     }
-    return sweep_columns(*first.scenario);
+    return all;
   }
 };
 

@@ -19,6 +19,10 @@ class StepClock {
   R time() const { return time_after(0); }
   /// The time that so many steps from now will have.
   R time_after(std::int64_t steps) const { return start_ + static_cast<R>(position_ + direction_ * steps) * step_; }
+  R start() const { return start_; }
+  /// Steps from the start of time, and the direction in which they are counted.
+  std::int64_t position() const { return position_; }
+  std::int64_t direction() const { return direction_; }
   /// Steps taken, in either direction.
   std::int64_t steps_taken() const { return taken_; }
 

@@ -7,9 +7,15 @@
 // A branch on the state has no place in a straight line: < and abs throw. A test for equality (a case of measure zero,
 // such as p_phi = 0) takes the branch of the state at the recording and leaves a guard, which shows for a
 // later state that it would branch otherwise.
+//
+// An exact recording (Folding::exact) repeats to the last bit what numbers of type R would do, zeros' signs included:
+// nothing is left out that changes a bit for some input, a power is the power of the library, every comparison leaves a
+// guard. From it whole steps are made (run/recorded_step.hpp).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -43,7 +49,9 @@ enum class Operation {
   tangent,     // of a; b is the node of its square
   tanh,        // likewise
   arctangent,  // of a; b is the node of a^2
-  power        // a^c
+  power,       // a^c
+  absolute,    // |a|, in exact recordings, as what follows
+  larger       // a < b ? b : a
 };
 
 struct TapeNode {
@@ -56,10 +64,12 @@ struct TapeNode {
 /// The operations that lead from the inputs, which are the first nodes, to the outputs.
 template <class R>
 struct Tape {
+  enum class Relation { equal, less, greater };
   struct Guard {
     int node;
     R value;
-    bool equal;  // node == value at the recording
+    bool holds;  // node is in this relation to value at the recording
+    Relation relation = Relation::equal;
   };
   std::size_t inputs = 0;
   std::vector<TapeNode> nodes;
@@ -87,6 +97,8 @@ bool identical(const T& a, const T& b) {
 template <class R>
 class Recorder;
 
+enum class Folding { usual, exact };
+
 /// A number that remembers how it was computed: a constant, or a node of the recording.
 template <class R>
 struct Trace {
@@ -112,8 +124,8 @@ struct Trace {
   // Friends, so that constants of any type convert.
   friend Trace operator+(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
-    if (a.is_exactly(0)) return b;
-    if (b.is_exactly(0)) return a;
+    if (a.is_exactly(0) && !b.is_exact()) return b;
+    if (b.is_exactly(0) && !a.is_exact()) return a;
     const R sum = a.value + b.value;
     if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, sum);
     if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, sum);
@@ -131,7 +143,7 @@ struct Trace {
   friend Trace operator*(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
     if (a.is_constant()) return b * a;
-    if (b.is_exactly(0)) return Trace(R(0));
+    if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
     if (b.is_exactly(1)) return a;
     if (b.is_exactly(-1)) return -a;
     const R product = a.value * b.value;
@@ -141,7 +153,7 @@ struct Trace {
   }
   friend Trace operator/(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
-    if (a.is_exactly(0)) return Trace(R(0));
+    if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
     if (b.is_exactly(1)) return a;
     const R quotient = a.value / b.value;
     if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
@@ -150,18 +162,19 @@ struct Trace {
   }
 
   friend constexpr bool operator==(const Trace& a, const Trace& b) {
-    const bool equal = a.value <= b.value && b.value <= a.value;
-    if (a.is_constant() && b.is_constant()) return equal;
-    if (!a.is_constant() && !b.is_constant()) return (a - b) == Trace(R(0));
-    const Trace& variable = a.is_constant() ? b : a;
-    const Trace& constant = a.is_constant() ? a : b;
-    variable.recorder->guard(variable.node, constant.value, equal);
-    return equal;
+    return compared(a, b, Tape<R>::Relation::equal, a.value <= b.value && b.value <= a.value);
   }
-  friend bool operator<(const Trace& a, const Trace& b) { return ordered(a, b), a.value < b.value; }
-  friend bool operator>(const Trace& a, const Trace& b) { return ordered(a, b), b.value < a.value; }
-  friend bool operator<=(const Trace& a, const Trace& b) { return ordered(a, b), a.value <= b.value; }
-  friend bool operator>=(const Trace& a, const Trace& b) { return ordered(a, b), b.value <= a.value; }
+  friend bool operator<(const Trace& a, const Trace& b) {
+    return ordered(a, b), compared(a, b, Tape<R>::Relation::less, a.value < b.value);
+  }
+  friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
+  friend bool operator<=(const Trace& a, const Trace& b) {
+    return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, b.value < a.value);
+  }
+  friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
+
+  /// Whether it belongs to an exact recording.
+  bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
 
   [[noreturn]] static void refuse() {
     throw Error(
@@ -171,8 +184,26 @@ struct Trace {
   }
 
  private:
+  using Relation = typename Tape<R>::Relation;
   static void ordered(const Trace& a, const Trace& b) {
-    if (!a.is_constant() || !b.is_constant()) refuse();
+    if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
+  }
+  /// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
+  /// are 0 for equal numbers only.
+  static constexpr bool compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
+    if (a.is_constant() && b.is_constant()) return holds;
+    if (b.is_constant()) {
+      a.recorder->guard(a.node, b.value, holds, relation);
+    } else if (a.is_constant()) {
+      const Relation turned = relation == Relation::equal  ? Relation::equal
+                              : relation == Relation::less ? Relation::greater
+                                                           : Relation::less;
+      b.recorder->guard(b.node, a.value, holds, turned);
+    } else {
+      const Trace difference = a - b;
+      if (!difference.is_constant()) difference.recorder->guard(difference.node, R(0), holds, relation);
+    }
+    return holds;
   }
 };
 
@@ -186,10 +217,19 @@ Trace<R> value_of(const Trace<R>& x) {
   return x;
 }
 
+/// More operations than the recorder was allowed.
+struct RecordingTooLong : Error {
+  RecordingTooLong() : Error("a recording is longer than allowed") {}
+};
+
 /// Records the operations, with the values at one state.
 template <class R>
 class Recorder {
  public:
+  explicit Recorder(Folding folding = Folding::usual, std::size_t most_nodes = static_cast<std::size_t>(-1))
+      : exact_(folding == Folding::exact), most_nodes_(most_nodes) {}
+  bool is_exact() const { return exact_; }
+
   Trace<R> input(const R& value) {
     ++tape_.inputs;
     return push({.operation = Operation::input}, value);
@@ -218,7 +258,9 @@ class Recorder {
     if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
     return y;
   }
-  void guard(int node, const R& value, bool equal) { tape_.guards.push_back({node, value, equal}); }
+  void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
+    tape_.guards.push_back({node, value, holds, relation});
+  }
 
   /// The tape that computes the outputs and nothing else.
   Tape<R> finish(const std::vector<Trace<R>>& outputs) {
@@ -237,6 +279,7 @@ class Recorder {
   TapeNode& node(int i) { return tape_.nodes[static_cast<std::size_t>(i)]; }
 
   Trace<R> push(const TapeNode& n, const R& value) {
+    if (tape_.nodes.size() >= most_nodes_) throw RecordingTooLong();
     tape_.nodes.push_back(n);
     values_.push_back(value);
     return {value, this, size() - 1};
@@ -260,10 +303,18 @@ class Recorder {
     const std::size_t count = tape_.constants.size();
     // Few constants occur many times; in a long list (n masses) only the last ones are compared.
     for (std::size_t i = count; i > 0 && i + 64 > count; --i) {
-      if (detail::identical(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
+      if (is_same_constant(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
     }
     tape_.constants.push_back(value);
     return static_cast<int>(count);
+  }
+
+  /// Zeros of both signs are different constants where signs of zeros count.
+  bool is_same_constant(const R& a, const R& b) const {
+    if constexpr (std::is_floating_point_v<R>) {
+      if (exact_ && std::signbit(a) != std::signbit(b)) return false;
+    }
+    return detail::identical(a, b);
   }
 
   void drop_unused() {
@@ -296,6 +347,8 @@ class Recorder {
     for (auto& guard : tape_.guards) guard.node = moved(guard.node);
   }
 
+  bool exact_;
+  std::size_t most_nodes_;
   Tape<R> tape_;
   std::vector<R> values_;
   std::unordered_multimap<std::size_t, int> known_;
@@ -370,6 +423,7 @@ Trace<R> atan(const Trace<R>& x) {
 template <class R>
 Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
   if (x.is_constant()) return Trace<R>(R(pow(x.value, y)));
+  if (x.is_exact()) return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
   const double exponent = static_cast<double>(y);
   const int whole = exponent >= -64 && exponent <= 64 ? static_cast<int>(exponent) : 0;
   if (detail::identical(y, base_scalar<R>(whole))) {
@@ -380,8 +434,21 @@ Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
 }
 template <class R>
 Trace<R> abs(const Trace<R>& x) {
+  if (x.is_exact()) return detail::recorded(Operation::absolute, x, [](const R& v) { return R(abs(v)); });
   if (!x.is_constant()) Trace<R>::refuse();
   return Trace<R>(R(abs(x.value)));
 }
+/// a < b ? b : a, which an exact recording has without a branch.
+template <class R>
+Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
+  if ((a.is_exact() || b.is_exact()) && !a.is_constant() && !b.is_constant()) {
+    return a.recorder->of_two(Operation::larger, a.node, b.node, larger(a.value, b.value));
+  }
+  return a < b ? b : a;
+}
 
 }  // namespace hamflow
+
+/// What is finite, and where rounding begins, is the question of the numbers that are recorded.
+template <class R>
+struct std::numeric_limits<hamflow::Trace<R>> : std::numeric_limits<R> {};

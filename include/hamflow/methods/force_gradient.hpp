@@ -185,6 +185,7 @@ struct ForceGradient {
   static constexpr bool accepts = QuadraticKinetic<P>&& TwiceDifferentiable<P>;
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
+  static constexpr bool recorded = true;
   const ForceGradientTable* table;
   template <class P, class A>
   using Stepper = ForceGradientStep<P, A>;

@@ -11,8 +11,9 @@
 //     };
 // It may declare `compensated` (increments are always added with compensation; by default those of implicit steps are),
 // `typed` (compiled with every problem of the catalogue in double, for what is bound by its step; by default it runs
-// behind virtual calls there), and `faces`, the sets of capabilities for which it is compiled there, the preferred one
-// first (src/catalog/visit_erased.hpp).
+// behind virtual calls there), `recorded` (a step in double is a straight line, which is recorded and compiled), and
+// `faces`, the sets of capabilities for which it is compiled there, the preferred one first
+// (src/catalog/visit_erased.hpp).
 #pragma once
 
 #include <concepts>
@@ -54,6 +55,16 @@ template <class M>
 constexpr bool has_typed_kernel() {
   if constexpr (requires { M::typed; }) {
     return M::typed;
+  } else {
+    return false;
+  }
+}
+
+/// Whether a step in double can be recorded (run/recorded_step.hpp).
+template <class M>
+constexpr bool is_recorded() {
+  if constexpr (requires { M::recorded; }) {
+    return M::recorded;
   } else {
     return false;
   }

@@ -132,6 +132,7 @@ struct RungeKuttaBy {
   static constexpr bool implicit = false;
   static constexpr bool bijective = false;
   static constexpr bool typed = true;
+  static constexpr bool recorded = true;
   template <class P, class A>
   using Stepper = RungeKutta<P, A, Tableau>;
   template <class P, class A>

@@ -168,6 +168,14 @@ class Splitting {
     }
   }
 
+  /// A problem behind virtual calls knows at run time which functions of a factor it has.
+  void ask(const P& problem) {
+    if constexpr (knows_at_run_time) {
+      force_takes_factor_ = problem.has_scaled_force();
+      velocity_takes_factor_ = problem.has_scaled_velocity();
+    }
+  }
+
   MethodInfo info() const { return info_(table_); }
 
   /// z <- Psi_h(z). Always done: trouble shows in the state. Inlined by force into the loop over steps, so that state
@@ -219,6 +227,10 @@ class Splitting {
 
  private:
   using Increment = typename detail::PairSumsOf<P, A, sums_integers>::Increment;
+  static constexpr bool knows_at_run_time = requires(const P& problem) {
+    problem.has_scaled_force();
+    problem.has_scaled_velocity();
+  };
 
   constexpr bool leading() const {
     if constexpr (shape == Shape::any) {
@@ -240,10 +252,19 @@ class Splitting {
       return true;
     } else if constexpr (!HasScaledForce<P, Base, Real>) {
       return false;
+    } else if constexpr (knows_at_run_time) {
+      return force_takes_factor_ && ends_alike_;
     } else if constexpr (shape == Shape::any) {
       return ends_alike_;
     } else {
       return true;
+    }
+  }
+  constexpr bool drift_takes_factor() const {
+    if constexpr (HasScaledVelocity<P, Base, Real> && knows_at_run_time) {
+      return velocity_takes_factor_;
+    } else {
+      return HasScaledVelocity<P, Base, Real>;
     }
   }
   constexpr Base within(const Base& factor) const { return factor_within() ? factor : Base(1); }
@@ -292,18 +313,18 @@ class Splitting {
       kick(factor, f, z, nothing);
     }
   }
-  [[gnu::always_inline]] static void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z,
-                                           [[maybe_unused]] auto& late) {
+  [[gnu::always_inline]] void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z,
+                                    [[maybe_unused]] auto& late) const {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
-    constexpr bool scaled = HasScaledVelocity<P, Base, Real>;
-    if constexpr (scaled) {
+    const bool scaled = drift_takes_factor();
+    if (scaled) {
       scaled_velocity(problem, factor, z.momenta(), v);
     } else {
       velocity(problem, z.momenta(), v);
     }
     if constexpr (defers) {
       late.add([&](std::size_t i) { return scaled ? v[i] : Real(factor * v[i]); }, z.q, late.q);
-    } else if constexpr (scaled) {
+    } else if (scaled) {
       z.move(v);
     } else {
       z.move(factor, v);
@@ -322,6 +343,8 @@ class Splitting {
   Vector<Increment, n> kick_{};  // of the last kick: kept_factor_ F(q)
   Base kept_factor_{};
   bool kick_is_current_ = false;
+  bool force_takes_factor_ = true;  // of a problem that knows it at run time
+  bool velocity_takes_factor_ = true;
   long long forces_ = 0;
   Base leading_kick_{};
   bool leading_ = false;  // of Shape::any: a kick comes first, last, and in both places is equally strong
@@ -380,14 +403,17 @@ struct TableRecipe {
   static constexpr bool implicit = false;
   static constexpr bool bijective = true;
   static constexpr bool typed = true;
+  static constexpr bool recorded = true;
   AnySplitting method;
   bool needs_quadratic_kinetic() const { return method.nystroem(); }
   TableRecipe<Shape::any> with_any_shape() const { return {method}; }
   template <class P, class A>
   using Stepper = Splitting<P, A, shape>;
   template <class P, class A>
-  Stepper<P, A> bind(const P&) const {
-    return {method.sequence<typename Stepper<P, A>::Base>(), method.describe(), method.table()};
+  Stepper<P, A> bind(const P& problem) const {
+    Stepper<P, A> stepper{method.sequence<typename Stepper<P, A>::Base>(), method.describe(), method.table()};
+    stepper.ask(problem);
+    return stepper;
   }
 };
 
@@ -403,10 +429,12 @@ struct Composition {
   using Stepper = Splitting<P, A, kick_first ? Shape::kick_drift_kick : Shape::drift_kick_drift,
                             kick_first ? Table.stages() : Table.stages() + 1>;
   template <class P, class A>
-  Stepper<P, A> bind(const P&) const {
+  Stepper<P, A> bind(const P& problem) const {
     using Base = typename Stepper<P, A>::Base;
-    return {sequence_of<Base>(Table, starts_with),
-            kick_first ? detail::describe_kick_first : detail::describe_drift_first, &Table};
+    Stepper<P, A> stepper{sequence_of<Base>(Table, starts_with),
+                          kick_first ? detail::describe_kick_first : detail::describe_drift_first, &Table};
+    stepper.ask(problem);
+    return stepper;
   }
 };
 
@@ -426,10 +454,12 @@ struct SplittingBy {
   template <class P, class A>
   using Stepper = Splitting<P, A, shape(), links>;
   template <class P, class A>
-  Stepper<P, A> bind(const P&) const {
+  Stepper<P, A> bind(const P& problem) const {
     static_assert(accepts<P>,
                   "hamflow: this table has its order for a QuadraticKinetic problem only, T = p^T M^-1 p/2");
-    return {sequence_of<typename Stepper<P, A>::Base>(Table), detail::describe_splitting, &Table};
+    Stepper<P, A> stepper{sequence_of<typename Stepper<P, A>::Base>(Table), detail::describe_splitting, &Table};
+    stepper.ask(problem);
+    return stepper;
   }
 };
 

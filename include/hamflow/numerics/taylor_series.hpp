@@ -163,6 +163,9 @@ class TaylorSeries {
       case Operation::power:
         y[k] = k == 0 ? R(pow(a[0], constant())) : power(a, y, constant(), k);
         break;
+      case Operation::absolute:  // of exact recordings only
+      case Operation::larger:
+        Trace<Constant>::refuse();
     }
   }
 
@@ -178,7 +181,7 @@ class TaylorSeries {
   bool guards_hold(const Tape<Constant>& tape) const {
     for (const auto& guard : tape.guards) {
       const Constant now = value_of(of(guard.node)[0]);
-      if ((now <= guard.value && guard.value <= now) != guard.equal) return false;
+      if ((now <= guard.value && guard.value <= now) != guard.holds) return false;
     }
     return true;
   }

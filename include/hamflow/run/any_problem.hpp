@@ -1,6 +1,6 @@
 // A problem behind virtual calls: what runs in more digits than double, and what the verification looks at, is compiled
 // once for each method and number type, not once for each problem too. One indirect call per force is lost beside the
-// cost of such arithmetic. The typed kernels in double never come here.
+// cost of such arithmetic. Steps in double are recorded through it (recorded_step.hpp) and run without any call.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,11 @@ namespace hamflow {
 template <class S>
 inline constexpr bool first_derivatives_only = false;
 template <class R>
-inline constexpr bool first_derivatives_only<Trace<R>> = true;
+inline constexpr bool first_derivatives_only<Trace<R>> = !std::is_same_v<R, double>;
+/// Number types in which factors of kicks and drifts go into the functions, as in typed code in double, whose bits are
+/// wanted.
+template <class S>
+inline constexpr bool takes_factors = std::is_same_v<S, double> || std::is_same_v<S, Trace<double>>;
 
 /// The functions of one Hamiltonian for states of type S. What its capabilities do not promise is never called.
 template <class S>
@@ -32,11 +36,17 @@ class Functions {
   virtual S potential(const V& q) const = 0;
   virtual void velocity(const V& p, V& v) const = 0;
   virtual void force(const V& q, V& f) const = 0;
+  // Of a problem that has them.
+  virtual bool has_scaled_velocity() const = 0;
+  virtual bool has_scaled_force() const = 0;
+  virtual void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const = 0;
+  virtual void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const = 0;
   virtual void gradient(const V& q, const V& p, V& dq, V& dp) const = 0;
   virtual void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const = 0;
   virtual void force_and_hessian(const V& q, V& f, M& h) const = 0;
   virtual V invariants(const V& q, const V& p, const S& t) const = 0;
   virtual std::vector<std::size_t> invariant_sizes() const = 0;
+  virtual std::string label() const = 0;  // of the problem and its choices, for saved states
   // Of a cyclic problem.
   virtual std::shared_ptr<const Functions> reduced(const S& momentum) const = 0;
   virtual S cyclic_rate(const V& q, const S& momentum) const = 0;
@@ -54,6 +64,8 @@ class FunctionsOf final : public Functions<S> {
   static constexpr bool cyclic = Cyclic<P>;
   static constexpr bool charge = ChargeInField<P>;
   static constexpr bool has_hessian = !first_derivatives_only<S>;
+  static constexpr bool drifts_by = takes_factors<S> && Separable<P> && HasScaledVelocity<P, base_scalar<S>, S>;
+  static constexpr bool kicks_by = takes_factors<S> && Separable<P> && HasScaledForce<P, base_scalar<S>, S>;
 
  public:
   using typename Functions<S>::V;
@@ -88,6 +100,26 @@ class FunctionsOf final : public Functions<S> {
     if constexpr (Separable<P>) {
       X out = zeros<S, n>(q.size());
       hamflow::force(problem_, in(q), out);
+      put(out, f);
+    } else {
+      absent();
+    }
+  }
+  bool has_scaled_velocity() const override { return drifts_by; }
+  bool has_scaled_force() const override { return kicks_by; }
+  void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const override {
+    if constexpr (drifts_by) {
+      X out = zeros<S, n>(p.size());
+      problem_.scaled_velocity(factor, in(p), out);
+      put(out, v);
+    } else {
+      absent();
+    }
+  }
+  void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
+    if constexpr (kicks_by) {
+      X out = zeros<S, n>(q.size());
+      problem_.scaled_force(factor, in(q), out);
       put(out, f);
     } else {
       absent();
@@ -137,6 +169,7 @@ class FunctionsOf final : public Functions<S> {
     }
   }
   std::vector<std::size_t> invariant_sizes() const override { return detail::invariant_sizes(problem_); }
+  std::string label() const override { return detail::problem_label<P>(); }
   std::shared_ptr<const Functions<S>> reduced(const S& momentum) const override {
     if constexpr (cyclic && std::is_same_v<S, RealOf<P>>) {
       return std::unique_ptr<const Functions<S>>(new FunctionsOf<typename P::Reduced, S>(problem_.reduced(momentum)));
@@ -256,6 +289,20 @@ class AnyProblem {
   void force(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const requires separable {
     on<S>().force(q, f);
   }
+  /// Whether the functions of a factor are there, which is known at run time only; their bits are not those of
+  /// products.
+  bool has_scaled_velocity() const requires(separable&& takes_factors<R>) { return on<R>().has_scaled_velocity(); }
+  bool has_scaled_force() const requires(separable&& takes_factors<R>) { return on<R>().has_scaled_force(); }
+  template <class S>
+  requires(separable&& takes_factors<S>) void scaled_velocity(const base_scalar<S>& factor, const Vector<S, dynamic>& p,
+                                                              Vector<S, dynamic>& v) const {
+    on<S>().scaled_velocity(factor, p, v);
+  }
+  template <class S>
+  requires(separable&& takes_factors<S>) void scaled_force(const base_scalar<S>& factor, const Vector<S, dynamic>& q,
+                                                           Vector<S, dynamic>& f) const {
+    on<S>().scaled_force(factor, q, f);
+  }
   template <class S>
   void gradient(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, Vector<S, dynamic>& dq,
                 Vector<S, dynamic>& dp) const {
@@ -281,6 +328,7 @@ class AnyProblem {
     return on<S>().invariants(q, p, t);
   }
   const std::vector<std::size_t>& invariant_sizes() const { return *invariant_sizes_; }
+  std::string label() const { return on<R>().label(); }
 
   using Reduced = AnyProblem<R, Capability::separable | Capability::quadratic_kinetic>;
   Reduced reduced(const R& momentum) const requires cyclic { return {size_ - 1, on<R>().reduced(momentum)}; }

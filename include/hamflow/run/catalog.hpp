@@ -20,6 +20,18 @@
 
 namespace hamflow {
 
+/// No start has the energy that was asked for.
+class NoStart : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What stands for the component of p, or of v, that is left to the energy: the largest root of H = energy, or the
+/// smallest.
+inline constexpr const char* largest_root = "+";
+inline constexpr const char* smallest_root = "-";
+inline bool is_left_to_energy(const std::string& text) { return text == largest_root || text == smallest_root; }
+
 /// Where a run begins: a geometric start or a state; v, if not empty, stands for p = dL/dv.
 struct StartSpec {
   std::string kind;  // of a geometric start; empty, with an orbit: by energy and angular momentum
@@ -28,6 +40,7 @@ struct StartSpec {
   std::vector<std::string> q;
   std::vector<std::string> p;
   std::vector<std::string> v;
+  std::string energy;        // of a state of which one component is left to it; empty: all are given
   bool barycentric = false;  // the centre of mass is moved to the origin, to rest
   bool geometric() const { return !kind.empty() || !orbit.empty(); }
 };
@@ -43,8 +56,9 @@ struct Request {
   std::string kernel = "exact";
   double position_unit = 0x1p-52;  // lattice spacings, powers of two
   double momentum_unit = 0x1p-52;
-  int threads = 1;    // for the forces of one step
-  bool watch = true;  // energy and invariants at every step
+  int threads = 1;     // for the forces of one step
+  bool watch = true;   // energy and invariants at every step
+  bool record = true;  // steps are recorded and compiled where they can be; the bits are the same
 };
 
 /// One problem of the catalogue (a problem with a choice of potential has one entry for each). Parameters are complete.

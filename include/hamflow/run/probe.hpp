@@ -37,6 +37,19 @@ std::vector<std::size_t> invariant_sizes(const P& problem) {
     return {};
   }
 }
+
+/// A problem's name with its choices.
+template <class P>
+std::string problem_label() {
+  if constexpr (requires { P::info().variant; }) {
+    const auto info = P::info();
+    std::string text = info.name;
+    for (const auto& [key, value] : info.variant) text += " " + key + " = " + value;
+    return text;
+  } else {
+    return "a problem";
+  }
+}
 }  // namespace detail
 
 /// Watches nothing.
@@ -101,6 +114,12 @@ class ConservationProbe {
     std::size_t i = 0;
     std::size_t k = 0;
     for (const std::size_t size : sizes) {
+      if (size == 1) {
+        worst_[k] = larger(worst_[k], R(abs(values[i] - initial_[i])));
+        ++i;
+        ++k;
+        continue;
+      }
       R square(0);
       for (const std::size_t end = i + size; i < end; ++i) {
         const R difference = values[i] - initial_[i];

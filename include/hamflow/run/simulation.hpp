@@ -75,6 +75,8 @@ class Simulation {
   virtual MethodInfo method() const = 0;
   /// After a failure: what went wrong in the step after the present one, in a sentence.
   virtual std::string failure() const = 0;
+  /// Whether steps have been recorded, and many of them run as one compiled loop (run/recorded_simulation.hpp).
+  virtual bool is_recorded() const { return false; }
 
   /// Everything that decides the bits of the steps to come and of the summary: state, clock, and the memory of the
   /// method and of the probe. Equal simulations give equal bytes.

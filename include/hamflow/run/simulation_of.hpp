@@ -24,12 +24,15 @@ concept Method = Problem<P> && Arithmetic<A> &&
 };
 
 template <class P, class M, Arithmetic A, class Probe = ConservationProbe<P, typename A::Real>>
-class SimulationOf final : public SimulationState<P, A, Probe> {
+class SimulationOf : public SimulationState<P, A, Probe> {
   using State = SimulationState<P, A, Probe>;
+
+ protected:
   using State::clock_;
   using State::probe_;
   using State::problem_;
   using State::z_;
+  M method_;
 
  public:
   static_assert(Method<M, P, A>, "hamflow: this type is not a Method for this problem and arithmetic");
@@ -166,8 +169,6 @@ class SimulationOf final : public SimulationState<P, A, Probe> {
     }
     return finite;
   }
-
-  M method_;
 };
 
 template <class P, class M>

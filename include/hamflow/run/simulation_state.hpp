@@ -20,12 +20,6 @@ namespace detail {
 inline std::string arithmetic_kind(std::string_view name, int digits) {
   return std::string(name) + " in " + std::to_string(digits) + " bits";
 }
-inline std::string kind_of(const std::string& problem, const std::vector<std::pair<std::string, std::string>>& variant,
-                           const std::string& method, const std::string& arithmetic) {
-  std::string text = problem;
-  for (const auto& [key, value] : variant) text += " " + key + " = " + value;
-  return text + ", " + method + ", " + arithmetic;
-}
 [[gnu::noinline]] inline void expect_same_kind(const std::string& found, const std::string& wanted) {
   if (found != wanted) throw Error("the saved state is that of " + found + ", not of " + wanted);
 }
@@ -152,11 +146,11 @@ class SimulationState : public Simulation {
   /// What may be restored here: the format's version, problem, method and arithmetic.
   [[gnu::cold]] std::string kind() const {
     const std::string arithmetic = detail::arithmetic_kind(A::name, std::numeric_limits<Real>::digits);
-    if constexpr (requires { P::info().variant; }) {
-      const auto info = P::info();
-      return detail::kind_of(info.name, info.variant, method().name, arithmetic);
+    const std::string rest = ", " + method().name + ", " + arithmetic;
+    if constexpr (requires { problem_.label(); }) {
+      return problem_.label() + rest;
     } else {
-      return detail::kind_of("a problem", {}, method().name, arithmetic);
+      return detail::problem_label<P>() + rest;
     }
   }
 

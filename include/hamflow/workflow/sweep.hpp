@@ -16,9 +16,11 @@ struct SweepRequest {
   std::string text;                 // of the scenario
   std::string name;                 // stands in messages
   std::vector<std::string> sets{};  // PATH=VALUE, for all members
-  std::vector<std::string> varied;  // PATH=a:b:n or PATH=v1,v2,...; every combination, the last one changing fastest
-  int threads = 0;                  // 0: all cores; results do not depend on it
-  std::string lanes = "auto";       // auto, none, generic, avx2, avx512; nor on this
+  // PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA of other varied keys; every combination, the last one changing fastest
+  std::vector<std::string> varied;
+  bool zip = false;            // in place of every combination: the n-th value of each key together
+  int threads = 0;             // 0: all cores; results do not depend on it
+  std::string lanes = "auto";  // auto, none, generic, avx2, avx512; nor on this
 };
 
 struct SweepReport {
@@ -42,7 +44,7 @@ class ScenarioSweep {
   const std::vector<std::string>& complaints() const;
   const std::vector<std::string>& notes() const;
   /// What is wrong with a figure of this sweep: with the file's name, the keys varied or the column; empty if nothing
-  /// is.
+  /// is. Without a column: the section of all members, where one is asked for, else energy/max_error.
   std::string refused_figure(const std::filesystem::path& file, const std::string& column) const;
   /// Of all members together.
   std::int64_t total_steps() const;
@@ -53,7 +55,7 @@ class ScenarioSweep {
   std::string json_with_rows(const SweepReport& report) const;
   /// Writes the table in the scenario's formats, and summary.json, into a folder made before.   @throws FileError
   void write(const SweepReport& report, const std::filesystem::path& folder) const;
-  /// A column over the one or two keys varied.   @throws Error, FileError
+  /// A column over the one or two keys varied, or the section of all members.   @throws Error, FileError
   void draw(const std::filesystem::path& file, const std::string& column) const;
 
  private:

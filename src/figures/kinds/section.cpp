@@ -1,4 +1,6 @@
 // The points of a Poincare section, in the plane of a coordinate and its momentum.
+#include <algorithm>
+
 #include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
@@ -27,6 +29,8 @@ std::string apart(const Figure& figure) {
 
 Page page(const Figure& figure) {
   constexpr std::size_t most_points = 20000;
+  constexpr std::size_t most_together = 100000;
+  const std::size_t each = std::clamp<std::size_t>(most_together / figure.runs.size(), 100, most_points);
   const FigureData& one = figure.runs.front();
   Extent q;
   Extent p;
@@ -34,7 +38,7 @@ Page page(const Figure& figure) {
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
     Series points = series_of(figure, run);
     points.ink = Ink::fine_dots;
-    points.curve = thin_out(finite_points(figure.runs[run].section_q, figure.runs[run].section_p), most_points);
+    points.curve = thin_out(finite_points(figure.runs[run].section_q, figure.runs[run].section_p), each);
     q.include(points.curve.x);
     p.include(points.curve.y);
     panel.series.push_back(std::move(points));

@@ -36,6 +36,7 @@ struct MeasureKind {
   std::string (*text)(const nlohmann::ordered_json& entry);
   /// The columns that it gives a sweep whose first member is this scenario; null: it belongs to single runs.
   MemberObservables (*columns)(const Scenario&) = nullptr;
+  bool points_in_sweeps = false;  // a sweep records it for each member, in a table of its own
 };
 
 /// Every kind, in the alphabetical order of its files.

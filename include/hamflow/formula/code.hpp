@@ -1,0 +1,98 @@
+// **Straight code for expressions**: the operations of a graph that outputs need, one after the other. What depends on
+// constants alone, numbers and fixed symbols, is computed once, in the number type of the parameters; the rest for each
+// state, in any number type.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/pool.hpp"
+#include "hamflow/formula/operations.hpp"
+
+namespace hamflow::formula {
+
+/// Places of values: first the constants, then the symbols that vary, then results.
+struct CodeStep {
+  Op op;
+  int a = -1;
+  int b = -1;     // of a whole power unused
+  int whole = 0;  // the exponent of a power that is a product
+};
+
+struct Code {
+  struct Constant {
+    enum class Kind : std::uint8_t { number, pi, symbol, result } kind;
+    std::string text{};  // of a number
+    int symbol = -1;     // its number among all symbols
+    CodeStep step{};     // of a result; operands are earlier constants
+  };
+  std::vector<Constant> constants;
+  std::vector<int> symbols;  // those that vary, by their numbers among all
+  std::vector<CodeStep> steps;
+  std::vector<int> outputs;  // places
+
+  std::size_t places() const { return constants.size() + symbols.size() + steps.size(); }
+};
+
+/// @param fixed which symbols keep their value
+Code code_of(const Graph& graph, std::span<const int> outputs, const std::vector<bool>& fixed);
+
+template <class S>
+S applied(const CodeStep& step, const S* values) {
+  if (step.op == Op::power && step.b < 0) return whole_power(values[step.a], step.whole);
+  return applied(step.op, values[step.a], values[step.b < 0 ? step.a : step.b]);
+}
+
+/// Code whose constants are numbers of type R. Copies share the code.
+template <class R>
+class BoundCode {
+ public:
+  BoundCode() = default;
+  /// @param value_of(symbol) the value of a fixed symbol
+  template <class ValueOf>
+  BoundCode(std::shared_ptr<const Code> code, const ValueOf& value_of) : code_(std::move(code)) {
+    constants_.reserve(code_->constants.size());
+    for (const Code::Constant& c : code_->constants) {
+      switch (c.kind) {
+        case Code::Constant::Kind::number:
+          constants_.push_back(parse_decimal<R>(c.text));
+          break;
+        case Code::Constant::Kind::pi:
+          constants_.push_back(pi_value<R>());
+          break;
+        case Code::Constant::Kind::symbol:
+          constants_.push_back(value_of(c.symbol));
+          break;
+        case Code::Constant::Kind::result:
+          constants_.push_back(applied(c.step, constants_.data()));
+          break;
+      }
+    }
+  }
+
+  const Code& code() const { return *code_; }
+  const std::vector<R>& constants() const { return constants_; }
+
+  /// @param value_of(symbol) the value of a symbol that varies   @param put(k, value) takes the k-th output
+  template <class S, class ValueOf, class Put>
+  void run(const ValueOf& value_of, const Put& put) const {
+    std::vector<S, PoolAllocator<S>> values;
+    values.reserve(code_->places());
+    for (const R& c : constants_) values.push_back(lifted<S>(c));
+    for (const int symbol : code_->symbols) values.push_back(value_of(symbol));
+    for (const CodeStep& step : code_->steps) values.push_back(applied(step, values.data()));
+    for (std::size_t k = 0; k < code_->outputs.size(); ++k) {
+      put(k, values[static_cast<std::size_t>(code_->outputs[k])]);
+    }
+  }
+
+ private:
+  std::shared_ptr<const Code> code_;
+  std::vector<R> constants_;
+};
+
+}  // namespace hamflow::formula

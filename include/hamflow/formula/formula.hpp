@@ -1,0 +1,98 @@
+// **Formulas as people type them**: "p^2/(2*m) + k*(1 - cos(q))" is read into a graph, and evaluated in any number
+// type. The grammar: + - * / ^ ** (^ to the right, -x^2 = -(x^2)), the functions sqrt exp log sin cos tan asin acos
+// atan atan2 sinh cosh tanh abs, pi or Pi, parentheses, names, and
+//     let r = sqrt(x^2 + y^2), u = 1/r in ...     names for what occurs several times
+//     sum(i, 1, n - 1, (x[i+1] - x[i])^2)         sums; an index is a whole expression of i, numbers, parameters
+// A text is read and nothing is run: it reaches the values that it names. Every error says at which column it is, what
+// was found, what is allowed, and the nearest name (core/text_place.hpp).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamflow/formula/code.hpp"
+
+namespace hamflow {
+
+/// What a formula may name.
+struct FormulaSymbols {
+  /// In the order of their values: "x", "x[1]" (an entry of a list), "problem.initial.q[1]" (a key), "t" (the time).
+  std::vector<std::string> names;
+  /// Those with a value that is known when the formula is read. Whole ones may stand in indices and in the limits of
+  /// sums; with all of them what is constant in a formula has to be finite.
+  std::map<std::string, double> known{};
+  /// What the names are, in messages.
+  std::string what = "names";
+};
+
+/// Why something cannot be called `name`: it is a function, `let`, `in`, `sum`, `pi`, `t`, or no word. Empty if it can.
+std::string refused_formula_name(const std::string& name);
+/// How long and how deep a formula may be.
+struct FormulaLimits {
+  static constexpr std::size_t characters = 100'000;
+  static constexpr int depth = 200;              // nested parentheses, signs, powers, sums, let
+  static constexpr std::size_t terms = 300'000;  // operations, those of all terms of sums counted
+  static constexpr int nodes = 200'000;          // different operations
+};
+
+/// **Formula**: an expression with one value, read once. Copies share it.
+class Formula {
+ public:
+  Formula() = default;
+  Formula(std::shared_ptr<const formula::Graph> graph, int root, std::size_t symbols);
+
+  /// Its value. @param values as many as there are names, in their order   @tparam S any number type
+  template <class S>
+  S evaluate(std::span<const S> values) const {
+    using R = base_number<S>;
+    return evaluate(formula::BoundCode<R>(code_, [](int) { return R(0); }), values);
+  }
+  /// The same with its constants read before, for many states: `bind<R>()` once, then this.
+  template <class R>
+  formula::BoundCode<R> bind() const {
+    return formula::BoundCode<R>(code_, [](int) { return R(0); });
+  }
+  template <class R, class S>
+  static S evaluate(const formula::BoundCode<R>& bound, std::span<const S> values) {
+    S result{};
+    bound.template run<S>([&](int symbol) -> const S& { return values[static_cast<std::size_t>(symbol)]; },
+                          [&](std::size_t, const S& value) { result = value; });
+    return result;
+  }
+
+  /// The numbers of the names that occur.
+  const std::vector<int>& symbols() const { return code_->symbols; }
+  bool uses(int symbol) const;
+  const formula::Graph& graph() const { return *graph_; }
+  int root() const { return root_; }
+
+ private:
+  template <class S>
+  struct BaseNumber {
+    using type = base_scalar<S>;
+  };
+  template <class R>
+  struct BaseNumber<Trace<R>> {
+    using type = R;
+  };
+  template <class S>
+  using base_number = typename BaseNumber<S>::type;
+
+  std::shared_ptr<const formula::Graph> graph_;
+  int root_ = -1;
+  std::shared_ptr<const formula::Code> code_;
+};
+
+/// @throws Error at the column where the text makes no sense, and where what is constant is not finite
+Formula parse_formula(std::string_view text, const FormulaSymbols& symbols);
+
+namespace formula {
+/// The same into a graph that has other expressions of the same symbols already. @return its node
+int read_into(Graph& graph, std::string_view text, const FormulaSymbols& symbols);
+}  // namespace formula
+
+}  // namespace hamflow

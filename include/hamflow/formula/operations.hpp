@@ -1,0 +1,175 @@
+// What the operations of a formula do in every number type: numbers of any precision, dual numbers, recordings.
+#pragma once
+
+#include "hamflow/core/dual.hpp"
+#include "hamflow/core/error.hpp"
+#include "hamflow/core/math.hpp"
+#include "hamflow/core/tape.hpp"
+#include "hamflow/formula/graph.hpp"
+
+namespace hamflow::formula {
+
+template <class S>
+struct IsTrace : std::false_type {};
+template <class R>
+struct IsTrace<Trace<R>> : std::true_type {};
+/// Neither dual nor recorded.
+template <class S>
+inline constexpr bool is_plain = !IsDual<S>::value && !IsTrace<S>::value;
+
+/// A constant as a number of type S, through any nesting of dual numbers.
+template <class S, class R>
+S lifted(const R& x) {
+  if constexpr (std::is_same_v<S, R>) {
+    return x;
+  } else if constexpr (IsDual<S>::value) {
+    return S(lifted<decltype(S::value)>(x));
+  } else {
+    return static_cast<S>(x);
+  }
+}
+
+namespace detail {
+/// An exact recording has no operation for what is composed of others here: it would have other last bits.
+template <class S>
+void refuse_exact(const S& x) {
+  if constexpr (IsTrace<S>::value) {
+    if constexpr (requires { x.is_exact(); }) {
+      if (x.is_exact()) S::refuse();
+    }
+  } else if constexpr (IsDual<S>::value) {
+    refuse_exact(x.value);
+  }
+}
+}  // namespace detail
+
+template <class S>
+S arcsine(const S& x) {
+  if constexpr (is_plain<S>) {
+    return asin(x);
+  } else {
+    detail::refuse_exact(x);
+    return atan(x / sqrt((S(1) - x) * (S(1) + x)));
+  }
+}
+template <class S>
+S arccosine(const S& x) {
+  if constexpr (is_plain<S>) {
+    return acos(x);
+  } else {
+    detail::refuse_exact(x);
+    return S(2) * atan(sqrt((S(1) - x) / (S(1) + x)));
+  }
+}
+/// The angle of (x, y). Beside plain numbers it is taken from the quotient that does not cancel.
+template <class S>
+S angle_of(const S& y, const S& x) {
+  if constexpr (is_plain<S>) {
+    return atan2(y, x);
+  } else if constexpr (IsDual<S>::value) {
+    const auto angle = angle_of(y.value, x.value);
+    const auto square = x.value * x.value + y.value * y.value;
+    S out(angle);
+    for (std::size_t k = 0; k < out.slope.size(); ++k) {
+      out.slope[k] = (x.value * y.slope[k] - y.value * x.slope[k]) / square;
+    }
+    return out;
+  } else {
+    detail::refuse_exact(y);
+    detail::refuse_exact(x);
+    using R = decltype(S::value);
+    // Either half angle formula; the branch is that of the state at the recording, both are the same function where
+    // neither divides by 0.
+    const S r = sqrt(x * x + y * y);
+    if (x.value < R(0)) return S(2) * atan((r - x) / y);
+    return S(2) * atan(y / (r + x));
+  }
+}
+
+/// x^n for a whole n, by squaring; n = 0 gives 1.
+template <class S>
+S whole_power(const S& x, int n) {
+  if (n < 0) return S(1) / whole_power(x, -n);
+  if (n == 0) return S(1);
+  if (n == 1) return x;
+  const S half = whole_power(x, n / 2);
+  const S even = half * half;
+  return n % 2 == 1 ? even * x : even;
+}
+/// Up to here a whole power is a product.
+inline constexpr int largest_whole_power = 64;
+
+/// x^y. @param constant whether y is no function of the state
+template <class S>
+S any_power(const S& x, const S& y) {
+  if constexpr (is_plain<S>) {
+    return pow(x, y);
+  } else if constexpr (IsTrace<S>::value) {
+    if (y.is_constant()) return pow(x, y.value);
+    detail::refuse_exact(x);
+    detail::refuse_exact(y);
+    return exp(y * log(x));
+  } else {
+    bool constant = true;
+    for (const auto& slope : y.slope) constant = constant && slope == decltype(y.value)(0);
+    if (constant) {
+      using R = base_scalar<S>;
+      if constexpr (std::is_same_v<decltype(y.value), R>) return pow(x, y.value);
+    }
+    return exp(y * log(x));
+  }
+}
+
+/// The value of one operation.
+template <class S>
+S applied(Op op, const S& x, const S& y) {
+  switch (op) {
+    case Op::negate:
+      return -x;
+    case Op::add:
+      return x + y;
+    case Op::subtract:
+      return x - y;
+    case Op::multiply:
+      return x * y;
+    case Op::divide:
+      return x / y;
+    case Op::power:
+      return any_power(x, y);
+    case Op::atan2:
+      return angle_of(x, y);
+    case Op::sqrt:
+      return sqrt(x);
+    case Op::exp:
+      return exp(x);
+    case Op::log:
+      return log(x);
+    case Op::sin:
+      return sin(x);
+    case Op::cos:
+      return cos(x);
+    case Op::tan:
+      return tan(x);
+    case Op::asin:
+      return arcsine(x);
+    case Op::acos:
+      return arccosine(x);
+    case Op::atan:
+      return atan(x);
+    case Op::sinh:
+      return sinh(x);
+    case Op::cosh:
+      return cosh(x);
+    case Op::tanh:
+      return tanh(x);
+    case Op::abs:
+      return abs(x);
+    case Op::number:
+    case Op::pi:
+    case Op::symbol:
+      break;
+  }
+  return x;
+}
+
+}  // namespace hamflow::formula

@@ -1,0 +1,66 @@
+// A Hamiltonian that is typed: the keys of the problem `formula`, and of `central-force` with potential = "formula".
+//
+// Such a problem is an entry of the catalogue like any other, found by choices: formula_choices(texts) makes them,
+// find_problem("formula", choices) (run/catalog.hpp) gives the entry, whose info() names its coordinates, parameters
+// and invariants. The choices have names, sizes of lists and the whole numbers that indices and sums need, but no other
+// values: members of a sweep that differ in parameters share one entry, and give their values with the request as for
+// every problem.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hamflow/core/error.hpp"
+#include "hamflow/core/problem_info.hpp"
+
+namespace hamflow {
+
+/// The names that choices use, and the keys of a scenario.
+struct FormulaKeys {
+  static constexpr const char* problem = "formula";
+  static constexpr const char* coordinates = "coordinates";
+  static constexpr const char* momenta = "momenta";
+  static constexpr const char* hamiltonian = "hamiltonian";
+  static constexpr const char* kinetic = "kinetic";
+  static constexpr const char* potential = "potential";
+  static constexpr const char* parameters = "parameters";
+  static constexpr const char* invariants = "invariants";
+  static constexpr const char* constraints = "constraints";
+  static constexpr const char* central_potential = "V";  // of central-force
+};
+
+/// The problem `formula`. Parameters: name to a number expression "1/3" or a list "[1, 2]".
+struct FormulaTexts {
+  std::vector<std::string> coordinates{};  // "x"; "x[n]" with a number or whole parameter n: x[1] .. x[n]
+  std::vector<std::string> momenta{};      // empty: p_x, p_x[1] ..
+  std::string hamiltonian{};               // or kinetic and potential
+  std::string kinetic{};
+  std::string potential{};
+  Texts parameters{};
+  std::vector<std::pair<std::string, std::string>>
+      invariants{};                        // name, formula of coordinates, momenta, parameters, t
+  std::vector<std::string> constraints{};  // g(q) = 0
+};
+
+/// What is wrong with typed texts, and in which of them: "hamiltonian", "coordinates[1]", "invariants.L",
+/// "parameters.k". The message has the form "found ...; allowed ...; did you mean ...?".
+class FormulaError : public Error {
+ public:
+  FormulaError(std::string at, const std::string& message) : Error(message), key(std::move(at)) {}
+  std::string key;
+};
+
+using Choices = std::map<std::string, std::string>;
+
+/// The choices of a typed problem, checked: every text can be read and differentiated.
+/// @throws FormulaError
+Choices formula_choices(const FormulaTexts& texts);
+/// The same of `central-force`, potential = "formula": V of r and the parameters.
+/// @param coordinates "cartesian" or "polar"   @throws FormulaError
+Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates);
+/// Back: the texts that choices were made of; of parameters the values that choices keep, others empty.
+FormulaTexts formula_texts(const Choices& choices);
+
+}  // namespace hamflow

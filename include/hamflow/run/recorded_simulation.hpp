@@ -1,0 +1,116 @@
+// A simulation by name in double: it is the one behind virtual calls, and where many steps are asked for, a step is
+// recorded once (recorded_step.hpp), made into a loop (numerics/program.hpp) and repeated in it, with the same bits.
+// Where a check of the loop fails, or the step cannot be recorded, the block takes the ordinary road from where it
+// began.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hamflow/run/recorded_step.hpp"
+#include "hamflow/run/simulation_of.hpp"
+
+namespace hamflow {
+
+/// Records the step of length h from a state.
+using StepRecorder = std::function<std::optional<RecordedStep>(
+    const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time)>;
+
+template <class P, class M, Arithmetic A>
+class RecordedSimulation final : public SimulationOf<P, M, A> {
+  using Base = SimulationOf<P, M, A>;
+  using Base::clock_;
+  using Base::method_;
+  using Base::probe_;
+  using Base::z_;
+
+ public:
+  /// @param recorder empty: every step takes the ordinary road   @param watch false: the probe stays as it was
+  RecordedSimulation(Base simulation, StepRecorder recorder, bool watch)
+      : Base(std::move(simulation)),
+        recorder_(std::make_shared<const StepRecorder>(std::move(recorder))),
+        watch_(watch) {}
+
+  Outcome advance(std::int64_t steps) override {
+    const Loop* const loop = loop_for(clock_.step_length(), steps);
+    if (loop == nullptr || steps < 1) return ordinary(steps);
+    if (!load(*loop)) {
+      // One step leaves what the method keeps for the next one.
+      const Outcome outcome = ordinary(1);
+      if (outcome != Outcome::done || --steps == 0) return outcome;
+      if (!load(*loop)) return ordinary(steps);
+    }
+    if (!loop->steps->run(values_, steps) || !are_finite()) return ordinary(steps);
+    scatter(loop->fields, values_, steps, z_, method_, probe_);
+    clock_.advance(steps);
+    return Outcome::done;
+  }
+  bool is_recorded() const override {
+    return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
+  }
+  [[gnu::cold]] std::unique_ptr<Simulation> clone() const override {
+    return std::make_unique<RecordedSimulation>(*this);
+  }
+
+ private:
+  /// Recording and compiling a step costs about as much as so many of them.
+  static constexpr std::int64_t worth_recording = 200;
+  struct Loop {
+    double h = 0;
+    std::vector<CarriedField> fields;
+    std::unique_ptr<const StepLoop> steps;  // null: the step cannot be recorded
+    std::size_t values = 0;
+  };
+
+  Outcome ordinary(std::int64_t steps) {
+    if (watch_) return Base::advance(steps);
+    const auto probe = probe_;
+    const Outcome outcome = Base::advance(steps);
+    probe_ = probe;
+    return outcome;
+  }
+  /// The values that the loop carries. @return false where they are not as recorded
+  bool load(const Loop& loop) {
+    values_.resize(loop.values);
+    values_.back() = static_cast<double>(clock_.position());
+    return gather(loop.fields, values_, z_, method_, probe_);
+  }
+  bool are_finite() const {
+    double most = 0;
+    for (const double x : values_) most = most < abs(x) || x != x ? abs(x) : most;
+    return most <= std::numeric_limits<double>::max();
+  }
+
+  /// Null where there is none, or too few steps have been asked for. Forwards and backwards are two loops.
+  const Loop* loop_for(double h, std::int64_t steps) {
+    for (const auto& loop : loops_) {
+      if (loop && loop->h == h) return loop->steps ? loop.get() : nullptr;
+    }
+    asked_ += steps;
+    if (asked_ < worth_recording || !*recorder_) return nullptr;
+    auto made = std::make_shared<Loop>();
+    made->h = h;
+    const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
+                            static_cast<double>(clock_.direction())};
+    if (auto recorded = (*recorder_)(z_.positions(), z_.momenta(), h, time)) {
+      made->values = recorded->program.values();
+      made->fields = std::move(recorded->fields);
+      made->steps = make_step_loop(recorded->program);
+    }
+    loops_[loops_[0] ? 1 : 0] = made;
+    return made->steps ? made.get() : nullptr;
+  }
+
+  std::shared_ptr<const StepRecorder> recorder_;
+  bool watch_;
+  std::array<std::shared_ptr<const Loop>, 2> loops_;
+  std::vector<double> values_;
+  std::int64_t asked_ = 0;
+};
+
+}  // namespace hamflow

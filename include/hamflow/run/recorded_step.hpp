@@ -1,0 +1,104 @@
+// One whole step of a method, recorded: the step template is called with traces in place of numbers, on a problem
+// behind virtual calls, and what it computes becomes a Program. Everything that a step leaves for the next one is
+// carried, the kick that is kept as well as what the probe has seen, so that the program can be repeated by itself.
+#pragma once
+
+#include <optional>
+
+#include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/tape.hpp"
+#include "hamflow/numerics/program.hpp"
+#include "hamflow/run/any_problem.hpp"
+#include "hamflow/run/carried.hpp"
+#include "hamflow/run/probe.hpp"
+
+namespace hamflow {
+
+/// A step as a program, and where its values are in the archives of state, method and probe, in this order; the last
+/// value is the number of steps from the start of time, as a double.
+struct RecordedStep {
+  Program program;
+  std::vector<CarriedField> fields;
+};
+
+/// More operations than this are left to the loops that are compiled for a problem.
+inline constexpr std::size_t most_recorded_operations = 60000;
+
+/// The program of an exact recording: what the outputs and the guards need of the tape.
+Program program_of(const Tape<double>& tape);
+
+namespace detail {
+/// The numbers of a traced object, before the step and behind it.
+struct TracedFields {
+  std::vector<Trace<double>> traces;
+  std::vector<std::optional<std::uint64_t>> others;  // bits, in the order of all fields; none for a trace
+};
+template <class... Objects>
+TracedFields traced_fields(Objects&... objects) {
+  TracedFields all;
+  for_each_carried(
+      [&]<class T>(T& x) {
+        if constexpr (IsTrace<T>::value) {
+          all.traces.push_back(x);
+          all.others.push_back(std::nullopt);
+        } else {
+          all.others.push_back(field_bits(x));
+        }
+      },
+      objects...);
+  return all;
+}
+/// Before and behind a step. Empty where a field changes in another way than a counter does.
+std::vector<CarriedField> carried_fields(const TracedFields& before, const TracedFields& after,
+                                         const std::vector<bool>& counts);
+}  // namespace detail
+
+/// Time as a StepClock counts it, for the recording: t = start + position step.
+struct RecordedTime {
+  double start = 0;
+  double step = 0;  // of the clock, forwards
+  double position = 0;
+  double direction = 1;
+};
+
+/// Records the step from (q, p).
+/// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
+/// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
+template <class A, class P, class M>
+std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
+                                        const Vector<double, dynamic>& p, double h, const RecordedTime& time,
+                                        bool watch) {
+  using Number = Trace<double>;
+  PhasePoint<A, dynamic> z;
+  z.store(cast<Number>(q), cast<Number>(p));
+  ConservationProbe<P, Number> probe;
+  try {
+    probe.start(problem, z.positions(), z.momenta(), Number(time.start));
+    // On constants, for what the method keeps of it.
+    if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
+    Recorder<double> recorder(Folding::exact, most_recorded_operations);
+    std::vector<bool> counts;
+    for_each_carried(
+        [&]<class T>(T& x) {
+          if constexpr (detail::IsTrace<T>::value) x = recorder.input(x.value);
+          counts.push_back(std::is_integral_v<T> && !std::is_same_v<T, bool>);
+        },
+        z, method, probe);
+    const Number position = recorder.input(time.position + time.direction) + Number(time.direction);
+    const detail::TracedFields before = detail::traced_fields(z, method, probe);
+    if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
+    const Number t = Number(time.start) + position * Number(time.step);
+    if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
+    detail::TracedFields after = detail::traced_fields(z, method, probe);
+    RecordedStep recorded;
+    recorded.fields = detail::carried_fields(before, after, counts);
+    if (recorded.fields.empty()) return std::nullopt;
+    after.traces.push_back(position);
+    recorded.program = program_of(recorder.finish(after.traces));
+    return recorded;
+  } catch (const RecordingTooLong&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace hamflow

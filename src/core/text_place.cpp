@@ -1,0 +1,48 @@
+#include "hamflow/core/text_place.hpp"
+
+#include <algorithm>
+
+#include "hamflow/core/error.hpp"
+
+namespace hamflow {
+
+std::string shown(std::string_view text, std::size_t at) {
+  constexpr std::size_t most = 60;
+  if (text.size() <= most) return std::string(text);
+  std::size_t begin = std::min(at > most / 2 ? at - most / 2 : 0, text.size() - most);
+  std::size_t end = begin + most;
+  while (begin > 0 && continues_character(text[begin])) --begin;
+  while (end < text.size() && continues_character(text[end])) ++end;
+  return (begin > 0 ? "..." : "") + std::string(text.substr(begin, end - begin)) + (end < text.size() ? "..." : "");
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower(std::string_view word) {
+  std::string all(word);
+  for (char& c : all) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return all;
+}
+
+std::string character_at(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return "the end";
+  std::size_t end = at + 1;
+  while (end < text.size() && continues_character(text[end])) ++end;
+  return "'" + std::string(text.substr(at, end - at)) + "'";
+}
+
+void refuse_at(std::string_view text, std::size_t at, const std::string& what, const std::string& allowed,
+               const std::string& meant) {
+  const auto before = text.begin() + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
+  const auto column = 1 + std::count_if(text.begin(), before, [](char c) { return !continues_character(c); });
+  throw Error("found \"" + shown(text, at) + "\", column " + std::to_string(column) + ": " + what + "; allowed " +
+              allowed + (meant.empty() ? "" : "; did you mean " + meant + "?"));
+}
+
+}  // namespace hamflow

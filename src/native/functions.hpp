@@ -1,0 +1,70 @@
+// What an instruction computes, in plain C++: for the interpreter, and for what is known while a program is compiled.
+#pragma once
+
+#include <cmath>
+
+#include "hamflow/numerics/program.hpp"
+
+namespace hamflow::native {
+
+/// Whether it is a function of the system's library.
+constexpr bool is_call(Instruction instruction) { return instruction >= Instruction::exponential; }
+
+constexpr bool is_commutative(Instruction instruction) {
+  return instruction == Instruction::add || instruction == Instruction::multiply;
+}
+
+using FunctionOfOne = double (*)(double);
+using FunctionOfTwo = double (*)(double, double);
+
+/// The library's function of one number; null for any other instruction.
+FunctionOfOne function_of_one(Instruction instruction);
+/// The library's function of two numbers; null for any other instruction.
+FunctionOfTwo function_of_two(Instruction instruction);
+
+inline double called(Instruction instruction, double a, double b) {
+  if (const FunctionOfOne f = function_of_one(instruction)) return f(a);
+  return function_of_two(instruction)(a, b);
+}
+
+/// @param b ignored by functions of one number
+inline double applied(Instruction instruction, double a, double b) {
+  switch (instruction) {
+    case Instruction::add:
+      return a + b;
+    case Instruction::subtract:
+      return a - b;
+    case Instruction::multiply:
+      return a * b;
+    case Instruction::divide:
+      return a / b;
+    case Instruction::negate:
+      return -a;
+    case Instruction::absolute:
+      return std::fabs(a);
+    case Instruction::larger:
+      return a < b ? b : a;
+    case Instruction::square_root:
+      return std::sqrt(a);
+    default:
+      return called(instruction, a, b);
+  }
+}
+
+inline bool holds(Program::Check::Kind kind, double a, double b) {
+  switch (kind) {
+    case Program::Check::Kind::finite:
+      return std::isfinite(a);
+    case Program::Check::Kind::equal:
+      return a == b;
+    case Program::Check::Kind::unequal:
+      return a != b;
+    case Program::Check::Kind::less:
+      return a < b;
+    case Program::Check::Kind::not_less:
+      return !(a < b);
+  }
+  return false;
+}
+
+}  // namespace hamflow::native

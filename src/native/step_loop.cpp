@@ -1,0 +1,50 @@
+#include <cstdlib>
+#include <string_view>
+
+#include "machine_code.hpp"
+#include "passes.hpp"
+
+namespace hamflow {
+namespace native {
+namespace {
+
+class MachineCode final : public StepLoop {
+ public:
+  explicit MachineCode(std::unique_ptr<const Function> function) : function_(std::move(function)) {}
+  bool run(std::span<double> carried, std::int64_t steps) const override {
+    return function_->entry()(carried.data(), steps, nullptr, nullptr) != 0;
+  }
+
+ private:
+  std::unique_ptr<const Function> function_;
+};
+
+/// Scheduled where that costs no registers: rk4 and compensated sums become 3 to 12 % faster; five bodies, whose
+/// numbers no longer fit, 7 % slower.
+PlacedProgram placed_well(const Program& program, unsigned registers) {
+  PlacedProgram as_written = placed(program, registers), early = placed(scheduled(program), registers);
+  const std::size_t lines = as_written.body.size();
+  return early.body.size() <= lines + lines / 32 ? early : as_written;
+}
+
+}  // namespace
+
+std::unique_ptr<const StepLoop> make_machine_code(const Program& program) {
+  const unsigned registers = scalar_registers();
+  if (registers == 0) return nullptr;
+  const Program ready = simplified(program);
+  auto function = assembled(placed_well(ready, registers), ready.constants);
+  return function ? std::make_unique<MachineCode>(std::move(function)) : nullptr;
+}
+
+}  // namespace native
+
+std::unique_ptr<const StepLoop> make_step_loop(const Program& program) {
+  const char* const asked = std::getenv("HAMFLOW_NATIVE");
+  if (asked == nullptr || std::string_view(asked) != "0") {
+    if (auto loop = native::make_machine_code(program)) return loop;
+  }
+  return make_interpreter(native::simplified(program));
+}
+
+}  // namespace hamflow

@@ -1,0 +1,121 @@
+#include "varied.hpp"
+
+#include <algorithm>
+
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/text.hpp"
+
+namespace hamflow {
+
+namespace {
+constexpr std::size_t most_members = 10'000'000;
+
+/// The number of members where every combination is one.
+std::size_t combinations(const std::vector<Vary>& keys) {
+  std::size_t count = 1;
+  for (const Vary& key : keys) {
+    if (!key.formula.empty()) continue;
+    if (key.texts.size() > most_members / count) {
+      throw Error("found more than 10000000 members; allowed fewer values for each key");
+    }
+    count *= key.texts.size();
+  }
+  return count;
+}
+
+std::size_t common_length(const std::vector<Vary>& keys) {
+  const Vary* first = nullptr;
+  for (const Vary& key : keys) {
+    if (!key.formula.empty()) continue;
+    if (first == nullptr) first = &key;
+    if (key.texts.size() == first->texts.size()) continue;
+    throw Error("found " + std::to_string(first->texts.size()) + " values of " + first->path + " and " +
+                std::to_string(key.texts.size()) + " of " + key.path + " in step; allowed lists of equal length");
+  }
+  return first == nullptr ? 1 : first->texts.size();
+}
+}  // namespace
+
+Varied::Varied(std::vector<Vary> keys, bool in_step) : keys_(std::move(keys)), in_step_(in_step) {
+  members_ = in_step ? common_length(keys_) : combinations(keys_);
+  for (std::size_t key = 0; key < keys_.size(); ++key) check_formula(key, {});
+}
+
+std::size_t Varied::key_of(const std::string& path) const {
+  const auto found = std::find_if(keys_.begin(), keys_.end(), [&](const Vary& key) { return key.path == path; });
+  return static_cast<std::size_t>(found - keys_.begin());
+}
+
+/// @param behind the keys whose formulas name this one
+void Varied::check_formula(std::size_t key, std::vector<std::size_t> behind) const {
+  const Vary& own = keys_[key];
+  const std::string in_formula = own.path + ": found ";
+  std::vector<std::string> others;
+  for (const Vary& other : keys_) {
+    if (&other != &own && other.is_number()) others.push_back(other.path);
+  }
+  behind.push_back(key);
+  for (const NamedPath& named : paths_in(own.formula)) {
+    const std::size_t other = key_of(named.path);
+    const std::string column = ", column " + std::to_string(named.at + 1) + " of its formula";
+    if (other == keys_.size() || other == key || !keys_[other].is_number()) {
+      throw Error(in_formula + named.path + column + "; allowed other varied keys with numbers" +
+                  (others.empty() ? ", and there are none" : ": " + joined(others)) + suggestion(named.path, others));
+    }
+    if (std::find(behind.begin(), behind.end(), other) != behind.end()) {
+      throw Error(in_formula + named.path + column + ", which follows from " + own.path +
+                  " itself; allowed formulas of keys that have values");
+    }
+    check_formula(other, behind);
+  }
+}
+
+std::vector<std::size_t> Varied::free_keys() const {
+  std::vector<std::size_t> all;
+  for (std::size_t key = 0; key < keys_.size(); ++key) {
+    if (keys_[key].formula.empty() && (all.empty() || !in_step_)) all.push_back(key);
+  }
+  return all;
+}
+
+std::vector<std::string> Varied::paths() const {
+  std::vector<std::string> all;
+  for (const Vary& key : keys_) all.push_back(key.path);
+  return all;
+}
+
+std::size_t Varied::place(std::size_t member, std::size_t key) const {
+  if (!keys_[key].formula.empty()) return 0;
+  if (in_step_) return member;
+  for (std::size_t k = keys_.size(); k-- > key + 1;) {
+    if (keys_[k].formula.empty()) member /= keys_[k].texts.size();
+  }
+  return member % keys_[key].texts.size();
+}
+
+std::string Varied::text(std::size_t member, std::size_t key) const {
+  const Vary& own = keys_[key];
+  if (own.formula.empty()) return own.texts[place(member, key)];
+  std::string all;
+  std::size_t done = 0;
+  for (const NamedPath& named : paths_in(own.formula)) {
+    all += own.formula.substr(done, named.at - done) + "(" + without_quotes(text(member, key_of(named.path))) + ")";
+    done = named.at + named.path.size();
+  }
+  return all + own.formula.substr(done);
+}
+
+double Varied::number(std::size_t member, std::size_t key) const {
+  const Vary& own = keys_[key];
+  return own.formula.empty() ? own.numbers[place(member, key)] : evaluate_number<double>(text(member, key));
+}
+
+std::string Varied::described(std::size_t member) const {
+  std::string all = "member " + std::to_string(member);
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    all += (k == 0 ? ": " : ", ") + keys_[k].path + "=" + text(member, k);
+  }
+  return all;
+}
+
+}  // namespace hamflow

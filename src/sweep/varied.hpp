@@ -1,0 +1,47 @@
+// All keys that a sweep varies, and which values each member has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vary.hpp"
+
+namespace hamflow {
+
+class Varied {
+ public:
+  Varied() = default;
+  /// @param in_step the n-th member has the n-th value of each key; else there is a member for every combination, and
+  /// the last key changes fastest. Values of formulas follow from the others.
+  /// @throws Error when there are too many members, lists of different lengths in step, or a formula that names what is
+  /// no other varied key with numbers
+  Varied(std::vector<Vary> keys, bool in_step);
+
+  std::size_t members() const { return members_; }
+  const std::vector<Vary>& keys() const { return keys_; }
+  std::size_t size() const { return keys_.size(); }
+  bool in_step() const { return in_step_; }
+  /// The keys whose values do not follow from others: over which a figure is drawn. In step the first alone.
+  std::vector<std::size_t> free_keys() const;
+  std::vector<std::string> paths() const;
+
+  /// Which value of a key a member has; 0 of formulas.
+  std::size_t place(std::size_t member, std::size_t key) const;
+  /// The value as --set takes it. Of a formula the same with the values of the other keys in the place of their
+  /// paths, so that every arithmetic reads its own digits.
+  std::string text(std::size_t member, std::size_t key) const;
+  /// The same as a number. @throws Error where a formula has none
+  double number(std::size_t member, std::size_t key) const;
+  /// "member 3: problem.k=0.5, run.dt=0.1".
+  std::string described(std::size_t member) const;
+
+ private:
+  std::size_t key_of(const std::string& path) const;
+  void check_formula(std::size_t key, std::vector<std::size_t> behind) const;
+
+  std::vector<Vary> keys_;
+  bool in_step_ = false;
+  std::size_t members_ = 0;
+};
+
+}  // namespace hamflow

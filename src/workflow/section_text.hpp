@@ -1,0 +1,28 @@
+// What figures say of a Poincare section.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "hamflow/core/number.hpp"
+#include "hamflow/run/section.hpp"
+#include "hamflow/run/state_names.hpp"
+#include "text.hpp"
+
+namespace hamflow {
+
+/// The coordinate in whose plane, with its momentum, the points are drawn: the one after that of the section.
+inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
+  return (section.coordinate + 1) % size;
+}
+
+/// "section x = 0, x increasing", enhanced text.
+inline std::string section_text(const Section& section, const StateNames& names) {
+  const std::string x = figures::symbol((section.momentum ? names.p : names.q)[section.coordinate]);
+  const std::string way =
+      section.direction == 0 ? "in both directions" : x + (section.direction > 0 ? " increasing" : " decreasing");
+  return fmt::format("section {} = {}, {}", x, figures::escaped(shortest(section.value)), way);
+}
+
+}  // namespace hamflow

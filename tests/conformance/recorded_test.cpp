@@ -1,0 +1,163 @@
+// Steps that are recorded and compiled have the bits of the typed templates and of the ordinary road behind virtual
+// calls: states, energies, invariants, counters, and what the method keeps.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <set>
+
+#include "hamflow/methods/compositions/kahan_li8.hpp"
+#include "hamflow/methods/compositions/stv4.hpp"
+#include "hamflow/methods/compositions/verlet.hpp"
+#include "hamflow/methods/force_gradient.hpp"
+#include "hamflow/methods/force_gradient/chin4a.hpp"
+#include "hamflow/methods/runge_kutta.hpp"
+#include "hamflow/methods/splitting.hpp"
+#include "hamflow/methods/tableaus/rk4.hpp"
+#include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
+#include "hamflow/problems/fput.hpp"
+#include "hamflow/problems/henon_heiles.hpp"
+#include "hamflow/problems/n_body.hpp"
+#include "hamflow/problems/pendulum.hpp"
+#include "hamflow/problems/potentials/kepler.hpp"
+#include "hamflow/problems/support/polar.hpp"
+#include "hamflow/run/catalog.hpp"
+#include "hamflow/run/simulation_of.hpp"
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow {
+namespace {
+
+/// A start of the region on which the problem is measured.
+Request start_of(const ProblemEntry& problem) {
+  Request request;
+  request.problem = problem.info.name;
+  request.variant = {problem.info.variant.begin(), problem.info.variant.end()};
+  const Region region = region_of(request.problem, request.variant);
+  request.parameters = region.parameters;
+  const std::size_t size = region.centre.size() / 2;
+  for (std::size_t i = 0; i < size; ++i) {
+    request.start.q.push_back(shortest(region.centre[i]));
+    request.start.p.push_back(shortest(region.centre[size + i]));
+  }
+  request.dt = shortest(region.step / 10);
+  return request;
+}
+
+/// Steps of each comparison: HAMFLOW_TEST_STEPS, or as many as an ordinary test takes.
+int compared_steps() {
+  const char* const given = std::getenv("HAMFLOW_TEST_STEPS");
+  return given != nullptr ? std::atoi(given) : 500;
+}
+
+const std::set<std::string> not_recorded{"boris", "cg", "dop853", "taylor"};
+
+TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
+  const int steps = compared_steps();
+  int cases = 0;
+  int recorded = 0;
+  for (const ProblemEntry& problem : problems()) {
+    Request request = start_of(problem);
+    for (const MethodEntry& entry : methods()) {
+      request.method = {.name = entry.name};
+      if (!refusal(request.method, problem).empty() || not_recorded.contains(entry.name)) continue;
+      for (const std::string arithmetic : {"double", "compensated"}) {
+        if (!refusal(request.method, arithmetic).empty()) continue;
+        request.arithmetic = arithmetic;
+        SCOPED_TRACE(entry.name + " on " + request.problem + " in " + arithmetic);
+        request.record = true;
+        const auto loop = make_simulation(request);
+        request.record = false;
+        const auto ordinary = make_simulation(request);
+        for (const int block : {steps, 1, 7, steps / 2}) {
+          ASSERT_EQ(loop->advance(block), ordinary->advance(block));
+        }
+        ASSERT_EQ(loop->save(), ordinary->save());
+        loop->negate_momenta();
+        ordinary->negate_momenta();
+        loop->reverse_time();
+        ordinary->reverse_time();
+        ASSERT_EQ(loop->advance(steps), ordinary->advance(steps));
+        ASSERT_EQ(loop->save(), ordinary->save());
+        EXPECT_FALSE(ordinary->is_recorded());
+        ++cases;
+        recorded += loop->is_recorded() ? 1 : 0;
+      }
+    }
+  }
+  std::cout << cases << " cases of " << 2 * steps << " steps and more, " << recorded << " of them recorded\n";
+  EXPECT_GT(recorded, 1000);
+}
+
+/// The typed template, which is the oracle, against the simulation by name.
+template <class A, class P, class Recipe>
+void expect_typed_bits(const std::string& problem, const std::map<std::string, std::string>& variant,
+                       const std::string& method, const Recipe& recipe) {
+  SCOPED_TRACE(method + " on " + problem + " in " + std::string(A::name));
+  Request request = start_of(find_problem(problem, variant));
+  request.method = {.name = method};
+  request.arithmetic = std::is_same_v<A, Plain<double>> ? "double" : "compensated";
+  const auto by_name = make_simulation(request);
+  const std::size_t n = request.start.q.size();
+  const Parameters<double> parameters(complete(find_problem(problem, variant).info, request.parameters));
+  const P made = [&] {
+    if constexpr (P::dimension == dynamic) {
+      return P(parameters, n);
+    } else {
+      return P(parameters);
+    }
+  }();
+  auto q = zeros<double, P::dimension>(n);
+  auto p = zeros<double, P::dimension>(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    q[i] = evaluate_number<double>(request.start.q[i]);
+    p[i] = evaluate_number<double>(request.start.p[i]);
+  }
+  auto typed = simulate<true>(made, recipe, q, p, evaluate_number<double>(request.dt), A{});
+  const int steps = 20 * compared_steps();
+  ASSERT_EQ(typed.advance(steps), by_name->advance(steps));
+  EXPECT_TRUE(by_name->is_recorded());
+  EXPECT_EQ(typed.bits(), by_name->bits());
+  EXPECT_EQ(typed.energy().max_error, by_name->energy().max_error);
+  EXPECT_EQ(typed.energy().final, by_name->energy().final);
+  EXPECT_EQ(typed.effort().force + typed.effort().gradient, by_name->effort().force + by_name->effort().gradient);
+  const auto a = typed.invariants();
+  const auto b = by_name->invariants();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].max_error, b[k].max_error);
+}
+
+template <class P>
+void expect_typed_splittings(const std::string& problem, const std::map<std::string, std::string>& variant = {}) {
+  const auto both = [&](const std::string& method, const auto& recipe) {
+    expect_typed_bits<Plain<double>, P>(problem, variant, method, recipe);
+    expect_typed_bits<Compensated<double>, P>(problem, variant, method, recipe);
+  };
+  both("verlet", Composition<compositions::verlet>{});
+  both("verlet-dkd", Composition<compositions::verlet, StartsWith::drift>{});
+  both("stv4", Composition<compositions::stv4>{});
+  both("chin4a", ForceGradient{&force_gradient::chin4a});
+}
+template <class P>
+void expect_typed_rk4(const std::string& problem, const std::map<std::string, std::string>& variant = {}) {
+  expect_typed_bits<Plain<double>, P>(problem, variant, "rk4", RungeKuttaBy<tableaus::rk4>{});
+  expect_typed_bits<Compensated<double>, P>(problem, variant, "rk4", RungeKuttaBy<tableaus::rk4>{});
+}
+
+TEST(Recorded, TheTypedTemplatesHaveTheSameBits) {
+  expect_typed_splittings<CentralForce<double, Kepler>>("central-force", {{"potential", "kepler"}});
+  expect_typed_splittings<HenonHeiles<double>>("henon-heiles");
+  expect_typed_splittings<Pendulum<double>>("pendulum");
+  expect_typed_splittings<Fput<double>>("fput");
+  expect_typed_splittings<NBody<double>>("n-body");
+  expect_typed_rk4<CentralForce<double, Kepler>>("central-force", {{"potential", "kepler"}});
+  expect_typed_rk4<PolarCentralForce<double, Kepler>>("central-force",
+                                                      {{"potential", "kepler"}, {"coordinates", "polar"}});
+  expect_typed_rk4<DoublePendulumNonlinearAbsolute<double>>("double-pendulum",
+                                                            {{"model", "nonlinear"}, {"angles", "absolute"}});
+  expect_typed_bits<Plain<double>, HenonHeiles<double>>("henon-heiles", {}, "kahan-li8",
+                                                        Composition<compositions::kahan_li8>{});
+}
+
+}  // namespace
+}  // namespace hamflow
