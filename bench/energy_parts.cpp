@@ -124,8 +124,8 @@ bool tables(const Asked& asked) {
   return table<DoublePendulumStarts, GeneralParts>(asked) && right;
 }
 
-/// What had a mean and has none any more. Before, the impulse of the pendulum was rounded with 1.3e-21, 5.6 errors of
-/// these steps, and the stopping rule left 1.9e-21 on this double pendulum, 18 errors.
+/// What had a mean and has none any more. Before, the impulse of the pendulum was rounded with 1.5e-21, 7 errors of
+/// these steps, and the stopping rule left 1.8e-21 on this double pendulum, 18 errors.
 bool check() {
   bool right = tables(Asked(2 * blocks));
   const Mean rounded = Walk<PendulumStarts, NaturalParts>(starts).means(1'000'000).of[rounded_p];
