@@ -77,6 +77,20 @@ ProblemEntry central_entry(const Choices& choices) {
   return entry;
 }
 
+FormulaTexts example_texts() {
+  FormulaTexts texts;
+  texts.coordinates = {"x", "y"};
+  texts.hamiltonian = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y";
+  texts.parameters = {{"k", "1"}, {"m", "1"}};
+  return texts;
+}
+
+/// The example has a region, on which `verify` measures, by whatever way it is found.
+ProblemEntry entry_of_choices(const std::string& name, const Choices& choices) {
+  if (name != Keys::problem) return central_entry(choices);
+  return choices == formula_choices(example_texts()) ? formula_example() : formula_entry(choices);
+}
+
 }  // namespace
 
 bool is_typed(const std::string& name, const Choices& choices) {
@@ -93,18 +107,12 @@ const ProblemEntry& typed_problem(const std::string& name, const Choices& choice
   key["problem"] = name;
   const std::scoped_lock lock(mutex);
   std::shared_ptr<const ProblemEntry>& entry = known[key];
-  if (!entry) {
-    entry =
-        std::make_shared<const ProblemEntry>(name == Keys::problem ? formula_entry(choices) : central_entry(choices));
-  }
+  if (!entry) entry = std::make_shared<const ProblemEntry>(entry_of_choices(name, choices));
   return *entry;
 }
 
 ProblemEntry formula_example() {
-  FormulaTexts texts;
-  texts.coordinates = {"x", "y"};
-  texts.hamiltonian = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y";
-  texts.parameters = {{"k", "1"}, {"m", "1"}};
+  const FormulaTexts texts = example_texts();
   ProblemEntry entry = formula_entry(formula_choices(texts));
   for (ParameterInfo& parameter : entry.info.parameters) {
     parameter.required = false;

@@ -93,7 +93,7 @@ class Commands(FormulaCase):
         # Rounding may differ where terms are grouped otherwise: some steps, some units of rounding.
         for method, arithmetic in (("stv4", "double"), ("rk4", "double"), ("cg(1,5)", "double"),
                                    ("dop853", "double"), ("taylor", "double"), ("stv4", "compensated"), ("stv4", "lattice"),
-                                   ("rk4", "quad"), ("yoshida6", "mp(40)")):
+                                   ("rk4", "quad"), ("yoshida6", "mp(30)")):
             sets = self.sets([f"method.name={method}", f"run.arithmetic={arithmetic}", "run.steps=20"])
             typed, built_in = self.summary("f.toml", *sets), self.summary("b.toml", *sets)
             for key in "qp":
