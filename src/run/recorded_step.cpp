@@ -28,7 +28,8 @@ class Translation {
   /// The companion of a function, which only Taylor coefficients need, is no operand.
   static bool has_second_operand(Operation operation) {
     return operation == Operation::add || operation == Operation::subtract || operation == Operation::multiply ||
-           operation == Operation::divide || operation == Operation::larger;
+           operation == Operation::divide || operation == Operation::larger || operation == Operation::arctangent2 ||
+           operation == Operation::power_of_two;
   }
   void mark_needed() {
     needed_.assign(tape_.nodes.size(), false);
@@ -114,6 +115,14 @@ class Translation {
         return of_one(Instruction::absolute);
       case Operation::larger:
         return of_two(Instruction::larger);
+      case Operation::arcsine:
+        return of_one(Instruction::arcsine);
+      case Operation::arccosine:
+        return of_one(Instruction::arccosine);
+      case Operation::arctangent2:
+        return of_two(Instruction::arctangent2);
+      case Operation::power_of_two:
+        return of_two(Instruction::power);
     }
     throw std::logic_error("hamflow: an operation of a tape is not known to programs");
   }

@@ -35,7 +35,10 @@ struct Family {
         member.p.push_back(region.centre[n + k] / nudge);
       }
       for (const auto& [name, size] : shape) {
-        for (const double x : parameters.list(name)) member.parameters.push_back(i % 2 == 0 ? x : x * nudge);
+        const bool is_whole = name == "n";  // of fput
+        for (const double x : parameters.list(name)) {
+          member.parameters.push_back(i % 2 == 0 || is_whole ? x : x * nudge);
+        }
       }
       member.h = region.step / (i % 3 == 0 ? 10 : 20);
       members.push_back(member);

@@ -50,6 +50,20 @@ int compared_steps() {
   return given != nullptr ? std::atoi(given) : 500;
 }
 
+/// Of problems of any size the ordinary road is that of the typed template, which saves its numbers in another form.
+void expect_same(const Simulation& a, const Simulation& b, bool save_alike) {
+  ASSERT_EQ(a.bits(), b.bits());
+  ASSERT_EQ(a.energy().max_error, b.energy().max_error);
+  ASSERT_EQ(a.effort().force, b.effort().force);
+  const auto of_a = a.invariants();
+  const auto of_b = b.invariants();
+  ASSERT_EQ(of_a.size(), of_b.size());
+  for (std::size_t k = 0; k < of_a.size(); ++k) ASSERT_EQ(of_a[k].max_error, of_b[k].max_error);
+  if (save_alike) {
+    ASSERT_EQ(a.save(), b.save());
+  }
+}
+
 const std::set<std::string> not_recorded{"boris", "cg", "dop853", "taylor"};
 
 TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
@@ -72,13 +86,13 @@ TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
         for (const int block : {steps, 1, 7, steps / 2}) {
           ASSERT_EQ(loop->advance(block), ordinary->advance(block));
         }
-        ASSERT_EQ(loop->save(), ordinary->save());
+        expect_same(*loop, *ordinary, problem.dimension != 0);
         loop->negate_momenta();
         ordinary->negate_momenta();
         loop->reverse_time();
         ordinary->reverse_time();
         ASSERT_EQ(loop->advance(steps), ordinary->advance(steps));
-        ASSERT_EQ(loop->save(), ordinary->save());
+        expect_same(*loop, *ordinary, problem.dimension != 0);
         EXPECT_FALSE(ordinary->is_recorded());
         ++cases;
         recorded += loop->is_recorded() ? 1 : 0;

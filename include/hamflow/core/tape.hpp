@@ -51,7 +51,11 @@ enum class Operation {
   arctangent,  // of a; b is the node of a^2
   power,       // a^c
   absolute,    // |a|, in exact recordings, as what follows
-  larger       // a < b ? b : a
+  larger,      // a < b ? b : a
+  arcsine,
+  arccosine,
+  arctangent2,  // atan2(a, b)
+  power_of_two  // a^b, of two numbers
 };
 
 struct TapeNode {
@@ -93,6 +97,11 @@ bool identical(const T& a, const T& b) {
   }
 }
 }  // namespace detail
+
+/// What is computed is no straight line.
+struct CannotRecord : Error {
+  using Error::Error;
+};
 
 template <class R>
 class Recorder;
@@ -169,7 +178,7 @@ struct Trace {
   }
   friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
   friend bool operator<=(const Trace& a, const Trace& b) {
-    return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, b.value < a.value);
+    return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, !(a.value <= b.value));
   }
   friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
 
@@ -177,7 +186,7 @@ struct Trace {
   bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
 
   [[noreturn]] static void refuse() {
-    throw Error(
+    throw CannotRecord(
         "H has branches that depend on the state (a comparison or abs): taylor cannot differentiate across them; "
         "dop853 "
         "can step over them");
@@ -217,11 +226,6 @@ Trace<R> value_of(const Trace<R>& x) {
   return x;
 }
 
-/// More operations than the recorder was allowed.
-struct RecordingTooLong : Error {
-  RecordingTooLong() : Error("a recording is longer than allowed") {}
-};
-
 /// Records the operations, with the values at one state.
 template <class R>
 class Recorder {
@@ -258,6 +262,10 @@ class Recorder {
     if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
     return y;
   }
+  /// A function of two numbers of which one may be a constant.
+  Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
+    return of_two(operation, node_of(a), node_of(b), value);
+  }
   void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
     tape_.guards.push_back({node, value, holds, relation});
   }
@@ -275,11 +283,15 @@ class Recorder {
   }
 
  private:
+  int node_of(const Trace<R>& x) {
+    return x.is_constant() ? push({.operation = Operation::constant, .constant = constant(x.value)}, x.value).node
+                           : x.node;
+  }
   int size() const { return static_cast<int>(tape_.nodes.size()); }
   TapeNode& node(int i) { return tape_.nodes[static_cast<std::size_t>(i)]; }
 
   Trace<R> push(const TapeNode& n, const R& value) {
-    if (tape_.nodes.size() >= most_nodes_) throw RecordingTooLong();
+    if (tape_.nodes.size() >= most_nodes_) throw CannotRecord("a recording is longer than allowed");
     tape_.nodes.push_back(n);
     values_.push_back(value);
     return {value, this, size() - 1};
@@ -357,6 +369,11 @@ Trace<R> recorded(Operation operation, const Trace<R>& x, F&& f) {
   const R value = f(x.value);
   if (x.is_constant()) return Trace<R>(value);
   return x.recorder->of_two(operation, x.node, -1, value);
+}
+/// A function of two numbers, not both constant.
+template <class R>
+Trace<R> recorded(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
+  return (a.is_constant() ? b : a).recorder->of_any_two(operation, a, b, value);
 }
 /// x^n for n > 0.
 template <class R>
@@ -437,10 +454,33 @@ Trace<R> abs(const Trace<R>& x) {
 /// a < b ? b : a, which an exact recording has without a branch.
 template <class R>
 Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
-  if ((a.is_exact() || b.is_exact()) && !a.is_constant() && !b.is_constant()) {
-    return a.recorder->of_two(Operation::larger, a.node, b.node, larger(a.value, b.value));
-  }
+  if (a.is_exact() || b.is_exact()) return detail::recorded(Operation::larger, a, b, larger(a.value, b.value));
   return a < b ? b : a;
+}
+// Of exact recordings and of constants; Taylor series have no such coefficients, and compose them of others
+// (formula/operations.hpp).
+template <class R>
+Trace<R> asin(const Trace<R>& x) {
+  if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
+  return detail::recorded(Operation::arcsine, x, [](const R& v) { return R(asin(v)); });
+}
+template <class R>
+Trace<R> acos(const Trace<R>& x) {
+  if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
+  return detail::recorded(Operation::arccosine, x, [](const R& v) { return R(acos(v)); });
+}
+template <class R>
+Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
+  const R value = atan2(y.value, x.value);
+  if (y.is_constant() && x.is_constant()) return Trace<R>(value);
+  if (!y.is_exact() && !x.is_exact()) Trace<R>::refuse();
+  return detail::recorded(Operation::arctangent2, y, x, value);
+}
+template <class R>
+Trace<R> pow(const Trace<R>& x, const Trace<R>& y) {
+  if (y.is_constant() && !y.is_exact()) return pow(x, y.value);
+  if (!x.is_exact() && !y.is_exact()) Trace<R>::refuse();
+  return detail::recorded(Operation::power_of_two, x, y, R(pow(x.value, y.value)));
 }
 
 }  // namespace hamflow

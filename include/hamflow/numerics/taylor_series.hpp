@@ -165,6 +165,10 @@ class TaylorSeries {
         break;
       case Operation::absolute:  // of exact recordings only
       case Operation::larger:
+      case Operation::arcsine:
+      case Operation::arccosine:
+      case Operation::arctangent2:
+      case Operation::power_of_two:
         Trace<Constant>::refuse();
     }
   }

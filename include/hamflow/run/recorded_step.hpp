@@ -119,7 +119,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     after.traces.push_back(position);
     recorded.program = program_of(recorder.finish(after.traces));
     return recorded;
-  } catch (const RecordingTooLong&) {
+  } catch (const CannotRecord&) {
     return std::nullopt;
   }
 }
