@@ -6,6 +6,7 @@
 
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/recorded_step.hpp"
 #include "typed_problem.hpp"
 
 namespace hamflow {
@@ -160,9 +161,17 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const int digits = digits_beyond_double(request.arithmetic);
   const MethodFamily& family = *find_method(request.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
-  if (digits == 0) {
-    if (auto simulation = problem.simulate(full)) return simulation;
+  if (digits > 0) return problem.simulate_erased(full);
+  const bool of_any_size = problem.dimension == 0;
+  if (of_any_size && full.kernel == "exact" && full.arithmetic != "lattice") {
+    // Up to some bodies a recorded step is faster, beyond them the loop over bodies.
+    auto simulation = problem.simulate_erased(full);
+    auto* const recorded = dynamic_cast<RecordedMember*>(simulation.get());
+    if (recorded != nullptr && recorded->recorded_step()) return simulation;
+    auto typed = problem.simulate(full);
+    return typed ? std::move(typed) : std::move(simulation);
   }
+  if (auto simulation = problem.simulate(full)) return simulation;
   return problem.simulate_erased(full);
 }
 

@@ -17,13 +17,18 @@ using FormulaFace = Erased<R, Capability::smooth>;
 using ModelPointer = std::shared_ptr<const formula::Model>;
 
 template <class R>
-ErasedFunctions<R> functions_of(const ModelPointer& model, const Texts& parameters) {
-  const auto bound = std::make_shared<const formula::BoundModel<R>>(model, Parameters<R>(parameters));
+ErasedFunctions<R> functions_of(const ModelPointer& model, const Parameters<R>& parameters) {
+  const auto bound = std::make_shared<const formula::BoundModel<R>>(model, parameters);
   ErasedFunctions<R> all{capabilities_of(model->structure()), model->degrees(),
                          std::make_shared<FormulaFunctions<R, R>>(bound),
                          std::make_shared<FormulaFunctions<R, Trace<R>>>(bound), nullptr};
   if constexpr (std::is_same_v<R, double>) all.dual = std::make_shared<FormulaFunctions<R, Dual<double, 1>>>(bound);
   return all;
+}
+
+template <class R>
+ErasedFunctions<R> functions_of(const ModelPointer& model, const Texts& parameters) {
+  return functions_of<R>(model, Parameters<R>(parameters));
 }
 
 std::string refused_size(const ModelPointer& model, std::size_t size) {
@@ -57,13 +62,16 @@ StateOf<R> start_of(const ModelPointer& model, const FormulaFace<R>& problem, co
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(problem, with, spec));
 }
 
+std::unique_ptr<Simulation> without_time(const ModelPointer& model, std::unique_ptr<Simulation> simulation) {
+  if (!model->structure().time || !simulation) return simulation;
+  return std::make_unique<TimedSimulation>(std::move(simulation));
+}
+
 template <class R>
 std::unique_ptr<Simulation> simulate_in(const ModelPointer& model, const Request& request) {
   const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters);
   const StateOf<R> s = start_of<R>(model, functions.template as<Capability::smooth>(), request);
-  auto simulation = simulate_erased<R>({functions, s.q, s.p, evaluate_number<R>(request.dt)}, request);
-  if (!model->structure().time || !simulation) return simulation;
-  return std::make_unique<TimedSimulation>(std::move(simulation));
+  return without_time(model, simulate_erased<R>({functions, s.q, s.p, evaluate_number<R>(request.dt)}, request));
 }
 
 bool accepts(Capability offered, const MethodSpec& method) {
@@ -115,6 +123,13 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
       return with_digits(digits, simulate_in<Mp>(model, request));
     }
     return simulate_in<double>(model, request);
+  };
+  e.simulate_member = [model](const Request& request, const Parameters<double>& parameters,
+                              const std::vector<double>& q, const std::vector<double>& p, double h) {
+    const std::size_t degrees = model->degrees();
+    return without_time(model, simulate_erased<double>({functions_of<double>(model, parameters), vector_of(q, degrees),
+                                                        vector_of(p, degrees), h},
+                                                       request));
   };
   e.step_map = [model, offered](const Texts& parameters, const MethodSpec& method,
                                 std::size_t) -> std::unique_ptr<StepMap> {

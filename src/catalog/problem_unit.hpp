@@ -198,9 +198,13 @@ class ProblemUnit : ProblemStart<Family> {
         }
         if constexpr (!is_recorded<M>()) {
           return request.arithmetic == "double" ? build<Plain<double>>(request, recipe) : nullptr;
-        } else {
-          return nullptr;
+        } else if constexpr (n == dynamic && M::bijective) {  // of more bodies than fit into straight code
+          if (request.arithmetic == "double") return build<Plain<double>>(request, with_shape_at_run_time(recipe));
+          if (request.arithmetic == "compensated") {
+            return build<Compensated<double>>(request, with_shape_at_run_time(recipe));
+          }
         }
+        return nullptr;
       }
     });
   }

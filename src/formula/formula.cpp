@@ -323,6 +323,8 @@ std::string refused_formula_name(const std::string& name) {
   return word ? "" : "the name \"" + shown(name) + "\", which is no word of letters, digits and _";
 }
 
+Formula::Formula() = default;
+
 Formula::Formula(std::shared_ptr<const formula::Graph> graph, int root, std::size_t symbols)
     : graph_(std::move(graph)), root_(root) {
   const std::vector<int> outputs{root};

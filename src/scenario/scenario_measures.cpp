@@ -72,10 +72,17 @@ void ScenarioReader::read_section(TomlTable& table) {
   section.know_all({keys.coordinate.name, keys.expression.name});
   const bool by_coordinate = section.has(keys.coordinate.name);
   if (by_coordinate == section.has(keys.expression.name)) {
-    const std::string both = keys.coordinate.name + " and " + keys.expression.name;
-    section.complain(
-        by_coordinate ? keys.expression.name : keys.coordinate.name,
-        (by_coordinate ? "found " + both + " together" : "found neither " + both) + "; allowed exactly one of them");
+    const std::string names =
+        scenario_.problem == nullptr || scenario_.start_q.empty()
+            ? std::string()
+            : " (" +
+                  joined(section_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size())
+                             .back()) +
+                  ")";
+    section.complain(by_coordinate ? keys.expression.name : keys.coordinate.name,
+                     (by_coordinate ? "found " + keys.coordinate.name + " and " + keys.expression.name + " together"
+                                    : "found neither " + keys.coordinate.name + " nor " + keys.expression.name) +
+                         "; allowed one of them: a coordinate or momentum" + names + ", or an expression of them");
   } else if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {
     by_coordinate ? read_section_coordinate(section, wanted) : read_section_expression(section, wanted);
   }

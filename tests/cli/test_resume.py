@@ -124,7 +124,7 @@ class Resume(CommandCase):
                 self.expect_equal("whole", f"part{number}")
 
     def test_measures_after_an_interruption(self):
-        self.scenario(run="dt = 0.1\nsteps = 400_000\nrecord_every = 1007" + MEASURES, problem=CHAOS)
+        self.scenario(run="dt = 0.1\nsteps = 4_000_000\nrecord_every = 10_007" + MEASURES, problem=CHAOS)
         self.run_to("whole")
         status, summary = self.interrupted("part", after=0.15)
         self.assertEqual((status, summary["status"]), (130, "interrupted"))

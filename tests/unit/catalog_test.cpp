@@ -49,7 +49,7 @@ TEST(Catalog, ProblemsAreTheFilesOfTheFolders) {
       for (const auto& [key, value] : entry.info.variant) {
         if (key == "potential") potentials.insert(value);
       }
-    } else {
+    } else if (entry.info.name != "formula") {  // which is typed
       std::string name = entry.info.name;
       for (const auto& [key, value] : entry.info.variant) name += "-" + value;
       found.insert(name);

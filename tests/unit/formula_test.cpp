@@ -192,8 +192,12 @@ TEST(Formula, ReadsTheCorpusOfTheFuzzer) {
     std::stringstream text;
     text << file.rdbuf();
     const std::string message = complaint(text.str(), symbols);
-    (message == "nothing thrown" ? read : refused) += 1;
-    if (message != "nothing thrown") EXPECT_NE(message.find(", column "), std::string::npos) << message;
+    if (message == "nothing thrown") {
+      ++read;
+      continue;
+    }
+    ++refused;
+    EXPECT_NE(message.find(", column "), std::string::npos) << message;
   }
   EXPECT_GT(read, 10);
   EXPECT_GT(refused, 10);

@@ -144,8 +144,8 @@ struct Trace {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
     if (a.is_constant()) return b * a;
     if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1)) return a;
-    if (b.is_exactly(-1)) return -a;
+    if (b.is_exactly(1) && !a.is_exact()) return a;
+    if (b.is_exactly(-1) && !a.is_exact()) return -a;
     const R product = a.value * b.value;
     if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, product);
     if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, product);
@@ -154,7 +154,7 @@ struct Trace {
   friend Trace operator/(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
     if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1)) return a;
+    if (b.is_exactly(1) && !a.is_exact()) return a;
     const R quotient = a.value / b.value;
     if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
     if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, quotient);
@@ -301,20 +301,16 @@ class Recorder {
   }
   int constant(const R& value) {
     const std::size_t count = tape_.constants.size();
+    if (exact_) {
+      tape_.constants.push_back(value);
+      return static_cast<int>(count);
+    }
     // Few constants occur many times; in a long list (n masses) only the last ones are compared.
     for (std::size_t i = count; i > 0 && i + 64 > count; --i) {
-      if (is_same_constant(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
+      if (detail::identical(tape_.constants[i - 1], value)) return static_cast<int>(i - 1);
     }
     tape_.constants.push_back(value);
     return static_cast<int>(count);
-  }
-
-  /// Zeros of both signs are different constants where signs of zeros count.
-  bool is_same_constant(const R& a, const R& b) const {
-    if constexpr (std::is_floating_point_v<R>) {
-      if (exact_ && std::signbit(a) != std::signbit(b)) return false;
-    }
-    return detail::identical(a, b);
   }
 
   void drop_unused() {

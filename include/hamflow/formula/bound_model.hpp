@@ -78,9 +78,10 @@ class BoundModel {
   }
   template <class S>
   void hessian(const V<S>& q, const V<S>& p, M<S>& qq, M<S>& qp, M<S>& pp) const {
-    const HessianCode& code = model_->hessian();
+    const Second& second = second_derivatives();
+    const HessianCode& code = *second.hessian_entries;
     for (M<S>* m : {&qq, &qp, &pp}) clear(*m);
-    run(second_derivatives().hessian, q, p, S(R(0)), [&](std::size_t k, const S& x) {
+    run(second.hessian, q, p, S(R(0)), [&](std::size_t k, const S& x) {
       if (k < code.qq.size()) {
         put_symmetric(qq, code.qq[k], x);
       } else if (k -= code.qq.size(); k < code.qp.size()) {
@@ -92,9 +93,10 @@ class BoundModel {
   }
   template <class S>
   void force_and_hessian(const V<S>& q, V<S>& f, M<S>& hessian) const {
-    const ForceAndHessianCode& code = model_->force_and_hessian();
+    const Second& second = second_derivatives();
+    const ForceAndHessianCode& code = *second.force_and_hessian_entries;
     clear(hessian);
-    run(second_derivatives().force_and_hessian, q, q, S(R(0)), [&](std::size_t k, const S& x) {
+    run(second.force_and_hessian, q, q, S(R(0)), [&](std::size_t k, const S& x) {
       if (k < size()) {
         f[k] = x;
       } else {
@@ -148,13 +150,18 @@ class BoundModel {
   /// Bound when a method first needs them.
   struct Second {
     std::once_flag once;
+    const HessianCode* hessian_entries = nullptr;
+    const ForceAndHessianCode* force_and_hessian_entries = nullptr;
     BoundCode<R> hessian;
     BoundCode<R> force_and_hessian;
   };
   const Second& second_derivatives() const {
     std::call_once(second_->once, [this] {
-      second_->hessian = bound(model_->hessian().code);
-      if (model_->structure().separable) second_->force_and_hessian = bound(model_->force_and_hessian().code);
+      second_->hessian_entries = &model_->hessian();
+      second_->hessian = bound(second_->hessian_entries->code);
+      if (!model_->structure().separable) return;
+      second_->force_and_hessian_entries = &model_->force_and_hessian();
+      second_->force_and_hessian = bound(second_->force_and_hessian_entries->code);
     });
     return *second_;
   }

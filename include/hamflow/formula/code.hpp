@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/pool.hpp"
 #include "hamflow/formula/operations.hpp"
+#include "hamflow/numerics/program.hpp"
 
 namespace hamflow::formula {
 
@@ -40,6 +43,29 @@ struct Code {
 
 /// @param fixed which symbols keep their value
 Code code_of(const Graph& graph, std::span<const int> outputs, const std::vector<bool>& fixed);
+
+/// The same for doubles as a program (numerics/program.hpp) that carries the symbols that vary, then the outputs.
+Program program_of(const Code& code, const std::vector<double>& constants);
+
+/// Code in double as machine code, made when it has been run so often that it is worth it; same bits.
+class MachineCode {
+ public:
+  /// Null for the first runs.
+  const StepLoop* loop(const Code& code, const std::vector<double>& constants) {
+    if (runs_.load(std::memory_order_relaxed) < worth_it) {
+      runs_.fetch_add(1, std::memory_order_relaxed);
+      return nullptr;
+    }
+    std::call_once(once_, [&] { loop_ = make_step_loop(program_of(code, constants)); });
+    return loop_.get();
+  }
+
+ private:
+  static constexpr int worth_it = 100;
+  std::atomic<int> runs_{0};
+  std::once_flag once_;
+  std::unique_ptr<const StepLoop> loop_;
+};
 
 template <class S>
 S applied(const CodeStep& step, const S* values) {
@@ -80,6 +106,9 @@ class BoundCode {
   /// @param value_of(symbol) the value of a symbol that varies   @param put(k, value) takes the k-th output
   template <class S, class ValueOf, class Put>
   void run(const ValueOf& value_of, const Put& put) const {
+    if constexpr (std::is_same_v<R, double> && std::is_same_v<S, double>) {
+      if (const StepLoop* const loop = machine_->loop(*code_, constants_)) return run_loop(*loop, value_of, put);
+    }
     std::vector<S, PoolAllocator<S>> values;
     values.reserve(code_->places());
     for (const R& c : constants_) values.push_back(lifted<S>(c));
@@ -91,8 +120,21 @@ class BoundCode {
   }
 
  private:
+  template <class ValueOf, class Put>
+  void run_loop(const StepLoop& loop, const ValueOf& value_of, const Put& put) const {
+    const std::size_t inputs = code_->symbols.size();
+    const std::size_t outputs = code_->outputs.size();
+    std::vector<double, PoolAllocator<double>> carried;
+    carried.reserve(inputs + outputs);
+    for (const int symbol : code_->symbols) carried.push_back(value_of(symbol));
+    carried.resize(inputs + outputs, 0.0);
+    (void)loop.run(carried, 1);  // without checks
+    for (std::size_t k = 0; k < outputs; ++k) put(k, carried[inputs + k]);
+  }
+
   std::shared_ptr<const Code> code_;
   std::vector<R> constants_;
+  std::shared_ptr<MachineCode> machine_ = std::make_shared<MachineCode>();
 };
 
 }  // namespace hamflow::formula

@@ -43,7 +43,7 @@ struct FormulaLimits {
 /// **Formula**: an expression with one value, read once. Copies share it.
 class Formula {
  public:
-  Formula() = default;
+  Formula();
   Formula(std::shared_ptr<const formula::Graph> graph, int root, std::size_t symbols);
 
   /// Its value. @param values as many as there are names, in their order   @tparam S any number type

@@ -65,10 +65,16 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
 
   std::shared_ptr<const RecordedStep> recorded_step() override {
     if (!*recorder_) return nullptr;
-    const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
-                            static_cast<double>(clock_.direction())};
-    auto step = (*recorder_)(z_.positions(), z_.momenta(), clock_.step_length(), time);
-    return step ? std::make_shared<const RecordedStep>(*std::move(step)) : nullptr;
+    const double h = clock_.step_length();
+    if (!step_ || step_of_ != h) {
+      const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
+                              static_cast<double>(clock_.direction())};
+      auto step = (*recorder_)(z_.positions(), z_.momenta(), h, time);
+      if (!step) return nullptr;
+      step_ = std::make_shared<const RecordedStep>(*std::move(step));
+      step_of_ = h;
+    }
+    return step_;
   }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {
     values.back() = static_cast<double>(clock_.position());
@@ -77,6 +83,11 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
   void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
     scatter(step.fields, values, steps, z_, method_, probe_);
     clock_.advance(steps);
+  }
+  [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
+    Base::restore(saved);
+    loops_ = {};  // where time begins is a constant of theirs
+    step_ = nullptr;
   }
   bool is_recorded() const override {
     return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
@@ -125,6 +136,8 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
   std::shared_ptr<const StepRecorder> recorder_;
   bool watch_;
   std::array<std::shared_ptr<const Loop>, 2> loops_;
+  std::shared_ptr<const RecordedStep> step_;  // the last one that was recorded, of length step_of_
+  double step_of_ = 0;
   std::vector<double> values_;
   std::int64_t asked_ = 0;
 };

@@ -25,7 +25,7 @@ struct RecordedStep {
 
 /// Longer steps take the ordinary road: straight code that no longer fits into the processor's cache of instructions
 /// is slower than the loops over bodies that are compiled (15 bodies with stv4, 6 with kahan-li8).
-inline constexpr std::size_t most_recorded_operations = 5000;
+inline constexpr std::size_t most_recorded_operations = 8000;
 
 /// The program of an exact recording: what the outputs and the guards need of the tape.
 Program program_of(const Tape<double>& tape);
