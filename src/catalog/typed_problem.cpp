@@ -77,13 +77,18 @@ ProblemEntry central_entry(const Choices& choices) {
   return entry;
 }
 
-/// What lists of problems show of typed ones, and what is measured of them.
 FormulaTexts example_texts() {
   FormulaTexts texts;
   texts.coordinates = {"x", "y"};
   texts.hamiltonian = "(p_x^2 + p_y^2)/(2*m) + k*(x^2 + y^2)/2 + x^2*y";
   texts.parameters = {{"k", "1"}, {"m", "1"}};
   return texts;
+}
+
+/// The example has a region, on which `verify` measures, by whatever way it is found.
+ProblemEntry entry_of_choices(const std::string& name, const Choices& choices) {
+  if (name != Keys::problem) return central_entry(choices);
+  return choices == formula_choices(example_texts()) ? formula_example() : formula_entry(choices);
 }
 
 }  // namespace
@@ -102,12 +107,7 @@ const ProblemEntry& typed_problem(const std::string& name, const Choices& choice
   key["problem"] = name;
   const std::scoped_lock lock(mutex);
   std::shared_ptr<const ProblemEntry>& entry = known[key];
-  if (!entry) {
-    const bool is_example = name == Keys::problem && choices == formula_choices(example_texts());
-    entry = std::make_shared<const ProblemEntry>(is_example              ? formula_example()
-                                                 : name == Keys::problem ? formula_entry(choices)
-                                                                         : central_entry(choices));
-  }
+  if (!entry) entry = std::make_shared<const ProblemEntry>(entry_of_choices(name, choices));
   return *entry;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hamflow/numerics/inverse_cube.hpp"
 #include "hamflow/numerics/program.hpp"
 
 namespace hamflow::native {
@@ -12,6 +13,25 @@ constexpr bool is_call(Instruction instruction) { return instruction >= Instruct
 
 constexpr bool is_commutative(Instruction instruction) {
   return instruction == Instruction::add || instruction == Instruction::multiply;
+}
+
+/// How many operands it has.
+constexpr int arity(Instruction instruction) {
+  switch (instruction) {
+    case Instruction::add:
+    case Instruction::subtract:
+    case Instruction::multiply:
+    case Instruction::divide:
+    case Instruction::larger:
+    case Instruction::arctangent2:
+    case Instruction::power:
+      return 2;
+    case Instruction::fused_add:
+    case Instruction::fused_subtract:
+      return 3;
+    default:
+      return 1;
+  }
 }
 
 using FunctionOfOne = double (*)(double);
@@ -27,8 +47,8 @@ inline double called(Instruction instruction, double a, double b) {
   return function_of_two(instruction)(a, b);
 }
 
-/// @param b ignored by functions of one number
-inline double applied(Instruction instruction, double a, double b) {
+/// @param b, c ignored where there is no such operand
+inline double applied(Instruction instruction, double a, double b, double c = 0) {
   switch (instruction) {
     case Instruction::add:
       return a + b;
@@ -46,6 +66,12 @@ inline double applied(Instruction instruction, double a, double b) {
       return a < b ? b : a;
     case Instruction::square_root:
       return std::sqrt(a);
+    case Instruction::inverse_root_estimate:
+      return detail::has_estimate() ? detail::inverse_root_estimate(a) : 1 / std::sqrt(a);
+    case Instruction::fused_add:
+      return std::fma(a, b, c);
+    case Instruction::fused_subtract:
+      return std::fma(-a, b, c);
     default:
       return called(instruction, a, b);
   }

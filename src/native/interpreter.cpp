@@ -23,7 +23,7 @@ class Interpreter final : public StepLoop {
       return 0;  // read and ignored; a step that computes anything has a number there
     };
     for (const auto& operation : program.operations)
-      lines_.push_back({operation.instruction, place(operation.a), place(operation.b)});
+      lines_.push_back({operation.instruction, place(operation.a), place(operation.b), place(operation.c)});
     for (const auto& check : program.checks) checks_.push_back({check.kind, place(check.a), place(check.b)});
     for (const Operand& output : program.outputs) outputs_.push_back(place(output));
   }
@@ -37,7 +37,7 @@ class Interpreter final : public StepLoop {
     double* const next = results + lines_.size();
     for (std::int64_t step = 0; step < steps; ++step) {
       double* result = results;
-      for (const Line& line : lines_) *result++ = native::applied(line.instruction, x[line.a], x[line.b]);
+      for (const Line& line : lines_) *result++ = native::applied(line.instruction, x[line.a], x[line.b], x[line.c]);
       for (const Check& check : checks_) {
         if (!native::holds(check.kind, x[check.a], x[check.b])) return false;
       }
@@ -51,7 +51,7 @@ class Interpreter final : public StepLoop {
  private:
   struct Line {
     Instruction instruction;
-    std::uint32_t a, b;
+    std::uint32_t a, b, c;
   };
   struct Check {
     Program::Check::Kind kind;

@@ -15,7 +15,7 @@ void each(std::size_t lanes, double* __restrict y, const double* a, const double
   }
 }
 
-void apply(Instruction instruction, std::size_t lanes, double* y, const double* a, const double* b) {
+void apply(Instruction instruction, std::size_t lanes, double* y, const double* a, const double* b, const double* c) {
   switch (instruction) {
     case Instruction::add:
       return each(lanes, y, a, b, [](double x, double z) { return x + z; });
@@ -34,7 +34,7 @@ void apply(Instruction instruction, std::size_t lanes, double* y, const double* 
     case Instruction::square_root:
       return each(lanes, y, a, b, [](double x, double) { return std::sqrt(x); });
     default:
-      for (std::size_t i = 0; i < lanes; ++i) y[i] = called(instruction, a[i], b[i]);
+      for (std::size_t i = 0; i < lanes; ++i) y[i] = applied(instruction, a[i], b[i], c[i]);
   }
 }
 
@@ -62,8 +62,8 @@ void interpret_lanes(const Program& program, std::size_t uniform, std::size_t la
   for (std::int64_t step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < operations; ++i) {
       const auto& operation = program.operations[i];
-      const double *a = at(operation.a), *b = at(operation.b);
-      apply(operation.instruction, lanes, &results[i * lanes], a, b ? b : a);
+      const double *a = at(operation.a), *b = at(operation.b), *c = at(operation.c);
+      apply(operation.instruction, lanes, &results[i * lanes], a, b ? b : a, c ? c : a);
     }
     for (const auto& check : program.checks) {
       const double *a = at(check.a), *b = at(check.b);

@@ -69,7 +69,8 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
                                 std::to_string(program.constants.size()) + " constants");
   native::LaneProgram ready = native::lane_program(program, differs);
   std::unique_ptr<const native::Function> function;
-  if (const unsigned available = native::lane_registers(lanes); available > 0 && native::is_asked()) {
+  if (const unsigned available = native::lane_registers(lanes);
+      available > 0 && native::has_instructions(program) && native::is_asked()) {
     const Program step = native::interleaved(ready, native::per_number, native::run_of_one);
     function = native::assembled_lanes(native::placed(step, available), step.constants, ready.uniform,
                                        native::per_number, lanes);

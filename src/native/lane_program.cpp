@@ -21,7 +21,7 @@ Program with_constants_carried(const Program& program, std::span<const bool> dif
   const auto move = [&](Operand& operand) {
     if (operand.kind == Kind::constant && differs[operand.index]) operand = {Kind::carried, value[operand.index]};
   };
-  for (auto& operation : result.operations) move(operation.a), move(operation.b);
+  for (auto& operation : result.operations) move(operation.a), move(operation.b), move(operation.c);
   for (Operand& output : result.outputs) move(output);
   for (auto& check : result.checks) move(check.a), move(check.b);
   return result;
@@ -37,7 +37,8 @@ LaneProgram lane_program(const Program& program, std::span<const bool> differs) 
     return operand.kind == Kind::carried ? operand.index >= values
                                          : operand.kind != Kind::result || is_fixed[operand.index];
   };
-  for (std::size_t i = 0; i < size; ++i) is_fixed[i] = fixed(all.operations[i].a) && fixed(all.operations[i].b);
+  for (std::size_t i = 0; i < size; ++i)
+    is_fixed[i] = fixed(all.operations[i].a) && fixed(all.operations[i].b) && fixed(all.operations[i].c);
 
   LaneProgram result;
   result.given = all.values() - values;
@@ -66,12 +67,12 @@ LaneProgram lane_program(const Program& program, std::span<const bool> differs) 
     return place;
   };
   for (std::size_t i = 0; i < size; ++i) {
-    const auto& [instruction, a, b] = all.operations[i];
+    const auto& [instruction, a, b, c] = all.operations[i];
     Program& part = is_fixed[i] ? result.before : result.step;
     if (is_fixed[i]) {
-      part.operations.push_back({instruction, before(a), before(b)});
+      part.operations.push_back({instruction, before(a), before(b), before(c)});
     } else {
-      part.operations.push_back({instruction, step(a), step(b)});
+      part.operations.push_back({instruction, step(a), step(b), step(c)});
     }
     (is_fixed[i] ? in_before : in_step)[i] = {Kind::result, static_cast<std::uint32_t>(part.operations.size() - 1)};
   }
@@ -112,8 +113,8 @@ Program interleaved(const LaneProgram& program, std::size_t registers, std::size
   result.operations.resize(place.size());
   for (r = 0; r < count; ++r) {
     for (std::size_t i = 0; i < size; ++i) {
-      const auto& [instruction, a, b] = step.operations[i];
-      result.operations[place[i * registers + r]] = {instruction, part(a), part(b)};
+      const auto& [instruction, a, b, c] = step.operations[i];
+      result.operations[place[i * registers + r]] = {instruction, part(a), part(b), part(c)};
     }
   }
   for (const auto& check : step.checks) {

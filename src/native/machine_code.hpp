@@ -23,6 +23,9 @@ class Function {
 /// Registers of this processor that a scalar program can use; 0 where there is no AVX.
 unsigned scalar_registers();
 
+/// Whether this processor has all instructions of the program: estimates and fused operations come with 32 registers.
+bool has_instructions(const Program& program);
+
 /// Null where the system refuses executable memory. No memory is ever writable and executable by one address.
 std::unique_ptr<const Function> assembled(const PlacedProgram& program, const std::vector<double>& constants);
 

@@ -11,6 +11,9 @@ namespace {
 
 constexpr Place nowhere{};
 constexpr Place reg(std::uint32_t r) { return {Place::Kind::reg, r}; }
+constexpr std::uint64_t only(const Place& place) {  // the set of one register, or none
+  return place.kind == Place::Kind::reg ? std::uint64_t{1} << place.index : 0;
+}
 constexpr Place home(std::uint32_t k) { return {Place::Kind::home, k}; }
 
 class Allocator {
@@ -112,11 +115,11 @@ class Allocator {
     emit_move(memory_[number], reg(registers_[number]));
   }
 
-  /// The register whose number is used last; `pinned` is none of them.
-  std::uint32_t victim(std::uint32_t pinned) const {
+  /// The register whose number is used last, of those that are not in the set `pinned`.
+  std::uint32_t victim(std::uint64_t pinned) const {
     std::uint32_t best = never;
     for (std::uint32_t r = 0; r < in_register_.size(); ++r) {
-      if (r == pinned || in_register_[r] == never) continue;
+      if ((pinned >> r & 1) != 0 || in_register_[r] == never) continue;
       if (best == never || distance(r) > distance(best)) best = r;
     }
     return best;
@@ -125,15 +128,15 @@ class Allocator {
   std::pair<std::uint32_t, bool> distance(std::uint32_t r) const {
     return {uses_.next(in_register_[r]), memory_[in_register_[r]] != nowhere};
   }
-  std::uint32_t free_register(std::uint32_t wanted, std::uint32_t pinned) const {
-    const auto is_free = [&](std::uint32_t r) { return in_register_[r] == never && r != pinned; };
+  std::uint32_t free_register(std::uint32_t wanted, std::uint64_t pinned) const {
+    const auto is_free = [&](std::uint32_t r) { return in_register_[r] == never && (pinned >> r & 1) == 0; };
     if (wanted != never && is_free(wanted)) return wanted;
     for (auto r = static_cast<std::uint32_t>(in_register_.size()); r-- > 0;) {  // those that are homes are the lowest
       if (is_free(r)) return r;
     }
     return never;
   }
-  std::uint32_t take_register(std::uint32_t wanted, std::uint32_t pinned = never) {
+  std::uint32_t take_register(std::uint32_t wanted, std::uint64_t pinned = 0) {
     std::uint32_t r = free_register(wanted, pinned);
     if (r == never) {
       r = victim(pinned);
@@ -149,7 +152,7 @@ class Allocator {
 
   /// Loads what is in memory where that pays: it is used again, and no register would have to give up a number that is
   /// used sooner.
-  void load_if_wanted(const Operand& operand, std::uint32_t pinned) {
+  void load_if_wanted(const Operand& operand, std::uint64_t pinned) {
     const std::uint32_t n = uses_.number(operand);
     if (n == never || registers_[n] != never) return;
     const std::uint32_t again = uses_.next_after(n, event_);
@@ -164,7 +167,7 @@ class Allocator {
   }
   /// A register with `a`.
   std::uint32_t first_in_register(const Operand& a, std::uint32_t wanted) {
-    load_if_wanted(a, never);
+    load_if_wanted(a, 0);
     const Place place = place_of(a);
     if (place.kind == Place::Kind::reg) return place.index;
     const std::uint32_t r = take_register(wanted);
@@ -174,16 +177,16 @@ class Allocator {
 
   /// Operands are read from now on; those that nothing uses later leave their registers. Their memory is free only once
   /// the line stands (after_line): what is stored in between must not overwrite what it reads.
-  void pass(const Operand& a, const Operand& b) {
-    for (const Operand& operand : {a, b}) {
+  void pass(const Operand& a, const Operand& b, const Operand& c = {}) {
+    for (const Operand& operand : {a, b, c}) {
       const std::uint32_t n = uses_.number(operand);
       if (n == never) continue;
       uses_.pass(n, event_);
       if (uses_.next(n) == never && registers_[n] != never) unbind(registers_[n]);
     }
   }
-  void after_line(const Operand& a, const Operand& b) {
-    for (const Operand& operand : {a, b}) {
+  void after_line(const Operand& a, const Operand& b, const Operand& c = {}) {
+    for (const Operand& operand : {a, b, c}) {
       if (const std::uint32_t n = uses_.number(operand); n != never) bury(n);
     }
   }
@@ -197,7 +200,7 @@ class Allocator {
   std::pair<Place, Place> operands(const Operand& a, const Operand& b, std::uint32_t wanted) {
     const std::uint32_t first = first_in_register(a, wanted);
     if (b == a) return {reg(first), reg(first)};
-    load_if_wanted(b, first);
+    load_if_wanted(b, only(reg(first)));
     return {reg(first), place_of(b)};
   }
 
@@ -210,6 +213,7 @@ class Allocator {
       std::swap(a, b);
     const std::uint32_t wanted = wanted_for(number);
     const auto [first, second] = operands(a, b, wanted);
+    if (operation.c.kind != Operand::Kind::none) return place_fused(operation, number, first, second);
     pass(a, b);
     const std::uint32_t to = take_register(wanted);
     result_.body.push_back(
@@ -218,11 +222,27 @@ class Allocator {
     if (uses_.next(number) != never) bind(number, to);
   }
 
+  /// The result takes the place of c: in its own register where nothing needs c any more, else in a copy of it.
+  void place_fused(const Program::Operation& operation, std::uint32_t number, const Place& first, const Place& second) {
+    const auto& [instruction, a, b, c] = operation;
+    const std::uint32_t n = uses_.number(c);
+    const bool ends = n != never && registers_[n] != never && uses_.next_after(n, event_) == never && c != a && c != b;
+    std::uint32_t to = ends ? registers_[n] : never;
+    if (!ends) {
+      to = take_register(wanted_for(number), only(first) | only(second));
+      emit_move(reg(to), place_of(c));
+    }
+    pass(a, b, c);
+    result_.body.push_back({Line::Kind::operation, instruction, {}, reg(to), first, second});
+    after_line(a, b, c);
+    if (uses_.next(number) != never) bind(number, to);
+  }
+
   void place_check(std::uint32_t index) {
     const Program::Check& check = program_.checks[index];
     const auto [first, second] = operands(check.a, check.b, never);
     pass(check.a, check.b);
-    const std::uint32_t spare = take_register(never, first.index);
+    const std::uint32_t spare = take_register(never, only(first));
     const bool has_two = check.b.kind != Operand::Kind::none;
     result_.body.push_back({Line::Kind::check, {}, check.kind, reg(spare), first, has_two ? second : nowhere, index});
     after_line(check.a, check.b);

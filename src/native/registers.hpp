@@ -23,7 +23,8 @@ struct Place {
 struct Line {
   enum class Kind : std::uint8_t {
     move,       // to <- a; one of the two is a register
-    operation,  // to <- instruction(a, b): registers, but that b may be anywhere. larger(a, b) is a > b ? a : b
+    operation,  // to <- instruction(a, b): registers, but that b may be anywhere. larger(a, b) is a > b ? a : b; of
+                // fused operations c is what `to` was
     call,       // register 0 <- instruction(register 0, register 1); no register keeps its number
     check,      // of the register a, with b anywhere; `to` is a register that it may use
   };

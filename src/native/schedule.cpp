@@ -14,6 +14,9 @@ int latency(Instruction instruction) {
     case Instruction::add:
     case Instruction::subtract:
     case Instruction::multiply:
+    case Instruction::inverse_root_estimate:
+    case Instruction::fused_add:
+    case Instruction::fused_subtract:
       return 4;
     case Instruction::negate:
     case Instruction::absolute:
@@ -45,6 +48,7 @@ std::vector<int> heights(const Program& program) {
       height[i] = tail[i] + latency(operation.instruction);
       need(operation.a, height[i]);
       need(operation.b, height[i]);
+      need(operation.c, height[i]);
     }
     of_carried = first;
   }
@@ -71,7 +75,7 @@ Program scheduled(const Program& program, std::size_t window) {
     int soonest = unknown;
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       const auto& operation = program.operations[candidates[c]];
-      const int at = std::max(arrival(operation.a), arrival(operation.b));
+      const int at = std::max({arrival(operation.a), arrival(operation.b), arrival(operation.c)});
       soonest = std::min(soonest, at);
       if (at <= cycle && (best == candidates.size() || height[candidates[c]] > height[candidates[best]])) best = c;
     }
@@ -97,6 +101,7 @@ Program scheduled(const Program& program, std::size_t window) {
     result.operations[i] = program.operations[order[i]];
     move(result.operations[i].a);
     move(result.operations[i].b);
+    move(result.operations[i].c);
   }
   for (Operand& output : result.outputs) move(output);
   for (auto& check : result.checks) move(check.a), move(check.b);

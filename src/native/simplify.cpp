@@ -16,7 +16,7 @@ using Operation = Program::Operation;
 struct OperationHash {
   std::size_t operator()(const Operation& operation) const {
     std::uint64_t key = static_cast<std::uint64_t>(operation.instruction);
-    for (const Operand& operand : {operation.a, operation.b}) {
+    for (const Operand& operand : {operation.a, operation.b, operation.c}) {
       key = (key ^ (static_cast<std::uint64_t>(operand.kind) << 32 | operand.index)) * 0x9e3779b97f4a7c15u;
       key ^= key >> 29;
     }
@@ -42,7 +42,7 @@ class Simplifier {
       return operand;
     };
     for (const Operation& operation : program.operations)
-      places.push_back(result({operation.instruction, moved(operation.a), moved(operation.b)}));
+      places.push_back(result({operation.instruction, moved(operation.a), moved(operation.b), moved(operation.c)}));
     for (const Operand& output : program.outputs) new_.outputs.push_back(moved(output));
     for (const Program::Check& check : program.checks) {
       const Program::Check here{check.kind, moved(check.a), moved(check.b)};
@@ -77,7 +77,8 @@ class Simplifier {
   }
 
   Operand result(const Operation& operation) {
-    const auto [instruction, a, b] = operation;
+    const auto [instruction, a, b, c] = operation;
+    if (c.kind != Kind::none) return numbered(operation);
     const auto x = value(a), y = value(b);
     if (x && (y || b.kind == Kind::none)) return constant(applied(instruction, *x, y.value_or(0)));
     const auto minus_a = negated(a), minus_b = negated(b);
@@ -150,7 +151,7 @@ Program without_dead_code(const Program& program) {
   for (const Operand& output : program.outputs) mark(output);
   for (const auto& check : program.checks) mark(check.a), mark(check.b);
   for (std::size_t i = program.operations.size(); i-- > 0;) {
-    if (live[i]) mark(program.operations[i].a), mark(program.operations[i].b);
+    if (live[i]) mark(program.operations[i].a), mark(program.operations[i].b), mark(program.operations[i].c);
   }
 
   Program kept;
@@ -172,7 +173,7 @@ Program without_dead_code(const Program& program) {
     if (!live[i]) continue;
     const Operation& operation = program.operations[i];
     places[i] = static_cast<std::uint32_t>(kept.operations.size());
-    kept.operations.push_back({operation.instruction, moved(operation.a), moved(operation.b)});
+    kept.operations.push_back({operation.instruction, moved(operation.a), moved(operation.b), moved(operation.c)});
   }
   for (const Operand& output : program.outputs) kept.outputs.push_back(moved(output));
   for (const auto& check : program.checks) kept.checks.push_back({check.kind, moved(check.a), moved(check.b)});

@@ -35,6 +35,7 @@ Uses::Uses(const Program& program, const std::vector<Event>& events)
       const std::uint32_t i = events[e].index;
       one(events[e].is_check ? program.checks[i].a : program.operations[i].a, e);
       one(events[e].is_check ? program.checks[i].b : program.operations[i].b, e);
+      if (!events[e].is_check) one(program.operations[i].c, e);
     }
     for (const Operand& output : program.outputs) one(output, end);
   };

@@ -26,6 +26,7 @@ class Differentiation {
     }
     for (std::size_t i = 0; i < in_.operations.size(); ++i) {
       const auto& operation = in_.operations[i];
+      if (operation.c.kind != Operand::Kind::none) return std::nullopt;  // of estimates, which are no functions
       const Operand a = moved(operation.a);
       const Operand b = moved(operation.b);
       place_[i] = apply(operation.instruction, a, b);
@@ -70,7 +71,7 @@ class Differentiation {
     return {Operand::Kind::constant, static_cast<std::uint32_t>(out_.constants.size() - 1)};
   }
   Operand apply(Instruction instruction, Operand a, Operand b = {}) {
-    out_.operations.push_back({instruction, a, b});
+    out_.operations.push_back({instruction, a, b, {}});
     return {Operand::Kind::result, static_cast<std::uint32_t>(out_.operations.size() - 1)};
   }
   Operand times(Operand a, Operand b) {
@@ -151,6 +152,9 @@ class Differentiation {
         return true;
       case I::absolute:
       case I::larger:
+      case I::inverse_root_estimate:
+      case I::fused_add:
+      case I::fused_subtract:
         return false;
     }
     return false;

@@ -47,8 +47,8 @@ struct Family {
     std::size_t at = 0;
     for (const auto& [name, size] : shape) {
       std::string text;
-      for (std::size_t k = 0; k < size; ++k) text += (k == 0 ? "" : " ") + shortest(member.parameters[at++]);
-      one.parameters[name] = text;
+      for (std::size_t k = 0; k < size; ++k) text += (k == 0 ? "" : ", ") + shortest(member.parameters[at++]);
+      one.parameters[name] = size == 1 ? text : "[" + text + "]";
     }
     for (const double x : member.q) one.start.q.push_back(shortest(x));
     for (const double x : member.p) one.start.p.push_back(shortest(x));

@@ -97,15 +97,15 @@ TEST(StepLoop, EveryInstructionOnSpecialNumbers) {
   for (int i = 0; i <= static_cast<int>(I::power); ++i) {
     Program p;
     const auto instruction = static_cast<I>(i);
-    const bool two = instruction < I::negate || instruction == I::larger || instruction >= I::arctangent2;
-    p.operations = {{instruction, carried(0), two ? carried(1) : Operand{}}};
+    const int arity = native::arity(instruction);
+    p.operations = {{instruction, carried(0), arity > 1 ? carried(1) : Operand{}, arity > 2 ? carried(0) : Operand{}}};
     p.outputs = {carried(0), carried(1), result(0)};
     for (const auto& loop : loops(p)) {
       for (const double a : numbers) {
         for (const double b : numbers) {
           std::vector<double> z = {a, b, 0};
           ASSERT_TRUE(loop->run(z, 1));
-          EXPECT_TRUE(same_bits(z[2], native::applied(instruction, a, b))) << i << ": " << a << ", " << b;
+          EXPECT_TRUE(same_bits(z[2], native::applied(instruction, a, b, a))) << i << ": " << a << ", " << b;
         }
       }
     }

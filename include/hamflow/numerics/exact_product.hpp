@@ -21,21 +21,18 @@ struct Halves {
 };
 }  // namespace detail
 
-/// a b + c rounded once, for c of at most the size of a b's rounding error or little more. a b alone would be rounded
-/// first, and a smaller c mostly be lost. With hardware's types below 2^900 and no underflow; in others, which have
-/// digits to spare, a b + c as it is.
+/// a b - product, where `product` is a b rounded. With hardware's types below 2^900 and no underflow; 0 beyond, and in
+/// others, which have digits to spare.
 template <class R>
-[[gnu::always_inline]] constexpr R product_plus_small(const R& a, const R& b, const R& c) {
-  const R product = a * b;
+[[gnu::always_inline]] constexpr R product_error(const R& a, const R& b, const R& product) {
   if constexpr (std::is_floating_point_v<R>) {
     const detail::Halves<R> x(a);
     const detail::Halves<R> y(b);
     const R lost = ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low;
-    const R sum = product + (lost + c);
-    if (sum == sum) [[likely]]
-      return sum;  // no half has overflown
+    if (lost == lost) [[likely]]
+      return lost;  // no half has overflown
   }
-  return product + c;
+  return R(0);
 }
 
 }  // namespace hamflow

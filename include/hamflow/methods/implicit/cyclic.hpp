@@ -40,6 +40,7 @@ class CyclicElement : public SegmentEquations<P, R> {
   Variables predicted() const { return rest_.predicted(); }
   Variables started(const Memory& memory) const { return rest_.started(memory); }
   [[gnu::always_inline]] void evaluate(const Variables& x, Point& at) const { rest_.evaluate(x, at); }
+  void sharpen(const Variables& x, Point& at) const requires(Reduced::dimension > 2) { rest_.sharpen(x, at); }
   [[gnu::always_inline]] auto tangent(const Point& at) const { return rest_.tangent(at); }
   Real norm(const Variables& x, const Point& at) const { return rest_.norm(x, at); }
   [[gnu::always_inline]] Correction<Real> measure(const Variables& x, const Point& at,

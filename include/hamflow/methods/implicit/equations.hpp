@@ -37,6 +37,8 @@
 //     residual(q0, p0, unknowns) const         r(z0, U)
 //     static increment(unknowns)               E(U), an Increment<S, n>
 // Optional:
+//     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
+//                                              without its own rounding
 //     bool believable(const Increment<Real, n>&) const    asked of a root that was found from a bad start: implicit
 //                                              equations have roots that have nothing to do with the motion
 //     bool too_coarse(const Increment<Real, n>&) const    asked after convergence: whether the step has to be solved

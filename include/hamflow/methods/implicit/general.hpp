@@ -56,6 +56,12 @@ class GeneralElement : public SegmentEquations<P, R> {
     at.residual = at.target;
     for (std::size_t i = 0; i < x.size(); ++i) at.residual[i] = at.target[i] - x[i];
   }
+  /// The residual without the rounding of the product with h, see natural.hpp.
+  void sharpen(const Z& x, Point& at) const {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      at.residual[i] = (at.target[i] - x[i]) + product_error(unit_, at.sum[i], at.target[i]);
+    }
+  }
   const Matrix<Real, m>& tangent(const Point& at) const { return at.tangent; }
   /// The largest correction in units of its noise: q and p have units of their own.
   Correction<Real> measure(const Z& x, const Point& at, const Z& correction) const {
@@ -80,7 +86,7 @@ class GeneralElement : public SegmentEquations<P, R> {
     for (std::size_t i = 0; i < x.size(); ++i) {
       Real change = correction[i];
       for (std::size_t j = 0; j < x.size(); ++j) change -= at.tangent[i][j] * correction[j];
-      x[i] = product_plus_small(unit_, at.sum[i], change);
+      x[i] = at.target[i] + (product_error(unit_, at.sum[i], at.target[i]) + change);
     }
     return detail::halves<n>(x);
   }

@@ -21,8 +21,8 @@ namespace hamflow {
 /// Whether Newton has come to where the rounding of the residual hides what is left. A correction below the noise is
 /// noise itself. With a rate theta of decrease, quadratic convergence predicts theta^2 |correction| for the next one.
 /// What is left undone has the same sign at the same phase of every orbit and adds up linearly, rounding only as a
-/// square root: it has to lie so far below the noise that 10^6 steps (a walk of 10^3 noises) do not show it, hence
-/// 1/1024. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, at a
+/// square root: it has to lie so far below the noise that 10^8 steps (a walk of 10^4 noises) do not show it, hence
+/// 1/16384. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, at a
 /// hundred-millionth of the unknowns, are noise too.
 /// @param size, before |correction| of this iteration and the one before, in the units of noise
 /// @param first there is no full correction before this one
@@ -31,7 +31,7 @@ template <class Real>
 constexpr bool newton_at_rounding(const Real& size, const Real& before, bool first, const Real& noise, int& stalls) {
   const Real rate = !first && before > Real(0) ? size / before : Real(1);
   stalls = !first && rate > Real(0.9) ? stalls + 1 : 0;
-  return size <= noise || (!first && rate * rate * size <= noise / 1024) || (rate > Real(0.5) && size <= 64 * noise) ||
+  return size <= noise || (!first && rate * rate * size <= noise / 16384) || (rate > Real(0.5) && size <= 64 * noise) ||
          (stalls >= 2 && size <= Real(1 << 26) * noise);
 }
 
@@ -171,6 +171,9 @@ class Newton {
         if (!was_at_rounding) return Ending::diverged;
         if (report.log != nullptr) report.log->remark("at rounding level, above the tolerance");
         return Ending::refused;
+      }
+      if constexpr (requires { step.sharpen(x, at); }) {
+        if (k > 0) step.sharpen(x, at);  // this correction is the last one, mostly
       }
       const auto tangent = step.tangent(at);
       if (options.diagnostics) {
