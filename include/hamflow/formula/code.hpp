@@ -124,10 +124,12 @@ class BoundCode {
   void run_loop(const StepLoop& loop, const ValueOf& value_of, const Put& put) const {
     const std::size_t inputs = code_->symbols.size();
     const std::size_t outputs = code_->outputs.size();
-    std::vector<double, PoolAllocator<double>> carried;
-    carried.reserve(inputs + outputs);
-    for (const int symbol : code_->symbols) carried.push_back(value_of(symbol));
-    carried.resize(inputs + outputs, 0.0);
+    constexpr std::size_t few = 32;
+    double in_place[few]{};
+    std::vector<double, PoolAllocator<double>> many;
+    if (inputs + outputs > few) many.resize(inputs + outputs);
+    const std::span<double> carried(many.empty() ? in_place : many.data(), inputs + outputs);
+    for (std::size_t i = 0; i < inputs; ++i) carried[i] = value_of(code_->symbols[i]);
     (void)loop.run(carried, 1);  // without checks
     for (std::size_t k = 0; k < outputs; ++k) put(k, carried[inputs + k]);
   }
