@@ -1,6 +1,9 @@
 // [problem] with a typed Hamiltonian: `formula`, and `central-force` with potential = "formula". The texts are checked
 // and become an entry of the catalogue; everything after that is as for any problem.
 #include <algorithm>
+#include <cctype>
+#include <set>
+#include <utility>
 
 #include "formula_keys.hpp"
 #include "scenario_reader.hpp"
@@ -139,6 +142,54 @@ Texts ScenarioReader::read_typed_parameters(TomlTable& table) {
   return all;
 }
 
+namespace {
+/// All texts of a part of the document, one after the other.
+void collect_texts(const toml::node& node, std::string& all) {
+  if (const auto* const text = node.as_string()) all += " " + text->get();
+  if (const auto* const table = node.as_table()) {
+    for (const auto& [key, value] : *table) collect_texts(value, all);
+  }
+  if (const auto* const array = node.as_array()) {
+    for (const auto& value : *array) collect_texts(value, all);
+  }
+}
+std::set<std::string> words_of(const std::string& text) {
+  std::set<std::string> words;
+  std::string word;
+  for (const char c : text + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      word += c;
+    } else {
+      words.insert(std::exchange(word, {}));
+    }
+  }
+  return words;
+}
+}  // namespace
+
+/// A name with a mistake would change nothing, and its study would be wrong.
+void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts) {
+  std::string all = texts.hamiltonian + " " + texts.kinetic + " " + texts.potential;
+  for (const std::string& coordinate : texts.coordinates) all += " " + coordinate;
+  for (const auto& [name, text] : texts.invariants) all += " " + text;
+  for (const char* const part : {"run", "output"}) {  // sections and observables
+    if (const toml::node* const node = document_.get(part)) collect_texts(*node, all);
+  }
+  const std::set<std::string> words = words_of(all);
+  std::vector<std::string> used;
+  for (const auto& [name, text] : texts.parameters) {
+    if (words.contains(name)) used.push_back(name);
+  }
+  for (const auto& [name, text] : texts.parameters) {
+    if (words.contains(name)) continue;
+    const std::vector<std::string> candidates(words.begin(), words.end());
+    table.complain_in(std::string(FormulaKeys::parameters) + "." + name,
+                      "found a parameter that stands in no formula" +
+                          suggestion(name, used.empty() ? candidates : used) +
+                          "; allowed those that H, an invariant, a section or an observable names");
+  }
+}
+
 /// The keys of `formula`; nothing where they are incomplete, which is complained about.
 std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table) {
   using Keys = FormulaKeys;
@@ -175,6 +226,7 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   if (table.has(Keys::constraints)) {
     table.complain(Keys::constraints, "found constraints, which no method takes here; allowed coordinates without any");
   }
+  if (complaints_.size() == before) refuse_unused_parameters(table, texts);
   if (complaints_.size() != before) return std::nullopt;
   return texts;
 }

@@ -23,7 +23,10 @@ std::string effective_text(const std::string& text, const std::vector<std::strin
 class ScenarioReader {
  public:
   ScenarioReader(const Document& document, const std::string& file, std::vector<Complaint>& complaints)
-      : root_(&document.root, "", file, complaints), complaints_(complaints), file_method_(document.file_method) {
+      : root_(&document.root, "", file, complaints),
+        complaints_(complaints),
+        file_method_(document.file_method),
+        document_(document.root) {
     scenario_.file = file;
   }
 
@@ -51,6 +54,7 @@ class ScenarioReader {
   void read_typed_problem(TomlTable& table, const std::string& name);
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
   Texts read_typed_parameters(TomlTable& table);
+  void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -83,6 +87,7 @@ class ScenarioReader {
   TomlTable root_;
   std::vector<Complaint>& complaints_;
   std::string file_method_;
+  const toml::table& document_;
   std::string no_start_;
   Scenario scenario_;
 };

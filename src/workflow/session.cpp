@@ -140,6 +140,13 @@ void Session::set_tolerance(const std::string& text) {
   remember(request_.method);
 }
 
+/// A simulation that begins anew begins at t = 0, and the way back of an H(q, p, t) is no way with negated momenta.
+void Session::refuse_time(const std::string& what) const {
+  if (!scenario_.problem->structure || !scenario_.problem->structure->time) return;
+  throw Error("found " + what + " after step " + std::to_string(step()) +
+              " of an H that depends on t; allowed before the first step, or a run of its own");
+}
+
 void Session::change(const Request& next, const std::string& what) {
   if (one_part_ && simulation_->step() == 0) {  // from the given start, in the given digits
     const Request before = std::exchange(request_, next);
@@ -151,6 +158,7 @@ void Session::change(const Request& next, const std::string& what) {
     }
     return;
   }
+  refuse_time(what);
   Frame now;
   simulation_->look(now);
   Request from_here = next;
@@ -244,6 +252,7 @@ void Session::reverse_time() {
 }
 
 void Session::negate_momenta() {
+  refuse_time("negated momenta");
   watch_from_here();
   simulation_->negate_momenta();
   look(scratch_);

@@ -89,6 +89,15 @@ class Commands(FormulaCase):
         self.write("parts.toml", parts)
         self.assertEqual(self.summary("parts.toml")["final"], self.summary("f.toml")["final"])
 
+    def test_parameters_that_stand_nowhere(self):
+        """A name with a mistake is no parameter that changes nothing."""
+        self.write("d.toml", """[problem]\nname = "formula"\ncoordinates = ["q"]\nhamiltonian = "p^2/2 - cos(q) - a*q*cos(w*t)"
+parameters = { a = 0.1, w = 0.7 }\ninitial = { q = [0.2], p = [0] }\n[method]\nname = "stv4"\n[run]\ndt = 0.05\nsteps = 20\n""")
+        refused = self.hamflow("run", "d.toml", "--out", "none", "--set", "problem.parameters.aa=3", status=2).stderr
+        self.assertIn("problem.parameters.aa", refused)
+        self.assertIn("stands in no formula; did you mean 'a'?", refused)
+        self.hamflow("sweep", "d.toml", "--out", "none", "--vary", "problem.parameters.z=0.5,0.7", status=2)
+
     def test_every_function_in_long_runs(self):
         """Steps are recorded after some hundred of them: each function of the language has to be one that a recording has."""
         for v in ("q*asin(q/10)", "acos(q/10)", "atan(q)^2", "atan2(q, 5 + q^2)", "2^q + 2^(-q)", "(2 + q^2)^(1 + q^2/9)", "abs(q)^3",

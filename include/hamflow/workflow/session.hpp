@@ -70,6 +70,7 @@ class Session final : public Simulation {
  private:
   void remember(const MethodSpec& method);
   void change(const Request& next, const std::string& what);
+  void refuse_time(const std::string& what) const;
   void watch_from_here();
   void watch(const Frame& frame);
   void in_session(Frame& frame) const;
