@@ -19,7 +19,15 @@ MpNumber made_by(Operation operation) {
 }
 }  // namespace
 
-MpDigits::MpDigits(int digits) : before_(bits_in_use) { bits_in_use = bits_for(digits); }
+MpDigits::MpDigits(int digits) : before_(bits_in_use) {
+  // MPFR keeps constants for each thread; they go with it.
+  struct Caches {
+    ~Caches() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+  };
+  static thread_local const Caches of_thread;
+  (void)of_thread;
+  bits_in_use = bits_for(digits);
+}
 MpDigits::~MpDigits() { bits_in_use = before_; }
 mpfr_prec_t MpDigits::bits() { return bits_in_use == 0 ? bits_for(50) : bits_in_use; }
 
