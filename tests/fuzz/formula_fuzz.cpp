@@ -43,14 +43,19 @@ void differentiate(const std::string& text) {
         .coordinates = {"x", "y"}, .hamiltonian = text, .parameters = {{"k", "0.5"}, {"n", "3"}, {"m", "[1, 2]"}}};
     const auto model = std::make_shared<const hamflow::formula::Model>(texts);
     const hamflow::formula::BoundModel<double> bound(model, hamflow::Parameters<double>(texts.parameters));
-    hamflow::Vector<double, hamflow::dynamic> q{0.3, -0.7};
-    hamflow::Vector<double, hamflow::dynamic> p{1.1, 0.4};
-    hamflow::Vector<double, hamflow::dynamic> a(2);
-    hamflow::Vector<double, hamflow::dynamic> b(2);
+    const std::size_t n = model->degrees();  // the time is one, where H depends on it
+    hamflow::Vector<double, hamflow::dynamic> q(n);
+    hamflow::Vector<double, hamflow::dynamic> p(n);
+    q[0] = 0.3;
+    q[1] = -0.7;
+    p[0] = 1.1;
+    p[1] = 0.4;
+    hamflow::Vector<double, hamflow::dynamic> a(n);
+    hamflow::Vector<double, hamflow::dynamic> b(n);
     bound.gradient(q, p, a, b);
-    hamflow::Matrix<double, hamflow::dynamic> qq(2);
-    hamflow::Matrix<double, hamflow::dynamic> qp(2);
-    hamflow::Matrix<double, hamflow::dynamic> pp(2);
+    hamflow::Matrix<double, hamflow::dynamic> qq(n);
+    hamflow::Matrix<double, hamflow::dynamic> qp(n);
+    hamflow::Matrix<double, hamflow::dynamic> pp(n);
     bound.hessian(q, p, qq, qp, pp);
     if (model->structure().separable) bound.force_and_hessian(q, a, qq);
   } catch (const hamflow::Error& error) {
