@@ -226,7 +226,6 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   if (table.has(Keys::constraints)) {
     table.complain(Keys::constraints, "found constraints, which no method takes here; allowed coordinates without any");
   }
-  if (complaints_.size() == before) refuse_unused_parameters(table, texts);
   if (complaints_.size() != before) return std::nullopt;
   return texts;
 }
@@ -234,9 +233,10 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
 /// The entry of what was typed.
 void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& name) {
   Request& request = scenario_.request;
+  std::optional<FormulaTexts> texts;
   try {
     if (name == FormulaKeys::problem) {
-      const auto texts = read_formula_texts(table);
+      texts = read_formula_texts(table);
       if (!texts) return;
       request.parameters = texts->parameters;
       request.variant = remembered_choices(*texts);
@@ -251,6 +251,7 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
       request.variant = central_formula_choices(*potential, request.parameters, chart.value_or("cartesian"));
     }
     scenario_.problem = &find_problem(name, request.variant);
+    if (texts) refuse_unused_parameters(table, *texts);
   } catch (const FormulaError& error) {
     table.complain_in(error.key, error.what());
   } catch (const Error& error) {
