@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <limits>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <thread>
 
@@ -64,6 +65,15 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   threads_ = std::max(threads_, 1);
   read_members(name);
   if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
+  count_measured_steps();
+}
+
+/// What is measured beside a run needs every step by itself: members in lanes take them once more.
+void Sweep::count_measured_steps() {
+  if (!observables_.watch) return;
+  for (const auto& [key, group] : groups_) {
+    if (group.lanes > 0) total_steps_ += group.steps * static_cast<std::int64_t>(group.members.size());
+  }
 }
 
 /// 0 where it cannot be read, which is told later.
@@ -245,11 +255,35 @@ class Sweep::Worker {
       row.energy = end.energy;
       row.energy_scale = end.energy_scale;
       row.invariants = std::move(end.invariants);
-      if (complete && sweep_.observables_.observe) {
-        row.observables = sweep_.observables_.observe(scenario_of(members[lane]));
-      }
-      if (complete && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(members[lane]), row);
+      if (complete && sweep_.observables_.watch) measure(members[lane]);
+      if (row.status == Outcome::done && is_suspect(row))
+        row.nonsense = sweep_.options_.is_nonsense(scenario_of(members[lane]), row);
     }
+  }
+
+  /// Of a member that ran in lanes, by its steps once more. Where that is interrupted, the member is not finished.
+  void measure(std::size_t member) {
+    MemberRow& row = sweep_.rows_[member];
+    row.status = Outcome::stopped;
+    if (sweep_.stop_) return;
+    const Scenario scenario = scenario_of(member);
+    const auto simulation = make_simulation(scenario.request);
+    const auto watch = sweep_.observables_.watch(scenario, *simulation);
+    row.status = go(*simulation, scenario.steps, watch->observers());
+    if (row.status == Outcome::done) row.observables = watch->row();
+  }
+
+  /// A run whose steps are counted and which Ctrl-C ends.
+  Outcome go(Simulation& simulation, std::int64_t steps, std::span<Observer* const> observers) {
+    std::int64_t counted = 0;
+    const auto count = [&](std::int64_t step) {
+      sweep_.steps_taken_ += step - counted;
+      counted = step;
+      return !sweep_.stop_;
+    };
+    const Outcome outcome = hamflow::run(simulation, steps, observers, count);
+    count(simulation.step());
+    return outcome;
   }
 
   void run_alone(std::size_t member) {
@@ -266,12 +300,13 @@ class Sweep::Worker {
       });
       observers.push_back(&*finder);
     }
-    std::int64_t counted = 0;
-    const Outcome outcome = hamflow::run(*simulation, scenario.steps, observers, [&](std::int64_t step) {
-      sweep_.steps_taken_ += step - counted;
-      counted = step;
-      return !sweep_.stop_;
-    });
+    std::unique_ptr<MemberWatch> watch;
+    if (sweep_.observables_.watch) {
+      watch = sweep_.observables_.watch(scenario, *simulation);
+      const std::vector<Observer*> more = watch->observers();
+      observers.insert(observers.end(), more.begin(), more.end());
+    }
+    const Outcome outcome = go(*simulation, scenario.steps, observers);
     if (finder) row.section_residual = finder->max_residual();
     Frame frame;
     simulation->look(frame);
@@ -285,9 +320,7 @@ class Sweep::Worker {
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();
     row.message = outcome == Outcome::not_converged ? simulation->failure() : std::string(message(outcome));
-    if (outcome == Outcome::done && sweep_.observables_.observe) {
-      row.observables = sweep_.observables_.observe(scenario);
-    }
+    if (outcome == Outcome::done && watch) row.observables = watch->row();
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
   }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hamflow/run/ensemble.hpp"
+#include "hamflow/run/observer.hpp"
 #include "member_reader.hpp"
 #include "varied.hpp"
 
@@ -39,10 +40,19 @@ struct MemberRow {
   std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
 };
 
-/// Further columns, e.g. an exponent: numbers computed for each member from its scenario, on the member's thread.
+/// Observes the run of one member.
+class MemberWatch {
+ public:
+  virtual ~MemberWatch() = default;
+  virtual std::vector<Observer*> observers() = 0;
+  /// What was seen of a run that is done: a number for each of MemberObservables::names.
+  virtual std::vector<double> row() const = 0;
+};
+
+/// Further columns, e.g. an exponent: what is seen beside the run of each member.
 struct MemberObservables {
   std::vector<std::string> names;
-  std::function<std::vector<double>(const Scenario&)> observe;
+  std::function<std::unique_ptr<MemberWatch>(const Scenario&, const Simulation&)> watch;  // none: no columns
 };
 
 struct SweepOptions {
@@ -74,6 +84,7 @@ class Sweep {
   std::size_t lane_count() const { return lane_count_; }
   /// Members that run in lanes.
   std::size_t members_in_lanes() const { return in_lanes_; }
+  /// Of all members, those taken once more beside the lanes included.
   std::int64_t total_steps() const { return total_steps_; }
   /// Whether a member has more digits than double.
   bool beyond_double() const { return beyond_double_; }
@@ -103,6 +114,7 @@ class Sweep {
   void take_as_common(std::size_t member, const Scenario& scenario);
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
+  void count_measured_steps();
   void report(const std::map<std::string, std::vector<std::size_t>>& found);
 
   Varied varied_;

@@ -167,6 +167,8 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
 
 }  // namespace
 
+bool depends_on_time(const ProblemEntry& problem) { return problem.structure && problem.structure->time; }
+
 bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
                      double scale) {
   const Texts all = complete(problem.info, parameters);
@@ -180,6 +182,10 @@ bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::
 ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
                                    std::optional<double> period) {
   ReversalEvidence found;
+  if (depends_on_time(problem)) {
+    found.reason = "H depends on t, which goes on: the motion itself is not reversed by negating the momenta";
+    return found;
+  }
   const double at_least = std::min(period ? std::ceil(*period) : 1000.0, 1000.0);
   Request plain = request;
   plain.watch = false;

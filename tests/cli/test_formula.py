@@ -205,6 +205,20 @@ invariants = {{ angle = "atan2(p, 3 + q^2)" }}\ninitial = {{ q = [0.5], p = [0.2
         for key in ("final", "energy", "section", "observables", "certificate"):
             self.assertEqual(cut[key], whole[key], key)
 
+    def test_a_hamiltonian_of_time(self):
+        """Time goes on when momenta are negated: no reversal is a proof. Steps are not differentiated."""
+        self.write("t.toml", HENON.replace('/3)"', '/3) + k*x*cos(2*t)/50"'))
+        certificate = self.summary("t.toml")["certificate"]["reversal_distance"]
+        self.assertEqual((certificate["proves"], certificate["steps"], certificate["distance"]), ("nothing", 0, None))
+        self.assertIn("H depends on t", certificate["reason"])
+        found = json.loads(self.hamflow("reverse", "t.toml", "--json").stdout)
+        self.assertIn("H depends on t", found["note"])
+        self.assertFalse(found["expected_bit_exact"])
+        for key in ("lyapunov", "eigenvalues"):
+            for command in (["run", "t.toml"], ["sweep", "t.toml", "--vary", "problem.parameters.k=0.5,1"]):
+                text = self.hamflow(*command, "--set", f"run.{key}=true", "--out", "none", status=2).stderr
+                self.assertIn(f"run.{key}: found true with an H that depends on t; allowed with H(q, p)", text)
+
     def test_show_and_new(self):
         shown = self.hamflow("show", "formula").stdout
         for key in ("coordinates", "momenta", "hamiltonian", "kinetic", "potential", "parameters", "invariants"):

@@ -110,11 +110,17 @@ class Measures(CommandCase):
                                 "--set", "run.steps=500", *arguments)
             return json.loads(done.stdout)["rows"]
 
-        # The kernel of the sweep, and the tangent of the run: the same up to rounding, of which chaos makes e^7.
-        for row, p2 in zip(rows("--set", "run.lyapunov=1"), (0.1, 0.12)):
-            single = self.summary("--out", "none", "--set", "run.lyapunov=1", "--set", "run.steps=500",
-                                  "--set", f"problem.initial.p[1]={p2}")
-            self.assertAlmostEqual(row["lyapunov1"], single["lyapunov"]["exponents"][0], delta=1e-11)
+        # What a method carries from step to step, an iteration's start or a step length of its own, is the run's too.
+        for method in ("stv4", "cg(1,5)", "dop853", "rk4"):
+            for count in ("1", "true"):
+                sets = ("--set", f"run.lyapunov={count}", "--set", f"method.name={method}")
+                for row, p2 in zip(rows(*sets), (0.1, 0.12), strict=True):
+                    single = self.summary("--out", "none", "--set", "run.steps=500", *sets,
+                                          "--set", f"problem.initial.p[1]={p2}")
+                    exponents = single["lyapunov"]["exponents"]
+                    self.assertEqual(len(exponents), 1 if count == "1" else 4)
+                    self.assertEqual([row[f"lyapunov{i + 1}"] for i in range(len(exponents))], exponents,
+                                     (method, count, p2))
         whole = rows("--set", "run.lyapunov=true")
         self.assertEqual([f"lyapunov{i}" in whole[0] for i in (1, 4, 5)], [True, True, False])
         self.assertAlmostEqual(whole[0]["lyapunov1"] + whole[0]["lyapunov4"], 0, delta=1e-12)

@@ -278,6 +278,27 @@ steps = 200
         self.assertTrue(begun)
         self.assertGreater(int(begun[0]["member/steps"]), 0)
 
+    def test_interrupt_while_measuring(self):
+        """What is measured takes the steps of members in lanes once more; that ends at Ctrl-C too."""
+        # The lanes are done in a fraction of the time that 16 members take to measure.
+        self.write("long.toml", scenario('name = "henon-heiles"', "[0.1, 0.1]", "[0.2, 0.3]", steps=2000000))
+        for key, value, column in (("run.lyapunov", "1", "lyapunov1"),
+                                   ("output.observables", "{ a = 'exp(sin(q1))*p1' }", "a_mean")):
+            process = subprocess.Popen(
+                [HAMFLOW, "sweep", "long.toml", "--vary", "problem.initial.q[1]=0:0.1:16", "--set", f"{key}={value}",
+                 "--threads", "1", "--out", "none", "--json"],
+                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            time.sleep(1)
+            os.kill(process.pid, signal.SIGINT)
+            out, _ = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 130)
+            found = json.loads(out)
+            self.assertEqual((found["status"], found["members_in_lanes"]), ("interrupted", 16))
+            self.assertGreater(found["unfinished"], 0)
+            self.assertEqual(found["done"] + found["unfinished"], 16)
+            for row in found["rows"]:
+                self.assertEqual(column in row, row["status"] == "done")
+
     def test_figure(self):
         self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--set", "method.name=stv4",
                      "--vary", "run.dt=0.01:0.1:4", "--vary", "problem.orbit.r_aph=2:3:5", "--out", "none",

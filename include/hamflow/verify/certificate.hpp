@@ -81,6 +81,9 @@ struct Reversal {
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse = {},
                  std::span<Observer* const> there = {});
 
+/// H(q, p, t): on the way back the time goes on, so that negating the momenta does not reverse the motion.
+bool depends_on_time(const ProblemEntry& problem);
+
 /// H(q, -p) = H(q, p) to rounding at these states: else the motion itself is not reversed with the momenta.
 /// @param scale of the energy
 bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
@@ -104,10 +107,10 @@ constexpr std::string_view name(ReversalProof proof) {
 }
 
 struct ReversalEvidence {
-  std::int64_t steps = 0;  // each way
+  std::int64_t steps = 0;  // each way; 0: none was tried
   double share = 0;        // of the run
   std::int64_t bounces = 0;
-  std::optional<LongNumber> distance, relative;  // none: a step failed
+  std::optional<LongNumber> distance, relative;  // none: a step failed, or H depends on t
   bool bit_exact = false;
   ReversalProof proves = ReversalProof::nothing;
   std::string reason;  // also what was left out

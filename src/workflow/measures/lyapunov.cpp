@@ -1,13 +1,13 @@
 // run.lyapunov: exponents of the method's own steps, along the run; in a sweep a column each.
+#include "hamflow/verify/lyapunov.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "hamflow/problems/henon_heiles.hpp"
-#include "hamflow/run/splitting_named.hpp"
-#include "hamflow/verify/lyapunov_of.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
@@ -34,6 +34,12 @@ class LyapunovMeasure final : public Measure {
     if (!watch_.followed()) all["stopped_at_step"] = watch_.step();
     return all;
   }
+  /// NaN where not every step could be followed: a column cannot say at which step its numbers end.
+  std::vector<double> row() const override {
+    std::vector<double> exponents = watch_.spectrum().exponents;
+    if (!watch_.followed()) std::fill(exponents.begin(), exponents.end(), std::numeric_limits<double>::quiet_NaN());
+    return exponents;
+  }
 
  private:
   LyapunovWatch watch_;
@@ -58,38 +64,9 @@ std::string lyapunov_text(const Json& found) {
   return line;
 }
 
-/// The problem whose chaos is mapped most, by a kernel of its own: a quarter of the time that a StepMap takes.
-std::optional<double> exponent_of_henon_heiles(const Scenario& scenario) {
-  if (scenario.request.problem != "henon-heiles") return std::nullopt;
-  const std::optional<AnySplitting> method = splitting_named(scenario.request.method.name);
-  if (!method) return std::nullopt;
-  const HenonHeiles<double> problem{Parameters<double>(scenario.request.parameters)};
-  const std::vector<double>& q = scenario.start_q;
-  const std::vector<double>& p = scenario.start_p;
-  return largest_lyapunov(problem, TableRecipe<Shape::any>{*method}, {q[0], q[1]}, {p[0], p[1]}, scenario.dt,
-                          scenario.steps);
-}
-
-/// Without a run of its own; NaN when a step fails.
-std::vector<double> exponents_of(const Scenario& scenario) {
-  if (scenario.lyapunov == 1) {
-    if (const auto typed = exponent_of_henon_heiles(scenario)) return {*typed};
-  }
-  const auto map = step_map_of(scenario);
-  State<double> z = scenario.start_q;
-  z.insert(z.end(), scenario.start_p.begin(), scenario.start_p.end());
-  if (scenario.lyapunov == 1) return {largest_lyapunov(*map, z, scenario.dt, scenario.steps)};
-  try {
-    return lyapunov_spectrum(*map, z, scenario.dt, scenario.steps, scenario.lyapunov).exponents;
-  } catch (const Error&) {  // the member's status shows it
-    return std::vector<double>(scenario.lyapunov, std::numeric_limits<double>::quiet_NaN());
-  }
-}
-
-MemberObservables columns(const Scenario& first) {
-  MemberObservables all;
-  for (std::size_t i = 1; i <= first.lyapunov; ++i) all.names.push_back("lyapunov" + std::to_string(i));
-  all.observe = exponents_of;
+std::vector<std::string> columns(const Scenario& first) {
+  std::vector<std::string> all;
+  for (std::size_t i = 1; i <= first.lyapunov; ++i) all.push_back("lyapunov" + std::to_string(i));
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
@@ -24,6 +25,8 @@ class Measure {
   virtual Observer& observer() = 0;
   /// Its entry in the summary, from what was seen so far.
   virtual nlohmann::ordered_json summary() const = 0;
+  /// Its numbers in a sweep, from what was seen of a member that is done, one for each of the columns.
+  virtual std::vector<double> row() const { return {}; }
 };
 
 struct MeasureKind {
@@ -34,8 +37,9 @@ struct MeasureKind {
   std::unique_ptr<Measure> (*make)(const Scenario&, const Simulation&, Recorder* recorder);
   /// Its line for people, from its entry in the summary.
   std::string (*text)(const nlohmann::ordered_json& entry);
-  /// The columns that it gives a sweep whose first member is this scenario; null: it belongs to single runs.
-  MemberObservables (*columns)(const Scenario&) = nullptr;
+  /// The names of the columns that it gives a sweep whose first member is this scenario; null: it belongs to single
+  /// runs.
+  std::vector<std::string> (*columns)(const Scenario&) = nullptr;
   bool points_in_sweeps = false;  // a sweep records it for each member, in a table of its own
 };
 

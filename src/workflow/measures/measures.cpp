@@ -31,23 +31,46 @@ void Measures::add_to(nlohmann::ordered_json& summary) const {
   for (const auto& [kind, measure] : requested_) summary[kind->key] = measure->summary();
 }
 
+namespace {
+
+/// A column of a sweep is what the same measure shows of the single run.
+class MeasuredMember final : public MemberWatch {
+ public:
+  MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario, const Simulation& simulation) {
+    for (const MeasureKind* kind : kinds) measures_.push_back(kind->make(scenario, simulation, nullptr));
+  }
+  std::vector<Observer*> observers() override {
+    std::vector<Observer*> all;
+    for (const auto& measure : measures_) all.push_back(&measure->observer());
+    return all;
+  }
+  std::vector<double> row() const override {
+    std::vector<double> all;
+    for (const auto& measure : measures_) {
+      const std::vector<double> part = measure->row();
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Measure>> measures_;
+};
+
+}  // namespace
+
 MemberObservables sweep_columns(const Scenario& first) {
   MemberObservables all;
-  std::vector<MemberObservables> parts;
+  std::vector<const MeasureKind*> kinds;
   for (const MeasureKind& kind : measure_kinds()) {
     if (kind.columns == nullptr || !kind.requested(first)) continue;
-    parts.push_back(kind.columns(first));
-    all.names.insert(all.names.end(), parts.back().names.begin(), parts.back().names.end());
+    kinds.push_back(&kind);
+    const std::vector<std::string> names = kind.columns(first);
+    all.names.insert(all.names.end(), names.begin(), names.end());
   }
-  if (parts.empty()) return all;
-  all.observe = [parts](const Scenario& scenario) {
-    std::vector<double> row;
-    for (const MemberObservables& part : parts) {
-      std::vector<double> found = part.observe(scenario);
-      found.resize(part.names.size(), std::numeric_limits<double>::quiet_NaN());
-      row.insert(row.end(), found.begin(), found.end());
-    }
-    return row;
+  if (kinds.empty()) return all;
+  all.watch = [kinds](const Scenario& scenario, const Simulation& simulation) {
+    return std::make_unique<MeasuredMember>(kinds, scenario, simulation);
   };
   return all;
 }

@@ -56,7 +56,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   void archive(Reader& ar) override { fields(ar); }
 
   /// {initial, mean, final} of each; without steps the mean is the initial value.
-  std::vector<double> values() const {
+  std::vector<double> row() const override {
     std::vector<double> all;
     for (const Seen& seen : seen_) {
       const double mean = steps_ > 0 ? (seen.sum + seen.lost) / static_cast<double>(steps_) : seen.initial;
@@ -66,7 +66,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   }
   Json summary() const override {
     Json all = Json::object();
-    const std::vector<double> found = values();
+    const std::vector<double> found = row();
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       all[observables_[i].name] = {{"initial", found[3 * i]}, {"mean", found[3 * i + 1]}, {"final", found[3 * i + 2]}};
     }
@@ -85,21 +85,11 @@ class ObservablesMeasure final : public Measure, public Observer {
   std::int64_t steps_ = -1;  // the last that was seen
 };
 
-/// By a run of its own, whose steps are those of the member.
-std::vector<double> observables_of(const Scenario& scenario) {
-  ObservablesMeasure measure(scenario.observables);
-  const auto simulation = make_simulation(scenario.request);
-  Observer* const observer = &measure;
-  (void)run(*simulation, scenario.steps, {&observer, 1});
-  return measure.values();
-}
-
-MemberObservables columns(const Scenario& first) {
-  MemberObservables all;
+std::vector<std::string> columns(const Scenario& first) {
+  std::vector<std::string> all;
   for (const NamedExpression& each : first.observables) {
-    for (const char* what : {"_initial", "_mean", "_final"}) all.names.push_back(each.name + what);
+    for (const char* what : {"_initial", "_mean", "_final"}) all.push_back(each.name + what);
   }
-  all.observe = observables_of;
   return all;
 }
 
