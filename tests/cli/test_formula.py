@@ -217,7 +217,7 @@ invariants = {{ angle = "atan2(p, 3 + q^2)" }}\ninitial = {{ q = [0.5], p = [0.2
         for key in ("lyapunov", "eigenvalues"):
             for command in (["run", "t.toml"], ["sweep", "t.toml", "--vary", "problem.parameters.k=0.5,1"]):
                 text = self.hamflow(*command, "--set", f"run.{key}=true", "--out", "none", status=2).stderr
-                self.assertIn(f"run.{key}: found true with an H that depends on t; allowed with H(q, p)", text)
+                self.assertIn("with an H that depends on t; allowed with H(q, p)", text)
 
     def test_show_and_new(self):
         shown = self.hamflow("show", "formula").stdout
