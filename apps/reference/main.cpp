@@ -134,7 +134,11 @@ std::string page() {
       "# Reference\n\nMade by `./dev docs` from the declarations in the code; a test compares the two. Keys stand in "
       "the tables of a\nscenario; numbers may be given as texts such as \"1/3\" or \"2*pi/100\".\n\n## [problem]\n\n"
       "Of every state one component of p, or of v, may be left to the energy: `initial = { q = [0, 0.1], p = [\"+\", "
-      "0.1],\nenergy = 0.125 }`, `\"+\"` the largest, `\"-\"` the smallest root of H = energy.\n\n";
+      "0.1],\nenergy = 0.125 }`, `\"+\"` the largest, `\"-\"` the smallest root of H = energy. Where H is not "
+      "quadratic "
+      "in it the root is\nsearched: in 0, in 128 points of each power of 2 from 2^-20 to 2^20 and four of each from "
+      "2^-100 to 2^100, of both\nsigns, and between them where H comes near the energy; narrower dips are not seen. "
+      "Where H oscillates, as cos(p), the\nstart is refused.\n\n";
   for (const ProblemEntry& entry : problems()) text += problem(entry);
   text += fmt::format(
       "### {}, {} = \"{}\"\n\nH = |p|^2/(2 mu) + V(r), in both coordinates, with `mass`, `initial` and `bodies`.\n\n",

@@ -112,7 +112,7 @@ void Sweep::read_members(const std::string& name) {
 void Sweep::add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths) {
   const std::lock_guard lock(mutex_);
   for (const Complaint& complaint : reading.complaints) {
-    std::string text = complaint.text();
+    std::string text = varied_.as_typed(complaint.text(), member);
     const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
       return path.starts_with(complaint.key) || complaint.key.starts_with(path);
     });

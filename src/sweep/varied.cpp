@@ -166,9 +166,34 @@ double Varied::number(std::size_t member, std::size_t key) const {
 std::string Varied::described(std::size_t member) const {
   std::string all = "member " + std::to_string(member);
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    all += (k == 0 ? ": " : ", ") + keys_[k].path + "=" + text(member, k);
+    all +=
+        (k == 0 ? ": " : ", ") + keys_[k].path + "=" + (keys_[k].formula.empty() ? text(member, k) : keys_[k].formula);
   }
   return all;
+}
+
+std::string Varied::as_typed(std::string complaint, std::size_t member) const {
+  for (std::size_t key = 0; key < keys_.size(); ++key) {
+    const std::string& formula = keys_[key].formula;
+    if (formula.empty()) continue;
+    const std::string found = "found \"" + text(member, key) + "\"";
+    const std::size_t at = complaint.find(found);
+    if (at == std::string::npos) continue;
+    // A column of the text with numbers in it is none of what was typed.
+    const std::string column = ", column ";
+    std::size_t end = at + found.size();
+    if (complaint.compare(end, column.size(), column) == 0) {
+      end = std::min(complaint.find_first_not_of("0123456789", end + column.size()), complaint.size());
+    }
+    std::string values;
+    for (std::size_t other = 0; other < keys_.size(); ++other) {
+      if (!keys_[other].formula.empty() || !keys_[other].is_number()) continue;
+      values += (values.empty() ? " where " : ", ") + keys_[other].path + "=" + text(member, other);
+    }
+    complaint.replace(at, end - at, "found \"" + formula + "\"" + values);
+    break;
+  }
+  return complaint;
 }
 
 }  // namespace hamflow

@@ -36,8 +36,10 @@ class Varied {
   std::string text(std::size_t member, std::size_t key) const;
   /// The same as a number. @throws Error where a formula has none
   double number(std::size_t member, std::size_t key) const;
-  /// "member 3: problem.k=0.5, run.dt=0.1".
+  /// "member 3: problem.k=0.5, run.dt=0.1"; formulas as they were typed.
   std::string described(std::size_t member) const;
+  /// A complaint about a formula with the member's values in it, told with the formula as it was typed and the values.
+  std::string as_typed(std::string complaint, std::size_t member) const;
 
  private:
   std::size_t key_of(const std::string& path) const;

@@ -55,6 +55,15 @@ bool belongs_to_single_runs(const std::string& path) {
                      [&](const std::string& key) { return is_part_of_other(key, path) && path.size() >= key.size(); });
 }
 
+/// Whether a key decides which columns, or which section, the one table of a sweep has.
+bool decides_columns(const std::string& path) {
+  const RunKeys& keys = run_keys();
+  for (const OptionInfo& key : {keys.lyapunov, keys.eigenvalues, keys.section}) {
+    if (is_part_of_other(run_path(key), path)) return true;
+  }
+  return false;
+}
+
 /// What is wrong with the request beside its scenario goes into `wrong`, a line each.
 Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
   std::vector<Vary> varied;
@@ -75,6 +84,11 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std
     try_to("--vary: error: ", [&] { varied.push_back(parse_vary(vary)); });
   }
   for (const Vary& vary : varied) {
+    if (decides_columns(vary.path)) {
+      wrong.push_back("--vary: error: found " + vary.path +
+                      ", which all members of a sweep have in common; allowed --set " + vary.path +
+                      "=..., a sweep for each value");
+    }
     if (!belongs_to_single_runs(vary.path)) continue;
     wrong.push_back(
         "--vary: error: found " + vary.path +

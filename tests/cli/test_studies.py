@@ -97,6 +97,40 @@ class StartOfEnergy(CommandCase):
         text = self.refused("problem.initial.energy=0.001")
         self.assertIn("problem.initial.energy: found 0.001, but no p[0] has it: along p[0] H is at least 0.00966", text)
 
+    def open_formula(self, hamiltonian, energy, sign):
+        return ('name = "formula"\ncoordinates = ["q"]\n'
+                f'hamiltonian = "{hamiltonian}"\ninitial = {{ q = [0], p = ["{sign}"], energy = {energy} }}')
+
+    def test_roots_where_h_is_singular_or_has_a_dip(self):
+        dip = "p^2/2 - 3*exp(-(p - 3)^2*50) + q"
+        for hamiltonian, energy, sign, expected in (
+            ("1/p + q", 4, "+", 0.25),
+            ("1/p + q", 4, "-", 0.25),
+            ("log(p) + q", 1, "+", math.e),
+            ("(p^2 - 2)^2 + q", 0, "-", -math.sqrt(2)),
+            (dip, 2, "-", -2),
+        ):
+            run = self.start(problem=self.open_formula(hamiltonian, energy, sign))
+            p = run["start"]["p"][0]
+            # A double root is known to the square root of the rounding.
+            within = math.sqrt(64 * EPSILON) if "^2 - 2)" in hamiltonian else 16 * EPSILON * abs(expected)
+            self.assertAlmostEqual(p, expected, delta=within, msg=hamiltonian)
+        p = self.start(problem=self.open_formula("p^2/2 + 1/p + q", 4, "+"))["start"]["p"][0]
+        self.assertAlmostEqual(p**3 / 2 - 4 * p + 1, 0, delta=64 * EPSILON * 4 * p)
+        self.assertGreater(p, 2)  # the others are near 0.25 and -2.9
+        # Of p^2/2 alone the root is 2; that in the dip lies further out, on the dip's outer flank.
+        p = self.start(problem=self.open_formula(dip, 2, "+"))["start"]["p"][0]
+        self.assertGreater(p, 3)
+        self.assertAlmostEqual(p * p / 2 - 3 * math.exp(-((p - 3) ** 2) * 50), 2, delta=256 * EPSILON * 5)
+
+    def test_no_root_is_the_last(self):
+        for hamiltonian, energy in (("cos(p) + q^2", 0.3), ("cos(p) + q^2", 1), ("tan(p) + q", 0.5), ("p*sin(p) + q", 0.5)):
+            for sign, word in (("+", "largest"), ("-", "smallest")):
+                self.write("own.toml", f"[problem]\n{self.open_formula(hamiltonian, energy, sign)}\n"
+                                       "[method]\nname = 'rk4'\n[run]\ndt = 0.1\nsteps = 0\n")
+                text = self.refused(file="own.toml")
+                self.assertIn(f"no {word} root along p[0] can be told: H oscillates", text, hamiltonian)
+
     def test_wrong_requests(self):
         for sets, words in (
             (['problem.initial.p=["+", "-"]'], "found 2 components left to the energy; allowed one"),
@@ -195,6 +229,20 @@ class Studies(CommandCase):
             self.assertIn("--vary: error: ", text, vary)
         cycle = self.refused("--vary", "problem.lambda=run.dt*2", "--vary", "run.dt=problem.lambda/2")
         self.assertIn("itself; allowed formulas of keys that have values", cycle)
+
+    def test_complaints_show_formulas_as_typed(self):
+        formula = "sqrt(problem.initial.q[1])/10 + 0.05"
+        text = self.refused("--vary", "problem.initial.q[1]=-0.01,0.1", "--vary", f"run.dt={formula}")
+        self.assertIn(f'found "{formula}" where problem.initial.q[1]=-0.01: sqrt((-0.01)) is not a real number', text)
+        self.assertIn(f"(member 0: problem.initial.q[1]=-0.01, run.dt={formula})", text)
+
+    def test_what_decides_the_columns_is_not_varied(self):
+        section = ("--set", "run.section={ coordinate = 'q1' }")
+        for vary in ("run.lyapunov=false,true", "run.lyapunov=2,1,4", "run.eigenvalues=true,false",
+                     "run.section.value=0,0.1", "run.section.coordinate=q1,q2", "run.section.direction=1,-1"):
+            path = vary.split("=")[0]
+            text = self.refused(*(section if "section" in path else ()), "--vary", vary)
+            self.assertIn(f"--vary: error: found {path}, which all members of a sweep have in common", text)
 
     def test_lists_in_step(self):
         found = self.sweep("--zip", "--vary", "run.dt=0.1,0.05,0.025", "--vary", "run.steps=10,20,40", "--vary",

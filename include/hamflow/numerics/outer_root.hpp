@@ -33,10 +33,18 @@ std::optional<R> quadratic_root(const R& a, const R& b, const R& c, const R& noi
   return (x < y) == largest ? y : x;
 }
 
-/// A zero of f in double beyond which, on the side of the largest or of the smallest numbers, a scan finds none: f is
-/// looked at in 0 and in four points of each power of 2 from 2^-100 to 2^100, and where it comes near 0 between them
-/// its extremum is looked for. What is not finite is passed over. Nothing where there is none.
-std::optional<double> outer_root(const std::function<double(double)>& f, bool largest);
+struct OuterRoot {
+  std::optional<double> x{};  // nothing where the search finds none
+  bool told = true;  // false: f oscillates, or is 0, as far as it is looked at, and no zero is known to be the last
+};
+
+/// A zero of f in double beyond which, on the side of the largest or of the smallest numbers, a search finds none: f is
+/// looked at in 0, in 128 points of each power of 2 from 2^-20 to 2^20 and in four of each from 2^-100 to 2^100, of
+/// both signs. Where it comes near 0 between them its extremum is looked for, and beside a zero it is looked at on
+/// sixteen finer scales. A dip that is narrower than the points are apart is not seen. What is not finite is passed
+/// over.
+/// @param is_zero whether f is 0 there to rounding; a change of sign where it is not is a pole or a jump
+OuterRoot outer_root(const std::function<double(double)>& f, bool largest, const std::function<bool(double)>& is_zero);
 
 /// A zero of f near one that is known in double, in R: by secants, as long as |f| falls.
 template <class R>
