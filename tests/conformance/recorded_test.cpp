@@ -6,6 +6,7 @@
 #include <iostream>
 #include <set>
 
+#include "../support/measured_request.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/compositions/verlet.hpp"
@@ -23,26 +24,9 @@
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
 namespace {
-
-/// A start of the region on which the problem is measured.
-Request start_of(const ProblemEntry& problem) {
-  Request request;
-  request.problem = problem.info.name;
-  request.variant = {problem.info.variant.begin(), problem.info.variant.end()};
-  const Region region = region_of(request.problem, request.variant);
-  request.parameters = region.parameters;
-  const std::size_t size = region.centre.size() / 2;
-  for (std::size_t i = 0; i < size; ++i) {
-    request.start.q.push_back(shortest(region.centre[i]));
-    request.start.p.push_back(shortest(region.centre[size + i]));
-  }
-  request.dt = shortest(region.step / 10);
-  return request;
-}
 
 /// Steps of each comparison: HAMFLOW_TEST_STEPS, or as many as an ordinary test takes.
 int compared_steps() {
@@ -71,7 +55,7 @@ TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
   int cases = 0;
   int recorded = 0;
   for (const ProblemEntry& problem : problems()) {
-    Request request = start_of(problem);
+    Request request = test::measured_request(problem);
     for (const MethodEntry& entry : methods()) {
       request.method = {.name = entry.name};
       if (!refusal(request.method, problem).empty() || not_recorded.contains(entry.name)) continue;
@@ -108,7 +92,7 @@ template <class A, class P, class Recipe>
 void expect_typed_bits(const std::string& problem, const std::map<std::string, std::string>& variant,
                        const std::string& method, const Recipe& recipe) {
   SCOPED_TRACE(method + " on " + problem + " in " + std::string(A::name));
-  Request request = start_of(find_problem(problem, variant));
+  Request request = test::measured_request(find_problem(problem, variant));
   request.method = {.name = method};
   request.arithmetic = std::is_same_v<A, Plain<double>> ? "double" : "compensated";
   const auto by_name = make_simulation(request);

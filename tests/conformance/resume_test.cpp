@@ -7,6 +7,7 @@
 #include <iostream>
 #include <set>
 
+#include "../support/measured_request.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/core/archive.hpp"
 #include "hamflow/methods/splitting.hpp"
@@ -15,7 +16,6 @@
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/measure.hpp"
 
 namespace hamflow {
 namespace {
@@ -35,17 +35,8 @@ std::vector<Request> every_request() {
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   std::vector<Request> all;
   for (const ProblemEntry& problem : problems()) {
-    Request request;
-    request.problem = problem.info.name;
-    request.variant = {problem.info.variant.begin(), problem.info.variant.end()};
-    const Region region = region_of(request.problem, request.variant);
-    request.parameters = region.parameters;
-    const std::size_t size = region.centre.size() / 2;
-    for (std::size_t i = 0; i < size; ++i) {
-      request.start.q.push_back(shortest(region.centre[i]));
-      request.start.p.push_back(shortest(region.centre[size + i]));
-    }
-    request.dt = shortest(region.step / 10);
+    Request request = test::measured_request(problem);
+    const std::size_t size = request.start.q.size();
     for (const std::string& name : names) {
       request.method = parse_method(name);
       if (!refusal(request.method, problem).empty()) continue;

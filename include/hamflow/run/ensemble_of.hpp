@@ -15,12 +15,6 @@
 
 namespace hamflow {
 
-/// A problem that lanes can take: separable, of fixed size, and nothing but numbers. One that compares a number
-/// of the state (lanes would answer differently) declares `static constexpr bool lanes = false`.
-template <class P>
-concept LaneProblem =
-    Separable<P> && P::dimension != dynamic&& std::is_trivially_copyable_v<P> && !(requires { requires !P::lanes; });
-
 // One function for each instruction set, into which everything is inlined: four registers to a pack, see pack.hpp.
 struct GenericLanes {
   using Number = Pack<2, 4>;
@@ -166,9 +160,7 @@ class EnsembleBlockOf final : public EnsembleBlock {
     w.worst_energy = larger(w.worst_energy, error);
     w.regular.keep_where_finite(error);
     if constexpr (has_invariants) {
-      static_assert(
-          !HasInvariantSizes<P>,
-          "hamflow: lanes know invariants of one component each; declare static constexpr bool lanes = false");
+      static_assert(!HasInvariantSizes<P>, "hamflow: these lanes know invariants of one component each");
       const Invariants values = invariants_of(problem, z);
       for (std::size_t k = 0; k < values.size(); ++k) {
         w.worst[k] = larger(w.worst[k], abs(values[k] - w.initial[k]));

@@ -1,0 +1,25 @@
+// Where a problem is measured, as a request by name.
+#pragma once
+
+#include "hamflow/run/catalog.hpp"
+#include "hamflow/verify/measure.hpp"
+
+namespace hamflow::test {
+
+/// The centre of the region on which the problem is measured, its parameters, and a tenth of its step; no method yet.
+inline Request measured_request(const ProblemEntry& problem) {
+  Request request;
+  request.problem = problem.info.name;
+  request.variant = {problem.info.variant.begin(), problem.info.variant.end()};
+  const Region region = region_of(request.problem, request.variant);
+  request.parameters = region.parameters;
+  const std::size_t size = region.centre.size() / 2;
+  for (std::size_t i = 0; i < size; ++i) {
+    request.start.q.push_back(shortest(region.centre[i]));
+    request.start.p.push_back(shortest(region.centre[size + i]));
+  }
+  request.dt = shortest(region.step / 10);
+  return request;
+}
+
+}  // namespace hamflow::test
