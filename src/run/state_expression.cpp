@@ -71,6 +71,10 @@ bool StateExpression::uses(std::size_t k) const {
          (read_->numbered && read_->formula.uses(static_cast<int>(k + 2 * read_->size)));
 }
 
+bool StateExpression::uses_time() const {
+  return read_->formula.uses(static_cast<int>((read_->numbered ? 4 : 2) * read_->size));
+}
+
 double StateExpression::operator()(const Frame& frame) const {
   std::vector<double> values;
   values.reserve(4 * read_->size + 1 + read_->parameters.size());
