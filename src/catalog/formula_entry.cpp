@@ -102,9 +102,22 @@ std::unique_ptr<Simulation> without_time(const ModelPointer& model, std::unique_
   return std::make_unique<TimedSimulation>(std::move(simulation));
 }
 
-std::unique_ptr<Simulation> simulate_in_double(const ErasedRun<double>& run, const Request& request) {
+/// Operations at one point of a quadrature. With more of them than can be straight code for up to 64 points the loops
+/// over points and coordinates are faster.
+std::size_t operations_at_point(const formula::Model& model) {
+  if (includes(capabilities_of(model.structure()), Capability::quadratic_kinetic)) {
+    return model.force_and_hessian().code->steps.size();
+  }
+  return model.gradient->steps.size() + model.hessian().code->steps.size();
+}
+
+std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, const ErasedRun<double>& run,
+                                               const Request& request) {
+  constexpr std::size_t most_operations = 2000;
   auto element = visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
-    if constexpr (std::is_same_v<M, Cg>) return simulate_recorded_element(run, recipe.options);
+    if constexpr (std::is_same_v<M, Cg>) {
+      if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, recipe.options);
+    }
     return nullptr;
   });
   return element ? std::move(element) : simulate_erased<double>(run, request);
@@ -116,7 +129,7 @@ std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& reque
   const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters);
   const StateOf<R> s = start_of<R>(typed, functions.template as<Capability::smooth>(), request);
   const ErasedRun<R> run{functions, s.q, s.p, evaluate_number<R>(request.dt)};
-  if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(run, request));
+  if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(*model, run, request));
   return without_time(model, simulate_erased<R>(run, request));
 }
 

@@ -172,9 +172,8 @@ TEST(FormulaBits, OfOtherProblems) {
   expect_bits(differences(Sextic<double>(), line("p^3/3 - p/2 + q^6/30 + q^4/4 - q^3/3 + 1/6")), "sextic");
 }
 
-/// Chains have the bits where a link is typed as it is added up by hand; of kinetic energies the halves are taken of
-/// each square, which is exact.
-TEST(FormulaBits, OfAChain) {
+/// By hand the tension of a link is nested in its length; of the typed sum the terms of equal power come together.
+TEST(FormulaBits, OfAChainAgreeToRounding) {
   const FormulaTexts texts{.coordinates = {"q1", "q2", "q3", "q4"},
                            .hamiltonian =
                                "let r0 = q1, r1 = q2 - q1, r2 = q3 - q2, r3 = q4 - q3, r4 = -q4 in "
@@ -192,7 +191,7 @@ TEST(FormulaBits, OfAChain) {
 TEST(FormulaBits, OfSumsOfPowersAgreeToRounding) {
   const CentralForce<double, Power> by_hand(1.7, Power<double>({0.5, -0.5}, {2, -2.5}));
   const Differences d = differences(
-      by_hand, plane("(p_x^2 + p_y^2)/(2*m) + let r = sqrt(x^2 + y^2) in 0.5*r^3 - 0.5*r^-1.5", {{"m", "1.7"}}));
+      by_hand, plane("(p_x^2 + p_y^2)/(2*m) + (let r = sqrt(x^2 + y^2) in 0.5*r^3 - 0.5*r^-1.5)", {{"m", "1.7"}}));
   EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
   EXPECT_LE(d.worst_hessian, rounding);
 }

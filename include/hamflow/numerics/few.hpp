@@ -3,8 +3,7 @@
 // fixed ones.
 #pragma once
 
-#include <cstdint>
-
+#include "hamflow/core/error.hpp"
 #include "hamflow/numerics/dense.hpp"
 
 namespace hamflow {
@@ -25,6 +24,9 @@ struct Few {
   template <class Archive>
   void archive(Archive& ar) {
     ar(entry, count);
+    if constexpr (Archive::reading) {
+      if (count > most) throw Error("saved bytes hold a vector of another size");
+    }
   }
 };
 

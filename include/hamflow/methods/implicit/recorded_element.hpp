@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 
 #include "hamflow/methods/implicit/element_programs.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
@@ -80,6 +81,7 @@ class RecordedElement : public SegmentEquations<P, double> {
     return read(at, frame_.x());
   }
   Few started(const Few& memory) const {
+    if (memory.size() != frame_.m) return last_state();  // of a state that was saved elsewhere
     Point at;
     begin(at);
     put(memory, at, frame_.x());
