@@ -40,9 +40,14 @@ inline std::vector<EnsembleEntry> generated_ensembles() { return {@ensemble_call
 }  // namespace hamflow
 ]] @ONLY)
 
-add_library(hamflow_ensemble STATIC src/catalog/ensemble_catalog.cpp src/catalog/recorded_block.cpp ${ensemble_units})
+set(ensemble_sources
+  src/catalog/block_tangents.cpp
+  src/catalog/ensemble_catalog.cpp
+  src/catalog/family_loop.cpp
+  src/catalog/recorded_block.cpp)
+add_library(hamflow_ensemble STATIC ${ensemble_sources} ${ensemble_units})
 set_target_properties(hamflow_ensemble PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-set_source_files_properties(src/catalog/ensemble_catalog.cpp src/catalog/recorded_block.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${ensemble_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_include_directories(hamflow_ensemble PRIVATE "${PROJECT_SOURCE_DIR}/src/catalog" "${generated}")
 target_link_libraries(hamflow_ensemble PUBLIC hamflow PRIVATE $<BUILD_INTERFACE:hamflow_warnings>)
 # -Wno-psabi: packs go by value through functions that are inlined in the end; GCC 4.6 passed them otherwise. clang

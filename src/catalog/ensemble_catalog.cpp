@@ -17,7 +17,8 @@ LaneSet widest_lanes() {
 }
 
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
-  if (lanes == LaneSet::none || lanes > widest_lanes() || request.arithmetic != "double") return nullptr;
+  const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
+  if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
   // Without the instructions the fast kernel has the bits of the exact one (numerics/inverse_cube.hpp).
   if (request.kernel != "fast" || !fast_kernel_available()) return make_recorded_block(problem, request, lanes);

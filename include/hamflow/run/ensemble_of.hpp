@@ -111,7 +111,7 @@ class EnsembleBlockOf final : public EnsembleBlock {
     parts_->watched = watched;
   }
 
-  MemberEnd look(std::size_t lane) const override {
+  MemberEnd look(std::size_t lane) override {
     const Parts& all = *parts_;
     const auto q = all.z.positions();
     const auto p = all.z.momenta();
