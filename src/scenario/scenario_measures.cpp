@@ -121,13 +121,16 @@ void ScenarioReader::read_section_expression(TomlTable& section, Section wanted)
   const std::size_t dimension = scenario_.start_q.size();
   std::size_t first = 0;
   while (first < 2 * dimension && !expression->uses(first)) ++first;
-  if (first == 2 * dimension) {
+  wanted.by_time_alone = first == 2 * dimension;
+  if (wanted.by_time_alone && !expression->uses_time()) {
     section.complain(key.name, section.found(key.name) + ", which is the same for every state; allowed an expression " +
-                                   "with a coordinate or a momentum");
+                                   "with a coordinate, a momentum or t");
     return;
   }
-  wanted.coordinate = first % dimension;
-  wanted.momentum = first >= dimension;
+  if (!wanted.by_time_alone) {
+    wanted.coordinate = first % dimension;
+    wanted.momentum = first >= dimension;
+  }
   wanted.expression = expression;
   scenario_.section = wanted;
 }

@@ -161,7 +161,7 @@ std::string readable_sweep(const Json& s) {
                    s["done"].get<std::size_t>(), s["failed"].get<std::size_t>(), s["unfinished"].get<std::size_t>()));
   if (s.contains("no_start")) {
     line("no start",
-         fmt::format("{} of the failed: the energy is out of their reach", s["no_start"].get<std::size_t>()));
+         fmt::format("{} of the failed: the energy, or what a formula asks for, is out of their reach", s["no_start"].get<std::size_t>()));
   }
   for (const auto& [path, entry] : s["varied"].items()) {
     line("varied", entry.contains("first")

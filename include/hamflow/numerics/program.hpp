@@ -37,7 +37,10 @@ enum class Instruction : std::uint8_t {
   cosh,
   tanh,
   arctangent2,  // atan2(a, b)
-  power         // pow(a, b)
+  power,        // pow(a, b)
+  // Of machine code alone: the sine of a number and, directly behind it, its cosine, by one call.
+  sine_of_both,
+  cosine_of_both
 };
 
 /// The value of an earlier operation, of what is carried, or of a constant.
