@@ -110,6 +110,7 @@
 #include "hamflow/methods/tableaus/euler.hpp"
 #include "hamflow/methods/tableaus/rk4.hpp"
 #include "hamflow/methods/tables.hpp"
+#include "hamflow/methods/tao.hpp"
 #include "hamflow/methods/taylor.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/numerics/elimination.hpp"
