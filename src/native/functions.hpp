@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/numerics/program.hpp"
 
 namespace hamflow::native {

@@ -67,9 +67,13 @@ TEST(RecordedLanes, EveryLaneHasTheBitsOfTheMemberAlone) {
       if (!refusal({.name = method}, problem).empty()) continue;
       Family family(problem, 35);  // more than a block of any width, and no multiple of one
       family.request.method = {.name = method};
-      for (const LaneSet set : {LaneSet::generic, LaneSet::avx2, LaneSet::avx512}) {
+      const std::pair<LaneSet, const char*> choices[] = {{LaneSet::generic, "exact"}, {LaneSet::avx2, "exact"},
+                                                         {LaneSet::avx512, "exact"},  {LaneSet::generic, "fast"},
+                                                         {LaneSet::avx2, "fast"},     {LaneSet::avx512, "fast"}};
+      for (const auto& [set, kernel] : choices) {
         if (set > widest_lanes()) continue;
-        SCOPED_TRACE(method + " on " + problem.info.name + " in " + std::string(name(set)));
+        family.request.kernel = kernel;
+        SCOPED_TRACE(method + " on " + problem.info.name + " in " + std::string(name(set)) + ", " + kernel);
         const auto block = make_ensemble_block(family.request, set);
         ASSERT_NE(block, nullptr);
         if (!block->load(family.shape, std::span(family.members).first(1))) {  // too long a step: of many bodies

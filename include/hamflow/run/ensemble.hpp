@@ -48,9 +48,8 @@ class EnsembleBlock {
   virtual MemberEnd look(std::size_t lane) const = 0;
 };
 
-/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, the arithmetic is
-/// not double, or the kernel is "fast" and has none. load() is false where the members' steps are not the same but for
-/// constants.
+/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, or the arithmetic is
+/// not double. load() is false where the members' steps are not the same but for constants.
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes);
 
 }  // namespace hamflow

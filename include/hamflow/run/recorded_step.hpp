@@ -23,9 +23,9 @@ struct RecordedStep {
   std::vector<CarriedField> fields;
 };
 
-/// Longer steps take the ordinary road: straight code that no longer fits into the processor's cache of instructions
-/// is slower than the loops over bodies that are compiled (15 bodies with stv4, 6 with kahan-li8).
-inline constexpr std::size_t most_recorded_operations = 8000;
+/// Longer steps take the ordinary road: straight code of twice this length, which no longer fits into a processor's
+/// second cache, is as slow as the compiled loops over bodies (20 bodies with stv4, 9 with kahan-li8).
+inline constexpr std::size_t most_recorded_operations = 20000;
 
 /// The program of an exact recording: what the outputs and the guards need of the tape.
 Program program_of(const Tape<double>& tape);
