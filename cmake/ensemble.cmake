@@ -1,5 +1,9 @@
 # Blocks of SIMD lanes for ensembles, a library of its own that only `hamflow sweep` and the benchmark need: lanes are
 # recorded steps.
-add_library(hamflow_ensemble STATIC src/catalog/ensemble_catalog.cpp src/catalog/recorded_block.cpp)
+add_library(hamflow_ensemble STATIC
+  src/catalog/block_tangents.cpp
+  src/catalog/ensemble_catalog.cpp
+  src/catalog/family_loop.cpp
+  src/catalog/recorded_block.cpp)
 target_include_directories(hamflow_ensemble PRIVATE "${PROJECT_SOURCE_DIR}/src/catalog" "${generated}")
 target_link_libraries(hamflow_ensemble PUBLIC hamflow PRIVATE $<BUILD_INTERFACE:hamflow_warnings>)

@@ -115,6 +115,7 @@
 #include "hamflow/numerics/elliptic.hpp"
 #include "hamflow/numerics/exact_product.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"
+#include "hamflow/numerics/lane_numbers.hpp"
 #include "hamflow/numerics/lane_set.hpp"
 #include "hamflow/numerics/normal_modes.hpp"
 #include "hamflow/numerics/outer_root.hpp"

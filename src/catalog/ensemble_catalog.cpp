@@ -12,7 +12,8 @@ LaneSet widest_lanes() {
 }
 
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
-  if (lanes == LaneSet::none || lanes > widest_lanes() || request.arithmetic != "double") return nullptr;
+  const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
+  if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;
   return make_recorded_block(find_problem(request.problem, request.variant), request, lanes);
 }
 

@@ -23,12 +23,13 @@ struct TracedArithmetic<Compensated<double>> {
 
 /// Records steps of a method on the traced functions of a problem.
 template <Capability c, class A, class M>
-StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool watch) {
+StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe) {
   using Traced = AnyProblem<Trace<double>, c>;
   using TA = typename TracedArithmetic<A>::type;
-  return [problem = Traced(run.functions.size, run.functions.trace), recipe, watch](
-             const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time) {
-    return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch);
+  return [problem = Traced(run.functions.size, run.functions.trace), recipe](
+             const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
+             bool watch, RecordedAt at) {
+    return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch, at);
   };
 }
 
@@ -67,7 +68,7 @@ std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Reque
       if constexpr (std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo) {
         return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
             Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
-            request.record ? recorder_of<c, A>(run, recipe, request.watch) : StepRecorder(), request.watch);
+            request.record ? recorder_of<c, A>(run, recipe) : StepRecorder(), request.watch);
       } else {
         return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
       }
