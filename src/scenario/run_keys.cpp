@@ -94,7 +94,7 @@ const RunKeys& run_keys() {
                   .keys = {lattice_keys().position, lattice_keys().momentum}},
       .kernel = {.name = "kernel",
                  .default_value = "exact",
-                 .meaning = "fast: 1/sqrt(u) and its cube by an estimate and a series where the processor has AVX-512, other bits",
+                 .meaning = "fast: 1/sqrt(u) and its cube by estimate and series (AVX-512), other bits",
                  .type = OptionType::word,
                  .words = {"exact", "fast"}},
       .threads = {.name = "threads",
