@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hamflow/arithmetic/lattice.hpp"
+#include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
 #include "visit_erased.hpp"
@@ -32,8 +33,32 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe) {
   };
 }
 
+/// The same with the functions of kernel = "fast", where a request asks for it and they are others.
+inline std::optional<ErasedRun<double>> with_estimates(const ErasedRun<double>& run, const Request& request) {
+  if (request.kernel != "fast" || !fast_kernel_available()) return std::nullopt;
+  const FastFunctions fast = fast_functions(run.functions.plain, run.functions.trace);
+  if (!has_estimates(fast, run.q, run.p)) return std::nullopt;
+  ErasedRun<double> other = run;
+  other.functions.plain = fast.plain;
+  other.functions.trace = fast.trace;
+  return other;
+}
+
 template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+  if constexpr (std::is_same_v<R, double>) {
+    if (const auto fast = with_estimates(run, request)) {
+      Request exact = request;  // these functions know it
+      exact.kernel = "exact";
+      auto simulation = simulate_erased<double>(*fast, exact);
+      auto* const recorded = dynamic_cast<RecordedMember*>(simulation.get());
+      if (request.record && (recorded == nullptr || !recorded->recorded_step())) {
+        throw TooLongToEstimate("found a step of more than " + std::to_string(most_recorded_operations) +
+                                " operations; allowed fewer bodies or a method of fewer stages, or exact");
+      }
+      return simulation;
+    }
+  }
   const auto simulate = [&]<Capability c, class M>(const M& recipe) {
     const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
       const auto problem = run.functions.template as<c>();

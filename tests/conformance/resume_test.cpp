@@ -52,7 +52,7 @@ std::vector<Request> every_request() {
           request.watch = false;
           all.push_back(request);
         }
-        if (problem.has_fast_kernel && refused_fast_kernel(request, problem).empty()) {
+        if (is_of_each_kind(name) && refused_fast_kernel(request).empty()) {
           request.kernel = "fast";
           all.push_back(request);
           request.kernel = "exact";
