@@ -26,9 +26,9 @@ void BlockTangents::carry(std::span<LaneTangents> jobs) {
   std::vector<LaneTangents*> by_steps;
   for (LaneTangents& job : jobs) by_steps.push_back(&job);
   std::sort(by_steps.begin(), by_steps.end(), [](auto* a, auto* b) { return a->steps < b->steps; });
-  for (std::size_t lane = 0; lane < lanes; ++lane)
-    write(*by_steps.front(), lane);  // lanes without vectors of their own
-  for (const LaneTangents& job : jobs) write(job, job.lane);
+  std::vector<const LaneTangents*> of_lane(lanes, &jobs.front());  // lanes without vectors of their own take any
+  for (const LaneTangents& job : jobs) of_lane[job.lane] = &job;
+  for (std::size_t lane = 0; lane < lanes; ++lane) write(*of_lane[lane], lane);
   const auto flags = std::make_unique<bool[]>(lanes);
   const std::span<bool> failed(flags.get(), lanes);
   std::int64_t taken = 0;

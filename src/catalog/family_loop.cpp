@@ -56,11 +56,13 @@ bool FamilyLoop::serves(const Program& program, const std::vector<bool>& differ)
 
 bool FamilyLoop::make_loop(const Program& program, const Make& make) {
   loop_ = nullptr;
+  lanes_ = 0;
   const std::optional<Program> made = make ? make(program) : program;
   if (!made) return false;
   const auto flags = std::make_unique<bool[]>(made->constants.size());
   std::copy(differs_.begin(), differs_.end(), flags.get());
   loop_ = make_lane_loop(*made, {flags.get(), made->constants.size()}, set_);
+  lanes_ = loop_->lanes();
   return true;
 }
 

@@ -23,7 +23,7 @@ class FamilyLoop {
 
   /// @return false where the members' steps differ in more than constants, or the program cannot be made
   bool load(const Steps& steps, const Make& make = {});
-  std::size_t lanes() const { return loop_ ? loop_->lanes() : 0; }
+  std::size_t lanes() const { return lanes_; }
   /// @param carried values of the program that was made x lanes(), as LaneLoop has them
   void run(LaneNumbers& carried, std::int64_t steps, std::span<bool> failed) const {
     loop_->run(carried, constants_, steps, failed);
@@ -38,6 +38,7 @@ class FamilyLoop {
   std::shared_ptr<const RecordedStep> first_;  // of the loop
   std::vector<bool> differs_;                  // of each of its constants
   std::unique_ptr<const LaneLoop> loop_;
+  std::size_t lanes_ = 0;
   LaneNumbers constants_;
 };
 

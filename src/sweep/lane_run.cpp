@@ -63,7 +63,7 @@ void LaneRun::wake() {
 void LaneRun::carry_tangents() {
   for (std::size_t kind = 0; kind < go_in_lanes_.size(); ++kind) {
     if (!go_in_lanes_[kind]) continue;
-    std::vector<LaneTangents> jobs;
+    jobs_.clear();
     bool wanted = false;
     for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
       TangentWatch& watch = *observers_[lane].tangents[kind];
@@ -71,11 +71,11 @@ void LaneRun::carry_tangents() {
       const std::optional<TangentsUnderWay> vectors = watch.under_way();
       if (!vectors) continue;
       wanted = wanted || watch.next_due(taken_) == taken_;
-      jobs.push_back({lane, vectors->z, vectors->vectors, vectors->steps});
+      jobs_.push_back({lane, vectors->z, vectors->vectors, vectors->steps});
     }
     if (!wanted) continue;
-    block_.carry(jobs);
-    for (const LaneTangents& job : jobs) {  // what could not be carried is left to the watch itself
+    block_.carry(jobs_);
+    for (const LaneTangents& job : jobs_) {  // what could not be carried is left to the watch itself
       if (job.carried) observers_[job.lane].tangents[kind]->set_carried();
     }
   }

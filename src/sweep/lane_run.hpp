@@ -36,6 +36,7 @@ class LaneRun {
   EnsembleBlock& block_;
   std::vector<LaneObservers> observers_;
   std::vector<bool> go_in_lanes_;  // of each kind of tangent vectors
+  std::vector<LaneTangents> jobs_;
   bool has_sections_;
   std::vector<double> distances_;  // x - value of each lane's section, at the last step
   std::int64_t taken_ = 0;

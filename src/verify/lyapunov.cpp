@@ -159,8 +159,6 @@ std::int64_t TangentWatch::next_due(std::int64_t step) const {
 }
 
 Verdict TangentWatch::observe(const Frame& frame) {
-  State<double> now = frame.q;
-  now.insert(now.end(), frame.p.begin(), frame.p.end());
   std::int64_t next = 1;
   if (at_ >= 0 && frame.step < due_ && frame.step != carried_to_) keep_before_the_end();
   if (at_ >= 0 && frame.step > at_) {
@@ -169,7 +167,8 @@ Verdict TangentWatch::observe(const Frame& frame) {
     next = followed_ ? taken(steps) : 0;
     followed_ = next > 0;
   }
-  z_ = std::move(now);  // of the run itself, to the bit
+  z_.assign(frame.q.begin(), frame.q.end());  // of the run itself, to the bit
+  z_.insert(z_.end(), frame.p.begin(), frame.p.end());
   at_ = frame.step;
   due_ = at_ + next;
   return Verdict::go_on;

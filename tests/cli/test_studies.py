@@ -314,17 +314,24 @@ class Studies(CommandCase):
     SECTIONS = ("{ coordinate = 'q1' }", "{ coordinate = 'p2', value = 0.05, direction = 0 }",
                 "{ expression = 'lambda*q1 - 0.1*q2 + 0.001*t', direction = -1 }")
 
-    def test_sections_in_lanes_are_those_of_runs(self):
+    def test_what_is_measured_in_lanes_is_that_of_runs(self):
+        """Everything at once, also of members that escape over the saddle and break off."""
         for section in self.SECTIONS:
-            sets = ("--set", f"run.section={section}", "--set", "run.steps=2000")
+            sets = (f"run.section={section}", "run.lyapunov=true", "run.eigenvalues=true",
+                    "output.observables={ r = 'q1^2 + q2^2', e = 'exp(-abs(p1))*t' }", "run.steps=2000",
+                    "problem.initial.p[1]=0.05", 'output.formats=["csv"]')
+            arguments = [word for one in sets for word in ("--set", one)]
             found = {}
-            for lanes in ("none", "auto"):
-                self.hamflow("sweep", "hh.toml", "--vary", "problem.initial.q[1]=-0.2:0.4:20", "--vary",
-                             "problem.lambda=0.9,1", *sets, "--lanes", lanes, "--set", 'output.formats=["csv"]',
-                             "--out", f"{lanes}.sweep", "--quiet", "--force")
-                found[lanes] = (self.folder / f"{lanes}.sweep/section.csv").read_text()
+            for lanes in ("none", "auto", "generic"):
+                self.hamflow("sweep", "hh.toml", "--vary", "problem.initial.q[1]=-0.2:0.4:12", "--vary",
+                             "problem.initial.energy=0.125,0.3", "--vary", "problem.lambda=0.9,1", *arguments,
+                             "--lanes", lanes, "--out", f"{lanes}.sweep", "--quiet", "--force")
+                found[lanes] = [(self.folder / f"{lanes}.sweep" / name).read_text()
+                                for name in ("sweep.csv", "section.csv")]
             self.assertEqual(found["none"], found["auto"])
-            self.assertGreater(found["auto"].count("\n"), 1000)
+            self.assertEqual(found["none"], found["generic"])
+            self.assertGreater(found["auto"][1].count("\n"), 500)
+            self.assertGreater(found["auto"][0].count("non_finite"), 5)
 
     def test_figures_of_sections_that_cannot_be(self):
         # Without a section, and with a column, there is a map of the column as ever.

@@ -193,6 +193,7 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
   const SweepReport swept = sweep.run();
   EXPECT_EQ(swept.status, "done");
   EXPECT_NE(sweep.json_with_rows(swept).find("\"lyapunov4\""), std::string::npos);
+  EXPECT_NE(sweep.json_with_rows(swept).find("\"eigenvalue4_re\""), std::string::npos);
 
   Session session(scenario());
   ASSERT_EQ(session.advance(10), Outcome::done);
