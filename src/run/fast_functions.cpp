@@ -16,6 +16,8 @@ class Forwarding : public Functions<S> {
   S energy(const V& q, const V& p) const override { return exact_->energy(q, p); }
   S kinetic(const V& p) const override { return exact_->kinetic(p); }
   S potential(const V& q) const override { return exact_->potential(q); }
+  bool has_parts() const override { return exact_->has_parts(); }
+  void inverse_mass_times(const V& f, V& out) const override { exact_->inverse_mass_times(f, out); }
   bool has_scaled_velocity() const override { return exact_->has_scaled_velocity(); }
   bool has_scaled_force() const override { return exact_->has_scaled_force(); }
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override { exact_->hessian(q, p, qq, qp, pp); }
