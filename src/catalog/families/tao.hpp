@@ -28,7 +28,6 @@ struct Tao {
             .not_on_lattice =
                 "the two copies of its state turn about each other, which is no bijection of the lattice; "
                 "use a splitting method, e.g. stv4",
-            .not_fast = "the fast kernel is for splitting methods",
             .describe =
                 [](std::size_t method, const Texts& given) {
                   return describe_tao(method == 0 ? 2 : 4, read_options(options(), given));
