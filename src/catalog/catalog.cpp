@@ -187,7 +187,12 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
     return typed ? std::move(typed) : std::move(simulation);
   }
   if (auto simulation = problem.simulate(full)) return simulation;
-  return problem.simulate_erased(full);
+  auto simulation = problem.simulate_erased(full);
+  // Throws where a fast step cannot be.
+  if (full.kernel == "fast" && dynamic_cast<RecordedMember*>(simulation.get()) != nullptr) {
+    (void)dynamic_cast<RecordedMember&>(*simulation).recorded_step();
+  }
+  return simulation;
 }
 
 }  // namespace hamflow
