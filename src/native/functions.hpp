@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/numerics/program.hpp"
 
 namespace hamflow::native {

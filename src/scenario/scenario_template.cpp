@@ -345,7 +345,7 @@ class TemplateWriter {
       } else if (key.name == keys.section.name) {
         key.keys.front().example = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
       } else if (key.name == keys.kernel.name) {
-        if (!problem_.has_fast_kernel || !find_method(method_.name).family->not_fast.empty()) continue;
+        if (!find_method(method_.name).family->not_fast.empty()) continue;
         set = true;
       } else if (key.name == keys.lattice.name && !on_lattice) {
         continue;
