@@ -131,7 +131,7 @@ struct Trace {
   Trace& operator/=(const Trace& b) { return *this = *this / b; }
 
   // Friends, so that constants of any type convert.
-  friend Trace operator+(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend Trace operator+(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
     if (a.is_exactly(0) && !b.is_exact()) return b;
     if (b.is_exactly(0) && !a.is_exact()) return a;
@@ -140,16 +140,16 @@ struct Trace {
     if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, sum);
     return a.recorder->of_two(Operation::add, a.node, b.node, sum);
   }
-  friend Trace operator-(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend Trace operator-(const Trace& a, const Trace& b) {
     if (b.is_constant()) return a + Trace(R(-b.value));
     if (a.is_constant()) return a + -b;
     return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
   }
-  friend Trace operator-(const Trace& a) {
+  [[gnu::noinline]] friend Trace operator-(const Trace& a) {
     if (a.is_constant()) return Trace(R(-a.value));
     return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
   }
-  friend Trace operator*(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend Trace operator*(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
     if (a.is_constant()) return b * a;
     if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
@@ -160,7 +160,7 @@ struct Trace {
     if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, product);
     return a.recorder->of_two(Operation::multiply, a.node, b.node, product);
   }
-  friend Trace operator/(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend Trace operator/(const Trace& a, const Trace& b) {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
     if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
     if (b.is_exactly(1) && !a.is_exact()) return a;
@@ -170,17 +170,17 @@ struct Trace {
     return a.recorder->of_two(Operation::divide, a.node, b.node, quotient);
   }
 
-  friend constexpr bool operator==(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend constexpr bool operator==(const Trace& a, const Trace& b) {
     return compared(a, b, Tape<R>::Relation::equal, a.value <= b.value && b.value <= a.value);
   }
-  friend bool operator<(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend bool operator<(const Trace& a, const Trace& b) {
     return ordered(a, b), compared(a, b, Tape<R>::Relation::less, a.value < b.value);
   }
-  friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
-  friend bool operator<=(const Trace& a, const Trace& b) {
+  [[gnu::noinline]] friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
+  [[gnu::noinline]] friend bool operator<=(const Trace& a, const Trace& b) {
     return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, !(a.value <= b.value));
   }
-  friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
+  [[gnu::noinline]] friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
 
   /// Whether it belongs to an exact recording.
   bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
@@ -222,7 +222,7 @@ struct BaseScalar<Trace<R>> {
 };
 /// Stays a trace: what is compared has to be known to the recording.
 template <class R>
-Trace<R> value_of(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> value_of(const Trace<R>& x) {
   return x;
 }
 
@@ -238,11 +238,11 @@ class Recorder {
     ++tape_.inputs;
     return push({.operation = Operation::input}, value);
   }
-  Trace<R> of_two(Operation operation, int a, int b, const R& value) {
+  [[gnu::noinline]] Trace<R> of_two(Operation operation, int a, int b, const R& value) {
     if ((operation == Operation::add || operation == Operation::multiply) && b < a) std::swap(a, b);
     return once({.operation = operation, .a = a, .b = b}, value);
   }
-  Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
+  [[gnu::noinline]] Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
     return once({.operation = operation, .a = a, .b = -1, .constant = constant(c)}, value);
   }
   /// Two functions that differentiate into each other. @return the first
@@ -271,7 +271,7 @@ class Recorder {
   }
 
   /// The tape that computes the outputs and nothing else.
-  Tape<R> finish(const std::vector<Trace<R>>& outputs) {
+  [[gnu::noinline]] Tape<R> finish(const std::vector<Trace<R>>& outputs) {
     for (const Trace<R>& output : outputs) {
       tape_.outputs.push_back(
           output.is_constant()
@@ -377,7 +377,7 @@ Trace<R> recorded(Operation operation, const Trace<R>& a, const Trace<R>& b, con
 }
 /// x^n for n > 0.
 template <class R>
-Trace<R> whole_power(const Trace<R>& x, int n) {
+[[gnu::noinline]] Trace<R> whole_power(const Trace<R>& x, int n) {
   if (n == 1) return x;
   const Trace<R> half = whole_power(x, n / 2);
   const Trace<R> even = half * half;
@@ -386,55 +386,55 @@ Trace<R> whole_power(const Trace<R>& x, int n) {
 }  // namespace detail
 
 template <class R>
-Trace<R> sqrt(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> sqrt(const Trace<R>& x) {
   return detail::recorded(Operation::square_root, x, [](const R& v) { return R(sqrt(v)); });
 }
 template <class R>
-Trace<R> exp(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> exp(const Trace<R>& x) {
   return detail::recorded(Operation::exponential, x, [](const R& v) { return R(exp(v)); });
 }
 template <class R>
-Trace<R> log(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> log(const Trace<R>& x) {
   return detail::recorded(Operation::logarithm, x, [](const R& v) { return R(log(v)); });
 }
 template <class R>
-Trace<R> sin(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> sin(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(sin(x.value)));
   return x.recorder->pair(Operation::sine, Operation::cosine, x.node, R(sin(x.value)), R(cos(x.value)));
 }
 template <class R>
-Trace<R> cos(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> cos(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(cos(x.value)));
   return x.recorder->second_of_pair(sin(x));
 }
 template <class R>
-Trace<R> sinh(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> sinh(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(sinh(x.value)));
   return x.recorder->pair(Operation::sinh, Operation::cosh, x.node, R(sinh(x.value)), R(cosh(x.value)));
 }
 template <class R>
-Trace<R> cosh(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> cosh(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(cosh(x.value)));
   return x.recorder->second_of_pair(sinh(x));
 }
 template <class R>
-Trace<R> tan(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> tan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(tan(x.value)));
   return x.recorder->with_square(Operation::tangent, x.node, R(tan(x.value)));
 }
 template <class R>
-Trace<R> tanh(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> tanh(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(tanh(x.value)));
   return x.recorder->with_square(Operation::tanh, x.node, R(tanh(x.value)));
 }
 template <class R>
-Trace<R> atan(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> atan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(atan(x.value)));
   return x.recorder->of_two(Operation::arctangent, x.node, (x * x).node, R(atan(x.value)));
 }
 /// x^y for a constant exponent; whole exponents are products, so that x may be 0.
 template <class R>
-Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
+[[gnu::noinline]] Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
   if (x.is_constant()) return Trace<R>(R(pow(x.value, y)));
   if (x.is_exact()) return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
   const double exponent = static_cast<double>(y);
@@ -446,38 +446,38 @@ Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
   return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
 }
 template <class R>
-Trace<R> abs(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> abs(const Trace<R>& x) {
   if (x.is_exact()) return detail::recorded(Operation::absolute, x, [](const R& v) { return R(abs(v)); });
   if (!x.is_constant()) Trace<R>::refuse();
   return Trace<R>(R(abs(x.value)));
 }
 /// a < b ? b : a, which an exact recording has without a branch.
 template <class R>
-Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
+[[gnu::noinline]] Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
   if (a.is_exact() || b.is_exact()) return detail::recorded(Operation::larger, a, b, larger(a.value, b.value));
   return a < b ? b : a;
 }
 // Of exact recordings and of constants; Taylor series have no such coefficients, and compose them of others
 // (formula/operations.hpp).
 template <class R>
-Trace<R> asin(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> asin(const Trace<R>& x) {
   if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::arcsine, x, [](const R& v) { return R(asin(v)); });
 }
 template <class R>
-Trace<R> acos(const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> acos(const Trace<R>& x) {
   if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::arccosine, x, [](const R& v) { return R(acos(v)); });
 }
 template <class R>
-Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
+[[gnu::noinline]] Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
   const R value = atan2(y.value, x.value);
   if (y.is_constant() && x.is_constant()) return Trace<R>(value);
   if (!y.is_exact() && !x.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::arctangent2, y, x, value);
 }
 template <class R>
-Trace<R> pow(const Trace<R>& x, const Trace<R>& y) {
+[[gnu::noinline]] Trace<R> pow(const Trace<R>& x, const Trace<R>& y) {
   if (y.is_constant() && !y.is_exact()) return pow(x, y.value);
   if (!x.is_exact() && !y.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::power_of_two, x, y, R(pow(x.value, y.value)));
