@@ -131,56 +131,16 @@ struct Trace {
   Trace& operator/=(const Trace& b) { return *this = *this / b; }
 
   // Friends, so that constants of any type convert.
-  [[gnu::noinline]] friend Trace operator+(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
-    if (a.is_exactly(0) && !b.is_exact()) return b;
-    if (b.is_exactly(0) && !a.is_exact()) return a;
-    const R sum = a.value + b.value;
-    if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, sum);
-    if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, sum);
-    return a.recorder->of_two(Operation::add, a.node, b.node, sum);
-  }
-  [[gnu::noinline]] friend Trace operator-(const Trace& a, const Trace& b) {
-    if (b.is_constant()) return a + Trace(R(-b.value));
-    if (a.is_constant()) return a + -b;
-    return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
-  }
-  [[gnu::noinline]] friend Trace operator-(const Trace& a) {
-    if (a.is_constant()) return Trace(R(-a.value));
-    return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
-  }
-  [[gnu::noinline]] friend Trace operator*(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
-    if (a.is_constant()) return b * a;
-    if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1) && !a.is_exact()) return a;
-    if (b.is_exactly(-1) && !a.is_exact()) return -a;
-    const R product = a.value * b.value;
-    if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, product);
-    if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, product);
-    return a.recorder->of_two(Operation::multiply, a.node, b.node, product);
-  }
-  [[gnu::noinline]] friend Trace operator/(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
-    if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1) && !a.is_exact()) return a;
-    const R quotient = a.value / b.value;
-    if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
-    if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, quotient);
-    return a.recorder->of_two(Operation::divide, a.node, b.node, quotient);
-  }
-
-  [[gnu::noinline]] friend constexpr bool operator==(const Trace& a, const Trace& b) {
-    return compared(a, b, Tape<R>::Relation::equal, a.value <= b.value && b.value <= a.value);
-  }
-  [[gnu::noinline]] friend bool operator<(const Trace& a, const Trace& b) {
-    return ordered(a, b), compared(a, b, Tape<R>::Relation::less, a.value < b.value);
-  }
-  [[gnu::noinline]] friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
-  [[gnu::noinline]] friend bool operator<=(const Trace& a, const Trace& b) {
-    return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, !(a.value <= b.value));
-  }
-  [[gnu::noinline]] friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
+  friend Trace operator+(const Trace& a, const Trace& b) { return sum(a, b); }
+  friend Trace operator-(const Trace& a, const Trace& b) { return difference(a, b); }
+  friend Trace operator-(const Trace& a) { return negative(a); }
+  friend Trace operator*(const Trace& a, const Trace& b) { return product(a, b); }
+  friend Trace operator/(const Trace& a, const Trace& b) { return quotient(a, b); }
+  friend bool operator==(const Trace& a, const Trace& b) { return are_equal(a, b); }
+  friend bool operator<(const Trace& a, const Trace& b) { return is_less(a, b); }
+  friend bool operator>(const Trace& a, const Trace& b) { return is_less(b, a); }
+  friend bool operator<=(const Trace& a, const Trace& b) { return !is_greater(a, b); }
+  friend bool operator>=(const Trace& a, const Trace& b) { return !is_greater(b, a); }
 
   /// Whether it belongs to an exact recording.
   bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
@@ -194,26 +154,17 @@ struct Trace {
 
  private:
   using Relation = typename Tape<R>::Relation;
-  static void ordered(const Trace& a, const Trace& b) {
-    if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
-  }
-  /// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
-  /// are 0 for equal numbers only.
-  static constexpr bool compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
-    if (a.is_constant() && b.is_constant()) return holds;
-    if (b.is_constant()) {
-      a.recorder->guard(a.node, b.value, holds, relation);
-    } else if (a.is_constant()) {
-      const Relation turned = relation == Relation::equal  ? Relation::equal
-                              : relation == Relation::less ? Relation::greater
-                                                           : Relation::less;
-      b.recorder->guard(b.node, a.value, holds, turned);
-    } else {
-      const Trace difference = a - b;
-      if (!difference.is_constant()) difference.recorder->guard(difference.node, R(0), holds, relation);
-    }
-    return holds;
-  }
+  // Not inline: a program that uses many traces instantiates them once (extern template, src/catalog/erased.hpp).
+  static Trace sum(const Trace& a, const Trace& b);
+  static Trace difference(const Trace& a, const Trace& b);
+  static Trace negative(const Trace& a);
+  static Trace product(const Trace& a, const Trace& b);
+  static Trace quotient(const Trace& a, const Trace& b);
+  static bool are_equal(const Trace& a, const Trace& b);
+  static bool is_less(const Trace& a, const Trace& b);
+  static bool is_greater(const Trace& a, const Trace& b);
+  static void ordered(const Trace& a, const Trace& b);
+  static bool compared(const Trace& a, const Trace& b, Relation relation, bool holds);
 };
 
 template <class R>
@@ -222,7 +173,7 @@ struct BaseScalar<Trace<R>> {
 };
 /// Stays a trace: what is compared has to be known to the recording.
 template <class R>
-[[gnu::noinline]] Trace<R> value_of(const Trace<R>& x) {
+Trace<R> value_of(const Trace<R>& x) {
   return x;
 }
 
@@ -246,7 +197,7 @@ class Recorder {
     return once({.operation = operation, .a = a, .b = -1, .constant = constant(c)}, value);
   }
   /// Two functions that differentiate into each other. @return the first
-  Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
+  [[gnu::noinline]] Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
     const int at = size();
     const Trace<R> found = once({.operation = first, .a = a, .b = at + 1}, value1);
     if (found.node == at) push({.operation = second, .a = a, .b = at}, value2);
@@ -256,22 +207,22 @@ class Recorder {
     return {values_[static_cast<std::size_t>(first.node) + 1], this, first.node + 1};
   }
   /// y(a) whose derivative is made of y^2.
-  Trace<R> with_square(Operation operation, int a, const R& value) {
+  [[gnu::noinline]] Trace<R> with_square(Operation operation, int a, const R& value) {
     const int at = size();
     const Trace<R> y = once({.operation = operation, .a = a, .b = at + 1}, value);
     if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
     return y;
   }
   /// A function of two numbers of which one may be a constant.
-  Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
+  [[gnu::noinline]] Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
     return of_two(operation, node_of(a), node_of(b), value);
   }
-  void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
+  [[gnu::noinline]] void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
     tape_.guards.push_back({node, value, holds, relation});
   }
 
   /// The tape that computes the outputs and nothing else.
-  [[gnu::noinline]] Tape<R> finish(const std::vector<Trace<R>>& outputs) {
+  Tape<R> finish(const std::vector<Trace<R>>& outputs) {
     for (const Trace<R>& output : outputs) {
       tape_.outputs.push_back(
           output.is_constant()
@@ -362,6 +313,87 @@ class Recorder {
   std::unordered_multimap<std::size_t, int> known_;
 };
 
+template <class R>
+Trace<R> Trace<R>::sum(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
+  if (a.is_exactly(0) && !b.is_exact()) return b;
+  if (b.is_exactly(0) && !a.is_exact()) return a;
+  const R value = a.value + b.value;
+  if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, value);
+  if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, value);
+  return a.recorder->of_two(Operation::add, a.node, b.node, value);
+}
+template <class R>
+Trace<R> Trace<R>::difference(const Trace& a, const Trace& b) {
+  if (b.is_constant()) return a + Trace(R(-b.value));
+  if (a.is_constant()) return a + -b;
+  return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
+}
+template <class R>
+Trace<R> Trace<R>::negative(const Trace& a) {
+  if (a.is_constant()) return Trace(R(-a.value));
+  return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
+}
+template <class R>
+Trace<R> Trace<R>::product(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
+  if (a.is_constant()) return b * a;
+  if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
+  if (b.is_exactly(1) && !a.is_exact()) return a;
+  if (b.is_exactly(-1) && !a.is_exact()) return -a;
+  const R value = a.value * b.value;
+  if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, value);
+  if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, value);
+  return a.recorder->of_two(Operation::multiply, a.node, b.node, value);
+}
+template <class R>
+Trace<R> Trace<R>::quotient(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
+  if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
+  if (b.is_exactly(1) && !a.is_exact()) return a;
+  const R value = a.value / b.value;
+  if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, value);
+  if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, value);
+  return a.recorder->of_two(Operation::divide, a.node, b.node, value);
+}
+template <class R>
+bool Trace<R>::are_equal(const Trace& a, const Trace& b) {
+  return compared(a, b, Relation::equal, a.value <= b.value && b.value <= a.value);
+}
+template <class R>
+bool Trace<R>::is_less(const Trace& a, const Trace& b) {
+  ordered(a, b);
+  return compared(a, b, Relation::less, a.value < b.value);
+}
+/// Or not ordered.
+template <class R>
+bool Trace<R>::is_greater(const Trace& a, const Trace& b) {
+  ordered(a, b);
+  return compared(a, b, Relation::greater, !(a.value <= b.value));
+}
+template <class R>
+void Trace<R>::ordered(const Trace& a, const Trace& b) {
+  if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
+}
+/// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
+/// are 0 for equal numbers only.
+template <class R>
+bool Trace<R>::compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
+  if (a.is_constant() && b.is_constant()) return holds;
+  if (b.is_constant()) {
+    a.recorder->guard(a.node, b.value, holds, relation);
+  } else if (a.is_constant()) {
+    const Relation turned = relation == Relation::equal  ? Relation::equal
+                            : relation == Relation::less ? Relation::greater
+                                                         : Relation::less;
+    b.recorder->guard(b.node, a.value, holds, turned);
+  } else {
+    const Trace off = a - b;
+    if (!off.is_constant()) off.recorder->guard(off.node, R(0), holds, relation);
+  }
+  return holds;
+}
+
 namespace detail {
 /// f of a constant at once, else a node of its own.
 template <class R, class F>
@@ -377,7 +409,7 @@ Trace<R> recorded(Operation operation, const Trace<R>& a, const Trace<R>& b, con
 }
 /// x^n for n > 0.
 template <class R>
-[[gnu::noinline]] Trace<R> whole_power(const Trace<R>& x, int n) {
+Trace<R> whole_power(const Trace<R>& x, int n) {
   if (n == 1) return x;
   const Trace<R> half = whole_power(x, n / 2);
   const Trace<R> even = half * half;
@@ -386,55 +418,55 @@ template <class R>
 }  // namespace detail
 
 template <class R>
-[[gnu::noinline]] Trace<R> sqrt(const Trace<R>& x) {
+Trace<R> sqrt(const Trace<R>& x) {
   return detail::recorded(Operation::square_root, x, [](const R& v) { return R(sqrt(v)); });
 }
 template <class R>
-[[gnu::noinline]] Trace<R> exp(const Trace<R>& x) {
+Trace<R> exp(const Trace<R>& x) {
   return detail::recorded(Operation::exponential, x, [](const R& v) { return R(exp(v)); });
 }
 template <class R>
-[[gnu::noinline]] Trace<R> log(const Trace<R>& x) {
+Trace<R> log(const Trace<R>& x) {
   return detail::recorded(Operation::logarithm, x, [](const R& v) { return R(log(v)); });
 }
 template <class R>
-[[gnu::noinline]] Trace<R> sin(const Trace<R>& x) {
+Trace<R> sin(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(sin(x.value)));
   return x.recorder->pair(Operation::sine, Operation::cosine, x.node, R(sin(x.value)), R(cos(x.value)));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> cos(const Trace<R>& x) {
+Trace<R> cos(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(cos(x.value)));
   return x.recorder->second_of_pair(sin(x));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> sinh(const Trace<R>& x) {
+Trace<R> sinh(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(sinh(x.value)));
   return x.recorder->pair(Operation::sinh, Operation::cosh, x.node, R(sinh(x.value)), R(cosh(x.value)));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> cosh(const Trace<R>& x) {
+Trace<R> cosh(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(cosh(x.value)));
   return x.recorder->second_of_pair(sinh(x));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> tan(const Trace<R>& x) {
+Trace<R> tan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(tan(x.value)));
   return x.recorder->with_square(Operation::tangent, x.node, R(tan(x.value)));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> tanh(const Trace<R>& x) {
+Trace<R> tanh(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(tanh(x.value)));
   return x.recorder->with_square(Operation::tanh, x.node, R(tanh(x.value)));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> atan(const Trace<R>& x) {
+Trace<R> atan(const Trace<R>& x) {
   if (x.is_constant()) return Trace<R>(R(atan(x.value)));
   return x.recorder->of_two(Operation::arctangent, x.node, (x * x).node, R(atan(x.value)));
 }
 /// x^y for a constant exponent; whole exponents are products, so that x may be 0.
 template <class R>
-[[gnu::noinline]] Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
+Trace<R> pow(const Trace<R>& x, const base_scalar<R>& y) {
   if (x.is_constant()) return Trace<R>(R(pow(x.value, y)));
   if (x.is_exact()) return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
   const double exponent = static_cast<double>(y);
@@ -446,38 +478,38 @@ template <class R>
   return x.recorder->with_constant(Operation::power, x.node, R(y), R(pow(x.value, y)));
 }
 template <class R>
-[[gnu::noinline]] Trace<R> abs(const Trace<R>& x) {
+Trace<R> abs(const Trace<R>& x) {
   if (x.is_exact()) return detail::recorded(Operation::absolute, x, [](const R& v) { return R(abs(v)); });
   if (!x.is_constant()) Trace<R>::refuse();
   return Trace<R>(R(abs(x.value)));
 }
 /// a < b ? b : a, which an exact recording has without a branch.
 template <class R>
-[[gnu::noinline]] Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
+Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
   if (a.is_exact() || b.is_exact()) return detail::recorded(Operation::larger, a, b, larger(a.value, b.value));
   return a < b ? b : a;
 }
 // Of exact recordings and of constants; Taylor series have no such coefficients, and compose them of others
 // (formula/operations.hpp).
 template <class R>
-[[gnu::noinline]] Trace<R> asin(const Trace<R>& x) {
+Trace<R> asin(const Trace<R>& x) {
   if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::arcsine, x, [](const R& v) { return R(asin(v)); });
 }
 template <class R>
-[[gnu::noinline]] Trace<R> acos(const Trace<R>& x) {
+Trace<R> acos(const Trace<R>& x) {
   if (!x.is_constant() && !x.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::arccosine, x, [](const R& v) { return R(acos(v)); });
 }
 template <class R>
-[[gnu::noinline]] Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
+Trace<R> atan2(const Trace<R>& y, const Trace<R>& x) {
   const R value = atan2(y.value, x.value);
   if (y.is_constant() && x.is_constant()) return Trace<R>(value);
   if (!y.is_exact() && !x.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::arctangent2, y, x, value);
 }
 template <class R>
-[[gnu::noinline]] Trace<R> pow(const Trace<R>& x, const Trace<R>& y) {
+Trace<R> pow(const Trace<R>& x, const Trace<R>& y) {
   if (y.is_constant() && !y.is_exact()) return pow(x, y.value);
   if (!x.is_exact() && !y.is_exact()) Trace<R>::refuse();
   return detail::recorded(Operation::power_of_two, x, y, R(pow(x.value, y.value)));

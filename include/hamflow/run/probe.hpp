@@ -57,8 +57,10 @@ struct InDouble<Family<R, Part>> {
 /// A problem's name with its choices.
 template <class P>
 std::string problem_label() {
-  if constexpr (requires { P::info().variant; }) {
-    const auto info = InDouble<P>::type::info();
+  if constexpr (!std::is_same_v<P, typename InDouble<P>::type>) {
+    return problem_label<typename InDouble<P>::type>();
+  } else if constexpr (requires { P::info().variant; }) {
+    const auto info = P::info();
     std::string text = info.name;
     for (const auto& [key, value] : info.variant) text += " " + key + " = " + value;
     return text;
