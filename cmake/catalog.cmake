@@ -180,7 +180,6 @@ inline ProblemEntry joined(const TypedEntry& typed, const ErasedEntry& erased) {
   ProblemEntry entry = erased.facts;
   entry.accepts = typed.accepts;
   entry.simulate = typed.simulate;
-  entry.has_fast_kernel = typed.has_fast_kernel;
   entry.has_pairwise_forces = typed.has_pairwise_forces;
   entry.simulate_erased = erased.simulate;
   entry.simulate_member = erased.simulate_member;

@@ -9,7 +9,6 @@ namespace hamflow {
 struct TypedEntry {
   std::function<bool(const MethodSpec&)> accepts;
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
-  bool has_fast_kernel;
   bool has_pairwise_forces;
 };
 

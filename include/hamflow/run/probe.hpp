@@ -38,7 +38,8 @@ std::vector<std::size_t> invariant_sizes(const P& problem) {
   }
 }
 
-/// The problem with parameters in double, whose description stands for those of all number types: it is long to compile.
+/// The problem with parameters in double, whose description stands for those of all number types: it is long to
+/// compile.
 template <class P>
 struct InDouble {
   using type = P;
