@@ -71,6 +71,10 @@ bool StateExpression::uses(std::size_t k) const {
          (read_->numbered && read_->formula.uses(static_cast<int>(k + 2 * read_->size)));
 }
 
+bool StateExpression::uses_time() const {
+  return read_->formula.uses(static_cast<int>((read_->numbered ? 4 : 2) * read_->size));
+}
+
 double StateExpression::operator()(const Frame& frame) const {
   const std::size_t n = read_->size;
   const std::size_t of_state = (read_->numbered ? 4 : 2) * n;

@@ -99,7 +99,7 @@ void TomlTable::complain_in(const std::string& part, const std::string& message)
     const std::size_t last = there.find_last_of(".[");
     there = last == std::string::npos ? "" : there.substr(0, last);
   }
-  if (where && where->begin.line > 0) {
+  if (where) {  // without a line it was --set
     complain_at(*where, part, message);
   } else {
     complain(part, message);

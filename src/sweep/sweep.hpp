@@ -21,7 +21,7 @@ namespace hamflow {
 /// The result of a member; of one that failed, its last good state.
 struct MemberRow {
   Outcome status = Outcome::not_run;
-  bool no_start = false;  // no start has the energy asked for: it cannot be run
+  bool no_start = false;  // no start has the energy asked for, or a formula of it no value: it cannot be run
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;

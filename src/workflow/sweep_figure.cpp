@@ -190,7 +190,9 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
   const std::string wrong = refused_figure_file(file);
   if (!wrong.empty()) return "--figure: error: " + wrong;
   if (draws_section(sweep, colour)) {
-    const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(), .section = true};
+    const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
+                            .section = true,
+                            .stroboscopic = sweep.common().section->by_time_alone};
     const std::string refused = refused_figure("section", facts);
     return refused.empty() ? "" : "--figure: error: " + refused;
   }

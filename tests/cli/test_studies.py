@@ -232,10 +232,20 @@ class Studies(CommandCase):
         self.assertIn("itself; allowed formulas of keys that have values", cycle)
 
     def test_complaints_show_formulas_as_typed(self):
-        formula = "sqrt(problem.initial.q[1])/10 + 0.05"
+        formula = "sqrt(problem.initial.q[1])/10 + 0.05"  # of dt; a start without a value is the member's affair
         text = self.refused("--vary", "problem.initial.q[1]=-0.01,0.1", "--vary", f"run.dt={formula}")
         self.assertIn(f'found "{formula}" where problem.initial.q[1]=-0.01: sqrt((-0.01)) is not a real number', text)
         self.assertIn(f"(member 0: problem.initial.q[1]=-0.01, run.dt={formula})", text)
+
+    def test_starts_that_formulas_do_not_give(self):
+        """A component of the start that has no real value leaves its member without a start, not the sweep."""
+        formula = "sqrt(0.02 - problem.initial.q[1]^2)"
+        found = self.sweep("--vary", "problem.initial.q[1]=0,0.1,0.2,0.3", "--vary", f"problem.initial.p[0]={formula}")
+        self.assertEqual([row["status"] for row in found["rows"]], ["done", "done", "no_start", "no_start"])
+        self.assertIn("is not a real number", found["rows"][2]["message"])
+        self.assertIsNone(found["rows"][3]["problem.initial.p[0]"])
+        self.assertAlmostEqual(found["rows"][1]["problem.initial.p[0]"], 0.1, delta=1e-15)
+        self.assertEqual(found["no_start"], 2)
 
     def test_what_decides_the_columns_is_not_varied(self):
         section = ("--set", "run.section={ coordinate = 'q1' }")

@@ -75,9 +75,8 @@ class EnsembleBlock {
   virtual void carry(std::span<LaneTangents> /*jobs*/) {}
 };
 
-/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, the arithmetic is
-/// neither double nor compensated, or the kernel is "fast" and has none. load() is false where the members' steps are
-/// not the same but for constants.
+/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, or the arithmetic is
+/// neither double nor compensated. load() is false where the members' steps are not the same but for constants.
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes);
 
 }  // namespace hamflow

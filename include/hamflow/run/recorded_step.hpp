@@ -8,8 +8,7 @@
 #include <span>
 
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/tape.hpp"
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/numerics/program_of_tape.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"
 #include "hamflow/run/probe.hpp"
@@ -24,12 +23,9 @@ struct RecordedStep {
   std::vector<std::size_t> state;  // which values q, then p, are shown as
 };
 
-/// Longer steps take the ordinary road: straight code that no longer fits into the processor's cache of instructions
-/// is slower than the loops over bodies that are compiled (15 bodies with stv4, 6 with kahan-li8).
-inline constexpr std::size_t most_recorded_operations = 8000;
-
-/// The program of an exact recording: what the outputs and the guards need of the tape.
-Program program_of(const Tape<double>& tape);
+/// Longer steps take the ordinary road: straight code of twice this length, which no longer fits into a processor's
+/// second cache, is as slow as the compiled loops over bodies (20 bodies with stv4, 9 with kahan-li8).
+inline constexpr std::size_t most_recorded_operations = 20000;
 
 /// Which step of many is recorded: one that goes on from what the last one kept, or one from a state that was changed
 /// from outside, which carries nothing in but the state.

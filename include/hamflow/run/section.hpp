@@ -13,11 +13,12 @@
 namespace hamflow {
 
 struct Section {
-  std::size_t coordinate = 0;  // of q, or of p; beside an expression the first of which it is made
+  std::size_t coordinate = 0;  // of q, or of p; beside an expression the first of which it is made, if it is
   bool momentum = false;
   double value = 0;
   int direction = 1;                            // 1: x increases along the run, -1: it decreases, 0: both
   std::optional<StateExpression> expression{};  // x, in place of the coordinate
+  bool by_time_alone = false;                   // x is an expression of t, and the points are stroboscopic
 };
 
 struct SectionPoint {
