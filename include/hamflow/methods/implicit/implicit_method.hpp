@@ -103,8 +103,12 @@ class ImplicitMethod {
     return E(setup_, problem, h, nowhere, nowhere, unused).residual(q0, p0, unknowns);
   }
   template <class U>
-  static auto increment(const U& unknowns) {
-    return E::increment(unknowns);
+  auto increment(const U& unknowns) const {
+    if constexpr (requires { E::increment(unknowns); }) {
+      return E::increment(unknowns);
+    } else {
+      return setup_.template increment<n>(unknowns);
+    }
   }
 
  private:
@@ -154,7 +158,7 @@ class ImplicitMethod {
       if (!other) return false;
       found = *other;
     }
-    if constexpr (requires { step.too_coarse(found.taken); }) {
+    if constexpr (requires { step.too_coarse(found.x, found.taken); }) {
       if (setup_.automatic()) {
         const auto finer = refined(problem, h, q0, p0, found, log);
         if (!finer) return false;
@@ -166,7 +170,7 @@ class ImplicitMethod {
       add(z.arithmetic.momentum, z.p[i], found.taken.p[i]);
     }
     newton_.remember(step, found);
-    if (unknowns != nullptr) *unknowns = step.unknowns(found.x, found.taken);
+    if (unknowns != nullptr) *unknowns = E(setup_, problem, h, q0, p0, effort_).unknowns(found.x, found.taken);
     return true;
   }
 
@@ -194,7 +198,7 @@ class ImplicitMethod {
                                                     const Vector<Real, n> p0, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
     const auto before = setup_.mark();
-    while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.taken)) {
+    while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken)) {
       const bool finer = setup_.refine();
       if (!finer && log != nullptr) log->note_too_coarse();
       if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {
