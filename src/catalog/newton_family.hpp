@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hamflow/methods/implicit/newton_options.hpp"
+#include "hamflow/methods/averages.hpp"
 #include "hamflow/run/method_family.hpp"
 
 namespace hamflow::families {
@@ -11,6 +11,7 @@ namespace hamflow::families {
 /// Corrections that a linearly convergent iteration may take where nothing else is said: with every one a tenth smaller
 /// these are 4 digits, with every one half as large 30.
 inline constexpr int linear_iterations = 100;
+inline constexpr const char* fixed_point_word = "fixed-point";
 
 /// Of elements: the Gauss points. @param least the smallest number @param position among the options
 template <class Options>
@@ -37,20 +38,20 @@ void add_newton_options(BoundOptions<Options>& all) {
                  .default_value = "stagnation",
                  .meaning = "with seed stagnation above the tolerance is an error, as in the thesis' programs"},
                 &Options::seed_criterion, {{"stagnation", false}, {"seed", true}}));
-  all.push_back(bind_number({.name = "max_iterations",
-                             .default_value = "15",
-                             .meaning = "corrections a step may take; 100 where nothing is said and iteration is not newton",
-                             .range = Range::whole_from(1, 1000)},
-                            &Options::max_iterations));
-  all.push_back(bind_word({.name = "iteration",
-                           .default_value = "newton",
-                           .meaning = "how the equations of a step are solved: newton with the exact tangent, simplified "
-                                      "with one factored once a step, fixed-point with none, from first derivatives; "
-                                      "systems of more than 500 unknowns take fixed-point"},
-                          &Options::iteration,
-                          {{"newton", Iteration::newton},
-                           {"simplified", Iteration::simplified},
-                           {"fixed-point", Iteration::fixed_point}}));
+  all.push_back(
+      bind_number({.name = "max_iterations",
+                   .default_value = "15",
+                   .meaning = "corrections a step may take; 100 where nothing is said and iteration is not newton",
+                   .range = Range::whole_from(1, 1000)},
+                  &Options::max_iterations));
+  all.push_back(bind_word(
+      {.name = "iteration",
+       .default_value = "newton",
+       .meaning = "how the equations of a step are solved: newton with the exact tangent, simplified "
+                  "with one factored once a step, fixed-point with none, from first derivatives; "
+                  "systems of more than 500 unknowns take fixed-point"},
+      &Options::iteration,
+      {{"newton", Iteration::newton}, {"simplified", Iteration::simplified}, {"fixed-point", Iteration::fixed_point}}));
   all.push_back(bind_word({.name = "on_divergence",
                            .default_value = "error",
                            .meaning = "halve: two half steps in place of one that does not converge"},
@@ -86,6 +87,19 @@ std::pair<std::string, std::string> refused_together(const BoundOptions<Options>
     return {last_option(options, 0), "found true; allowed false, since a fixed-point iteration has no tangent"};
   }
   return {};
+}
+
+/// The options for a system of so many unknowns: large ones never build a matrix.
+template <class Options>
+Texts for_size(const BoundOptions<Options>& options, const Texts& given, std::size_t unknowns) {
+  if (unknowns <= most_dense_unknowns) return given;
+  if (read_newton(options, given).diagnostics) {
+    throw Error(last_option(options, 0) + ": found true; allowed false for systems of more than " +
+                std::to_string(most_dense_unknowns) + " unknowns, of which no tangent is made");
+  }
+  Texts all = given;
+  all[last_option(options, 2)] = fixed_point_word;
+  return all;
 }
 
 template <class Options>

@@ -25,8 +25,11 @@ auto averages_for() {
 }
 }  // namespace detail
 
-/// The recipe of both. Without second derivatives of H `iteration` has to be fixed_point. @throws Error when bound to a
-/// problem that has none, with another one
+/// Newton's matrix has as many rows and columns as a step has unknowns; of systems of more than these none is made.
+inline constexpr std::size_t most_dense_unknowns = 500;
+
+/// The recipe of both. Large systems take Iteration::fixed_point. Without second derivatives of H `iteration` has to be
+/// fixed_point. @throws Error when bound to a problem that has none, with another one
 struct Averages {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
@@ -39,7 +42,11 @@ struct Averages {
   using Stepper = ImplicitMethod<P, A, typename decltype(detail::averages_for<P, typename A::Real>())::type>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
-    return Stepper<P, A>(problem, options);
+    AverageOptions chosen = options;
+    if (degrees_of_freedom(problem) * static_cast<std::size_t>(options.element.degree) > most_dense_unknowns) {
+      chosen.element.iteration = Iteration::fixed_point;
+    }
+    return Stepper<P, A>(problem, chosen);
   }
 };
 

@@ -36,9 +36,8 @@ inline MethodInfo describe(const CgOptions& options) {
                                        (options.degree == 1 ? "one Gauss point: the implicit midpoint rule"
                                                             : degree + " Gauss points: Gauss collocation")
                                  : "energy-conserving Petrov-Galerkin finite element in time",
-          .reference = options.degree == 1
-                           ? "Gross1999, (1.43), (1.44), (2.61)-(2.64)"
-                           : "Gross1999, (1.34), (1.35); BrugnanoIavernaroTrigiante2010",
+          .reference = options.degree == 1 ? "Gross1999, (1.43), (1.44), (2.61)-(2.64)"
+                                           : "Gross1999, (1.34), (1.35); BrugnanoIavernaroTrigiante2010",
           .order = 2 * options.degree,
           .explicit_step = false,
           .symplectic = collocation,

@@ -29,29 +29,37 @@ class LuFactors {
       if (pivot != k) {
         for (std::size_t j = 0; j < size; ++j) std::swap(lu_[k][j], lu_[pivot][j]);
       }
-      const R inverse = R(1) / lu_[k][k];
+      const R* const upper = lu_[k];
+      const R inverse = R(1) / upper[k];
       for (std::size_t i = k + 1; i < size; ++i) {
-        const R factor = lu_[i][k] * inverse;
-        lu_[i][k] = factor;
-        for (std::size_t j = k + 1; j < size; ++j) lu_[i][j] -= factor * lu_[k][j];
+        R* const row = lu_[i];
+        const R factor = row[k] * inverse;
+        row[k] = factor;
+        for (std::size_t j = k + 1; j < size; ++j) row[j] -= factor * upper[j];
       }
     }
   }
   /// x with m x = b.
   Vector<R, dynamic> solve(const Vector<R, dynamic>& b) const {
-    Vector<R, dynamic> x = b;
-    const std::size_t size = x.size();
+    Vector<R, dynamic> solution = b;
+    R* const x = solution.begin();
+    const std::size_t size = solution.size();
     for (std::size_t k = 0; k < size; ++k) {
       if (pivots_[k] != k) std::swap(x[k], x[pivots_[k]]);
     }
-    for (std::size_t k = 0; k < size; ++k) {
-      for (std::size_t i = 0; i < k; ++i) x[k] -= lu_[k][i] * x[i];
+    for (std::size_t k = 1; k < size; ++k) {
+      const R* const row = lu_[k];
+      R sum = x[k];
+      for (std::size_t i = 0; i < k; ++i) sum -= row[i] * x[i];
+      x[k] = sum;
     }
     for (std::size_t k = size; k-- > 0;) {
-      for (std::size_t j = k + 1; j < size; ++j) x[k] -= lu_[k][j] * x[j];
-      x[k] = x[k] / lu_[k][k];
+      const R* const row = lu_[k];
+      R sum = x[k];
+      for (std::size_t j = k + 1; j < size; ++j) sum -= row[j] * x[j];
+      x[k] = sum / row[k];
     }
-    return x;
+    return solution;
   }
 
  private:

@@ -29,8 +29,14 @@ struct Avf {
             .representatives = {"avf(1)", "avf(4)", "avf(auto)"},
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
             .needs = [](std::size_t) { return "a twice differentiable H"; },
+            .advice =
+                [](std::size_t) {
+                  return MethodAdvice{.take = "cg is asked for by this name",
+                                      .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do: verlet"};
+                },
             .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
+            .sized = [](const Texts& given, std::size_t degrees) { return for_size(options(), given, degrees); }};
   }
 
   template <class F>

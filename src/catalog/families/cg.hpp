@@ -11,14 +11,13 @@ namespace hamflow::families {
 struct Cg {
   static const BoundOptions<CgOptions>& options() {
     static const BoundOptions<CgOptions> all = [] {
-      BoundOptions<CgOptions> list{
-          bind_number({.name = "degree",
-                       .default_value = "1",
-                       .meaning = "polynomial degree in time; the order is twice that",
-                       .range = Range::whole_from(1, most_gauss_points - 1),
-                       .position = 1},
-                      &CgOptions::degree),
-          quadrature_option<CgOptions>(2)};
+      BoundOptions<CgOptions> list{bind_number({.name = "degree",
+                                                .default_value = "1",
+                                                .meaning = "polynomial degree in time; the order is twice that",
+                                                .range = Range::whole_from(1, most_gauss_points - 1),
+                                                .position = 1},
+                                               &CgOptions::degree),
+                                   quadrature_option<CgOptions>(2)};
       add_newton_options(list);
       return list;
     }();
@@ -47,7 +46,11 @@ struct Cg {
                           "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
                 },
             .refused = refused,
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
+            .sized =
+                [](const Texts& given, std::size_t degrees) {
+                  return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).degree));
+                }};
   }
 
   /// cg(1) by Newton has kernels of its own, compiled with each problem.
@@ -63,9 +66,8 @@ struct Cg {
   static std::pair<std::string, std::string> refused(const Texts& given) {
     const CgOptions chosen = read(given);
     if (chosen.quadrature != 0 && chosen.quadrature < chosen.degree) {
-      return {options()[1].info.name, "found " + std::to_string(chosen.quadrature) +
-                                          "; allowed at least the degree, " + std::to_string(chosen.degree) +
-                                          ", or \"auto\""};
+      return {options()[1].info.name, "found " + std::to_string(chosen.quadrature) + "; allowed at least the degree, " +
+                                          std::to_string(chosen.degree) + ", or \"auto\""};
     }
     return refused_together(options(), given);
   }

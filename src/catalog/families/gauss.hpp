@@ -33,8 +33,18 @@ struct Gauss {
             .representatives = {"gauss(1)", "gauss(2)", "gauss(3)", "gauss(4)"},
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
             .needs = [](std::size_t) { return "a twice differentiable H"; },
+            .advice =
+                [](std::size_t) {
+                  return MethodAdvice{
+                      .take = "H is not T(p) + V(q), the map has to be symplectic, and the order high",
+                      .avoid = "H = T(p) + V(q) and forces are cheap: kahan-li8; the energy has to be exact: cg"};
+                },
             .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
+            .sized =
+                [](const Texts& given, std::size_t degrees) {
+                  return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).stages));
+                }};
   }
 
   template <class F>

@@ -3,10 +3,11 @@
 // Energy-conserving elements [Gross1999, (1.34), (1.35); BrugnanoIavernaroTrigiante2010]: u_i = h int P_i f dc are the
 // coefficients of h z' in orthonormal Legendre polynomials, k of them whatever the number s of Gauss points is,
 //     W_il = b_l P_i(c_l),   N_l0 = c_l - 1/2,  N_lj = int_0^(c_l) P_j,   e = (1, 0, .. 0).
-// Gauss collocation in stages [HLW2006, II.1.3]: u_i = L_i = h b_i f(Y_i),   Y_i = z0 + sum_j mu_ij L_j,  mu = a_ij/b_j,
+// Gauss collocation in stages [HLW2006, II.1.3]: u_i = L_i = h b_i f(Y_i),   Y_i = z0 + sum_j mu_ij L_j,  mu =
+// a_ij/b_j,
 //     W = diag(b),   N_ij = mu_ij - 1/2,   e = (1, .. 1).
-// b_i a_ij + b_j a_ji = b_i b_j says mu_ij + mu_ji = 1, and N is antisymmetric: the upper half is computed, the lower one
-// copied, so that with rounded coefficients the map is symplectic exactly.   [AntonanaMakazagaMurua2017]
+// b_i a_ij + b_j a_ji = b_i b_j says mu_ij + mu_ji = 1, and N is antisymmetric: the upper half is computed, the lower
+// one copied, so that with rounded coefficients the map is symplectic exactly.   [AntonanaMakazagaMurua2017]
 //
 // Where H = p^T M^-1 p/2 + V(q) the part of u in q follows from its part in p, and the quadrature of it is exact:
 //     u^q_j = h beta_j M^-1 (omega_j (p0 + p1)/2 + sum_i A_ji u^p_i),   A antisymmetric;
@@ -28,24 +29,26 @@ template <class R>
 struct AverageTable {
   int points = 0;    // s
   int averages = 0;  // k
-  // Matrices row after row; what is symmetric about the middle of the step is so to the last bit.
-  std::vector<R> inner;       // N transposed, k x s: numbers of neighbouring points are neighbours
-  std::vector<R> weight;      // W, k x s
-  std::vector<R> increment;   // e
-  std::vector<R> scale;       // beta
-  std::vector<R> middle;      // omega
-  std::vector<R> coupling;    // A, k x k
-  std::vector<R> next;        // k x k: from the averages of a polynomial motion to those of the step after it
-  std::vector<R> unit_weight;  // kappa W, see detail::golden
-  // For the tangents alone, (k k) x s, the rows (0, 0), (0, 1) ..
+  // Matrices are stored such that sums run over neighbours. What is symmetric about the middle of the step is so to the
+  // last bit.
+  std::vector<R> inner;        // N_lj at [j s + l]
+  std::vector<R> weight;       // W_il at [l k + i]
+  std::vector<R> unit_weight;  // kappa W_il, see detail::golden
+  bool diagonal = false;       // W is
+  std::vector<R> increment;    // e_j
+  std::vector<R> scale;        // beta_j
+  std::vector<R> middle;       // omega_j
+  std::vector<R> coupling;     // A_ij at [i k + j]
+  std::vector<R> next;         // from the averages of a polynomial motion to those of the step after it, at [j k + i]
+  // For the tangents alone, at [l k k + i k + j]
   std::vector<R> bend;          // W_il dy_l/du_j, dy_l/du_j = e_j/2 + N_lj
   std::vector<R> natural_bend;  // W_il dq_l/du^p_j, without h M^-1
 };
 
 namespace detail {
 
-/// Continued over the next step, P_j grows up to 5.8^j times, and the rounding of u_j with it: averages from here on are
-/// not continued.
+/// Continued over the next step, P_j grows up to 5.8^j times, and the rounding of u_j with it: averages from here on
+/// are not continued.
 inline constexpr int most_continued = 8;
 
 /// What follows from the other coefficients.
@@ -54,10 +57,10 @@ void complete(AverageTable<R>& t) {
   const auto k = static_cast<std::size_t>(t.averages);
   const auto s = static_cast<std::size_t>(t.points);
   for (const R& w : t.weight) t.unit_weight.push_back(golden<R>() * w);
-  for (std::size_t i = 0; i < k; ++i) {
-    for (std::size_t j = 0; j < k; ++j) {
-      for (std::size_t l = 0; l < s; ++l) {
-        const R w = t.weight[i * s + l];
+  for (std::size_t l = 0; l < s; ++l) {
+    for (std::size_t i = 0; i < k; ++i) {
+      const R& w = t.weight[l * k + i];
+      for (std::size_t j = 0; j < k; ++j) {
         t.bend.push_back(w * (t.increment[j] / R(2) + t.inner[j * s + l]));
         R reach(0);
         for (std::size_t m = 0; m < k; ++m) {
@@ -88,7 +91,7 @@ AverageTable<R> made_element_table(int averages, int points) {
     const std::vector<R> p = legendre_values<R>(averages, rule.offset[l]);
     const std::vector<R> integrals = legendre_integrals<R>(averages, rule.offset[l]);
     for (std::size_t j = 0; j < k; ++j) {
-      t.weight[j * s + l] = rule.b[l] * p[j];
+      t.weight[l * k + j] = rule.b[l] * p[j];
       t.inner[j * s + l] = integrals[j];
     }
   }
@@ -102,7 +105,7 @@ AverageTable<R> made_element_table(int averages, int points) {
     const std::vector<R> p = legendre_values<R>(averages, exact.offset[l]);
     const std::vector<R> after = legendre_values<R>(averages, R(1) + exact.offset[l]);
     for (std::size_t i = 0; i < k; ++i) {
-      for (std::size_t j = i; j < k && j < most_continued; ++j) t.next[i * k + j] += exact.b[l] * p[i] * after[j];
+      for (std::size_t j = i; j < k && j < most_continued; ++j) t.next[j * k + i] += exact.b[l] * p[i] * after[j];
     }
   }
   complete(t);
@@ -116,6 +119,7 @@ AverageTable<R> made_stage_table(int stages) {
   AverageTable<R> t{stages, stages};
   t.inner.resize(k * k);
   t.weight.resize(k * k);
+  t.diagonal = true;
   t.increment.assign(k, R(1));
   t.middle.assign(k, R(1));
   t.scale = rule.b;
@@ -144,7 +148,7 @@ AverageTable<R> made_stage_table(int stages) {
   }
   for (std::size_t i = 0; i < k; ++i) {
     for (std::size_t j = 0; j < k; ++j) {
-      for (std::size_t m = 0; m < k && m < most_continued; ++m) t.next[i * k + j] += rule.b[i] * after[i][m] * p[j][m];
+      for (std::size_t m = 0; m < k && m < most_continued; ++m) t.next[j * k + i] += rule.b[i] * after[i][m] * p[j][m];
     }
   }
   complete(t);
@@ -158,9 +162,9 @@ AverageTable<To> rounded(const AverageTable<From>& t) {
     for (const From& x : from) to.push_back(static_cast<To>(x));
     return to;
   };
-  return {t.points,          t.averages,       round(t.inner), round(t.weight),      round(t.increment), round(t.scale),
-          round(t.middle),   round(t.coupling), round(t.next), round(t.unit_weight), round(t.bend),
-          round(t.natural_bend)};
+  return {t.points,      t.averages,         round(t.inner),       round(t.weight), round(t.unit_weight),
+          t.diagonal,    round(t.increment), round(t.scale),       round(t.middle), round(t.coupling),
+          round(t.next), round(t.bend),      round(t.natural_bend)};
 }
 
 /// Tables by number, made once each; their addresses stay.

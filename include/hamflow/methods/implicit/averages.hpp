@@ -1,5 +1,5 @@
-// What the ways to solve for averages share (average_table.hpp): options and coefficients, and the one equation that all
-// of them solve, which the verification differentiates.
+// What the ways to solve for averages share (average_table.hpp): options and coefficients, and the one equation that
+// all of them solve, which the verification differentiates.
 #pragma once
 
 #include <string>
@@ -93,12 +93,15 @@ class AverageSetup {
     Increment<S, N> sum{zeros<S, N>(n), zeros<S, N>(n)};
     for (std::size_t j = 0; j < table().increment.size(); ++j) {
       for (std::size_t a = 0; a < n; ++a) {
-        sum.q[a] += table().increment[j] * u[2 * n * j + a];
-        sum.p[a] += table().increment[j] * u[2 * n * j + n + a];
+        sum.q[a] += table().increment[j] * u[a * table().increment.size() + j];
+        sum.p[a] += table().increment[j] * u[(n + a) * table().increment.size() + j];
       }
     }
     return sum;
   }
+
+ protected:
+  const AverageTable<Real>* table_ = nullptr;
 
  private:
   void use(int points) {
@@ -108,7 +111,6 @@ class AverageSetup {
   }
 
   AverageOptions options_;
-  const AverageTable<Real>* table_ = nullptr;
   const AverageTable<Real>* finer_ = nullptr;
 };
 
@@ -129,7 +131,8 @@ class Continued {
   V last_{};
 };
 
-/// r_i = h sum_l W_il f(y_l) - u_i for any H. An average is a row of 2 n numbers, first q, then p.
+/// r_i = h sum_l W_il f(y_l) - u_i for any H. The k averages of one coordinate are neighbours: those of q_a stand from
+/// a k on, those of p_a from (n + a) k on.
 template <class P, class R>
 class AverageEquations {
  public:
@@ -152,8 +155,8 @@ class AverageEquations {
     for (std::size_t j = 0; j < k; ++j) {
       const Real half = table_.increment[j] / Real(2);
       for (std::size_t a = 0; a < size; ++a) {
-        middle_q[a] += half * u[2 * size * j + a];
-        middle_p[a] += half * u[2 * size * j + size + a];
+        middle_q[a] += half * u[a * k + j];
+        middle_p[a] += half * u[(size + a) * k + j];
       }
     }
     Vector<S, dynamic> r = u;
@@ -165,16 +168,16 @@ class AverageEquations {
       Vector<S, n> p = middle_p;
       for (std::size_t j = 0; j < k; ++j) {
         for (std::size_t a = 0; a < size; ++a) {
-          q[a] += table_.inner[j * s + l] * u[2 * size * j + a];
-          p[a] += table_.inner[j * s + l] * u[2 * size * j + size + a];
+          q[a] += table_.inner[j * s + l] * u[a * k + j];
+          p[a] += table_.inner[j * s + l] * u[(size + a) * k + j];
         }
       }
       gradient(problem_, q, p, dq, dp);
       for (std::size_t i = 0; i < k; ++i) {
-        const Real weight = h_ * table_.weight[i * s + l];
+        const Real weight = h_ * table_.weight[l * k + i];
         for (std::size_t a = 0; a < size; ++a) {
-          r[2 * size * i + a] += weight * dp[a];
-          r[2 * size * i + size + a] -= weight * dq[a];
+          r[a * k + i] += weight * dp[a];
+          r[(size + a) * k + i] -= weight * dq[a];
         }
       }
     }

@@ -1,5 +1,5 @@
-// Averages where the last coordinate is cyclic: its momentum is constant, the others are solved for by themselves, and the
-// last one follows by quadrature at their points, u^q_n,i = h sum_l W_il dH/dp_n.   [Gross1999, (2.98)-(2.106)]
+// Averages where the last coordinate is cyclic: its momentum is constant, the others are solved for by themselves, and
+// the last one follows by quadrature at their points, u^q_n,i = h sum_l W_il dH/dp_n.   [Gross1999, (2.98)-(2.106)]
 #pragma once
 
 #include "hamflow/methods/implicit/averages_natural.hpp"
@@ -16,10 +16,10 @@ class CyclicAverages : public AverageEquations<P, R> {
   using OfRest = Increment<R, Reduced::dimension>;
 
  public:
+  using typename Base::Memory;
   using typename Base::Real;
   using typename Base::V;
   using typename Base::Variables;
-  using typename Base::Memory;
   static constexpr std::size_t n = P::dimension;
   using Point = typename Rest::Point;
   struct Setup : Rest::Setup {
@@ -57,15 +57,13 @@ class CyclicAverages : public AverageEquations<P, R> {
   Vector<Real, dynamic> unknowns(const Variables& x, const Increment<Real, n>&) const {
     const Vector<Real, dynamic> of_rest = rest_.unknowns(x, {});
     const Vector<Real, dynamic> angles = cyclic_averages(x);
-    const std::size_t r = q0_.size();
-    Vector<Real, dynamic> all(angles.size() * 2 * (r + 1));
-    for (std::size_t i = 0; i < angles.size(); ++i) {
-      for (std::size_t a = 0; a < r; ++a) {
-        all[2 * (r + 1) * i + a] = of_rest[2 * r * i + a];
-        all[2 * (r + 1) * i + r + 1 + a] = of_rest[2 * r * i + r + a];
-      }
-      all[2 * (r + 1) * i + r] = angles[i];
+    const std::size_t half = x.size();  // the averages of the rest, in q and in p
+    Vector<Real, dynamic> all(2 * (half + k_));
+    for (std::size_t i = 0; i < half; ++i) {
+      all[i] = of_rest[i];
+      all[half + k_ + i] = of_rest[half + i];
     }
+    for (std::size_t i = 0; i < k_; ++i) all[half + i] = angles[i];
     return all;
   }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const { return rest_.too_coarse(x, {}); }
@@ -86,14 +84,15 @@ class CyclicAverages : public AverageEquations<P, R> {
   Vector<Real, dynamic> cyclic_averages(const Variables& x) const {
     const Variables u = rest_.displacements(x);
     Vector<Real, dynamic> sums(k_);
-    rest_.at_points(table_, u, false, [&](std::size_t first, std::size_t count, const typename Rest::Block& block) {
-      Small q = zeros_like(q0_);
-      for (std::size_t l = 0; l < count; ++l) {
-        detail::take_point(&block.q[0], l, q);
-        const Real rate = problem_.cyclic_rate(q, momentum_);
-        for (std::size_t i = 0; i < k_; ++i) sums[i] += h_ * table_.weight[i * s_ + first + l] * rate;
-      }
-    });
+    rest_.at_points(table_, u, Rest::With::points,
+                    [&](std::size_t first, std::size_t count, const typename Rest::Block& block) {
+                      Small q = zeros_like(q0_);
+                      for (std::size_t l = 0; l < count; ++l) {
+                        detail::take_point(&block.q[0], l, q);
+                        const Real rate = problem_.cyclic_rate(q, momentum_);
+                        for (std::size_t i = 0; i < k_; ++i) sums[i] += h_ * table_.weight[(first + l) * k_ + i] * rate;
+                      }
+                    });
     return sums;
   }
   Increment<Real, n> closed(const OfRest& of_rest, const Variables& x) const {

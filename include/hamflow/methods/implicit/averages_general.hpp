@@ -12,16 +12,17 @@ class GeneralAverages : public AverageEquations<P, R> {
   using Base = AverageEquations<P, R>;
 
  public:
+  using typename Base::Memory;
   using typename Base::Real;
   using typename Base::V;
   using typename Base::Variables;
-  using typename Base::Memory;
   static constexpr std::size_t n = P::dimension;
   using Point = detail::AveragesPoint<Real>;
   struct Setup : AverageSetup<Real> {
     Setup(const P&, const AverageOptions& options) : AverageSetup<Real>(options) {
       if (!Smooth<P> && options.element.iteration != Iteration::fixed_point) {
-        throw Error("H has no second derivatives here, and Newton's iteration uses them; allowed Iteration::fixed_point");
+        throw Error(
+            "H has no second derivatives here, and Newton's iteration uses them; allowed Iteration::fixed_point");
       }
     }
   };
@@ -45,16 +46,16 @@ class GeneralAverages : public AverageEquations<P, R> {
     for (std::size_t i = 0; i < k_; ++i) {
       const Real factor = h_ * (table_.scale[i] * table_.middle[i]);
       for (std::size_t a = 0; a < size_; ++a) {
-        x[i * m_ + a] = factor * dp[a];
-        x[i * m_ + size_ + a] = -factor * dq[a];
+        x[a * k_ + i] = factor * dp[a];
+        x[(size_ + a) * k_ + i] = -factor * dq[a];
       }
     }
     return x;
   }
-  Variables started(const Memory& last) const { return detail::continued(table_, last, m_); }
+  Variables started(const Memory& last) const { return detail::continued(table_, last); }
 
   void evaluate(const Variables& x, Point& at) const {
-    detail::clear(at, x.size());
+    detail::clear(at, x.size(), 3 * size_ * size_ * k_ * k_);
     auto size_q = point_rows<Real, n>(size_);  // of what dH/dq rounds by, and so for p
     auto size_p = size_q;
     at_points(table_, x, at.linearised, [&](std::size_t first, std::size_t count, const Block& block) {
@@ -75,34 +76,19 @@ class GeneralAverages : public AverageEquations<P, R> {
             size_q[a * point_stride + l] += abs(qq[l] * q) + abs(qp[l] * p);
             size_p[a * point_stride + l] += abs(pq[l] * q) + abs(pp[l] * p);
           }
+          Real* const bends = &at.bends[3 * (a * size_ + b) * k_ * k_];
+          detail::add_bend(table_.bend, k_, first, count, qq, bends);
+          detail::add_bend(table_.bend, k_, first, count, qp, bends + k_ * k_);
+          detail::add_bend(table_.bend, k_, first, count, pp, bends + 2 * k_ * k_);
         }
       }
-      for (std::size_t i = 0; i < k_; ++i) {
-        const Real* const unit = &table_.unit_weight[i * s_ + first];
-        const Real* const weight = &table_.weight[i * s_ + first];
-        for (std::size_t a = 0; a < size_; ++a) {
-          Real sum_q(0);
-          Real sum_p(0);
-          Real noise_q(0);
-          Real noise_p(0);
-          for (std::size_t l = 0; l < count; ++l) {
-            sum_q += unit[l] * block.dp[a * point_stride + l];
-            sum_p -= unit[l] * block.dq[a * point_stride + l];
-            noise_q += abs(weight[l]) * size_p[a * point_stride + l];
-            noise_p += abs(weight[l]) * size_q[a * point_stride + l];
-          }
-          at.sum[i * m_ + a] += sum_q;
-          at.sum[i * m_ + size_ + a] += sum_p;
-          at.noise[i * m_ + a] += abs(h_) * noise_q;
-          at.noise[i * m_ + size_ + a] += abs(h_) * noise_p;
-        }
-      }
-      if (at.linearised) add_bends(first, count, block, at.tangent);
+      detail::add_averages(table_, first, count, h_, Real(1), &block.dp[0], &size_p[0], 0, size_, at);
+      detail::add_averages(table_, first, count, h_, Real(-1), &block.dq[0], &size_q[0], size_, size_, at);
     });
     effort_.gradient += table_.points;
     if (at.linearised) {
       effort_.hessian += table_.points;
-      for (std::size_t i = 0; i < x.size(); ++i) at.tangent[i][i] += Real(1);
+      close_tangent(at);
     }
     detail::close(at, unit_, x);
   }
@@ -124,7 +110,8 @@ class GeneralAverages : public AverageEquations<P, R> {
   Vector<Real, dynamic> unknowns(const Variables& x, const Increment<Real, n>&) const { return x; }
 
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
-    return detail::gains_energy<Real>(setup_, [&](const AverageTable<Real>& finer) { return gain(x, finer); });
+    return detail::gains_energy(gain(x, setup_.finer()), setup_.has_finest(),
+                                [&] { return gain(x, setup_.finest()).gain; });
   }
   /// Whether the energy is kept to a hundredth of the work done, where that is promised.
   bool believable(const Variables& x, const Increment<Real, n>&) const {
@@ -137,7 +124,6 @@ class GeneralAverages : public AverageEquations<P, R> {
   using Base::h_;
   using Base::k_;
   using Base::problem_;
-  using Base::s_;
   using Base::table_;
   using Base::unit_;
   static constexpr auto epsilon = Epsilon<Real>{};
@@ -152,16 +138,16 @@ class GeneralAverages : public AverageEquations<P, R> {
   void at_points(const AverageTable<Real>& table, const Variables& x, bool second, const Take& take) const {
     V middle_q = q0_;  // (z0 + z1)/2
     V middle_p = p0_;
-    detail::add_half_increment(table, x, m_, 0, size_, middle_q);
-    detail::add_half_increment(table, x, m_, size_, size_, middle_p);
+    detail::add_half_increment(table, x, 0, middle_q);
+    detail::add_half_increment(table, x, size_, middle_p);
     const auto rows = point_rows<Real, n>(size_);
     Block block{rows, rows, rows, rows, {}, {}, {}};
     if constexpr (n == dynamic) {
       if (second) block.qq = block.qp = block.pp = point_rows<Real, dynamic>(size_ * size_);
     }
     for_blocks(static_cast<std::size_t>(table.points), [&](std::size_t first, std::size_t count) {
-      detail::place_points(table, x, m_, 0, first, count, middle_q, &block.q[0]);
-      detail::place_points(table, x, m_, size_, first, count, middle_p, &block.p[0]);
+      detail::place_points(table, x, 0, first, count, middle_q, &block.q[0]);
+      detail::place_points(table, x, size_, first, count, middle_p, &block.p[0]);
       gradients_at(problem_, count, &block.q[0], &block.p[0], &block.dq[0], &block.dp[0]);
       if constexpr (Smooth<P>) {
         if (second) {
@@ -172,31 +158,28 @@ class GeneralAverages : public AverageEquations<P, R> {
     });
   }
 
-  void add_bends(std::size_t first, std::size_t count, const Block& block, Matrix<Real, dynamic>& tangent) const {
-    for (std::size_t i = 0; i < k_; ++i) {
-      for (std::size_t j = 0; j < k_; ++j) {
-        const Real* const factor = &table_.bend[(i * k_ + j) * s_ + first];
-        for (std::size_t a = 0; a < size_; ++a) {
-          for (std::size_t b = 0; b < size_; ++b) {
-            const Real* const qq = &block.qq[(a * size_ + b) * point_stride];
-            const Real* const qp = &block.qp[(a * size_ + b) * point_stride];
-            const Real* const pp = &block.pp[(a * size_ + b) * point_stride];
-            Real sum_qq(0);
-            Real sum_qp(0);
-            Real sum_pp(0);
-            for (std::size_t l = 0; l < count; ++l) {
-              sum_qq += factor[l] * qq[l];
-              sum_qp += factor[l] * qp[l];
-              sum_pp += factor[l] * pp[l];
-            }
-            tangent[i * m_ + b][j * m_ + a] -= h_ * sum_qp;
-            tangent[i * m_ + a][j * m_ + size_ + b] -= h_ * sum_pp;
-            tangent[i * m_ + size_ + a][j * m_ + b] += h_ * sum_qq;
-            tangent[i * m_ + size_ + a][j * m_ + size_ + b] += h_ * sum_qp;
+  /// K from the sums.
+  void close_tangent(Point& at) const {
+    const std::size_t kk = k_ * k_;
+    for (std::size_t a = 0; a < size_; ++a) {
+      for (std::size_t b = 0; b < size_; ++b) {
+        const Real* const qq = &at.bends[3 * (a * size_ + b) * kk];
+        const Real* const qp = qq + kk;
+        const Real* const pq = &at.bends[3 * (b * size_ + a) * kk + kk];
+        const Real* const pp = qq + 2 * kk;
+        for (std::size_t i = 0; i < k_; ++i) {
+          Real* const of_q = at.tangent[a * k_ + i];
+          Real* const of_p = at.tangent[(size_ + a) * k_ + i];
+          for (std::size_t j = 0; j < k_; ++j) {
+            of_q[b * k_ + j] = -(h_ * pq[i * k_ + j]);
+            of_q[(size_ + b) * k_ + j] = -(h_ * pp[i * k_ + j]);
+            of_p[b * k_ + j] = h_ * qq[i * k_ + j];
+            of_p[(size_ + b) * k_ + j] = h_ * qp[i * k_ + j];
           }
         }
       }
     }
+    for (std::size_t i = 0; i < at.tangent.size(); ++i) at.tangent[i][i] += Real(1);
   }
 
   /// z1 - z0, each coordinate rounded once.
@@ -205,7 +188,7 @@ class GeneralAverages : public AverageEquations<P, R> {
     for (std::size_t a = 0; a < m_; ++a) {
       detail::KeptSum<Real> sum;
       for (std::size_t j = 0; j < k_; ++j) {
-        if (!(table_.increment[j] == Real(0))) sum.add(x[j * m_ + a]);  // the others are 1
+        if (!(table_.increment[j] == Real(0))) sum.add(x[a * k_ + j]);  // the others are 1
       }
       (a < size_ ? taken.q[a] : taken.p[a - size_]) = sum.high + sum.low;
     }
@@ -215,7 +198,6 @@ class GeneralAverages : public AverageEquations<P, R> {
   /// The energy that a rule of more points sees the step gain, sum_j u_j.(sum_l W'_jl grad H(y'_l)). With the points in
   /// use it is 0, whatever the averages are. Rounding as in averages_natural.hpp.
   detail::Gain<Real> gain(const Variables& x, const AverageTable<Real>& finer) const {
-    const auto points = static_cast<std::size_t>(finer.points);
     V first_q = zeros_like(q0_);
     V first_p = first_q;
     V last_q = first_q;
@@ -236,10 +218,10 @@ class GeneralAverages : public AverageEquations<P, R> {
       detail::take_point(&block.p[0], count - 1, end_p);
       for (std::size_t j = 0; j < k_; ++j) {
         for (std::size_t l = 0; l < count; ++l) {
-          const Real weight = finer.weight[j * points + first + l];
+          const Real& weight = finer.weight[(first + l) * k_ + j];
           for (std::size_t a = 0; a < size_; ++a) {
-            const Real by_q = weight * block.dq[a * point_stride + l] * x[j * m_ + a];
-            const Real by_p = weight * block.dp[a * point_stride + l] * x[j * m_ + size_ + a];
+            const Real by_q = weight * block.dq[a * point_stride + l] * x[a * k_ + j];
+            const Real by_p = weight * block.dp[a * point_stride + l] * x[(size_ + a) * k_ + j];
             seen.gain += by_q + by_p;
             work_q[a] += abs(by_q);
             work_p[a] += abs(by_p);

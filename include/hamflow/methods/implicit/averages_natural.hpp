@@ -1,4 +1,5 @@
-// Averages for H = p^T M^-1 p/2 + V(q) with constant M: Newton runs in the impulses u^p_i = h sum_l W_il F(q_l) alone, since
+// Averages for H = p^T M^-1 p/2 + V(q) with constant M: Newton runs in the impulses u^p_i = h sum_l W_il F(q_l) alone,
+// since
 //     u^q_j = h beta_j M^-1 (omega_j (p0 + p1)/2 + sum_i A_ji u^p_i),   q_l = (q0 + q1)/2 + sum_j N_lj u^q_j,
 // with the exact tangent   K_ij = delta_ij I + h^2 (sum_l W_il dq_l/du^p_j V''(q_l)) M^-1.
 // For cg(1) the residual is that of (2.63) in Gross1999.   [average_table.hpp]
@@ -13,10 +14,10 @@ class NaturalAverages : public AverageEquations<P, R> {
   using Base = AverageEquations<P, R>;
 
  public:
+  using typename Base::Memory;
   using typename Base::Real;
   using typename Base::V;
   using typename Base::Variables;
-  using typename Base::Memory;
   static constexpr std::size_t n = P::dimension;
   using Point = detail::AveragesPoint<Real>;
 
@@ -43,47 +44,38 @@ class NaturalAverages : public AverageEquations<P, R> {
     force(problem_, q0_, f);
     ++effort_.force;
     Variables x(k_ * size_);
-    for (std::size_t i = 0; i < k_; ++i) {
-      for (std::size_t a = 0; a < size_; ++a) x[i * size_ + a] = h_ * (table_.scale[i] * table_.middle[i]) * f[a];
+    for (std::size_t a = 0; a < size_; ++a) {
+      for (std::size_t i = 0; i < k_; ++i) x[a * k_ + i] = h_ * (table_.scale[i] * table_.middle[i]) * f[a];
     }
     return x;
   }
-  Variables started(const Memory& last) const { return detail::continued(table_, last, size_); }
+  Variables started(const Memory& last) const { return detail::continued(table_, last); }
 
   void evaluate(const Variables& x, Point& at) const {
-    detail::clear(at, x.size());
+    detail::clear(at, x.size(), size_ * size_ * k_ * k_);
     const Variables u = displacements(x);
     auto sizes = point_rows<Real, n>(size_);  // of what a force rounds by
-    at_points(table_, u, at.linearised, [&](std::size_t first, std::size_t count, const auto& block) {
-      for (std::size_t a = 0; a < size_; ++a) {
-        Real* const size = &sizes[a * point_stride];
-        for (std::size_t l = 0; l < count; ++l) size[l] = abs(block.f[a * point_stride + l]);
-        if (!at.linearised) continue;
-        for (std::size_t b = 0; b < size_; ++b) {
-          const Real* const second = &block.h[(a * size_ + b) * point_stride];
-          for (std::size_t l = 0; l < count; ++l) size[l] += abs(second[l] * block.q[b * point_stride + l]);
-        }
-      }
-      for (std::size_t i = 0; i < k_; ++i) {
-        const Real* const unit = &table_.unit_weight[i * s_ + first];
-        const Real* const weight = &table_.weight[i * s_ + first];
-        for (std::size_t a = 0; a < size_; ++a) {
-          Real sum(0);
-          Real noise(0);
-          for (std::size_t l = 0; l < count; ++l) {
-            sum += unit[l] * block.f[a * point_stride + l];
-            noise += abs(weight[l]) * sizes[a * point_stride + l];
-          }
-          at.sum[i * size_ + a] += sum;
-          at.noise[i * size_ + a] += abs(h_) * noise;
-        }
-      }
-      if (at.linearised) add_bends(first, count, block.h, at.tangent);
-    });
+    at_points(table_, u, at.linearised ? With::hessians : With::forces,
+              [&](std::size_t first, std::size_t count, const Block& block) {
+                for (std::size_t a = 0; a < size_; ++a) {
+                  Real* const size = &sizes[a * point_stride];
+                  for (std::size_t l = 0; l < count; ++l) size[l] = abs(block.f[a * point_stride + l]);
+                  if (!at.linearised) continue;
+                  for (std::size_t b = 0; b < size_; ++b) {
+                    const Real* const second = &block.h[(a * size_ + b) * point_stride];
+                    for (std::size_t l = 0; l < count; ++l) size[l] += abs(second[l] * block.q[b * point_stride + l]);
+                    if (b <= a) {
+                      detail::add_bend(table_.natural_bend, k_, first, count, second,
+                                       &at.bends[(a * size_ + b) * k_ * k_]);
+                    }
+                  }
+                }
+                detail::add_averages(table_, first, count, h_, Real(1), &block.f[0], &sizes[0], 0, size_, at);
+              });
     effort_.force += table_.points;
     if (at.linearised) {
       effort_.hessian += table_.points;
-      close_tangent(at.tangent);
+      close_tangent(at);
     }
     detail::close(at, unit_, x);
   }
@@ -105,17 +97,16 @@ class NaturalAverages : public AverageEquations<P, R> {
   Vector<Real, dynamic> unknowns(const Variables& x, const Increment<Real, n>&) const {
     const Variables u = displacements(x);
     Vector<Real, dynamic> all(2 * x.size());
-    for (std::size_t i = 0; i < k_; ++i) {
-      for (std::size_t a = 0; a < size_; ++a) {
-        all[2 * size_ * i + a] = u[i * size_ + a];
-        all[2 * size_ * i + size_ + a] = x[i * size_ + a];
-      }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      all[i] = u[i];
+      all[x.size() + i] = x[i];
     }
     return all;
   }
 
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
-    return detail::gains_energy<Real>(setup_, [&](const AverageTable<Real>& finer) { return gain(x, finer); });
+    return detail::gains_energy(gain(x, setup_.finer()), setup_.has_finest(),
+                                [&] { return gain(x, setup_.finest()).gain; });
   }
   /// Whether the energy is kept to a hundredth of the work done, where that is promised.
   bool believable(const Variables& x, const Increment<Real, n>&) const {
@@ -132,38 +123,40 @@ class NaturalAverages : public AverageEquations<P, R> {
   /// The displacements u^q_j that belong to impulses.
   Variables displacements(const Variables& x) const {
     V middle = p0_;  // (p0 + p1)/2
-    detail::add_half_increment(table_, x, size_, 0, size_, middle);
+    detail::add_half_increment(table_, x, 0, middle);
     Variables u(x.size());
+    for (std::size_t a = 0; a < size_; ++a) {
+      Real* const row = &u[a * k_];
+      for (std::size_t i = 0; i < k_; ++i) {  // A is antisymmetric
+        for (std::size_t j = 0; j < k_; ++j) row[j] -= table_.coupling[i * k_ + j] * x[a * k_ + i];
+      }
+      for (std::size_t j = 0; j < k_; ++j) row[j] += table_.middle[j] * middle[a];
+    }
     V p = middle;
     V v = middle;
     for (std::size_t j = 0; j < k_; ++j) {
-      for (std::size_t a = 0; a < size_; ++a) p[a] = Real(0);
-      for (std::size_t i = 0; i < k_; ++i) {
-        const Real& factor = table_.coupling[j * k_ + i];
-        if (factor == Real(0)) continue;
-        for (std::size_t a = 0; a < size_; ++a) p[a] += factor * x[i * size_ + a];
-      }
-      for (std::size_t a = 0; a < size_; ++a) p[a] += table_.middle[j] * middle[a];
+      for (std::size_t a = 0; a < size_; ++a) p[a] = u[a * k_ + j];
       velocity(problem_, p, v);
       const Real length = h_ * table_.scale[j];
-      for (std::size_t a = 0; a < size_; ++a) u[j * size_ + a] = length * v[a];
+      for (std::size_t a = 0; a < size_; ++a) u[a * k_ + j] = length * v[a];
     }
     return u;
   }
-  /// Calls take(first, count, block) for the points of a table with forces and, if wanted, second derivatives.
+  enum class With { points, forces, hessians };
+  /// Calls take(first, count, block) for the points of a table with what is wanted there.
   template <class Take>
-  void at_points(const AverageTable<Real>& table, const Variables& u, bool second, const Take& take) const {
+  void at_points(const AverageTable<Real>& table, const Variables& u, With with, const Take& take) const {
     V middle = q0_;  // (q0 + q1)/2
-    detail::add_half_increment(table, u, size_, 0, size_, middle);
+    detail::add_half_increment(table, u, 0, middle);
     Block block{point_rows<Real, n>(size_), point_rows<Real, n>(size_), {}};
     if constexpr (n == dynamic) {
-      if (second) block.h = point_rows<Real, dynamic>(size_ * size_);
+      if (with == With::hessians) block.h = point_rows<Real, dynamic>(size_ * size_);
     }
     for_blocks(static_cast<std::size_t>(table.points), [&](std::size_t first, std::size_t count) {
-      detail::place_points(table, u, size_, 0, first, count, middle, &block.q[0]);
-      if (second) {
+      detail::place_points(table, u, 0, first, count, middle, &block.q[0]);
+      if (with == With::hessians) {
         forces_and_hessians_at(problem_, count, &block.q[0], &block.f[0], &block.h[0]);
-      } else {
+      } else if (with == With::forces) {
         forces_at(problem_, count, &block.q[0], &block.f[0]);
       }
       take(first, count, block);
@@ -174,49 +167,31 @@ class NaturalAverages : public AverageEquations<P, R> {
   using Base::h_;
   using Base::k_;
   using Base::problem_;
-  using Base::s_;
   using Base::table_;
   using Base::unit_;
   static constexpr auto epsilon = Epsilon<Real>{};
 
-  template <class Rows>
-  void add_bends(std::size_t first, std::size_t count, const Rows& h, Matrix<Real, dynamic>& tangent) const {
-    for (std::size_t i = 0; i < k_; ++i) {
-      for (std::size_t j = 0; j < k_; ++j) {
-        const Real* const factor = &table_.natural_bend[(i * k_ + j) * s_ + first];
-        for (std::size_t a = 0; a < size_; ++a) {
-          for (std::size_t b = 0; b <= a; ++b) {
-            const Real* const second = &h[(a * size_ + b) * point_stride];
-            Real sum(0);
-            for (std::size_t l = 0; l < count; ++l) sum += factor[l] * second[l];
-            tangent[i * size_ + a][j * size_ + b] += sum;
-            if (b < a) tangent[i * size_ + b][j * size_ + a] += sum;
-          }
-        }
-      }
-    }
-  }
-  /// From the sums K.
-  void close_tangent(Matrix<Real, dynamic>& tangent) const {
+  /// K from the sums.
+  void close_tangent(Point& at) const {
     const Real factor = h_ * h_;
-    V row = zeros_like(q0_);
-    for (std::size_t i = 0; i < tangent.size(); ++i) {
-      for (std::size_t j = 0; j < k_; ++j) {
-        Real* const block = &tangent[i][j * size_];
-        for (std::size_t b = 0; b < size_; ++b) row[b] = block[b];
-        for (std::size_t b = 0; b < size_; ++b) {
-          if (setup_.diagonal) {
-            block[b] = factor * (row[b] * setup_.inverse_mass[b][b]);
-          } else {
-            Real sum(0);
-            for (std::size_t c = 0; c < size_; ++c) sum += row[c] * setup_.inverse_mass[c][b];
-            block[b] = factor * sum;
+    const std::size_t kk = k_ * k_;
+    for (std::size_t a = 0; a < size_; ++a) {
+      for (std::size_t b = 0; b < size_; ++b) {
+        for (std::size_t i = 0; i < k_; ++i) {
+          Real* const row = &at.tangent[a * k_ + i][b * k_];
+          for (std::size_t j = 0; j < k_; ++j) row[j] = Real(0);
+          for (std::size_t c = setup_.diagonal ? b : 0; c < (setup_.diagonal ? b + 1 : size_); ++c) {
+            const Real* const bends = &at.bends[bend_of(a, c) * kk + i * k_];
+            const Real inverse_mass = factor * setup_.inverse_mass[c][b];
+            for (std::size_t j = 0; j < k_; ++j) row[j] += bends[j] * inverse_mass;
           }
         }
       }
-      tangent[i][i] += Real(1);
     }
+    for (std::size_t i = 0; i < at.tangent.size(); ++i) at.tangent[i][i] += Real(1);
   }
+  /// V'' is symmetric: only the lower half is summed.
+  std::size_t bend_of(std::size_t a, std::size_t b) const { return a < b ? b * size_ + a : a * size_ + b; }
 
   /// z1 - z0, each coordinate rounded once: what is lost in a step has a sign, see natural.hpp.
   Increment<Real, n> increment_of(const Variables& x) const {
@@ -234,12 +209,12 @@ class NaturalAverages : public AverageEquations<P, R> {
         detail::KeptSum<Real> p{p0_[a], Real(0)};
         for (std::size_t i = 0; i < k_; ++i) {
           const Real factor = table_.increment[i] / Real(2) + table_.coupling[j * k_ + i];
-          if (!(factor == Real(0))) p.add(factor * x[i * size_ + a]);
+          if (!(factor == Real(0))) p.add(factor * x[a * k_ + i]);
         }
         high[a] = p.high;
         low[a] = p.low;
         detail::KeptSum<Real> impulse{taken.p[a], lost_p[a]};
-        impulse.add(x[j * size_ + a]);
+        impulse.add(x[a * k_ + j]);
         taken.p[a] = impulse.high;
         lost_p[a] = impulse.low;
       }
@@ -264,24 +239,23 @@ class NaturalAverages : public AverageEquations<P, R> {
   /// points in use it is 0. Rounding: sums of s terms, and coordinates rounded to epsilon, by which the work changes as
   /// V'' d; that is what forces differ by along the step.
   detail::Gain<Real> gain(const Variables& x, const AverageTable<Real>& finer) const {
-    const auto points = static_cast<std::size_t>(finer.points);
     const Variables u = displacements(x);
     V first_force = zeros_like(q0_);
     V last_force = first_force;
     V last_point = first_force;
     V work = first_force;
     Variables sum(x.size());
-    at_points(finer, u, false, [&](std::size_t first, std::size_t count, const Block& block) {
+    at_points(finer, u, With::forces, [&](std::size_t first, std::size_t count, const Block& block) {
       if (first == 0) detail::take_point(&block.f[0], 0, first_force);
       detail::take_point(&block.f[0], count - 1, last_force);
       detail::take_point(&block.q[0], count - 1, last_point);
       for (std::size_t j = 0; j < k_; ++j) {
         for (std::size_t l = 0; l < count; ++l) {
-          const Real weight = finer.weight[j * points + first + l];
+          const Real& weight = finer.weight[(first + l) * k_ + j];
           for (std::size_t a = 0; a < size_; ++a) {
             const Real impulse = weight * block.f[a * point_stride + l];
-            sum[j * size_ + a] += impulse;
-            work[a] += abs(impulse * u[j * size_ + a]);
+            sum[a * k_ + j] += impulse;
+            work[a] += abs(impulse * u[a * k_ + j]);
           }
         }
       }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hamflow/methods/implicit/averages.hpp"
+#include "hamflow/methods/implicit/energy_gain.hpp"
 #include "hamflow/methods/implicit/points.hpp"
 
 namespace hamflow::detail {
@@ -9,72 +10,115 @@ namespace hamflow::detail {
 /// What is known at one set of averages.
 template <class Real>
 struct AveragesPoint {
-  using Rows = Vector<Real, dynamic>;
-  Rows residual{};
-  Rows sum{};     // kappa sum_l W_il f(y_l)
-  Rows target{};  // what the averages should be, h/kappa times that
-  Rows noise{};   // what the target rounds by, in units of epsilon, entry by entry
+  using Numbers = Vector<Real, dynamic>;
+  Numbers residual{};
+  Numbers sum{};     // kappa sum_l W_il f(y_l)
+  Numbers target{};  // what the averages should be, h/kappa times that
+  Numbers noise{};   // what the target rounds by, in units of epsilon, entry by entry
+  Numbers bends{};   // sums of second derivatives, for the tangent
   Matrix<Real, dynamic> tangent{};
   bool linearised = true;  // evaluate() is to compute the tangent, too
 };
 
 template <class Real>
 void clear(Vector<Real, dynamic>& x, std::size_t size) {
-  if (x.size() != size) x = Vector<Real, dynamic>(size);
-  for (Real& each : x) each = Real(0);
+  if (x.size() != size) {
+    x = Vector<Real, dynamic>(size);
+  } else {
+    for (Real& each : x) each = Real(0);
+  }
 }
 
+/// @param second the second derivatives that are summed
 template <class Real>
-void clear(AveragesPoint<Real>& at, std::size_t size) {
+void clear(AveragesPoint<Real>& at, std::size_t size, std::size_t second) {
   clear(at.sum, size);
   clear(at.noise, size);
   if (at.target.size() != size) at.target = at.residual = at.sum;
   if (!at.linearised) return;
+  clear(at.bends, second);
   if (at.tangent.size() != size) at.tangent = Matrix<Real, dynamic>(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = 0; j < size; ++j) at.tangent[i][j] = Real(0);
-  }
 }
 
-/// From the averages of the last step those of the polynomial motion that continues it; a row has `size` numbers.
+/// From the averages of the last step those of the polynomial motion that continues it.
 template <class Real>
-Vector<Real, dynamic> continued(const AverageTable<Real>& table, const Vector<Real, dynamic>& last, std::size_t size) {
+Vector<Real, dynamic> continued(const AverageTable<Real>& table, const Vector<Real, dynamic>& last) {
   const auto k = static_cast<std::size_t>(table.averages);
-  Vector<Real, dynamic> x(k * size);
-  for (std::size_t i = 0; i < k; ++i) {
-    for (std::size_t j = 0; j < k; ++j) {
-      const Real& factor = table.next[i * k + j];
-      if (factor == Real(0)) continue;
-      for (std::size_t a = 0; a < size; ++a) x[i * size + a] += factor * last[j * size + a];
+  Vector<Real, dynamic> x(last.size());
+  for (std::size_t a = 0; a < x.size(); a += k) {
+    for (std::size_t j = 0; j < k && j < most_continued; ++j) {
+      for (std::size_t i = 0; i < k; ++i) x[a + i] += table.next[j * k + i] * last[a + j];
     }
   }
   return x;
 }
 
-/// x += sum_j e_j u_j/2. Rows of u have `row` numbers, of which `size` from `from` on are those of x.
+/// x += sum_j e_j u_j/2, where x are coordinates number `from` and following.
 template <class Real, std::size_t N>
-void add_half_increment(const AverageTable<Real>& table, const Vector<Real, dynamic>& u, std::size_t row,
-                        std::size_t from, std::size_t size, Vector<Real, N>& x) {
-  for (std::size_t j = 0; j < table.increment.size(); ++j) {
-    if (table.increment[j] == Real(0)) continue;
-    const Real half = table.increment[j] / Real(2);
-    for (std::size_t a = 0; a < size; ++a) x[a] += half * u[j * row + from + a];
+void add_half_increment(const AverageTable<Real>& table, const Vector<Real, dynamic>& u, std::size_t from,
+                        Vector<Real, N>& x) {
+  const auto k = static_cast<std::size_t>(table.averages);
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    Real sum(0);
+    for (std::size_t j = 0; j < k; ++j) sum += table.increment[j] * u[(from + a) * k + j];
+    x[a] += sum / Real(2);
   }
 }
 
 /// Points first .. first + count - 1 of a table, middle + sum_j N_lj u_j, as points.hpp has them.
 template <class Real, std::size_t N>
-void place_points(const AverageTable<Real>& table, const Vector<Real, dynamic>& u, std::size_t row, std::size_t from,
-                  std::size_t first, std::size_t count, const Vector<Real, N>& middle, Real* x) {
+void place_points(const AverageTable<Real>& table, const Vector<Real, dynamic>& u, std::size_t from, std::size_t first,
+                  std::size_t count, const Vector<Real, N>& middle, Real* x) {
   const auto s = static_cast<std::size_t>(table.points);
+  const auto k = static_cast<std::size_t>(table.averages);
   for (std::size_t a = 0; a < middle.size(); ++a) {
-    Real* const out = x + a * point_stride;
-    for (std::size_t l = 0; l < count; ++l) out[l] = table.inner[first + l] * u[from + a];
-    for (std::size_t j = 1; j < table.increment.size(); ++j) {
-      const Real& each = u[j * row + from + a];
-      for (std::size_t l = 0; l < count; ++l) out[l] += table.inner[j * s + first + l] * each;
+    Real sum[point_stride];
+    const Real* const inner = table.inner.data() + first;
+    const Real* const each = &u[(from + a) * k];
+    for (std::size_t l = 0; l < count; ++l) sum[l] = inner[l] * each[0];
+    for (std::size_t j = 1; j < k; ++j) {
+      for (std::size_t l = 0; l < count; ++l) sum[l] += inner[j * s + l] * each[j];
     }
-    for (std::size_t l = 0; l < count; ++l) out[l] = middle[a] + out[l];
+    for (std::size_t l = 0; l < count; ++l) x[a * point_stride + l] = middle[a] + sum[l];
+  }
+}
+
+/// Adds sign * kappa sum_l W_il f_l to the sums, and |h| sum_l |W_il| size_l to the noise, of coordinates `from` and
+/// following.
+/// @param f, size rows of a block of points
+template <class Real>
+void add_averages(const AverageTable<Real>& table, std::size_t first, std::size_t count, const Real& h,
+                  const Real& sign, const Real* f, const Real* size, std::size_t from, std::size_t coordinates,
+                  AveragesPoint<Real>& at) {
+  const auto k = static_cast<std::size_t>(table.averages);
+  for (std::size_t a = 0; a < coordinates; ++a) {
+    Real* const sum = &at.sum[(from + a) * k];
+    Real* const noise = &at.noise[(from + a) * k];
+    for (std::size_t l = 0; l < count; ++l) {
+      const Real value = sign * f[a * point_stride + l];
+      const Real length = abs(h) * size[a * point_stride + l];
+      const std::size_t row = (first + l) * k;
+      if (table.diagonal) {
+        sum[first + l] = table.unit_weight[row + first + l] * value;
+        noise[first + l] = table.weight[row + first + l] * length;
+        continue;
+      }
+      for (std::size_t i = 0; i < k; ++i) {
+        sum[i] += table.unit_weight[row + i] * value;
+        noise[i] += abs(table.weight[row + i]) * length;
+      }
+    }
+  }
+}
+
+/// bends += sum_l factor_l,ij second_l, k k numbers.
+/// @param factor of a table, @param second one row of a block of points
+template <class Real>
+void add_bend(const std::vector<Real>& factor, std::size_t k, std::size_t first, std::size_t count, const Real* second,
+              Real* bends) {
+  for (std::size_t l = 0; l < count; ++l) {
+    const Real* const row = factor.data() + (first + l) * k * k;
+    for (std::size_t ij = 0; ij < k * k; ++ij) bends[ij] += row[ij] * second[l];
   }
 }
 
@@ -137,41 +181,5 @@ struct KeptSum {
     high = sum;
   }
 };
-
-/// The rounding of a sum of work, that of its terms and that of the coordinates at which forces are evaluated, which adds
-/// up as independent roundings do.
-template <class Real>
-struct RoundingOfWork {
-  Real works{0};
-  Real bends{0};
-  /// @param bend (V'' d) q: the change of a force along the step times the coordinate
-  void add(const Real& work, const Real& bend) {
-    works += work * work;
-    bends += bend * bend;
-  }
-  Real of_terms(int terms) const {
-    constexpr auto epsilon = Epsilon<Real>{};
-    return epsilon * Real(Real(terms) * sqrt(works) + Real(4) * sqrt(bends));
-  }
-};
-
-/// What points see of the energy that a step gains, and what rounding makes of it.
-template <class Real>
-struct Gain {
-  Real gain{0};
-  Real size{0};   // of its terms
-  Real noise{0};  // that rounding explains
-};
-
-/// Whether a step gains energy that is no rounding: one more point sees more than rounding explains, and two more see
-/// the same. Where the estimate of rounding is too small, they see different noise.
-/// @param gain of the step as the points of a table see it
-template <class Real, class SeenBy>
-bool gains_energy(const AverageSetup<Real>& setup, const SeenBy& gain) {
-  const Gain<Real> one = gain(setup.finer());
-  if (abs(one.gain) <= one.noise) return false;
-  if (abs(one.gain) > Real(4096) * one.noise || !setup.has_finest()) return true;
-  return abs(gain(setup.finest()).gain - one.gain) <= abs(one.gain) / 2;
-}
 
 }  // namespace hamflow::detail

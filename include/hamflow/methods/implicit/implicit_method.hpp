@@ -11,14 +11,18 @@
 
 namespace hamflow {
 
-/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2.
+/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2; unset where H has no second derivatives.
 template <class P, class Real, std::size_t N>
 double inverse_mass_condition(const P& problem, const Vector<Real, N>& q, const Vector<Real, N>& p) {
-  Matrix<Real, N> qq = zero_matrix(q);
-  Matrix<Real, N> qp = qq;
-  Matrix<Real, N> pp = qq;
-  hessian(problem, q, p, qq, qp, pp);
-  return static_cast<double>(condition_number(pp));
+  if constexpr (!Smooth<P>)
+    return StepDiagnostics::unset;
+  else {
+    Matrix<Real, N> qq = zero_matrix(q);
+    Matrix<Real, N> qp = qq;
+    Matrix<Real, N> pp = qq;
+    hessian(problem, q, p, qq, qp, pp);
+    return static_cast<double>(condition_number(pp));
+  }
 }
 
 /// One step of the method that the equations E define. What Newton remembers, and what of E::Setup changes, is part of

@@ -36,10 +36,10 @@ constexpr bool newton_at_rounding(const Real& size, const Real& before, bool fir
          (stalls >= 2 && size <= Real(1 << 26) * noise);
 }
 
-/// The same for iterations whose corrections shrink by a factor theta each time, a tangent of old or none at all. What is
-/// left undone is then theta/(1 - theta) of the last correction, with its sign; so that it does not add up to a drift it
-/// has to lie as far below the noise, or corrections have ceased to shrink, as they do in cycles of a few roundings.
-/// [HairerMcLachlanRazakarivony2008]
+/// The same for iterations whose corrections shrink by a factor theta each time, a tangent of old or none at all. What
+/// is left undone is then theta/(1 - theta) of the last correction, with its sign; so that it does not add up to a
+/// drift it has to lie as far below the noise, or corrections have ceased to shrink, as they do in cycles of a few
+/// roundings. [HairerMcLachlanRazakarivony2008]
 /// @param least of all corrections before this one; kept here
 /// @param stalls corrections in a row that were no smaller than that; counted here
 template <class Real>
