@@ -3,7 +3,6 @@
 #pragma once
 
 #include "hamflow/arithmetic/lattice.hpp"
-#include "hamflow/problems/support/fast_kernel.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "problem_start.hpp"
 #include "recipes.hpp"
@@ -41,7 +40,6 @@ class ProblemUnit : ProblemStart<Family> {
     e.accepts = [](const MethodSpec& method) {
       return visit_method(method, [](const auto& recipe) { return is_accepted<P>(recipe); });
     };
-    e.has_fast_kernel = has_fast_kernel;
     e.has_pairwise_forces = PairwiseForces<P>;
     e.simulate = simulate;
     e.derived = [](const Texts& parameters, const StartSpec& spec) {
@@ -103,8 +101,6 @@ class ProblemUnit : ProblemStart<Family> {
   }
 
  private:
-  static constexpr bool has_fast_kernel = HasFastForce<P>;
-
   static Frame frame_of(const Start<double, n>& s) {
     Frame frame;
     frame.q.assign(s.q.begin(), s.q.end());
@@ -151,31 +147,26 @@ class ProblemUnit : ProblemStart<Family> {
     return arithmetic;
   }
 
-  template <class A, template <class> class Problems = Family, class M>
+  template <class A, class M>
   static std::unique_ptr<Simulation> build(const Request& request, const M& recipe) {
     using R = typename A::Real;
     const auto s = In::template start<R>(request);
-    const Problems<R> problem{In::template make<R>(In::template parameters_of<R>(request), s.q.size())};
+    const Family<R> problem{In::template make<R>(In::template parameters_of<R>(request), s.q.size())};
     const R h = evaluate_number<R>(request.dt);
-    auto method = recipe.template bind<Problems<R>, A>(problem);
+    auto method = recipe.template bind<Family<R>, A>(problem);
     using Stepper = decltype(method);
     if constexpr (requires { method.use_threads(1); }) method.use_threads(static_cast<std::size_t>(request.threads));
-    // Without a probe where the benchmark looks at the step alone, and where the step runs on several threads and the
-    // probe would run on one; elsewhere it is not worth the compiler's time.
-    if constexpr ((std::is_same_v<A, Plain<double>> && !std::is_same_v<M, TableRecipe<Shape::any>> &&
-                   has_fast_kernel) ||
-                  (A::exact_undo && n == dynamic)) {
+    // Without a probe where the step runs on several threads and the probe would run on one; elsewhere it is not worth
+    // the compiler's time.
+    if constexpr (A::exact_undo && n == dynamic) {
       if (!request.watch) {
-        return std::make_unique<SimulationOf<Problems<R>, Stepper, A, NoProbe>>(problem, method, s.q, s.p, h,
-                                                                                arithmetic_of<A>(request));
+        return std::make_unique<SimulationOf<Family<R>, Stepper, A, NoProbe>>(problem, method, s.q, s.p, h,
+                                                                              arithmetic_of<A>(request));
       }
     }
-    return std::make_unique<SimulationOf<Problems<R>, Stepper, A>>(problem, method, s.q, s.p, h,
-                                                                   arithmetic_of<A>(request));
+    return std::make_unique<SimulationOf<Family<R>, Stepper, A>>(problem, method, s.q, s.p, h,
+                                                                 arithmetic_of<A>(request));
   }
-
-  template <class R>
-  using Fast = FastKernel<Family<R>>;
 
   /// Null where the request has no typed kernel: it then runs behind virtual calls, and what can be recorded is.
   static std::unique_ptr<Simulation> simulate(const Request& request) {
@@ -186,14 +177,6 @@ class ProblemUnit : ProblemStart<Family> {
         if (n == dynamic && request.start.q.size() > most_dense_unknowns) return nullptr;  // cg(1) without a matrix
         return build<Compensated<double>>(request, recipe);
       } else {
-        if constexpr (has_fast_kernel) {
-          if (request.kernel == "fast") {
-            if (request.arithmetic == "compensated") {
-              return build<Compensated<double>, Fast>(request, with_few_shapes(recipe));
-            }
-            return build<Plain<double>, Fast>(request, recipe);
-          }
-        }
         if constexpr (M::bijective) {
           if (request.arithmetic == "lattice") return build<Lattice>(request, with_shape_at_run_time(recipe));
         }

@@ -42,7 +42,7 @@ void save(const Sweep& sweep, const fs::path& folder, const std::string& summary
   if (std::find(formats.begin(), formats.end(), "h5") != formats.end()) {
     write_sweep_h5(folder / "sweep.h5", sweep, {HAMFLOW_VERSION, host_name()});
   }
-  if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder / "sweep.csv", sweep);
+  if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder, sweep);
   write_text(folder / "summary.json", summary);
 }
 

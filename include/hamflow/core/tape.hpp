@@ -13,15 +13,18 @@
 // guard. From it whole steps are made (run/recorded_step.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <unordered_map>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "hamflow/core/dual.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/math.hpp"
 
 namespace hamflow {
@@ -54,8 +57,11 @@ enum class Operation {
   larger,      // a < b ? b : a
   arcsine,
   arccosine,
-  arctangent2,  // atan2(a, b)
-  power_of_two  // a^b, of two numbers
+  arctangent2,   // atan2(a, b)
+  power_of_two,  // a^b, of two numbers
+  // By estimate and series (inverse_cube.hpp), where a recording estimates.
+  inverse_cube,  // a/(b sqrt(b))
+  inverse_root   // a/sqrt(b)
 };
 
 struct TapeNode {
@@ -164,6 +170,9 @@ struct Trace {
     if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
     if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
     if (b.is_exactly(1) && !a.is_exact()) return a;
+    if (!b.is_constant() && b.recorder->estimates()) {
+      if (const auto power = b.recorder->power_below(b.node); power.of >= 0) return b.recorder->estimated(power, a);
+    }
     const R quotient = a.value / b.value;
     if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
     if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, quotient);
@@ -233,6 +242,48 @@ class Recorder {
   explicit Recorder(Folding folding = Folding::usual, std::size_t most_nodes = static_cast<std::size_t>(-1))
       : exact_(folding == Folding::exact), most_nodes_(most_nodes) {}
   bool is_exact() const { return exact_; }
+  /// Forgets everything, but keeps its memory.
+  void clear() {
+    tape_.inputs = 0;
+    tape_.nodes.clear();
+    tape_.constants.clear();
+    tape_.outputs.clear();
+    tape_.guards.clear();
+    values_.clear();
+    std::fill(known_.begin(), known_.end(), 0);
+    entries_ = 0;
+    estimates_ = has_estimated_ = false;
+  }
+
+  /// From here on, a/(u sqrt(u)) and a/sqrt(u) are estimated: kernel = "fast", which is for double.
+  void set_estimates(bool wanted) { estimates_ = wanted && std::is_same_v<R, double>; }
+  bool estimates() const { return estimates_; }
+  bool has_estimated() const { return has_estimated_; }
+  /// sqrt(u) and u sqrt(u) below a line, as what a quotient by them is; of: the node of u, or -1 for anything else.
+  struct PowerBelow {
+    Operation operation;
+    int of = -1;
+  };
+  PowerBelow power_below(int divisor) {
+    const TapeNode& b = node(divisor);
+    const auto is_root = [&](int i, int of) { return node(i).operation == Operation::square_root && node(i).a == of; };
+    if (b.operation == Operation::square_root) return {Operation::inverse_root, b.a};
+    if (b.operation != Operation::multiply) return {Operation::divide, -1};
+    if (is_root(b.b, b.a)) return {Operation::inverse_cube, b.a};
+    return is_root(b.a, b.b) ? PowerBelow{Operation::inverse_cube, b.b} : PowerBelow{Operation::divide, -1};
+  }
+  /// a/sqrt(u) or a/(u sqrt(u)).
+  Trace<R> estimated(const PowerBelow& power, const Trace<R>& a) {
+    if constexpr (std::is_same_v<R, double>) {
+      has_estimated_ = true;
+      const double u = values_[static_cast<std::size_t>(power.of)];
+      const double value =
+          power.operation == Operation::inverse_cube ? inverse_cube(u, a.value) : inverse_root(u, a.value);
+      return of_two(power.operation, node_of(a), power.of, value);
+    } else {
+      throw std::logic_error("hamflow: estimates are for double");
+    }
+  }
 
   Trace<R> input(const R& value) {
     ++tape_.inputs;
@@ -299,17 +350,37 @@ class Recorder {
   /// The same operation on the same operands is one node. Companions (b after the node itself) follow from a.
   Trace<R> once(const TapeNode& n, const R& value) {
     const bool companion = n.b >= size();
-    const auto key = (static_cast<std::size_t>(n.a) * 1000003U + static_cast<std::size_t>(companion ? -1 : n.b)) * 64U +
-                     static_cast<std::size_t>(n.operation);
-    const auto [first, last] = known_.equal_range(key);
-    for (auto it = first; it != last; ++it) {
-      const TapeNode& old = node(it->second);
+    if (known_.size() < 2 * (entries_ + 1)) enlarge();
+    std::size_t at = place_of(n, companion);
+    for (; known_[at] != 0; at = (at + 1) & (known_.size() - 1)) {
+      const int i = known_[at] - 1;
+      const TapeNode& old = node(i);
       if (old.operation == n.operation && old.a == n.a && (companion || old.b == n.b) && old.constant == n.constant) {
-        return {values_[static_cast<std::size_t>(it->second)], this, it->second};
+        return {values_[static_cast<std::size_t>(i)], this, i};
       }
     }
-    known_.emplace(key, size());
+    known_[at] = size() + 1;
+    ++entries_;
     return push(n, value);
+  }
+  /// Where in the table of known nodes to begin with the search.
+  std::size_t place_of(const TapeNode& n, bool companion) const {
+    std::uint64_t key =
+        (static_cast<std::uint64_t>(n.a) * 1000003U + static_cast<std::uint64_t>(companion ? -1 : n.b)) * 64U +
+        static_cast<std::uint64_t>(n.operation);
+    key *= 0x9e3779b97f4a7c15U;
+    return static_cast<std::size_t>(key >> 32) & (known_.size() - 1);
+  }
+  void enlarge() {
+    const std::vector<int> old = std::move(known_);
+    known_.assign(std::max<std::size_t>(64, 2 * old.size()), 0);
+    for (const int entry : old) {
+      if (entry == 0) continue;
+      const TapeNode& n = node(entry - 1);
+      std::size_t at = place_of(n, n.b >= entry);  // a companion stands behind its node
+      while (known_[at] != 0) at = (at + 1) & (known_.size() - 1);
+      known_[at] = entry;
+    }
   }
   int constant(const R& value) {
     const std::size_t count = tape_.constants.size();
@@ -356,10 +427,13 @@ class Recorder {
   }
 
   bool exact_;
+  bool estimates_ = false;
+  bool has_estimated_ = false;
   std::size_t most_nodes_;
   Tape<R> tape_;
   std::vector<R> values_;
-  std::unordered_multimap<std::size_t, int> known_;
+  std::vector<int> known_;  // nodes + 1 by their keys, 0: free; a power of two
+  std::size_t entries_ = 0;
 };
 
 namespace detail {

@@ -35,8 +35,11 @@ class Functions {
   virtual S energy(const V& q, const V& p) const = 0;
   virtual S kinetic(const V& p) const = 0;
   virtual S potential(const V& q) const = 0;
+  virtual bool has_parts() const = 0;  // H = T + V, by which kinetic and potential are there
   virtual void velocity(const V& p, V& v) const = 0;
   virtual void force(const V& q, V& f) const = 0;
+  /// M^-1 f of a T quadratic in p. The velocity, but that the time of H(q, p, t) moves whatever f is.
+  virtual void inverse_mass_times(const V& f, V& out) const { velocity(f, out); }
   // Of a problem that has them.
   virtual bool has_scaled_velocity() const = 0;
   virtual bool has_scaled_force() const = 0;
@@ -137,6 +140,7 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
+  bool has_parts() const override { return Separable<P>; }
   void velocity(const V& p, V& v) const override {
     if constexpr (Separable<P> && n == dynamic) {
       hamflow::velocity(problem_, p, v);
@@ -374,6 +378,14 @@ class AnyProblem {
   template <class S>
   void force(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const requires separable {
     on<S>().force(q, f);
+  }
+  template <class S>
+  void inverse_mass_times(const Vector<S, dynamic>& f, Vector<S, dynamic>& out) const requires quadratic_kinetic {
+    on<S>().inverse_mass_times(f, out);
+  }
+  /// |T| + |V| where H is their sum, which is known at run time also where the type does not promise it; else 0.
+  R size_of_parts(const Vector<R, dynamic>& q, const Vector<R, dynamic>& p) const {
+    return on<R>().has_parts() ? R(abs(on<R>().kinetic(p)) + abs(on<R>().potential(q))) : R(0);
   }
   /// Whether the functions of a factor are there, which is known at run time only; their bits are not those of
   /// products.

@@ -24,6 +24,7 @@ class LyapunovMeasure final : public Measure {
   explicit LyapunovMeasure(const Scenario& scenario)
       : watch_(step_map_of(scenario), scenario.dt, scenario.steps, scenario.lyapunov) {}
   Observer& observer() override { return watch_; }
+  TangentWatch* tangents() override { return &watch_; }
   Json summary() const override {
     const LyapunovSpectrum found = watch_.spectrum();
     Json all{{"exponents", found.exponents},
@@ -76,7 +77,7 @@ MeasureKind measure_lyapunov() {
   return {.key = run_keys().lyapunov.name,
           .label = "Lyapunov exponents",
           .requested = [](const Scenario& scenario) { return scenario.lyapunov > 0; },
-          .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+          .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
             return std::make_unique<LyapunovMeasure>(scenario);
           },
           .text = lyapunov_text,

@@ -100,7 +100,7 @@ MeasureKind measure_observables() {
       .key = output_keys().observables.name,
       .label = "observables",
       .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
-      .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+      .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
         return std::make_unique<ObservablesMeasure>(scenario.observables);
       },
       .text =
