@@ -117,6 +117,7 @@ class FunctionsOf final : public Functions<S> {
   static constexpr bool cyclic = Cyclic<P>;
   static constexpr bool charge = ChargeInField<P>;
   static constexpr bool has_hessian = !first_derivatives_only<S>;
+  static constexpr bool in_double = std::is_same_v<S, double> && std::is_same_v<RealOf<P>, double>;
   static constexpr bool drifts_by = takes_factors<S> && Separable<P> && HasScaledVelocity<P, base_scalar<S>, S>;
   static constexpr bool kicks_by = takes_factors<S> && Separable<P> && HasScaledForce<P, base_scalar<S>, S>;
 
@@ -220,32 +221,33 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
-  void forces_at(std::size_t, std::size_t count, const S* q, S* f) const override {
-    if constexpr (Separable<P> && has_hessian) {
+  // In double without a virtual call for each point; in other number types that is lost beside their arithmetic.
+  void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const override {
+    if constexpr (Separable<P> && in_double) {
       hamflow::forces_at(problem_, count, q, f);
     } else {
-      absent();
+      Functions<S>::forces_at(size, count, q, f);
     }
   }
-  void forces_and_hessians_at(std::size_t, std::size_t count, const S* q, S* f, S* h) const override {
-    if constexpr (TwiceDifferentiable<P> && has_hessian) {
+  void forces_and_hessians_at(std::size_t size, std::size_t count, const S* q, S* f, S* h) const override {
+    if constexpr (TwiceDifferentiable<P> && in_double) {
       hamflow::forces_and_hessians_at(problem_, count, q, f, h);
     } else {
-      absent();
+      Functions<S>::forces_and_hessians_at(size, count, q, f, h);
     }
   }
-  void gradients_at(std::size_t, std::size_t count, const S* q, const S* p, S* dq, S* dp) const override {
-    if constexpr (has_hessian) {
+  void gradients_at(std::size_t size, std::size_t count, const S* q, const S* p, S* dq, S* dp) const override {
+    if constexpr (in_double) {
       hamflow::gradients_at(problem_, count, q, p, dq, dp);
     } else {
-      absent();
+      Functions<S>::gradients_at(size, count, q, p, dq, dp);
     }
   }
-  void hessians_at(std::size_t, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const override {
-    if constexpr (Smooth<P> && has_hessian && std::is_same_v<S, RealOf<P>>) {
+  void hessians_at(std::size_t size, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const override {
+    if constexpr (Smooth<P> && in_double) {
       hamflow::hessians_at(problem_, count, q, p, qq, qp, pp);
     } else {
-      absent();
+      Functions<S>::hessians_at(size, count, q, p, qq, qp, pp);
     }
   }
   V invariants(const V& q, const V& p, const S& t) const override {
