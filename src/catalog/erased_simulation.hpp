@@ -107,7 +107,7 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
                                                          ExtrapolatedMidpoint{{.tolerance = tolerance}}, simulate);
     }
   }
-  return visit_erased(run.functions.capability, request.method, simulate);
+  return visit_erased(run.functions.capability, run.functions.size, request.method, simulate);
 }
 
 template <class R>

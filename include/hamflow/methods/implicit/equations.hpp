@@ -35,14 +35,19 @@
 //     Unknowns unknowns(const Variables& x, const Increment<Real, n>& taken) const
 // Verification, for numbers S of any type (dual numbers above all), with Vectors of as many entries:
 //     residual(q0, p0, unknowns) const         r(z0, U)
-//     static increment(unknowns)               E(U), an Increment<S, n>
+//     static increment(unknowns)               E(U), an Increment<S, n>; where it depends on coefficients, a member
+//                                              increment<n>(unknowns) of Setup instead
 // Optional:
 //     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
 //                                              without its own rounding
-//     bool believable(const Increment<Real, n>&) const    asked of a root that was found from a bad start: implicit
-//                                              equations have roots that have nothing to do with the motion
-//     bool too_coarse(const Increment<Real, n>&) const    asked after convergence: whether the step has to be solved
-//                                              again after Setup::refine()
+//     bool believable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that was found
+//                                              from a bad start: implicit equations have roots that have nothing to do
+//                                              with the motion
+//     bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const      asked after convergence: whether
+//                                              the step has to be solved again after Setup::refine()
+//     Guesses                                  a type in place of Extrapolation<Memory>
+//     Point::linearised                        a bool: whether evaluate() has to compute what the tangent needs. Then
+//                                              every Iteration can solve the equations, else Newton's alone.
 // `Setup` is made from (const P&, Options) and has
 //     MethodInfo info() const                  the method's claims
 //     NewtonOptions newton() const
@@ -120,7 +125,11 @@ template <class E>
 concept Verifiable = HasStepTypes<E> &&
     requires(const E& step, const Vector<typename E::Real, E::n>& z, const typename E::Unknowns& u) {
   { step.residual(z, z, u) } -> std::same_as<typename E::Unknowns>;
-  { E::increment(u) } -> std::same_as<Increment<typename E::Real, E::n>>;
+  requires requires(const typename E::Setup& setup) {
+    { setup.template increment<E::n>(u) } -> std::same_as<Increment<typename E::Real, E::n>>;
+  } || requires {
+    { E::increment(u) } -> std::same_as<Increment<typename E::Real, E::n>>;
+  };
 };
 template <class E>
 concept HasStepSetup = HasStepTypes<E> && requires(typename E::Setup& setup) {

@@ -4,6 +4,8 @@
 //     K_T = I + h sum_l b_l alpha_l [[-H_pq, -H_pp], [H_qq, H_qp]].
 #pragma once
 
+#include <algorithm>
+
 #include "hamflow/methods/implicit/segment.hpp"
 
 namespace hamflow {
@@ -113,7 +115,7 @@ class GeneralElement : public SegmentEquations<P, R> {
 
   /// Whether one more point sees more energy gained along the segment than rounding explains. With the points in use
   /// the gain is zero: int H_q.(q1 - q0) + int H_p.(p1 - p0) = -(p1 - p0).(q1 - q0)/h + (q1 - q0).(p1 - p0)/h.
-  bool too_coarse(const Increment<Real, n>& u) const {
+  bool too_coarse(const Z&, const Increment<Real, n>& u) const {
     const Real rounding = rounding_of_work(u);
     return abs(finer_work(u).gain) > rounding;
   }
@@ -145,7 +147,7 @@ class GeneralElement : public SegmentEquations<P, R> {
     return rounding;
   }
   /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
-  bool believable(const Increment<Real, n>& u) const {
+  bool believable(const Z&, const Increment<Real, n>& u) const {
     if (rule_.points == 1) return true;
     const Work work = finer_work(u);
     return Real(100) * abs(work.gain) <= work.size;
@@ -157,7 +159,7 @@ class GeneralElement : public SegmentEquations<P, R> {
     Real size{0};
   };
   Work finer_work(const Increment<Real, n>& u) const {
-    const GaussRule<Real>& finer = gauss_rule<Real>(rule_.points + 1);
+    const GaussRule<Real>& finer = gauss_rule<Real>(std::min(rule_.points + 1, most_gauss_points));
     const V middle_q = detail::midpoint<Real>(q0_, u.q);
     const V middle_p = detail::midpoint<Real>(p0_, u.p);
     V dq = zeros_like(q0_);

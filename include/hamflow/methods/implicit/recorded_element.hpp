@@ -145,11 +145,11 @@ class RecordedElement : public SegmentEquations<P, double> {
     run(setup_.programs().norm, at);
     return std::exchange(at.frame[frame_.number()], flight);
   }
-  bool too_coarse(const Increment<Real, n>& u) const {
+  bool too_coarse(const Few&, const Increment<Real, n>& u) const {
     const Work work = finer_work(u);
     return abs(work.gain) > work.rounding;
   }
-  bool believable(const Increment<Real, n>& u) const {
+  bool believable(const Few&, const Increment<Real, n>& u) const {
     if (setup_.rule().points == 1) return true;
     const Work work = finer_work(u);
     return 100 * abs(work.gain) <= work.size;
