@@ -45,6 +45,7 @@ bool stands_for_others(const std::string& name) {
   if (spec.name == "cg") return name == "cg(1,5)" || name == "cg(1,auto)" || name == "cg(2,auto)";
   if (spec.name == "gauss") return name == "gauss(2)";
   if (spec.name == "avf" || spec.name == "implicit-midpoint") return false;
+  if (spec.name == "tao4") return false;  // three steps of tao2
   if (describe(spec).own_substeps) return false;
   if (!splitting_named(spec.name)) return true;
   const std::vector<std::string> chosen{"euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "sb3a-4"};
