@@ -1,4 +1,5 @@
-// The definition of simulate_erased, instantiated in one file for each number type.
+// The definition of simulate_erased, instantiated in one file for each number type, and in double in another one for
+// the methods whose steps are recorded: few of their steps take the ordinary road, so that a light optimisation does.
 #pragma once
 
 #include "hamflow/arithmetic/lattice.hpp"
@@ -54,21 +55,32 @@ inline std::optional<ErasedRun<double>> with_estimates(const ErasedRun<double>& 
   return other;
 }
 
-template <class R>
-std::unique_ptr<Simulation> simulate_with(const ErasedRun<R>& run, const Request& request,
+/// The half of simulate_erased<double> that is made of recorded steps.
+std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request, bool estimated);
+
+/// @tparam recorded in double: the methods whose steps are recorded, or all others and the lattice
+template <class R, bool recorded>
+std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request& request,
                                           [[maybe_unused]] bool estimated) {
   const auto simulate = [&]<Capability c, class M>(const M& recipe) {
     const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
-      const auto problem = run.functions.template as<c>();
-      using P = std::remove_const_t<decltype(problem)>;
-      auto method = recipe.template bind<P, A>(problem);
-      using Ordinary = SimulationOf<P, decltype(method), A>;
-      if constexpr (std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo) {
-        return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
-            Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
-            request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch);
+      constexpr bool is_of_recorded = std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo;
+      if constexpr (is_of_recorded && !recorded) {
+        return simulate_recorded(run, request, estimated);
+      } else if constexpr (is_of_recorded != recorded) {
+        return nullptr;
       } else {
-        return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
+        const auto problem = run.functions.template as<c>();
+        using P = std::remove_const_t<decltype(problem)>;
+        auto method = recipe.template bind<P, A>(problem);
+        using Ordinary = SimulationOf<P, decltype(method), A>;
+        if constexpr (recorded) {
+          return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
+              Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
+              request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch);
+        } else {
+          return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
+        }
       }
     };
     if constexpr (always_compensated<M>()) {
@@ -101,9 +113,9 @@ std::unique_ptr<Simulation> simulate_with(const ErasedRun<R>& run, const Request
 template <class R>
 std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
   if constexpr (std::is_same_v<R, double>) {
-    if (const auto fast = with_estimates(run, request)) return simulate_with<double>(*fast, request, true);
+    if (const auto fast = with_estimates(run, request)) return simulate_half<double, false>(*fast, request, true);
   }
-  return simulate_with<R>(run, request, false);
+  return simulate_half<R, false>(run, request, false);
 }
 
 }  // namespace hamflow

@@ -77,7 +77,6 @@ class RecordedBlock final : public EnsembleBlock {
     return end;
   }
 
-  bool is_observable() const override { return true; }
   bool is_lost(std::size_t lane) const override { return members_[lane].lost || failed_[lane]; }
 
   void show(std::size_t lane, Frame& frame) const override {
@@ -103,11 +102,11 @@ class RecordedBlock final : public EnsembleBlock {
     advance(1);
   }
   const double* numbers(std::size_t k) const override { return carried_.data() + step().state[k] * lanes(); }
-  const Simulation* before_step(std::size_t lane) override {
+  const Simulation& before_step(std::size_t lane) override {
     Member& member = members_[lane];
-    if (taken_ == 1) return member.start.get();
+    if (taken_ == 1) return *member.start;
     bring(member, lane, before_, taken_ - 1);
-    return member.simulation.get();
+    return *member.simulation;
   }
 
   bool expect_tangents(std::size_t vectors) override {

@@ -12,11 +12,10 @@ namespace {
 template <Capability c>
 auto recorder(const ErasedFunctions<double>& functions, const CgOptions& options, const ElementFrame& frame) {
   using Traced = AnyProblem<Trace<double>, c>;
-  constexpr bool natural = includes(c, Capability::quadratic_kinetic);
-  return [=, problem = Traced(functions.size, functions.trace)](int points) {
+  return [=, problem = functions.as<c>(), traced = Traced(functions.size, functions.trace)](int points) {
     CgOptions of_rule = options;
     of_rule.quadrature = points;
-    return detail::ElementRecorder<Traced, natural>::programs(problem, of_rule, frame);
+    return detail::element_programs<includes(c, Capability::quadratic_kinetic)>(problem, traced, of_rule, frame);
   };
 }
 

@@ -50,21 +50,13 @@ std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::stri
 
 std::string coordinates_of(const ProblemEntry& problem) { return choice_of(problem.info, problem.info.chart_key); }
 
-namespace {
-/// "cartesian and polar"
-std::string charts_text(const std::vector<const ProblemEntry*>& charts) {
-  std::string text;
-  for (std::size_t i = 0; i < charts.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 < charts.size() ? ", " : " and ") + coordinates_of(*charts[i]);
-  }
-  return text;
-}
-}  // namespace
-
 std::string what_charts_there_are() {
   std::string text;
   for (const auto& [name, charts] : charted_problems()) {
-    text += (text.empty() ? "" : "; ") + name + " has " + charts_text(charts);
+    text += (text.empty() ? "" : "; ") + name + " has ";
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+      text += (i == 0 ? "" : i + 1 < charts.size() ? ", " : " and ") + coordinates_of(*charts[i]);
+    }
   }
   return text;
 }
@@ -86,10 +78,9 @@ const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::strin
   const auto charts = charted_problems().find(problem.info.name);
   const bool has_charts = charts != charted_problems().end() && !problem.info.chart_key.empty();
   if (!has_charts || with_coordinates(charts->second, to) == nullptr) {
-    const std::string own = problem.structure ? "those that were typed, " + joined(problem.info.coordinates)
-                            : has_charts      ? charts_text(charts->second)
-                                              : "none but its own";
-    throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + own);
+    const std::string allowed =
+        problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
+    throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
   }
   std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
   variant[problem.info.chart_key] = to;

@@ -95,7 +95,7 @@ void LaneRun::look_for_sections() {
     const double now = x == nullptr ? section_distance(lane) : x[lane] - first.value;
     const double before = std::exchange(distances_[lane], now);
     if (!search.crosses(before, now) || search.failed() || block_.is_lost(lane)) continue;
-    search.locate(*block_.before_step(lane), before, now);
+    search.locate(block_.before_step(lane), before, now);
   }
 }
 

@@ -224,7 +224,7 @@ class Sweep::Worker {
     std::vector<MemberStart> starts;
     for (const std::size_t member : members) starts.push_back(sweep_.starts_[member]);
     const bool is_watched = sweep_.observables_.watch || sweep_.common_.section;
-    if (!block->load(group.shape, starts) || (is_watched && !block->is_observable())) {
+    if (!block->load(group.shape, starts)) {
       for (const std::size_t member : members) run_alone(member);
       return;
     }

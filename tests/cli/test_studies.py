@@ -240,7 +240,8 @@ class Studies(CommandCase):
     def test_starts_that_formulas_do_not_give(self):
         """A component of the start that has no real value leaves its member without a start, not the sweep."""
         formula = "sqrt(0.02 - problem.initial.q[1]^2)"
-        found = self.sweep("--vary", "problem.initial.q[1]=0,0.1,0.2,0.3", "--vary", f"problem.initial.p[0]={formula}")
+        found = self.sweep("--set", "problem.initial={ q = [0, 0.1], p = [0.1, 0.1] }", "--vary",
+                           "problem.initial.q[1]=0,0.1,0.2,0.3", "--vary", f"problem.initial.p[0]={formula}")
         self.assertEqual([row["status"] for row in found["rows"]], ["done", "done", "no_start", "no_start"])
         self.assertIn("is not a real number", found["rows"][2]["message"])
         self.assertIsNone(found["rows"][3]["problem.initial.p[0]"])

@@ -69,20 +69,20 @@ TEST(Recorded, EveryMethodOnEveryProblemHasTheBitsOfTheOrdinaryRoad) {
         // By the ordinary road every fast force is a recording.
         const int steps = request.kernel == "fast" ? std::max(compared_steps() / 10, 250) : compared_steps();
         request.record = true;
+        if (!refused_fast_step(request).empty()) continue;  // of bodies
         const auto loop = make_simulation(request);
         request.record = false;
         const auto ordinary = make_simulation(request);
         for (const int block : {steps, 1, 7, steps / 2}) {
           ASSERT_EQ(loop->advance(block), ordinary->advance(block));
         }
-        const bool save_alike = problem.dimension != 0 || request.kernel == "fast";
-        expect_same(*loop, *ordinary, save_alike);
+        expect_same(*loop, *ordinary, problem.dimension != 0);
         loop->negate_momenta();
         ordinary->negate_momenta();
         loop->reverse_time();
         ordinary->reverse_time();
         ASSERT_EQ(loop->advance(steps), ordinary->advance(steps));
-        expect_same(*loop, *ordinary, save_alike);
+        expect_same(*loop, *ordinary, problem.dimension != 0);
         EXPECT_FALSE(ordinary->is_recorded());
         ++cases;
         recorded += loop->is_recorded() ? 1 : 0;

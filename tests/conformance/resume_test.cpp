@@ -56,7 +56,7 @@ std::vector<Request> every_request() {
         }
         if (is_of_each_kind(name) && refused_fast_kernel(request).empty()) {
           request.kernel = "fast";
-          all.push_back(request);
+          if (refused_fast_step(request).empty()) all.push_back(request);
           request.kernel = "exact";
         }
       }

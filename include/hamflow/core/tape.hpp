@@ -137,59 +137,16 @@ struct Trace {
   Trace& operator/=(const Trace& b) { return *this = *this / b; }
 
   // Friends, so that constants of any type convert.
-  friend Trace operator+(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
-    if (a.is_exactly(0) && !b.is_exact()) return b;
-    if (b.is_exactly(0) && !a.is_exact()) return a;
-    const R sum = a.value + b.value;
-    if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, sum);
-    if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, sum);
-    return a.recorder->of_two(Operation::add, a.node, b.node, sum);
-  }
-  friend Trace operator-(const Trace& a, const Trace& b) {
-    if (b.is_constant()) return a + Trace(R(-b.value));
-    if (a.is_constant()) return a + -b;
-    return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
-  }
-  friend Trace operator-(const Trace& a) {
-    if (a.is_constant()) return Trace(R(-a.value));
-    return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
-  }
-  friend Trace operator*(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
-    if (a.is_constant()) return b * a;
-    if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1) && !a.is_exact()) return a;
-    if (b.is_exactly(-1) && !a.is_exact()) return -a;
-    const R product = a.value * b.value;
-    if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, product);
-    if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, product);
-    return a.recorder->of_two(Operation::multiply, a.node, b.node, product);
-  }
-  friend Trace operator/(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
-    if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1) && !a.is_exact()) return a;
-    if (!b.is_constant() && b.recorder->estimates()) {
-      if (const auto power = b.recorder->power_below(b.node); power.of >= 0) return b.recorder->estimated(power, a);
-    }
-    const R quotient = a.value / b.value;
-    if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
-    if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, quotient);
-    return a.recorder->of_two(Operation::divide, a.node, b.node, quotient);
-  }
-
-  friend constexpr bool operator==(const Trace& a, const Trace& b) {
-    return compared(a, b, Tape<R>::Relation::equal, a.value <= b.value && b.value <= a.value);
-  }
-  friend bool operator<(const Trace& a, const Trace& b) {
-    return ordered(a, b), compared(a, b, Tape<R>::Relation::less, a.value < b.value);
-  }
-  friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
-  friend bool operator<=(const Trace& a, const Trace& b) {
-    return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, !(a.value <= b.value));
-  }
-  friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
+  friend Trace operator+(const Trace& a, const Trace& b) { return sum(a, b); }
+  friend Trace operator-(const Trace& a, const Trace& b) { return difference(a, b); }
+  friend Trace operator-(const Trace& a) { return negative(a); }
+  friend Trace operator*(const Trace& a, const Trace& b) { return product(a, b); }
+  friend Trace operator/(const Trace& a, const Trace& b) { return quotient(a, b); }
+  friend bool operator==(const Trace& a, const Trace& b) { return are_equal(a, b); }
+  friend bool operator<(const Trace& a, const Trace& b) { return is_less(a, b); }
+  friend bool operator>(const Trace& a, const Trace& b) { return is_less(b, a); }
+  friend bool operator<=(const Trace& a, const Trace& b) { return !is_greater(a, b); }
+  friend bool operator>=(const Trace& a, const Trace& b) { return !is_greater(b, a); }
 
   /// Whether it belongs to an exact recording.
   bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
@@ -203,26 +160,17 @@ struct Trace {
 
  private:
   using Relation = typename Tape<R>::Relation;
-  static void ordered(const Trace& a, const Trace& b) {
-    if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
-  }
-  /// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
-  /// are 0 for equal numbers only.
-  static constexpr bool compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
-    if (a.is_constant() && b.is_constant()) return holds;
-    if (b.is_constant()) {
-      a.recorder->guard(a.node, b.value, holds, relation);
-    } else if (a.is_constant()) {
-      const Relation turned = relation == Relation::equal  ? Relation::equal
-                              : relation == Relation::less ? Relation::greater
-                                                           : Relation::less;
-      b.recorder->guard(b.node, a.value, holds, turned);
-    } else {
-      const Trace difference = a - b;
-      if (!difference.is_constant()) difference.recorder->guard(difference.node, R(0), holds, relation);
-    }
-    return holds;
-  }
+  // Not inline: a program that uses many traces instantiates them once (extern template, src/catalog/erased.hpp).
+  static Trace sum(const Trace& a, const Trace& b);
+  static Trace difference(const Trace& a, const Trace& b);
+  static Trace negative(const Trace& a);
+  static Trace product(const Trace& a, const Trace& b);
+  static Trace quotient(const Trace& a, const Trace& b);
+  static bool are_equal(const Trace& a, const Trace& b);
+  static bool is_less(const Trace& a, const Trace& b);
+  static bool is_greater(const Trace& a, const Trace& b);
+  static void ordered(const Trace& a, const Trace& b);
+  static bool compared(const Trace& a, const Trace& b, Relation relation, bool holds);
 };
 
 template <class R>
@@ -289,15 +237,15 @@ class Recorder {
     ++tape_.inputs;
     return push({.operation = Operation::input}, value);
   }
-  Trace<R> of_two(Operation operation, int a, int b, const R& value) {
+  [[gnu::noinline]] Trace<R> of_two(Operation operation, int a, int b, const R& value) {
     if ((operation == Operation::add || operation == Operation::multiply) && b < a) std::swap(a, b);
     return once({.operation = operation, .a = a, .b = b}, value);
   }
-  Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
+  [[gnu::noinline]] Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
     return once({.operation = operation, .a = a, .b = -1, .constant = constant(c)}, value);
   }
   /// Two functions that differentiate into each other. @return the first
-  Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
+  [[gnu::noinline]] Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
     const int at = size();
     const Trace<R> found = once({.operation = first, .a = a, .b = at + 1}, value1);
     if (found.node == at) push({.operation = second, .a = a, .b = at}, value2);
@@ -307,17 +255,17 @@ class Recorder {
     return {values_[static_cast<std::size_t>(first.node) + 1], this, first.node + 1};
   }
   /// y(a) whose derivative is made of y^2.
-  Trace<R> with_square(Operation operation, int a, const R& value) {
+  [[gnu::noinline]] Trace<R> with_square(Operation operation, int a, const R& value) {
     const int at = size();
     const Trace<R> y = once({.operation = operation, .a = a, .b = at + 1}, value);
     if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
     return y;
   }
   /// A function of two numbers of which one may be a constant.
-  Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
+  [[gnu::noinline]] Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
     return of_two(operation, node_of(a), node_of(b), value);
   }
-  void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
+  [[gnu::noinline]] void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
     tape_.guards.push_back({node, value, holds, relation});
   }
 
@@ -435,6 +383,90 @@ class Recorder {
   std::vector<int> known_;  // nodes + 1 by their keys, 0: free; a power of two
   std::size_t entries_ = 0;
 };
+
+template <class R>
+Trace<R> Trace<R>::sum(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
+  if (a.is_exactly(0) && !b.is_exact()) return b;
+  if (b.is_exactly(0) && !a.is_exact()) return a;
+  const R value = a.value + b.value;
+  if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, value);
+  if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, value);
+  return a.recorder->of_two(Operation::add, a.node, b.node, value);
+}
+template <class R>
+Trace<R> Trace<R>::difference(const Trace& a, const Trace& b) {
+  if (b.is_constant()) return a + Trace(R(-b.value));
+  if (a.is_constant()) return a + -b;
+  return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
+}
+template <class R>
+Trace<R> Trace<R>::negative(const Trace& a) {
+  if (a.is_constant()) return Trace(R(-a.value));
+  return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
+}
+template <class R>
+Trace<R> Trace<R>::product(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
+  if (a.is_constant()) return b * a;
+  if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
+  if (b.is_exactly(1) && !a.is_exact()) return a;
+  if (b.is_exactly(-1) && !a.is_exact()) return -a;
+  const R value = a.value * b.value;
+  if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, value);
+  if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, value);
+  return a.recorder->of_two(Operation::multiply, a.node, b.node, value);
+}
+template <class R>
+Trace<R> Trace<R>::quotient(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
+  if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
+  if (b.is_exactly(1) && !a.is_exact()) return a;
+  if (!b.is_constant() && b.recorder->estimates()) {
+    if (const auto power = b.recorder->power_below(b.node); power.of >= 0) return b.recorder->estimated(power, a);
+  }
+  const R value = a.value / b.value;
+  if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, value);
+  if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, value);
+  return a.recorder->of_two(Operation::divide, a.node, b.node, value);
+}
+template <class R>
+bool Trace<R>::are_equal(const Trace& a, const Trace& b) {
+  return compared(a, b, Relation::equal, a.value <= b.value && b.value <= a.value);
+}
+template <class R>
+bool Trace<R>::is_less(const Trace& a, const Trace& b) {
+  ordered(a, b);
+  return compared(a, b, Relation::less, a.value < b.value);
+}
+/// Or not ordered.
+template <class R>
+bool Trace<R>::is_greater(const Trace& a, const Trace& b) {
+  ordered(a, b);
+  return compared(a, b, Relation::greater, !(a.value <= b.value));
+}
+template <class R>
+void Trace<R>::ordered(const Trace& a, const Trace& b) {
+  if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
+}
+/// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
+/// are 0 for equal numbers only.
+template <class R>
+bool Trace<R>::compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
+  if (a.is_constant() && b.is_constant()) return holds;
+  if (b.is_constant()) {
+    a.recorder->guard(a.node, b.value, holds, relation);
+  } else if (a.is_constant()) {
+    const Relation turned = relation == Relation::equal  ? Relation::equal
+                            : relation == Relation::less ? Relation::greater
+                                                         : Relation::less;
+    b.recorder->guard(b.node, a.value, holds, turned);
+  } else {
+    const Trace off = a - b;
+    if (!off.is_constant()) off.recorder->guard(off.node, R(0), holds, relation);
+  }
+  return holds;
+}
 
 namespace detail {
 /// f of a constant at once, else a node of its own.

@@ -57,22 +57,20 @@ class EnsembleBlock {
   virtual void advance(std::int64_t steps) = 0;
   virtual MemberEnd look(std::size_t lane) = 0;
 
-  /// Whether what follows can be asked for: looks at members on their way.
-  virtual bool is_observable() const { return false; }
   /// Whether a lane has left its program: nothing that it shows counts.
-  virtual bool is_lost(std::size_t /*lane*/) const { return false; }
+  virtual bool is_lost(std::size_t lane) const = 0;
   /// Step, time, q and p of the frame become those of a lane; nothing else of it changes.
-  virtual void show(std::size_t /*lane*/, Frame& /*frame*/) const {}
+  virtual void show(std::size_t lane, Frame& frame) const = 0;
   /// One step. The states before it stay at hand.
-  virtual void take_step() { advance(1); }
+  virtual void take_step() = 0;
   /// The k-th number of (q, p) in every lane, behind the first step.
-  virtual const double* numbers(std::size_t /*k*/) const { return nullptr; }
+  virtual const double* numbers(std::size_t k) const = 0;
   /// The member as it was before the last take_step(), until the next call.
-  virtual const Simulation* before_step(std::size_t /*lane*/) { return nullptr; }
+  virtual const Simulation& before_step(std::size_t lane) = 0;
   /// Before the first step: makes ready for so many tangent vectors to a lane. False: they cannot go in lanes.
-  virtual bool expect_tangents(std::size_t /*vectors*/) { return false; }
+  virtual bool expect_tangents(std::size_t vectors) = 0;
   /// Carries the vectors of some lanes, equally many in each, all together, with the bits of a StepMap.
-  virtual void carry(std::span<LaneTangents> /*jobs*/) {}
+  virtual void carry(std::span<LaneTangents> jobs) = 0;
 };
 
 /// Null where members of such a request cannot run in lanes: steps of the method are not recorded, or the arithmetic is

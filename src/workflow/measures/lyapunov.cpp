@@ -65,7 +65,7 @@ std::string lyapunov_text(const Json& found) {
   return line;
 }
 
-std::vector<std::string> columns(const Scenario& first) {
+std::vector<std::string> columns_of_exponents(const Scenario& first) {
   std::vector<std::string> all;
   for (std::size_t i = 1; i <= first.lyapunov; ++i) all.push_back("lyapunov" + std::to_string(i));
   return all;
@@ -81,7 +81,7 @@ MeasureKind measure_lyapunov() {
             return std::make_unique<LyapunovMeasure>(scenario);
           },
           .text = lyapunov_text,
-          .columns = columns};
+          .columns = columns_of_exponents};
 }
 
 }  // namespace hamflow

@@ -43,10 +43,9 @@ struct MeasureKind {
   std::unique_ptr<Measure> (*make_of_run)(const Scenario&, const Simulation&, Recorder* recorder) = nullptr;
   /// Its line for people, from its entry in the summary.
   std::string (*text)(const nlohmann::ordered_json& entry);
-  /// The names of the columns that it gives a sweep whose first member is this scenario; null: it belongs to single
-  /// runs.
+  /// The names of the columns that it gives a sweep whose first member is this scenario; null: a sweep records it for
+  /// each member in a table of its own.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;
-  bool points_in_sweeps = false;  // a sweep records it for each member, in a table of its own
 };
 
 /// Every kind, in the alphabetical order of its files.

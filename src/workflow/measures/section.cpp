@@ -44,8 +44,7 @@ MeasureKind measure_section() {
               [](const Json& found) {
                 return fmt::format("{} points, at most {} off it", found["points"].get<std::int64_t>(),
                                    number_text(found["max_residual"], "{:.2g}"));
-              },
-          .points_in_sweeps = true};
+              }};
 }
 
 }  // namespace hamflow

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -58,25 +59,49 @@ struct ElementFrame {
   std::size_t point() const { return number() + 3; }
 };
 
-/// One of the programs, with the evaluations that it stands for. Recorded and compiled when it is first run.
+/// One of the programs, with the evaluations that it stands for. The first times it is not recorded but computed, with
+/// the same bits: a short run, one of many in a sweep, is over before a program would be worth its making.
 class ElementProgram {
  public:
+  using Compute = std::function<void(std::span<double>, Effort&)>;
   using Record = std::function<Program(Effort&)>;
-  explicit ElementProgram(Record record) : record_(std::move(record)) {}
+  ElementProgram(Compute compute, Record record) : compute_(std::move(compute)), record_(std::move(record)) {}
   /// @return whether every number came out as the element computes it; if not, none did
   bool run(std::span<double> frame, Effort& effort) const {
-    std::call_once(once_, [this] { loop_ = make_step_loop(record_(effort_)); });
-    effort.force += effort_.force;
-    effort.gradient += effort_.gradient;
-    effort.hessian += effort_.hessian;
-    return loop_->run(frame, 1);
+    const Made* const made = made_.load(std::memory_order_acquire);
+    if (made == nullptr && runs_.fetch_add(1, std::memory_order_relaxed) < worth_it) {
+      compute_(frame, effort);
+      return true;
+    }
+    return run_loop(made != nullptr ? *made : make(), frame, effort);
   }
 
  private:
+  static constexpr int worth_it = 500;
+  struct Made {
+    Effort effort;
+    std::unique_ptr<const StepLoop> loop;
+  };
+  static bool run_loop(const Made& made, std::span<double> frame, Effort& effort) {
+    effort.force += made.effort.force;
+    effort.gradient += made.effort.gradient;
+    effort.hessian += made.effort.hessian;
+    return made.loop->run(frame, 1);
+  }
+  [[gnu::noinline]] const Made& make() const {
+    std::call_once(once_, [this] {
+      keep_.loop = make_step_loop(record_(keep_.effort));
+      made_.store(&keep_, std::memory_order_release);
+    });
+    return keep_;
+  }
+
+  Compute compute_;
   Record record_;
+  mutable std::atomic<int> runs_{0};
+  mutable std::atomic<const Made*> made_{nullptr};
   mutable std::once_flag once_;
-  mutable Effort effort_;
-  mutable std::unique_ptr<const StepLoop> loop_;
+  mutable Made keep_;
 };
 
 /// The programs of one quadrature.
@@ -92,11 +117,11 @@ struct ElementPrograms {
 
 namespace detail {
 
-/// Records the programs of an element of traced numbers.
-/// @tparam P a problem of dynamic size whose Real is Trace<double>   @tparam natural H = p^T M^-1 p/2 + V(q)
+/// What the programs of an element do to a frame, with plain or with traced numbers.
+/// @tparam P a problem of dynamic size   @tparam natural H = p^T M^-1 p/2 + V(q)
 template <class P, bool natural>
-class ElementRecorder {
-  using Number = Trace<double>;
+class ElementOnFrame {
+  using Number = typename P::Real;
   using V = Vector<Number, dynamic>;
   using Plain = std::conditional_t<natural, NaturalElement<P, Number>, GeneralElement<P, Number>>;
   using Point = typename Plain::Point;
@@ -133,45 +158,41 @@ class ElementRecorder {
   };
 
  public:
-  ElementRecorder(const P& problem, const CgOptions& options, const ElementFrame& frame)
+  ElementOnFrame(const P& problem, const CgOptions& options, const ElementFrame& frame)
       : problem_(problem), setup_(problem, options), frame_(frame) {}
 
-  static std::shared_ptr<const ElementPrograms> programs(const P& problem, const CgOptions& options,
-                                                         const ElementFrame& frame) {
-    const auto by = std::make_shared<const ElementRecorder>(problem, options, frame);
-    const auto program = [by](auto&& body) {
-      return ElementProgram::Record([by, body](Effort& effort) { return by->record(effort, body); });
-    };
-    return std::shared_ptr<const ElementPrograms>(new ElementPrograms{
-        ElementProgram(program([by](const Element& e, Frame& f) { by->put(e.predicted(), f, by->frame_.x()); })),
-        ElementProgram(program([by](const Element& e, Frame& f) { by->put(e.started(by->x(f)), f, by->frame_.x()); })),
-        ElementProgram(program([by](const Element& e, Frame& f) { by->evaluate(e, f); })),
-        ElementProgram(program([by](const Element& e, Frame& f) {
-          V x = by->x(f);
-          const Point at = by->point(f);
-          by->put(e.taken(x, at), x, f);
-        })),
-        ElementProgram(program([by](const Element& e, Frame& f) {
-          V x = by->x(f);
-          const Point at = by->point(f);
-          by->put(e.corrected(x, at, by->read(f, by->frame_.correction(), by->frame_.m)), x, f);
-        })),
-        ElementProgram(
-            program([by](const Element& e, Frame& f) { f[by->frame_.number()] = e.norm(by->x(f), by->point(f)); })),
-        ElementProgram(program([by](const Element& e, Frame& f) { by->work(e, f); }))});
+  /// In the order of ElementPrograms.
+  enum class Part { predicted, started, evaluated, taken, corrected, norm, work };
+  void run(Part part, Frame& f, Effort& effort) const {
+    const V q0 = read(f, frame_.q0, frame_.n);
+    const V p0 = read(f, frame_.p0(), frame_.n);
+    const Element e(setup_, problem_, f[frame_.h], q0, p0, effort);
+    switch (part) {
+      case Part::predicted:
+        return put(e.predicted(), f, frame_.x());
+      case Part::started:
+        return put(e.started(x(f)), f, frame_.x());
+      case Part::evaluated:
+        return evaluate(e, f);
+      case Part::taken: {
+        V at_end = x(f);
+        const Point at = point(f);
+        return put(e.taken(at_end, at), at_end, f);
+      }
+      case Part::corrected: {
+        V at_end = x(f);
+        const Point at = point(f);
+        return put(e.corrected(at_end, at, read(f, frame_.correction(), frame_.m)), at_end, f);
+      }
+      case Part::norm:
+        f[frame_.number()] = e.norm(x(f), point(f));
+        return;
+      case Part::work:
+        return work(e, f);
+    }
   }
 
  private:
-  Program record(Effort& effort, const auto& body) const {
-    Recorder<double> recorder(Folding::exact);
-    Frame frame;
-    for (std::size_t i = 0; i < ElementFrame::most; ++i) frame.push_back(recorder.input(1));
-    const V q0 = read(frame, frame_.q0, frame_.n);
-    const V p0 = read(frame, frame_.p0(), frame_.n);
-    body(Element(setup_, problem_, frame[frame_.h], q0, p0, effort), frame);
-    return program_of(recorder.finish(frame));
-  }
-
   void evaluate(const Element& e, Frame& f) const {
     Point at;
     const V d = x(f);
@@ -241,6 +262,33 @@ class ElementRecorder {
   typename Plain::Setup setup_;
   ElementFrame frame_;
 };
+
+/// The programs of an element: on plain numbers, and recorded.
+template <bool natural, class P, class Traced>
+std::shared_ptr<const ElementPrograms> element_programs(const P& problem, const Traced& traced,
+                                                        const CgOptions& options, const ElementFrame& frame) {
+  using Part = typename ElementOnFrame<P, natural>::Part;
+  using TracedPart = typename ElementOnFrame<Traced, natural>::Part;
+  const auto plain = std::make_shared<const ElementOnFrame<P, natural>>(problem, options, frame);
+  const auto program = [&](Part part) {
+    return ElementProgram(
+        [plain, part](std::span<double> numbers, Effort& effort) {
+          std::vector<double> f(numbers.begin(), numbers.end());
+          plain->run(part, f, effort);
+          std::copy(f.begin(), f.end(), numbers.begin());
+        },
+        [traced, options, frame, part](Effort& effort) {
+          Recorder<double> recorder(Folding::exact);
+          std::vector<Trace<double>> f;
+          for (std::size_t i = 0; i < ElementFrame::most; ++i) f.push_back(recorder.input(1));
+          ElementOnFrame<Traced, natural>(traced, options, frame).run(static_cast<TracedPart>(part), f, effort);
+          return program_of(recorder.finish(f));
+        });
+  };
+  return std::shared_ptr<const ElementPrograms>(
+      new ElementPrograms{program(Part::predicted), program(Part::started), program(Part::evaluated),
+                          program(Part::taken), program(Part::corrected), program(Part::norm), program(Part::work)});
+}
 
 }  // namespace detail
 
