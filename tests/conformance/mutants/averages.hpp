@@ -1,6 +1,7 @@
 // Elements of higher degree and Gauss collocation with one fault each.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "hamflow/methods/averages.hpp"
@@ -12,7 +13,7 @@ struct AverageFaults {
   AverageOptions options;
   double wrong_integral = 0;        // relative, of int P_1 up to the first point
   double wrong_value = 0;           // relative, of P_1 at the first point
-  bool rounded_one_by_one = false;  // the entries of mu, to 12 binary digits
+  bool rounded_one_by_one = false;  // the entries of mu, to 12 significant binary digits
   double early = 1;                 // Newton takes corrections so many times smaller for what they are
 
   AverageFaults(const AverageOptions& o) : options(o) {}  // NOLINT: a fault is set afterwards
@@ -31,8 +32,9 @@ struct FaultySetup : Setup {
     }
     if (f.rounded_one_by_one) {
       for (Real& each : table->inner) {
-        const double mu = 0.5 + static_cast<double>(each);
-        each = Real(std::nearbyint(mu * 4096) / 4096 - 0.5);
+        int exponent = 0;
+        const double mantissa = std::frexp(0.5 + static_cast<double>(each), &exponent);
+        each = Real(std::ldexp(std::nearbyint(mantissa * 4096) / 4096, exponent) - 0.5);
       }
       table->coupling = table->inner;
     }
