@@ -91,21 +91,22 @@ TEST_P(ExactFlow, ElementsAndCollocationOfHighDegreeConvergeToIt) {
                                     std::pair{"gauss(3)", 6}, std::pair{"gauss(4)", 8}}) {
     const auto map = step_map_on(region_of(GetParam().problem), parse_method(name));
     long double previous = 0;
-    long double least = 1;
+    double slope = 0;  // the last one that is not rounding: what follows the leading term is a quarter each halving
     int slopes = 0;
-    for (const int steps : {4, 8, 16, 32, 64}) {
+    for (const int steps : {4, 8, 16, 32, 64, 128, 256}) {
       State<long double> z = start_;
       ASSERT_TRUE(map->advance(z, 1.0L / steps, steps)) << name;
       const long double error = distance(z, wanted);
-      if (previous > 0 && previous < 1e-6L && error > rounding) {  // small enough for the leading term to rule
-        EXPECT_NEAR(static_cast<double>(std::log2(previous / error)), order, 0.5) << name << ", " << steps;
+      if (error <= rounding) break;
+      if (previous > 0) {
+        slope = static_cast<double>(std::log2(previous / error));
         ++slopes;
       }
       previous = error;
-      least = std::min(least, error);
     }
-    EXPECT_TRUE(slopes > 0 || least < 1e-12L) << name;
-    std::printf("  %s on %s: %.1Le with 64 steps, %d slopes\n", name, GetParam().problem, least, slopes);
+    ASSERT_GE(slopes, 1) << name;
+    EXPECT_NEAR(slope, order, 0.3) << name;
+    std::printf("  %s on %s: %.1Le, slope %.3f\n", name, GetParam().problem, previous, slope);
   }
 }
 
