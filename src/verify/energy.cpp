@@ -53,27 +53,26 @@ double short_level(const StepMap& map, const Region& region, double h) {
 }
 
 /// The step with which the error is measured: that of the region. Where an implicit method of high order does not claim
-/// to conserve the energy its defect may lie below the rounding of that step: then twice, four times, .. 32 times it.
+/// to conserve the energy its defect may lie below the rounding of that step: then the first of twice, four times, ..
+/// 16 times it, a third of a period, that shows a defect. Longer ones lead to roots from which orbits escape.
 double telling_step(const StepMap& map, const Region& region, double unit) {
   const MethodInfo claims = map.claims();
-  double h = region.step;
-  if (claims.explicit_step || claims.energy_conserving != Conservation::no) return h;
-  const auto shows = [&](double level, double step) {
-    return level / unit > 0x1p10 * rounding_level(region, step, 128 * region.step / step);
-  };
-  for (int k = 0; k < 5 && !shows(short_level(map, region, h), h); ++k) {
-    if (!(short_level(map, region, 2 * h) < unit)) break;  // no step that long
-    h *= 2;
+  if (claims.explicit_step || claims.energy_conserving != Conservation::no) return region.step;
+  for (int k = 0; k <= 4; ++k) {
+    const double h = std::ldexp(region.step, k);
+    const double level = short_level(map, region, h) / unit;
+    if (!(level < 1)) break;  // no step that long
+    if (level > 0x1p10 * rounding_level(region, h, 128 * region.step / h)) return h;
   }
-  return h;
+  return region.step;
 }
 
 /// The exponent of the level in h, from the finest four of steps between 4 h and h/8 whose error is not rounding.
-double step_exponent(const StepMap& map, const Region& region, double unit) {
+double step_exponent(const StepMap& map, const Region& region, double telling, double unit) {
   std::vector<double> log_step;
   std::vector<double> log_level;
   for (int k = 2; k >= -3; --k) {
-    const double h = std::ldexp(region.step, k);
+    const double h = std::ldexp(telling, k);
     const double level = short_level(map, region, h) / unit;
     if (!(level < 1)) continue;  // no step that large
     if (level < 16 * rounding_level(region, h, 128 * region.step / h))
@@ -107,7 +106,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);
   }
   found.fine_rounding = rounding_level(region, fine_step, static_cast<double>(fine_blocks * fine_block_steps));
-  found.step_exponent = step_exponent(map, region, unit);
+  found.step_exponent = step_exponent(map, region, h, unit);
   return found;
 }
 

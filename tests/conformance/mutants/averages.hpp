@@ -29,6 +29,7 @@ struct FaultySetup : Setup {
     if (table->averages > 1) {
       table->inner[s] *= Real(1) + static_cast<Real>(f.wrong_integral);
       table->weight[1] *= Real(1) + static_cast<Real>(f.wrong_value);
+      table->unit_weight[1] *= Real(1) + static_cast<Real>(f.wrong_value);  // which the steps are computed with
     }
     if (f.rounded_one_by_one) {
       for (Real& each : table->inner) {
