@@ -9,6 +9,7 @@
 
 #include "hamflow/core/capability.hpp"
 #include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/pool.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/methods/implicit/points.hpp"
 #include "hamflow/run/probe.hpp"
@@ -32,6 +33,9 @@ class Functions {
   using V = Vector<S, dynamic>;
   using M = Matrix<S, dynamic>;
   virtual ~Functions() = default;
+  // From the pool: the problem of a cyclic one without its last coordinate is made anew in every step.
+  static void* operator new(std::size_t bytes) { return Pool::take(bytes); }
+  static void operator delete(void* memory, std::size_t bytes) { Pool::give(memory, bytes); }
   virtual S energy(const V& q, const V& p) const = 0;
   virtual S kinetic(const V& p) const = 0;
   virtual S potential(const V& q) const = 0;
@@ -109,9 +113,16 @@ class Functions {
   virtual V rotation() const = 0;
 };
 
+/// Shared by their base, or the library's counting of references would be compiled for each problem.
+template <class S>
+std::shared_ptr<const Functions<S>> shared_functions(const Functions<S>* functions) {
+  return {functions, std::default_delete<const Functions<S>>{}, PoolAllocator<S>{}};
+}
+
 /// The functions of a problem of some type.
 template <class P, class S>
 class FunctionsOf final : public Functions<S> {
+  static_assert(alignof(P) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__, "hamflow: the pool aligns no further");
   static constexpr std::size_t n = P::dimension;
   using X = Vector<S, n>;  // as the problem has it
   static constexpr bool cyclic = Cyclic<P>;
@@ -264,7 +275,7 @@ class FunctionsOf final : public Functions<S> {
   std::string label() const override { return detail::problem_label<P>(); }
   std::shared_ptr<const Functions<S>> reduced(const S& momentum) const override {
     if constexpr (cyclic && std::is_same_v<S, RealOf<P>>) {
-      return std::unique_ptr<const Functions<S>>(new FunctionsOf<typename P::Reduced, S>(problem_.reduced(momentum)));
+      return shared_functions<S>(new FunctionsOf<typename P::Reduced, S>(problem_.reduced(momentum)));
     } else {
       absent();
     }
@@ -331,11 +342,10 @@ class FunctionsOf final : public Functions<S> {
   P problem_;
 };
 
-/// The functions of a problem for states of type S. Shared by their base, or the library's counting of references would
-/// be compiled for each of them.
+/// The functions of a problem for states of type S.
 template <class S, class P>
 std::shared_ptr<const Functions<S>> functions_of(const P& problem) {
-  return std::unique_ptr<const Functions<S>>(new FunctionsOf<P, S>(problem));
+  return shared_functions<S>(new FunctionsOf<P, S>(problem));
 }
 
 /// A problem of dynamic size made of functions; a value like any problem, whose copies share them.
@@ -354,7 +364,8 @@ class AnyProblem {
              std::shared_ptr<const Functions<Others>>... others)
       : size_(size),
         functions_(std::move(own), std::move(others)...),
-        invariant_sizes_(std::make_shared<const std::vector<std::size_t>>(on<R>().invariant_sizes())) {}
+        invariant_sizes_(std::allocate_shared<const std::vector<std::size_t>>(PoolAllocator<std::size_t>{},
+                                                                              on<R>().invariant_sizes())) {}
   template <class P>
   static AnyProblem of(const P& problem) {
     return {degrees_of_freedom(problem), functions_of<R>(problem), functions_of<Others>(problem)...};
