@@ -35,7 +35,8 @@
 //     Unknowns unknowns(const Variables& x, const Increment<Real, n>& taken) const
 // Verification, for numbers S of any type (dual numbers above all), with Vectors of as many entries:
 //     residual(q0, p0, unknowns) const         r(z0, U)
-//     static increment(unknowns)               E(U), an Increment<S, n>
+//     static increment(unknowns)               E(U), an Increment<S, n>; where it depends on coefficients, a member
+//                                              increment<n>(unknowns) of Setup instead
 // Optional:
 //     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
 //                                              without its own rounding
@@ -120,7 +121,11 @@ template <class E>
 concept Verifiable = HasStepTypes<E> &&
     requires(const E& step, const Vector<typename E::Real, E::n>& z, const typename E::Unknowns& u) {
   { step.residual(z, z, u) } -> std::same_as<typename E::Unknowns>;
-  { E::increment(u) } -> std::same_as<Increment<typename E::Real, E::n>>;
+  requires requires(const typename E::Setup& setup) {
+    { setup.template increment<E::n>(u) } -> std::same_as<Increment<typename E::Real, E::n>>;
+  } || requires {
+    { E::increment(u) } -> std::same_as<Increment<typename E::Real, E::n>>;
+  };
 };
 template <class E>
 concept HasStepSetup = HasStepTypes<E> && requires(typename E::Setup& setup) {

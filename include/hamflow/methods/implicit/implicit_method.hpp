@@ -103,8 +103,12 @@ class ImplicitMethod {
     return E(setup_, problem, h, nowhere, nowhere, unused).residual(q0, p0, unknowns);
   }
   template <class U>
-  static auto increment(const U& unknowns) {
-    return E::increment(unknowns);
+  auto increment(const U& unknowns) const {
+    if constexpr (requires { E::increment(unknowns); }) {
+      return E::increment(unknowns);
+    } else {
+      return setup_.template increment<n>(unknowns);
+    }
   }
 
  private:
