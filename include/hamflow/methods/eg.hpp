@@ -80,9 +80,9 @@ class RadialCollocation : public TargetEquations<R> {
     for (std::size_t l = 0; l < k_; ++l) {
       for (std::size_t i = 0; i < f.size(); ++i) x[l * f.size() + i] = (h_ * setup_.stages.b[l]) * f[i];
     }
-    return x;
+    return polished(x);
   }
-  Variables started(const Memory& extrapolated) const { return extrapolated; }
+  Variables started(const Memory& extrapolated) const { return polished(extrapolated); }
 
   void evaluate(const Variables& x, Point& at) const {
     const Variables velocities = velocities_of(p0_, x);
@@ -144,7 +144,7 @@ class RadialCollocation : public TargetEquations<R> {
     for (const RadialTerm<Real>& term : setup_.terms) {
       const RadialPair<S> pair = pair_of(term, q0, positions, velocities);
       for (std::size_t l = 0; l < k_; ++l) {
-        const S factor = (Real(-2) * h_ * setup_.stages.b[l] * term.strength) * pair.factor(l);
+        const S factor = (Real(-2) * h_ * setup_.stages.b[l] * term.strength) * pair.factors[l];
         for (std::size_t d = 0; d < setup_.space; ++d) {
           const S push = factor * pair.r[l][d];
           S& on_a = r[2 * size * l + size + term.a + d];
@@ -160,6 +160,38 @@ class RadialCollocation : public TargetEquations<R> {
 
  private:
   using Base::h_;
+
+  /// A guess that is closer to collocation, lambda = 0, by fixed-point iteration as long as that converges. Close to a
+  /// circle lambda varies so fast, within u' of the solution, that Newton does not find it from an extrapolation.
+  Variables polished(Variables x) const {
+    const std::size_t size = q0_.size();
+    const Real enough = sqrt(std::numeric_limits<Real>::epsilon());
+    V q = q0_;
+    V f = zeros_like(q0_);
+    Real before = std::numeric_limits<Real>::max();
+    for (int sweep = 0; sweep < 8; ++sweep) {
+      const Variables positions = positions_of(q0_, displacements(velocities_of(p0_, x)));
+      Variables next = x;
+      Real change(0);
+      Real all(0);
+      for (std::size_t l = 0; l < k_; ++l) {
+        for (std::size_t i = 0; i < size; ++i) q[i] = positions[l * size + i];
+        force(problem_, q, f);
+        ++effort_.force;
+        for (std::size_t i = 0; i < size; ++i) {
+          const std::size_t at = l * size + i;
+          next[at] = (h_ * setup_.stages.b[l]) * f[i];
+          change += abs(next[at] - x[at]);
+          all += abs(next[at]);
+        }
+      }
+      if (!(change < before / Real(2))) break;
+      x = next;
+      before = change;
+      if (change <= enough * all) break;
+    }
+    return x;
+  }
 
   /// y0 + sum_j mu_lj rows_j, as (y0 + y1)/2 + sum_j N_lj rows_j: symmetric in the two ends.
   template <class S, std::size_t N>
@@ -222,6 +254,11 @@ class RadialCollocation : public TargetEquations<R> {
         const S* const v = velocities.begin() + l * size;
         pair.r[l][d] = of_two ? S(x[term.a + d] - x[term.b + d]) : x[term.a + d];
         pair.w[l][d] = of_two ? S(v[term.a + d] - v[term.b + d]) : v[term.a + d];
+        const auto size_of = [&](const S* y) {
+          const Real of_a = abs(value_of(y[term.a + d]));
+          return of_two ? Real(of_a + abs(value_of(y[term.b + d]))) : of_a;
+        };
+        pair.reach[l] += Real(2) * (size_of(x) * abs(value_of(pair.w[l][d])) + abs(value_of(pair.r[l][d])) * size_of(v));
       }
     }
     pair.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, start);
@@ -236,10 +273,12 @@ class RadialCollocation : public TargetEquations<R> {
       const Real weight = detail::golden<Real>() * setup_.stages.b[l];
       const Real bend = abs(two) * (abs(pair.law[l].first) + Real(2) * abs(pair.law[l].second) * pair.u[l]);
       for (std::size_t d = 0; d < setup_.space; ++d) {
-        const Real push = two * pair.factor(l) * pair.r[l][d];
+        const Real push = two * pair.factors[l] * pair.r[l][d];
         const std::size_t a = l * size + term.a + d;
         const std::size_t b = term.b == term.centre ? a : l * size + term.b + d;
-        const Real noise = abs(h_ * setup_.stages.b[l]) * (abs(push) + bend * (abs(positions[a]) + abs(positions[b])));
+        const Real of_factor = abs(two * pair.r[l][d]) * pair.factor_noise[l];
+        const Real noise = abs(h_ * setup_.stages.b[l]) *
+                           (abs(push) + bend * (abs(positions[a]) + abs(positions[b])) + of_factor);
         at.sum[a] -= weight * push;
         at.noise[a] += noise;
         if (a == b) continue;
@@ -272,12 +311,15 @@ class RadialCollocation : public TargetEquations<R> {
           excess += s.b[l] * (pair.change[l] * by_rate[l] - pair.law[l].second * pair.rate[l] * by_u[l]);
           weight += Real(2) * s.b[l] * pair.rate[l] * by_rate[l];
         }
-        const Real by_lambda = pair.weight > Real(0) ? Real((excess - pair.lambda * weight) / pair.weight) : Real(0);
+        const bool corrected = k_ > 1 && !(pair.lambda == Real(0));
+        const Real by_lambda = corrected ? Real((excess - pair.lambda * weight) / pair.weight) : Real(0);
         for (std::size_t l = 0; l < k_; ++l) {
-          const Real bent = pair.law[l].second * by_u[l] + by_lambda * pair.rate[l] + pair.lambda * by_rate[l];
+          const Real bent = k_ == 1 ? Real(pair.mean_slope * h_ * by_rate[0])
+                                    : Real(pair.law[l].second * by_u[l] + by_lambda * pair.rate[l] +
+                                           pair.lambda * by_rate[l]);
           for (std::size_t i = 0; i < setup_.space; ++i) {
             const Real change = Real(2) * term.strength * h_ * s.b[l] *
-                                (bent * pair.r[l][i] + (i == d ? Real(pair.factor(l) * nu[l]) : Real(0)));
+                                (bent * pair.r[l][i] + (i == d ? Real(pair.factors[l] * nu[l]) : Real(0)));
             couple(term, l * size + i, m * size + d, change, tangent);
           }
         }

@@ -76,7 +76,7 @@ class MidpointDiscreteGradient {
     for (std::size_t i = 0; square > R(0) && i < m; ++i) out.noise[i] += abs(u[i]) * work / square;
   }
 
- private:
+ protected:
   /// z0 + part u.
   template <class S>
   static Vector<S, dynamic> on_the_way(const Vector<S, dynamic>& z0, const Vector<S, dynamic>& u, const R& part) {
@@ -129,6 +129,7 @@ class MidpointDiscreteGradient {
     return all;
   }
 
+ private:
   RecordedEnergy<P, R> energy_;
 };
 

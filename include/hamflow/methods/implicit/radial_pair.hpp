@@ -4,7 +4,8 @@
 //     lambda = (phi(u1) - phi(u0) - h sum_l b_l phi'_l u'_l)/(h sum_l b_l u'_l^2).
 // u' has degree 2 k - 1, so that u1 - u0 = h sum b_l u'_l, and with the divided difference phi[u0, u1]
 //     lambda u'_l = u'_l sum_m b_m u'_m (phi[u0, u1] - phi'_m)/sum_m b_m u'_m^2,
-// which rounds like phi', however slowly u changes. Where it does not change (a circular orbit, at rest) it is 0.
+// without the cancellation of energies. Of one point it is phi[u0, u1] - phi'_1: no quotient is left. Of more, where the sum in the numerator is rounding itself (on a circle, at rest) the pair
+// does the right work already, and lambda is 0.
 #pragma once
 
 #include <memory>
@@ -80,12 +81,16 @@ struct RadialPair {
   RadialLaw<S> law[most]{};
   S change[most]{};    // phi'(u1) - phi'_l
   S lambda{};
-  S weight{};          // sum_l b_l u'_l^2
+  S weight{};          // sum_l b_l u'_l^2; not used for one point
+  S mean_slope{};      // of one point: d phi[u0, u1]/du1
+  // What rounding makes of u'_l, and then of lambda u'_l, in units of epsilon. Close to a circle u' is small beside
+  // phi[u0, u1] - phi', and what lambda u' rounds by may be far more than what phi' rounds by.
+  base_scalar<S> reach[most]{};
+  base_scalar<S> factor_noise[most]{};
 
-  /// phi'_l + lambda u'_l.
-  S factor(std::size_t l) const { return law[l].first + lambda * rate[l]; }
+  S factors[most]{};   // phi'_l + lambda u'_l
 
-  /// From r and w.
+  /// From r, w and reach.
   /// @param start x_a - x_b at the beginning of the step
   template <class P, class R>
   void complete(const P& problem, const RecordedLaw<R>& recorded, const GaussStages<R>& stages, const R& h,
@@ -120,12 +125,40 @@ struct RadialPair {
       for (std::size_t d = 0; d < space; ++d) ahead = ahead + (end[d] - r[l][d]) * (end[d] + r[l][d]);
       change[l] = recorded.differences(u[l], u1, ahead).second;
     }
-    R rounding(0);
-    for (std::size_t l = 0; l < k; ++l) {
-      rounding = larger(rounding, R(std::numeric_limits<R>::epsilon() * abs(value_of(S(law[l].first * u[l])))));
+    if (k == 1) {
+      factors[0] = mean;
+      complete_single(problem, u0, way, mean);
+      return;
     }
-    if (abs(h * value_of(excess)) <= rounding) weight = S(R(0));
-    lambda = value_of(weight) > R(0) ? S(excess / weight) : S(R(0));
+    for (std::size_t l = 0; l < k; ++l) factors[l] = law[l].first;
+    R noise(0);  // of excess and of weight, in units of epsilon
+    R loose(0);
+    for (std::size_t l = 0; l < k; ++l) {
+      const R v = abs(value_of(rate[l]));
+      noise += stages.b[l] * (abs(value_of(S(mean - law[l].first))) * reach[l] + v * abs(value_of(law[l].first)));
+      loose += R(2) * stages.b[l] * v * reach[l];
+    }
+    lambda = S(R(0));
+    if (!(abs(value_of(excess)) > R(4) * std::numeric_limits<R>::epsilon() * noise)) return;
+    if (!(value_of(weight) > R(0))) return;
+    lambda = excess / weight;
+    for (std::size_t l = 0; l < k; ++l) {
+      factors[l] = law[l].first + lambda * rate[l];
+      const R of_lambda = abs(value_of(lambda));
+      factor_noise[l] =
+          abs(value_of(rate[l])) * (noise + of_lambda * loose) / value_of(weight) + of_lambda * reach[l];
+    }
+  }
+
+ private:
+  /// d phi[u0, u1]/du1 = (phi'(u1) - phi[u0, u1])/(u1 - u0): where that cancels by its Taylor polynomial, to second order.
+  template <class P>
+  void complete_single(const P& problem, const S& u0, const S& way, const S& mean) {
+    using R = base_scalar<S>;
+    const R size = abs(value_of(way));
+    const bool close = size * size * size <= std::numeric_limits<R>::epsilon() * value_of(S(u0 * u0 * u0));
+    mean_slope = close ? S(problem.radial_law(S(u0 + way * (R(2) / R(3)))).second / R(2))
+                       : S((law[0].first + change[0] - mean) / way);
   }
 };
 
