@@ -1,33 +1,112 @@
-// What the families share whose steps are solved by Newton. The members are those of NewtonOptions.
+// What the families share whose steps are solved by iteration. The members are those of NewtonOptions.
 #pragma once
 
-#include "hamflow/core/option_info.hpp"
+#include <vector>
+
+#include "hamflow/methods/averages.hpp"
+#include "hamflow/run/method_family.hpp"
 
 namespace hamflow::families {
 
+/// Corrections that a linearly convergent iteration may take where nothing else is said: with every one a tenth smaller
+/// these are 4 digits, with every one half as large 30.
+inline constexpr int linear_iterations = 100;
+inline constexpr const char* fixed_point_word = "fixed-point";
+
+/// Of elements: the Gauss points. @param least the smallest number @param position among the options
 template <class Options>
-BoundOption<Options> max_iterations_option() {
-  return bind_number({.name = "max_iterations",
-                      .default_value = "15",
-                      .meaning = "Newton corrections a step may take",
-                      .range = Range::whole_from(1, 1000)},
-                     &Options::max_iterations);
+BoundOption<Options> quadrature_option(int position) {
+  return bind_number({.name = "quadrature",
+                      .default_value = "auto",
+                      .meaning = "Gauss points, at least the degree; auto: as few as keep H at its rounding",
+                      .range = Range::whole_from(1, 64),
+                      .position = position},
+                     &Options::quadrature, {{"auto", 0}});
+}
+
+/// tolerance, criterion, max_iterations, iteration, on_divergence, diagnostics, in this order.
+template <class Options>
+void add_newton_options(BoundOptions<Options>& all) {
+  all.push_back(bind_number({.name = tolerance_option,
+                             .meaning = "on the 2-norm of the residual, for cg(1) that of (2.63) of Gross1999",
+                             .range = Range::positive,
+                             .unset = "its rounding level; 1e-13 with criterion seed",
+                             .example = "1e-13"},
+                            &Options::tolerance));
+  all.push_back(
+      bind_word({.name = "criterion",
+                 .default_value = "stagnation",
+                 .meaning = "with seed stagnation above the tolerance is an error, as in the thesis' programs"},
+                &Options::seed_criterion, {{"stagnation", false}, {"seed", true}}));
+  all.push_back(
+      bind_number({.name = "max_iterations",
+                   .default_value = "15",
+                   .meaning = "corrections a step may take; 100 where nothing is said and iteration is not newton",
+                   .range = Range::whole_from(1, 1000)},
+                  &Options::max_iterations));
+  all.push_back(bind_word(
+      {.name = "iteration",
+       .default_value = "newton",
+       .meaning = "how the equations of a step are solved: newton with the exact tangent, simplified "
+                  "with one factored once a step, fixed-point with none, from first derivatives; "
+                  "systems of more than 500 unknowns take fixed-point"},
+      &Options::iteration,
+      {{"newton", Iteration::newton}, {"simplified", Iteration::simplified}, {"fixed-point", Iteration::fixed_point}}));
+  all.push_back(bind_word({.name = "on_divergence",
+                           .default_value = "error",
+                           .meaning = "halve: two half steps in place of one that does not converge"},
+                          &Options::halve, {{"error", false}, {"halve", true}}));
+  all.push_back(bind_yes_no({.name = "diagnostics",
+                             .default_value = "false",
+                             .meaning = "condition and determinant of the tangent, condition of M^-1, at every step"},
+                            &Options::diagnostics));
+}
+
+/// The declared name of the option that sets a member.
+template <class Options>
+const std::string& last_option(const BoundOptions<Options>& all, std::size_t from_end) {
+  return all[all.size() - 1 - from_end].info.name;
+}
+
+/// The options with those that follow from others.
+template <class Options>
+Options read_newton(const BoundOptions<Options>& options, const Texts& given) {
+  Options read = read_options(options, given);
+  if (read.seed_criterion && !read.tolerance) read.tolerance = 1e-13;  // the listings' own
+  if (read.iteration != Iteration::newton && !given.contains(last_option(options, 3))) {
+    read.max_iterations = linear_iterations;
+  }
+  return read;
+}
+
+/// What does not go together: the option to blame, and why.
+template <class Options>
+std::pair<std::string, std::string> refused_together(const BoundOptions<Options>& options, const Texts& given) {
+  const Options read = read_newton(options, given);
+  if (read.diagnostics && read.iteration == Iteration::fixed_point) {
+    return {last_option(options, 0), "found true; allowed false, since a fixed-point iteration has no tangent"};
+  }
+  return {};
+}
+
+/// The options for a system of so many unknowns: large ones never build a matrix.
+template <class Options>
+Texts for_size(const BoundOptions<Options>& options, const Texts& given, std::size_t unknowns) {
+  if (unknowns <= most_dense_unknowns) return given;
+  if (read_newton(options, given).diagnostics) {
+    throw Error(last_option(options, 0) + ": found true; allowed false for systems of more than " +
+                std::to_string(most_dense_unknowns) + " unknowns, of which no tangent is made");
+  }
+  Texts all = given;
+  all[last_option(options, 2)] = fixed_point_word;
+  return all;
 }
 
 template <class Options>
-BoundOption<Options> divergence_option() {
-  return bind_word({.name = "on_divergence",
-                    .default_value = "error",
-                    .meaning = "halve: two half steps in place of one that does not converge"},
-                   &Options::halve, {{"error", false}, {"halve", true}});
-}
-
-template <class Options>
-BoundOption<Options> diagnostics_option() {
-  return bind_yes_no({.name = "diagnostics",
-                      .default_value = "false",
-                      .meaning = "condition and determinant of the tangent, condition of M^-1, at every step"},
-                     &Options::diagnostics);
+std::string divergence_hint(const Options& read) {
+  return std::string("try a smaller dt, ") + (read.halve ? "" : "method.on_divergence = \"halve\", ") +
+         (read.iteration == Iteration::newton ? "" : "method.iteration = \"newton\", ") +
+         "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
 }
 
 }  // namespace hamflow::families

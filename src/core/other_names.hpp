@@ -14,7 +14,10 @@ euler-a: symplectic-euler, semi-implicit-euler
 euler: explicit-euler, forward-euler
 rk4: runge-kutta
 dop853: rk8, dopri, dopri5, dopri8
-cg: midpoint, implicit-midpoint, discrete-gradient
+cg: discrete-gradient, hbvm, hamiltonian-boundary-value
+avf: averaged-vector-field
+gauss: gauss-legendre, collocation, irk
+implicit-midpoint: midpoint, midpoint-rule
 double: float64
 double-double: dd, long-double
 quad: quadruple, float128

@@ -52,6 +52,22 @@ double short_level(const StepMap& map, const Region& region, double h) {
   return largest;
 }
 
+/// The step with which the error is measured: that of the region. Where an implicit method of high order does not claim
+/// to conserve the energy its defect may lie below the rounding of that step: then twice, four times, eight times it.
+double telling_step(const StepMap& map, const Region& region, double unit) {
+  const MethodInfo claims = map.claims();
+  double h = region.step;
+  if (claims.explicit_step || claims.energy_conserving != Conservation::no) return h;
+  const auto shows = [&](double level, double step) {
+    return level / unit > 0x1p10 * rounding_level(region, step, 128 * region.step / step);
+  };
+  for (int k = 0; k < 3 && !shows(short_level(map, region, h), h); ++k) {
+    if (!(short_level(map, region, 2 * h) < unit)) break;  // no step that long
+    h *= 2;
+  }
+  return h;
+}
+
 /// The exponent of the level in h, from the finest four of steps between 4 h and h/8 whose error is not rounding.
 double step_exponent(const StepMap& map, const Region& region, double unit) {
   std::vector<double> log_step;
@@ -74,8 +90,8 @@ double step_exponent(const StepMap& map, const Region& region, double unit) {
 
 EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   EnergyMeasurement found;
-  const double h = region.step;
   const double unit = scale(map, region);
+  const double h = telling_step(map, region, unit);
   std::vector<std::vector<double>> energies;
   for (std::uint64_t k = 0; k < starts; ++k) {
     energies.push_back(map.energies(random_state(region, k), h, coarse_blocks, block_steps));
@@ -85,7 +101,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   found.rounding = rounding_level(region, h, static_cast<double>(coarse_blocks * block_steps));
   found.drift = classify_drift(energies);
 
-  const double fine_step = h / fine_factor;
+  const double fine_step = region.step / fine_factor;
   for (std::uint64_t k = 0; k < starts / 4; ++k) {  // for a level, a few are enough
     const auto fine = map.energies(random_state(region, k), fine_step, fine_blocks, fine_block_steps);
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);

@@ -119,7 +119,7 @@ PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on) {
   row.cells.push_back(energy_cell(claims, on));
   row.cells.push_back(forces_cell(claims, on));
   row.cells.push_back(defect("Jacobian is the step's", true, &Measurement::jacobian));
-  if (!claims.explicit_step) row.cells.push_back(newton_cell(on));
+  if (!claims.explicit_step && claims.quadratic_iteration) row.cells.push_back(newton_cell(on));
   row.on = std::move(on);
   return row;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
@@ -97,6 +98,9 @@ TEST(Cost, ReportedEvaluationsAreThoseTheProblemSees) {
   expect_counts(RungeKuttaBy<tableaus::rk4>{}, 4, 0);
   expect_counts(Cg{CgOptions{.quadrature = 5}}, 0, 0);
   expect_counts(Cg{}, 0, 0);
+  expect_counts(CgOfDegree{{.degree = 2}}, 0, 0);
+  expect_counts(CgOfDegree{{.degree = 2, .quadrature = 4, .iteration = Iteration::simplified}}, 0, 0);
+  expect_counts(Gauss{{.stages = 3, .iteration = Iteration::fixed_point}}, 0, 0);
 }
 
 TEST(Cost, ForceGradientsCostAHessianEach) {

@@ -1,11 +1,12 @@
-// The energy of cg(1) walks and does not drift: over 32 starts of a pendulum the mean increment of H, in units of its
-// standard error, is what a random walk has. H is of all the digits that are stored, in quad.
+// The energy of elements walks and does not drift: over 32 starts of a pendulum the mean increment of H, in units of
+// its standard error, is what a random walk has. H is of all the digits that are stored, in quad.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/verify/counter_random.hpp"
@@ -17,7 +18,6 @@ using A = Compensated<double>;
 using P = Pendulum<double>;
 constexpr int starts = 32;
 constexpr int blocks = 64;
-constexpr int block_steps = 1600;
 
 Quad energy_of(const PhasePoint<A, 1>& z) {
   const Vector<Quad, 1> q{Quad(z.q[0].high) + Quad(z.q[0].low)};
@@ -31,11 +31,12 @@ double between(double a, double b, int start, std::uint64_t what) {
 
 /// (mean/standard error)^2 of the blocks' increments, averaged over the starts. Eight points leave no error of the
 /// quadrature at these steps.
-template <class Element>
-double mean_square_of_t() {
+/// @param make(): the method
+template <class Make>
+double mean_square_of_t(const Make& make, int block_steps) {
   double sum = 0;
   for (int s = 0; s < starts; ++s) {
-    ContinuousGalerkin<P, A, Element> method(P(), CgOptions{.quadrature = 8});
+    auto method = make();
     PhasePoint<A, 1> z;
     z.store({between(0.3, 2.8, s, 0)}, {between(0, 0.3, s, 1)});
     const double h = between(0.03, 0.1, s, 2);
@@ -61,11 +62,30 @@ double mean_square_of_t() {
 /// but for once in 1000. Where the last correction of Newton was lost to the rounding of the impulse it was 30.
 constexpr double bound = 2;
 
+template <class Element>
+double of_degree_one() {
+  return mean_square_of_t([] { return ContinuousGalerkin<P, A, Element>(P(), CgOptions{.quadrature = 8}); }, 1600);
+}
+template <class Element>
+double of_degree_two(Iteration iteration) {
+  const CgOptions options{.degree = 2, .quadrature = 10, .max_iterations = 100, .iteration = iteration};
+  return mean_square_of_t([&] { return ImplicitMethod<P, A, Element>(P(), AverageOptions(options)); }, 400);
+}
+
 TEST(ElementDrift, OfAPendulumIsNoneWithMomentaEliminated) {
-  EXPECT_LT((mean_square_of_t<NaturalElement<P, double>>()), bound);
+  EXPECT_LT((of_degree_one<NaturalElement<P, double>>()), bound);
 }
 TEST(ElementDrift, OfAPendulumIsNoneInAllCoordinates) {
-  EXPECT_LT((mean_square_of_t<GeneralElement<P, double>>()), bound);
+  EXPECT_LT((of_degree_one<GeneralElement<P, double>>()), bound);
+}
+TEST(ElementDrift, OfDegreeTwoIsNoneByNewton) {
+  EXPECT_LT((of_degree_two<NaturalAverages<P, double>>(Iteration::newton)), bound);
+}
+TEST(ElementDrift, OfDegreeTwoIsNoneBySimplifiedNewtonInAllCoordinates) {
+  EXPECT_LT((of_degree_two<GeneralAverages<P, double>>(Iteration::simplified)), bound);
+}
+TEST(ElementDrift, OfDegreeTwoIsNoneByFixedPoints) {
+  EXPECT_LT((of_degree_two<NaturalAverages<P, double>>(Iteration::fixed_point)), bound);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Tests of the tests: broken energy-conserving elements have to be caught.
+#include "mutants/averages.hpp"
 #include "mutants/element.hpp"
 #include "mutants/examine.hpp"
 
@@ -46,6 +47,43 @@ TEST(Mutant, TwoPointsThatClaimToConserveAlways) {
 TEST(Mutant, ElementThatDoesNotClaimItsConservation) {
   expect_caught(examine(ElementBy{{.name = "cg(1,5), claiming nothing", .claim = Conservation::no}}),
                 "energy conserving");
+}
+
+AverageFaults faulty(const AverageOptions& options, const std::string& name) {
+  AverageFaults faults(options);
+  faults.name = name;
+  return faults;
+}
+
+TEST(Mutant, AveragesWithoutAFaultAreSound) {
+  expect_sound(examine(FaultyMethod{faulty(CgOptions{.degree = 2, .quadrature = 6}, "cg(2,6), sound")}));
+  expect_sound(examine(FaultyMethod{faulty(GaussOptions{.stages = 2}, "gauss(2), sound")}));
+}
+
+TEST(Mutant, OneIntegralOfALegendrePolynomialWrong) {
+  AverageFaults faults = faulty(CgOptions{.degree = 2, .quadrature = 6}, "cg(2,6), int P_1 wrong by 1e-4");
+  faults.wrong_integral = 1e-4;
+  expect_caught(examine(FaultyMethod{faults}), "energy conserving");
+}
+
+TEST(Mutant, OneValueOfALegendrePolynomialWrong) {
+  AverageFaults faults = faulty(CgOptions{.degree = 2, .quadrature = 6}, "cg(2,6), P_1 wrong by 1e-6");
+  faults.wrong_value = 1e-6;
+  expect_caught(examine(FaultyMethod{faults}), "energy conserving");
+}
+
+TEST(Mutant, MuRoundedOneByOne) {
+  // With the digits of double the defect is a rounding, which the test of the coefficients catches; with 12 binary
+  // digits the map is as far from symplectic as mu_ij + mu_ji is from 1.
+  AverageFaults faults = faulty(GaussOptions{.stages = 2}, "gauss(2), mu rounded one by one");
+  faults.rounded_one_by_one = true;
+  expect_caught(examine(FaultyMethod{faults}), "symplectic");
+}
+
+TEST(Mutant, AveragesWithNewtonThatStopsOneIterationEarly) {
+  AverageFaults faults = faulty(CgOptions{.degree = 2, .quadrature = 6}, "cg(2,6), one iteration early");
+  faults.early = 0x1p30;
+  expect_caught(examine(FaultyMethod{faults}), "energy conserving");
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ std::vector<Request> every_request() {
     const bool table = splitting_named(entry.name).has_value();
     if (!table || std::find(tables.begin(), tables.end(), entry.name) != tables.end()) names.push_back(entry.name);
   }
-  names.insert(names.end(), {"cg(1,1)", "cg(1,5)", "cg(quadrature=5,tolerance=1e-13)"});
+  names.insert(names.end(),
+               {"cg(1,5)", "cg(quadrature=5,tolerance=1e-13)", "cg(2,4)", "cg(3,auto,iteration=simplified)"});
   for (const ProblemEntry& problem : problems()) {
     const std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
     const Region region = region_of(problem.info.name, variant);

@@ -82,6 +82,33 @@ TEST_P(ExactFlow, Yoshida6ConvergesToIt) {
   EXPECT_GE(slopes, 1);
 }
 
+TEST_P(ExactFlow, ElementsAndCollocationOfHighDegreeConvergeToIt) {
+  const auto& result = data_["results"][data_["results"].size() > 3 ? 4 : 0];  // t = 1
+  ASSERT_EQ(time_of(result), 1.0L);
+  const State<long double> wanted = state_of(result);
+  constexpr long double rounding = 4096 * 0x1p-63L;
+  for (const auto& [name, order] : {std::pair{"cg(2,auto)", 4}, std::pair{"cg(3,auto)", 6}, std::pair{"gauss(2)", 4},
+                                    std::pair{"gauss(3)", 6}, std::pair{"gauss(4)", 8}}) {
+    const auto map = step_map_on(region_of(GetParam().problem), parse_method(name));
+    long double previous = 0;
+    long double least = 1;
+    int slopes = 0;
+    for (const int steps : {4, 8, 16, 32, 64}) {
+      State<long double> z = start_;
+      ASSERT_TRUE(map->advance(z, 1.0L / steps, steps)) << name;
+      const long double error = distance(z, wanted);
+      if (previous > 0 && previous < 1e-6L && error > rounding) {  // small enough for the leading term to rule
+        EXPECT_NEAR(static_cast<double>(std::log2(previous / error)), order, 0.5) << name << ", " << steps;
+        ++slopes;
+      }
+      previous = error;
+      least = std::min(least, error);
+    }
+    EXPECT_TRUE(slopes > 0 || least < 1e-12L) << name;
+    std::printf("  %s on %s: %.1Le with 64 steps, %d slopes\n", name, GetParam().problem, least, slopes);
+  }
+}
+
 TEST_P(ExactFlow, BackwardsIsTheInverse) {
   const State<long double> end = map_->flow(start_, 2.5L);
   EXPECT_GT(distance(end, start_), 0.01L);

@@ -38,6 +38,7 @@ struct MethodInfo {
   bool own_substeps = false;  // a step is made of sub-steps whose lengths the method chooses
   bool halves_steps = false;  // a step that does not converge is replaced by two half steps
   bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
+  bool quadratic_iteration = true;  // of an implicit step: each correction has twice the digits of the one before
 };
 
 /// How well conditioned Newton's method was in an implicit step; computed on request.   [Gross1999, figures 3.27, 3.28]

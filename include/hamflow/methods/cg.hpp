@@ -8,6 +8,7 @@
 #pragma once
 
 #include "hamflow/core/capability.hpp"
+#include "hamflow/core/error.hpp"
 #include "hamflow/methods/implicit/cyclic.hpp"
 #include "hamflow/methods/implicit/general.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
@@ -37,7 +38,8 @@ class ContinuousGalerkin : public ImplicitMethod<P, A, Element> {
   ContinuousGalerkin(const P& problem, const CgOptions& options) : ImplicitMethod<P, A, Element>(problem, options) {}
 };
 
-/// The recipe of cg: Cg{CgOptions{.quadrature = 5}}.
+/// The recipe of cg(1): Cg{CgOptions{.quadrature = 5}}; elements of higher degree, and other iterations than Newton's,
+/// are CgOfDegree (methods/averages.hpp). @throws Error when bound with a degree or an iteration that is not its own
 struct Cg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
@@ -51,6 +53,9 @@ struct Cg {
   using Stepper = ContinuousGalerkin<P, A>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
+    if (options.degree != 1 || options.iteration != Iteration::newton) {
+      throw Error("Cg is the element of degree 1 solved by Newton's iteration; for others take CgOfDegree");
+    }
     return Stepper<P, A>(problem, options);
   }
 };

@@ -19,6 +19,15 @@ struct Halves {
     low = x - high;
   }
 };
+
+/// Sums over the Gauss points are taken of kappa b_l, and multiplied by h/kappa in the end. The rounding of that
+/// product decides whether the last correction of Newton, which is mostly smaller, counts or is lost; so that it counts
+/// on average, what is rounded has to have random digits, whatever h is. With h = 1/8 alone there would be none. The
+/// golden ratio is the number whose multiples are spread most evenly.
+template <class Real>
+inline Real golden() {
+  return Real(1.6180339887498949);
+}
 }  // namespace detail
 
 /// a b - product, where `product` is a b rounded. With hardware's types below 2^900 and no underflow; 0 beyond, and in

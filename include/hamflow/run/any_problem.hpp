@@ -10,6 +10,7 @@
 #include "hamflow/core/capability.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/tape.hpp"
+#include "hamflow/methods/implicit/points.hpp"
 #include "hamflow/run/probe.hpp"
 
 namespace hamflow {
@@ -44,6 +45,55 @@ class Functions {
   virtual void gradient(const V& q, const V& p, V& dq, V& dp) const = 0;
   virtual void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const = 0;
   virtual void force_and_hessian(const V& q, V& f, M& h) const = 0;
+  // At `count` points in one call, as methods/implicit/points.hpp has them; here one after the other.
+  virtual void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const {
+    V x = V(size);
+    V y = x;
+    for (std::size_t l = 0; l < count; ++l) {
+      detail::take_point(q, l, x);
+      force(x, y);
+      detail::put_point(y, l, f);
+    }
+  }
+  virtual void forces_and_hessians_at(std::size_t size, std::size_t count, const S* q, S* f, S* h) const {
+    V x = V(size);
+    V y = x;
+    M second(size);
+    for (std::size_t l = 0; l < count; ++l) {
+      detail::take_point(q, l, x);
+      force_and_hessian(x, y, second);
+      detail::put_point(y, l, f);
+      detail::put_point(second, l, h);
+    }
+  }
+  virtual void gradients_at(std::size_t size, std::size_t count, const S* q, const S* p, S* dq, S* dp) const {
+    V x = V(size);
+    V y = x;
+    V by_x = x;
+    V by_y = x;
+    for (std::size_t l = 0; l < count; ++l) {
+      detail::take_point(q, l, x);
+      detail::take_point(p, l, y);
+      gradient(x, y, by_x, by_y);
+      detail::put_point(by_x, l, dq);
+      detail::put_point(by_y, l, dp);
+    }
+  }
+  virtual void hessians_at(std::size_t size, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const {
+    V x = V(size);
+    V y = x;
+    M by_xx(size);
+    M by_xy(size);
+    M by_yy(size);
+    for (std::size_t l = 0; l < count; ++l) {
+      detail::take_point(q, l, x);
+      detail::take_point(p, l, y);
+      hessian(x, y, by_xx, by_xy, by_yy);
+      detail::put_point(by_xx, l, qq);
+      detail::put_point(by_xy, l, qp);
+      detail::put_point(by_yy, l, pp);
+    }
+  }
   virtual V invariants(const V& q, const V& p, const S& t) const = 0;
   virtual std::vector<std::size_t> invariant_sizes() const = 0;
   virtual std::string label() const = 0;  // of the problem and its choices, for saved states
@@ -162,6 +212,34 @@ class FunctionsOf final : public Functions<S> {
       hamflow::force_and_hessian(problem_, x, out, second);
       put(out, f);
       put(second, h);
+    } else {
+      absent();
+    }
+  }
+  void forces_at(std::size_t, std::size_t count, const S* q, S* f) const override {
+    if constexpr (Separable<P> && has_hessian) {
+      hamflow::forces_at(problem_, count, q, f);
+    } else {
+      absent();
+    }
+  }
+  void forces_and_hessians_at(std::size_t, std::size_t count, const S* q, S* f, S* h) const override {
+    if constexpr (TwiceDifferentiable<P> && has_hessian) {
+      hamflow::forces_and_hessians_at(problem_, count, q, f, h);
+    } else {
+      absent();
+    }
+  }
+  void gradients_at(std::size_t, std::size_t count, const S* q, const S* p, S* dq, S* dp) const override {
+    if constexpr (has_hessian) {
+      hamflow::gradients_at(problem_, count, q, p, dq, dp);
+    } else {
+      absent();
+    }
+  }
+  void hessians_at(std::size_t, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const override {
+    if constexpr (Smooth<P> && has_hessian && std::is_same_v<S, RealOf<P>>) {
+      hamflow::hessians_at(problem_, count, q, p, qq, qp, pp);
     } else {
       absent();
     }
@@ -325,6 +403,22 @@ class AnyProblem {
   void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f,
                          Matrix<S, dynamic>& h) const requires separable {
     on<S>().force_and_hessian(q, f, h);
+  }
+  template <class S>
+  void forces_at(std::size_t count, const S* q, S* f) const requires separable {
+    on<S>().forces_at(size_, count, q, f);
+  }
+  template <class S>
+  void forces_and_hessians_at(std::size_t count, const S* q, S* f, S* h) const requires separable {
+    on<S>().forces_and_hessians_at(size_, count, q, f, h);
+  }
+  template <class S>
+  void gradients_at(std::size_t count, const S* q, const S* p, S* dq, S* dp) const {
+    on<S>().gradients_at(size_, count, q, p, dq, dp);
+  }
+  template <class S>
+  void hessians_at(std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const {
+    on<S>().hessians_at(size_, count, q, p, qq, qp, pp);
   }
   template <class S>
   void potential_hessian(const Vector<S, dynamic>& q, Matrix<S, dynamic>& h) const requires separable {

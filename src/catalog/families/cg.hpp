@@ -1,6 +1,7 @@
 // Energy-conserving Petrov-Galerkin finite elements in time.
 #pragma once
 
+#include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "newton_family.hpp"
@@ -9,45 +10,18 @@ namespace hamflow::families {
 
 struct Cg {
   static const BoundOptions<CgOptions>& options() {
-    static const BoundOptions<CgOptions> all{
-        bind_number({.name = "degree",
-                     .default_value = "1",
-                     .meaning = "polynomial degree in time: 1 in this version",
-                     .range = Range::whole_from(1, 1),
-                     .position = 1},
-                    &CgOptions::degree),
-        bind_number({.name = "quadrature",
-                     .default_value = "auto",
-                     .meaning = "Gauss points, at least the degree; auto: as few as keep H at its rounding",
-                     .range = Range::whole_from(1, most_gauss_points),
-                     .position = 2},
-                    &CgOptions::quadrature, {{"auto", 0}}),
-        bind_number({.name = tolerance_option,
-                     .meaning = "on the 2-norm of the residual (2.63) of Gross1999",
-                     .range = Range::positive,
-                     .unset = "its rounding level; 1e-13 with criterion seed",
-                     .example = "1e-13"},
-                    &CgOptions::tolerance),
-        bind_word({.name = "criterion",
-                   .default_value = "stagnation",
-                   .meaning = "with seed stagnation above the tolerance is an error, as in the thesis' programs"},
-                  &CgOptions::seed_criterion, {{"stagnation", false}, {"seed", true}}),
-        max_iterations_option<CgOptions>(),
-        {{.name = "iteration",
-          .default_value = "newton",
-          .meaning = "how the equations of a step are solved",
-          .type = OptionType::word,
-          .words = {"newton"}},
-         [](CgOptions&, const std::string&) {}},
-        divergence_option<CgOptions>(),
-        diagnostics_option<CgOptions>()};
+    static const BoundOptions<CgOptions> all = [] {
+      BoundOptions<CgOptions> list{bind_number({.name = "degree",
+                                                .default_value = "1",
+                                                .meaning = "polynomial degree in time; the order is twice that",
+                                                .range = Range::whole_from(1, most_gauss_points - 1),
+                                                .position = 1},
+                                               &CgOptions::degree),
+                                   quadrature_option<CgOptions>(2)};
+      add_newton_options(list);
+      return list;
+    }();
     return all;
-  }
-
-  static CgOptions read(const Texts& given) {
-    CgOptions read = read_options(options(), given);
-    if (read.seed_criterion && !read.tolerance) read.tolerance = 1e-13;  // the listings' own
-    return read;
   }
 
   static MethodFamily declared() {
@@ -58,7 +32,8 @@ struct Cg {
             .rank = 1,
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an energy-conserving element needs the exact force",
-            .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"},
+            .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)", "cg(2,2)", "cg(2,3)", "cg(2,auto)",
+                                "cg(3,4)", "cg(3,auto)", "cg(4,auto)"},
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
             .needs = [](std::size_t) { return "a twice differentiable H"; },
             .advice =
@@ -71,25 +46,30 @@ struct Cg {
                           "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
                 },
             .refused = refused,
-            .hint =
-                [](const Texts& given) {
-                  return std::string("try a smaller dt, ") +
-                         (read(given).halve ? "" : "method.on_divergence = \"halve\", ") +
-                         "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
+            .sized =
+                [](const Texts& given, std::size_t degrees) {
+                  return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).degree));
                 }};
   }
 
+  /// cg(1) by Newton has kernels of its own, compiled with each problem.
   template <class F>
   static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::Cg{read(given)});
+    const CgOptions chosen = read(given);
+    if (chosen.degree == 1 && chosen.iteration == Iteration::newton) return f(hamflow::Cg{chosen});
+    return f(Averages{chosen});
   }
 
  private:
+  static CgOptions read(const Texts& given) { return read_newton(options(), given); }
   static std::pair<std::string, std::string> refused(const Texts& given) {
-    const CgOptions read = Cg::read(given);
-    if (read.quadrature == 0 || read.quadrature >= read.degree) return {};
-    return {options()[1].info.name, "found " + std::to_string(read.quadrature) + "; allowed at least the degree, " +
-                                        std::to_string(read.degree) + ", or \"auto\""};
+    const CgOptions chosen = read(given);
+    if (chosen.quadrature != 0 && chosen.quadrature < chosen.degree) {
+      return {options()[1].info.name, "found " + std::to_string(chosen.quadrature) + "; allowed at least the degree, " +
+                                          std::to_string(chosen.degree) + ", or \"auto\""};
+    }
+    return refused_together(options(), given);
   }
 };
 

@@ -55,8 +55,12 @@ class CyclicElement : public SegmentEquations<P, R> {
     return closed(rest_.taken(x, at, correction));
   }
   Memory memory(const Variables&, const Increment<Real, n>& taken) const { return head(taken.p); }
-  bool too_coarse(const Increment<Real, n>& taken) const { return rest_.too_coarse({head(taken.q), head(taken.p)}); }
-  bool believable(const Increment<Real, n>& taken) const { return rest_.believable({head(taken.q), head(taken.p)}); }
+  bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const {
+    return rest_.too_coarse(x, {head(taken.q), head(taken.p)});
+  }
+  bool believable(const Variables& x, const Increment<Real, n>& taken) const {
+    return rest_.believable(x, {head(taken.q), head(taken.p)});
+  }
 
  private:
   using Base::h_;

@@ -40,10 +40,14 @@
 // Optional:
 //     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
 //                                              without its own rounding
-//     bool believable(const Increment<Real, n>&) const    asked of a root that was found from a bad start: implicit
-//                                              equations have roots that have nothing to do with the motion
-//     bool too_coarse(const Increment<Real, n>&) const    asked after convergence: whether the step has to be solved
-//                                              again after Setup::refine()
+//     bool believable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that was found
+//                                              from a bad start: implicit equations have roots that have nothing to do
+//                                              with the motion
+//     bool too_coarse(const Variables& x, const Increment<Real, n>& taken) const      asked after convergence: whether
+//                                              the step has to be solved again after Setup::refine()
+//     Guesses                                  a type in place of Extrapolation<Memory>
+//     Point::linearised                        a bool: whether evaluate() has to compute what the tangent needs. Then
+//                                              every Iteration can solve the equations, else Newton's alone.
 // `Setup` is made from (const P&, Options) and has
 //     MethodInfo info() const                  the method's claims
 //     NewtonOptions newton() const

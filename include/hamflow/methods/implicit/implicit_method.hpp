@@ -11,14 +11,18 @@
 
 namespace hamflow {
 
-/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2.
+/// cond_inf(M^-1(q)), with M^-1 = d^2 H/dp^2; unset where H has no second derivatives.
 template <class P, class Real, std::size_t N>
 double inverse_mass_condition(const P& problem, const Vector<Real, N>& q, const Vector<Real, N>& p) {
-  Matrix<Real, N> qq = zero_matrix(q);
-  Matrix<Real, N> qp = qq;
-  Matrix<Real, N> pp = qq;
-  hessian(problem, q, p, qq, qp, pp);
-  return static_cast<double>(condition_number(pp));
+  if constexpr (!Smooth<P>)
+    return StepDiagnostics::unset;
+  else {
+    Matrix<Real, N> qq = zero_matrix(q);
+    Matrix<Real, N> qp = qq;
+    Matrix<Real, N> pp = qq;
+    hessian(problem, q, p, qq, qp, pp);
+    return static_cast<double>(condition_number(pp));
+  }
 }
 
 /// One step of the method that the equations E define. What Newton remembers, and what of E::Setup changes, is part of
@@ -158,7 +162,7 @@ class ImplicitMethod {
       if (!other) return false;
       found = *other;
     }
-    if constexpr (requires { step.too_coarse(found.taken); }) {
+    if constexpr (requires { step.too_coarse(found.x, found.taken); }) {
       if (setup_.automatic()) {
         const auto finer = refined(problem, h, q0, p0, found, log);
         if (!finer) return false;
@@ -170,7 +174,7 @@ class ImplicitMethod {
       add(z.arithmetic.momentum, z.p[i], found.taken.p[i]);
     }
     newton_.remember(step, found);
-    if (unknowns != nullptr) *unknowns = step.unknowns(found.x, found.taken);
+    if (unknowns != nullptr) *unknowns = E(setup_, problem, h, q0, p0, effort_).unknowns(found.x, found.taken);
     return true;
   }
 
@@ -198,7 +202,7 @@ class ImplicitMethod {
                                                     const Vector<Real, n> p0, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
     const auto before = setup_.mark();
-    while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.taken)) {
+    while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken)) {
       const bool finer = setup_.refine();
       if (!finer && log != nullptr) log->note_too_coarse();
       if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {

@@ -5,6 +5,7 @@
 // p1 is p0 + h F, never 2 M d/h - p0, which would amplify rounding by 2 M/h.
 #pragma once
 
+#include "hamflow/methods/implicit/energy_gain.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 
 namespace hamflow {
@@ -145,7 +146,13 @@ class NaturalElement : public SegmentEquations<P, R> {
   /// |d|, the forces by what rounded coordinates make of them, |V''| |q| epsilon, three times that where terms cancel
   /// as in a Lennard-Jones well. A bias of that size adds up to some tens of roundings of H over a part of an orbit,
   /// however small h is; one in units of H would add up to 1/h of them.
-  bool too_coarse(const Increment<Real, n>& taken) const {
+  /// Of many coordinates these absolute values add up to far more than roundings do, whose squares add up: there as
+  /// energy_gain.hpp has it. (Up to four their sum is at most twice the root of the sum of their squares.)
+  bool too_coarse(const V&, const Increment<Real, n>& taken) const {
+    if (q0_.size() > 4) {
+      return detail::gains_energy(finer_work(taken, 1), rule_.points + 2 <= most_gauss_points,
+                                  [&] { return finer_work(taken, 2).gain; });
+    }
     const V& d = taken.q;
     const Real terms(rule_.points + 5);
     const V middle = detail::midpoint<Real>(q0_, d);
@@ -163,12 +170,12 @@ class NaturalElement : public SegmentEquations<P, R> {
       }
       rounding += epsilon * abs(d[i]) * units;
     }
-    return abs(finer_work(taken).gain) > rounding;
+    return abs(finer_work(taken, 1).gain) > rounding;
   }
   /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
-  bool believable(const Increment<Real, n>& taken) const {
-    if (rule_.points == 1) return true;
-    const Work work = finer_work(taken);
+  bool believable(const V&, const Increment<Real, n>& taken) const {
+    if (rule_.points == 1 || rule_.points == most_gauss_points) return true;
+    const detail::Gain<Real> work = finer_work(taken, 1);
     return Real(100) * abs(work.gain) <= work.size;
   }
 
@@ -179,25 +186,28 @@ class NaturalElement : public SegmentEquations<P, R> {
   using Base::unit_;
   static constexpr auto epsilon = Epsilon<Real>{};
 
-  /// What one more point sees: the energy gained, and the sizes of its terms.
-  struct Work {
-    Real gain{0};
-    Real size{0};
-  };
-  Work finer_work(const Increment<Real, n>& taken) const {
-    const GaussRule<Real>& finer = gauss_rule<Real>(rule_.points + 1);
+  /// What more points see of the energy gained.
+  detail::Gain<Real> finer_work(const Increment<Real, n>& taken, int more) const {
+    const GaussRule<Real>& finer = gauss_rule<Real>(rule_.points + more);
     const V& d = taken.q;
     const V middle = detail::midpoint<Real>(q0_, d);
     V f = zeros_like(d);
-    Work work;
+    detail::Gain<Real> work;
+    V first = f;
+    V q = f;
     for (std::size_t l = 0; l < finer.c.size(); ++l) {
-      force(problem_, detail::on_segment(middle, finer.offset[l], d), f);
+      q = detail::on_segment(middle, finer.offset[l], d);
+      force(problem_, q, f);
+      if (l == 0) first = f;
       for (std::size_t i = 0; i < d.size(); ++i) {
         work.gain += finer.b[l] * d[i] * (f[i] - taken.p[i] / h_);
         work.size += abs(finer.b[l] * d[i] * f[i]);
       }
     }
     effort_.force += finer.points;
+    detail::RoundingOfWork<Real> rounding;
+    for (std::size_t i = 0; i < d.size(); ++i) rounding.add(d[i] * f[i], (f[i] - first[i]) * q[i]);
+    work.noise = rounding.of_terms(finer.points + 4);
     return work;
   }
 

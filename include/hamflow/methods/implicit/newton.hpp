@@ -15,6 +15,7 @@
 #include "hamflow/methods/implicit/extrapolation.hpp"
 #include "hamflow/methods/implicit/newton_log.hpp"
 #include "hamflow/numerics/dense.hpp"
+#include "hamflow/numerics/lu_factors.hpp"
 
 namespace hamflow {
 
@@ -35,7 +36,38 @@ constexpr bool newton_at_rounding(const Real& size, const Real& before, bool fir
          (stalls >= 2 && size <= Real(1 << 26) * noise);
 }
 
+/// The same for iterations whose corrections shrink by a factor theta each time, a tangent of old or none at all. What
+/// is left undone is then theta/(1 - theta) of the last correction, with its sign; so that it does not add up to a
+/// drift it has to lie as far below the noise, or corrections have ceased to shrink, as they do in cycles of a few
+/// roundings. [HairerMcLachlanRazakarivony2008]
+/// @param least of all corrections before this one; kept here
+/// @param stalls corrections in a row that were no smaller than that; counted here
+template <class Real>
+constexpr bool linear_at_rounding(const Real& size, const Real& before, bool first, const Real& noise, Real& least,
+                                  int& stalls) {
+  const Real rate = !first && before > Real(0) ? size / before : Real(1);
+  stalls = !first && !(size < least) ? stalls + 1 : 0;
+  if (first || size < least) least = size;
+  return size <= noise / 16384 || (rate < Real(1) && rate * size <= (Real(1) - rate) * noise / 16384) ||
+         (stalls >= 1 && size <= noise) || (stalls >= 2 && size <= Real(1 << 26) * noise);
+}
+
 namespace detail {
+/// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
+template <class E>
+concept AnyIteration = requires(typename E::Point& at) {
+  { at.linearised } -> std::same_as<bool&>;
+};
+template <class E>
+struct GuessesOf {
+  using type = Extrapolation<typename E::Memory>;
+};
+template <class E>
+requires requires { typename E::Guesses; }
+struct GuessesOf<E> {
+  using type = typename E::Guesses;
+};
+
 template <class Real, std::size_t N>
 [[gnu::noinline]] void note_tangent(const Matrix<Real, N>& tangent, StepDiagnostics& out) {
   out.condition_tangent = static_cast<double>(condition_number(tangent));
@@ -143,12 +175,18 @@ class Newton {
     Real previous(0);  // |correction| of the iteration before
     Real first(0);
     Real noise(0);
+    [[maybe_unused]] Real least(0);
     bool at_rounding = false;  // no further correction can be told from rounding
     bool was_at_rounding = false;
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     int stalls = 0;
+    [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
     for (int k = 0;; ++k) {
+      if constexpr (detail::AnyIteration<E>) {
+        at.linearised =
+            options.iteration == Iteration::newton || (k == 0 && options.iteration == Iteration::simplified);
+      }
       if (!damped || !evaluated) step.evaluate(x, at);
       evaluated = false;
       if (options.tolerance || report.log != nullptr || options.diagnostics) {
@@ -175,12 +213,20 @@ class Newton {
       if constexpr (requires { step.sharpen(x, at); }) {
         if (k > 0) step.sharpen(x, at);  // this correction is the last one, mostly
       }
-      const auto tangent = step.tangent(at);
-      if (options.diagnostics) {
-        const auto solved = tangent;
-        detail::note_tangent(solved, report.diagnostics);
-      }
-      const Variables correction = hamflow::solve(tangent, at.residual);
+      const Variables correction = [&] {
+        if constexpr (detail::AnyIteration<E>) {
+          if (at.linearised && options.diagnostics) detail::note_tangent(step.tangent(at), report.diagnostics);
+          if (at.linearised) factors.factor(step.tangent(at));
+          return options.iteration == Iteration::fixed_point ? at.residual : factors.solve(at.residual);
+        } else {
+          const auto tangent = step.tangent(at);
+          if (options.diagnostics) {
+            const auto solved = tangent;
+            detail::note_tangent(solved, report.diagnostics);
+          }
+          return hamflow::solve(tangent, at.residual);
+        }
+      }();
       ++report.effort.linear_solves;
       const Correction<Real> c = step.measure(x, at, correction);
       noise = c.noise;
@@ -191,7 +237,9 @@ class Newton {
         return Ending::diverged;
       }
       if (k == 0) first = c.size;
-      at_rounding = newton_at_rounding(c.size, previous, k == 0 || shortened, noise, stalls);
+      at_rounding = !detail::AnyIteration<E> || options.iteration == Iteration::newton
+                        ? newton_at_rounding(c.size, previous, k == 0 || shortened, noise, stalls)
+                        : linear_at_rounding(c.size, previous, k == 0 || shortened, noise, least, stalls);
       was_at_rounding = was_at_rounding || at_rounding;
       if (at_rounding && !options.tolerance) {
         found.taken = step.taken(x, at, correction);
@@ -243,6 +291,7 @@ class Newton {
                            in_doubt ? Guess::predicted : Guess::last_state, Guess::damped};
     for (const Guess start : order) {
       if (start == tried) continue;
+      if (start == Guess::damped && report.options.iteration != Iteration::newton) continue;  // a part of a Newton step
       found.x = start == Guess::predicted ? step.predicted() : step.last_state();
       if (report.log != nullptr) report.log->attempt(start);
       Point at;
@@ -259,8 +308,8 @@ class Newton {
   }
 
   static bool believable(const E& step, const NewtonReport& report, const Solution& found) {
-    if constexpr (requires { step.believable(found.taken); }) {
-      if (!step.believable(found.taken)) {
+    if constexpr (requires { step.believable(found.x, found.taken); }) {
+      if (!step.believable(found.x, found.taken)) {
         if (report.log != nullptr) report.log->remark("a root that does not keep the energy");
         return false;
       }
@@ -279,7 +328,7 @@ class Newton {
     doubt_ = good ? doubt_ - 1 : good_guesses_wanted;
   }
 
-  Extrapolation<typename E::Memory> memory_;
+  typename detail::GuessesOf<E>::type memory_;
   int doubt_ = 0;  // good extrapolations still wanted before one is a first guess again
   long long solved_[5] = {};
 };

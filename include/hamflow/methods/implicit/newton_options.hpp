@@ -6,12 +6,20 @@
 
 namespace hamflow {
 
+/// How the equations of a step are solved.
+enum class Iteration {
+  newton,      // exact tangent in every iteration
+  simplified,  // the tangent of the first guess, factored once a step
+  fixed_point  // no tangent at all: first derivatives only
+};
+
 struct NewtonOptions {
   std::optional<double> tolerance{};  // on the norm of the residual; unset: its rounding level
   bool seed_criterion = false;        // stagnation above the tolerance is an error, as in the first thesis' programs
   int max_iterations = 15;            // of each attempt
   bool halve = false;                 // replace a step that does not converge by two half steps
   bool diagnostics = false;           // condition and determinant of the tangent, condition of M^-1, at every step
+  Iteration iteration = Iteration::newton;
 };
 
 }  // namespace hamflow

@@ -32,15 +32,6 @@ Vector<S, N> on_segment(const Vector<S, N>& middle, const Real& offset, const Ve
   return x;
 }
 
-/// Sums over the Gauss points are taken of kappa b_l, and multiplied by h/kappa in the end. The rounding of that
-/// product decides whether the last correction of Newton, which is mostly smaller, counts or is lost; so that it counts
-/// on average, what is rounded has to have random digits, whatever h is. With h = 1/8 alone there would be none. The
-/// golden ratio is the number whose multiples are spread most evenly.
-template <class Real>
-inline Real golden() {
-  return Real(1.6180339887498949);
-}
-
 /// (q, p) in one vector, as unknowns of a step, and back.
 template <std::size_t N>
 inline constexpr std::size_t twice = N == dynamic ? dynamic : 2 * N;

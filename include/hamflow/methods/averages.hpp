@@ -1,0 +1,62 @@
+// Implicit methods whose unknowns are averages of the motion along the step (methods/implicit/average_table.hpp):
+// energy-conserving elements of any degree, by any iteration, and Gauss collocation in stages.
+//     simulate(problem, CgOfDegree{{.degree = 3, .quadrature = 6}}, q, p, h);
+//     simulate(problem, Gauss{{.stages = 4, .iteration = Iteration::fixed_point}}, q, p, h);
+#pragma once
+
+#include "hamflow/core/capability.hpp"
+#include "hamflow/methods/implicit/averages_cyclic.hpp"
+#include "hamflow/methods/implicit/averages_general.hpp"
+#include "hamflow/methods/implicit/averages_natural.hpp"
+#include "hamflow/methods/implicit/implicit_method.hpp"
+
+namespace hamflow {
+
+namespace detail {
+template <class P, class Real>
+auto averages_for() {
+  if constexpr (QuadraticKinetic<P> && TwiceDifferentiable<P>) {
+    return std::type_identity<NaturalAverages<P, Real>>{};
+  } else if constexpr (Cyclic<P>) {
+    return std::type_identity<CyclicAverages<P, Real>>{};
+  } else {
+    return std::type_identity<GeneralAverages<P, Real>>{};
+  }
+}
+}  // namespace detail
+
+/// Newton's matrix has as many rows and columns as a step has unknowns; of systems of more than these none is made.
+inline constexpr std::size_t most_dense_unknowns = 500;
+
+/// The recipe of both. Large systems take Iteration::fixed_point. Without second derivatives of H `iteration` has to be
+/// fixed_point. @throws Error when bound to a problem that has none, with another one
+struct Averages {
+  static constexpr bool implicit = true;
+  static constexpr bool bijective = false;
+  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic, Capability::cyclic,
+                                         Capability::smooth};
+  template <class P>
+  static constexpr bool accepts = Differentiable<P>;
+  AverageOptions options;
+  template <class P, class A>
+  using Stepper = ImplicitMethod<P, A, typename decltype(detail::averages_for<P, typename A::Real>())::type>;
+  template <class P, class A>
+  Stepper<P, A> bind(const P& problem) const {
+    AverageOptions chosen = options;
+    if (degrees_of_freedom(problem) * static_cast<std::size_t>(options.element.degree) > most_dense_unknowns) {
+      chosen.element.iteration = Iteration::fixed_point;
+    }
+    return Stepper<P, A>(problem, chosen);
+  }
+};
+
+/// cg(k, s), order 2 k.
+struct CgOfDegree : Averages {
+  CgOfDegree(const CgOptions& chosen) : Averages{chosen} {}  // NOLINT: CgOfDegree{{.degree = 2}}
+};
+/// Gauss collocation, order 2 stages; the same map as cg(stages, stages).
+struct Gauss : Averages {
+  Gauss(const GaussOptions& chosen = {}) : Averages{chosen} {}  // NOLINT: Gauss{{.stages = 4}}
+};
+
+}  // namespace hamflow

@@ -1,0 +1,59 @@
+// Gauss collocation, in stages.
+#pragma once
+
+#include "hamflow/methods/averages.hpp"
+#include "hamflow/run/method_family.hpp"
+#include "newton_family.hpp"
+
+namespace hamflow::families {
+
+struct Gauss {
+  static const BoundOptions<GaussOptions>& options() {
+    static const BoundOptions<GaussOptions> all = [] {
+      BoundOptions<GaussOptions> list{bind_number({.name = "stages",
+                                                   .default_value = "2",
+                                                   .meaning = "Gauss points; the order is twice that",
+                                                   .range = Range::whole_from(1, 10),
+                                                   .position = 1},
+                                                  &GaussOptions::stages)};
+      add_newton_options(list);
+      return list;
+    }();
+    return all;
+  }
+
+  static MethodFamily declared() {
+    return {.name = "gauss",
+            .meaning = "Gauss collocation: symplectic, of any even order, for any twice differentiable H",
+            .methods = {"gauss"},
+            .options = declarations_of(options()),
+            .rank = 2,
+            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+            .not_fast = "an implicit step needs the exact force",
+            .representatives = {"gauss(1)", "gauss(2)", "gauss(3)", "gauss(4)"},
+            .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
+            .needs = [](std::size_t) { return "a twice differentiable H"; },
+            .advice =
+                [](std::size_t) {
+                  return MethodAdvice{
+                      .take = "H is not T(p) + V(q), the map has to be symplectic, and the order high",
+                      .avoid = "H = T(p) + V(q) and forces are cheap: kahan-li8; the energy has to be exact: cg"};
+                },
+            .refused = [](const Texts& given) { return refused_together(options(), given); },
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
+            .sized =
+                [](const Texts& given, std::size_t degrees) {
+                  return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).stages));
+                }};
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const Texts& given, F&& f) {
+    return f(Averages{read(given)});
+  }
+
+ private:
+  static GaussOptions read(const Texts& given) { return read_newton(options(), given); }
+};
+
+}  // namespace hamflow::families
