@@ -127,12 +127,16 @@ double walked(const P& problem, const Recipe& recipe, const V& q, const V& p, do
 template <class Recipe>
 void expect_energy(const Recipe& recipe) {
   // Of each step: work of |u| |grad H| epsilon times some ten terms; here |u| |grad H| < scale/10.
-  EXPECT_LE(walked(HenonHeiles<double>{}, recipe, Vector<double, 2>{0.3, -0.15}, Vector<double, 2>{0.2, 0.25}, 0.2, 10000), 1);
+  EXPECT_LE(
+      walked(HenonHeiles<double>{}, recipe, Vector<double, 2>{0.3, -0.15}, Vector<double, 2>{0.2, 0.25}, 0.2, 10000),
+      1);
   EXPECT_LE(walked(Pendulum<double>{}, recipe, Vector<double, 1>{1.5}, Vector<double, 1>{0.3}, 0.1, 10000), 1);
   EXPECT_LE(walked(DoublePendulumNonlinearAbsolute<double>{}, recipe, Vector<double, 2>{0.7, -0.5},
-                   Vector<double, 2>{1.5, 0.6}, 0.01, 10000), 1);
+                   Vector<double, 2>{1.5, 0.6}, 0.01, 10000),
+            1);
   EXPECT_LE(walked(CentralForce<double, Kepler>(1.0, Kepler<double>(1.0)), recipe, Vector<double, 2>{0.4, 0.0},
-                   Vector<double, 2>{0.0, 2.0}, 0.05, 10000), 1);
+                   Vector<double, 2>{0.0, 2.0}, 0.05, 10000),
+            1);
 }
 TEST(DiscreteGradient, KeepsTheEnergyToRounding) { expect_energy(DiscreteGradient{}); }
 TEST(ItohAbe, KeepsTheEnergyToRounding) { expect_energy(ItohAbe{}); }

@@ -24,9 +24,9 @@ struct RadialLaw {
   S second{};
 };
 
-/// **RadialForces**: T = sum |p_i|^2/(2 m_i) with one constant mass for each body, V = sum over terms of one law phi(u).
-/// radial_space() is the number of coordinates of a body, radial_terms() the terms, radial_law(u) the law, a template
-/// over the number type.
+/// **RadialForces**: T = sum |p_i|^2/(2 m_i) with one constant mass for each body, V = sum over terms of one law
+/// phi(u). radial_space() is the number of coordinates of a body, radial_terms() the terms, radial_law(u) the law, a
+/// template over the number type.
 template <class P>
 concept RadialForces = QuadraticKinetic<P> && requires(const P& problem, const RealOf<P>& u) {
   { problem.radial_space() } -> std::convertible_to<std::size_t>;

@@ -4,10 +4,11 @@
 //     z1 = z0 + sum_l (K_l, L_l),   mu_lj = a_lj/b_j of Gauss collocation,
 // with forces along the lines between the bodies: linear and angular momentum are kept, as quadratic invariants are by
 // collocation. One factor for each pair and step (radial_pair.hpp) makes the work that of the potential: so is the
-// energy. Order 2 k, symmetric, not symplectic. k = 1 is the scheme of LaBuddeGreenspan1976 and SimoTarnowWong1992.
+// energy. Order 2 k, symmetric, not symplectic. k = 1 is the scheme of [LaBuddeGreenspan1976].
 // Newton runs in L with the exact tangent.
 #pragma once
 
+#include "hamflow/core/capability.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
 #include "hamflow/methods/implicit/radial_pair.hpp"
 #include "hamflow/methods/implicit/target.hpp"
@@ -47,7 +48,7 @@ class RadialCollocation : public TargetEquations<R> {
       velocity(problem, ones, inverse_mass);  // M is diagonal
     }
     MethodInfo info() const { return describe(options); }
-    NewtonOptions newton() const { return options; }
+    NewtonOptions newton() const { return options.newton(); }
     std::string detail() const {
       return std::to_string(options.degree) + (options.degree == 1 ? " Gauss point" : " Gauss points");
     }
@@ -80,9 +81,9 @@ class RadialCollocation : public TargetEquations<R> {
     for (std::size_t l = 0; l < k_; ++l) {
       for (std::size_t i = 0; i < f.size(); ++i) x[l * f.size() + i] = (h_ * setup_.stages.b[l]) * f[i];
     }
-    return polished(x);
+    return x;
   }
-  Variables started(const Memory& extrapolated) const { return polished(extrapolated); }
+  Variables started(const Memory& extrapolated) const { return extrapolated; }
 
   void evaluate(const Variables& x, Point& at) const {
     const Variables velocities = velocities_of(p0_, x);
@@ -144,7 +145,7 @@ class RadialCollocation : public TargetEquations<R> {
     for (const RadialTerm<Real>& term : setup_.terms) {
       const RadialPair<S> pair = pair_of(term, q0, positions, velocities);
       for (std::size_t l = 0; l < k_; ++l) {
-        const S factor = (Real(-2) * h_ * setup_.stages.b[l] * term.strength) * pair.factors[l];
+        const S factor = (Real(-2) * h_ * setup_.stages.b[l] * term.strength) * pair.factor[l];
         for (std::size_t d = 0; d < setup_.space; ++d) {
           const S push = factor * pair.r[l][d];
           S& on_a = r[2 * size * l + size + term.a + d];
@@ -160,38 +161,6 @@ class RadialCollocation : public TargetEquations<R> {
 
  private:
   using Base::h_;
-
-  /// A guess that is closer to collocation, lambda = 0, by fixed-point iteration as long as that converges. Close to a
-  /// circle lambda varies so fast, within u' of the solution, that Newton does not find it from an extrapolation.
-  Variables polished(Variables x) const {
-    const std::size_t size = q0_.size();
-    const Real enough = sqrt(std::numeric_limits<Real>::epsilon());
-    V q = q0_;
-    V f = zeros_like(q0_);
-    Real before = std::numeric_limits<Real>::max();
-    for (int sweep = 0; sweep < 8; ++sweep) {
-      const Variables positions = positions_of(q0_, displacements(velocities_of(p0_, x)));
-      Variables next = x;
-      Real change(0);
-      Real all(0);
-      for (std::size_t l = 0; l < k_; ++l) {
-        for (std::size_t i = 0; i < size; ++i) q[i] = positions[l * size + i];
-        force(problem_, q, f);
-        ++effort_.force;
-        for (std::size_t i = 0; i < size; ++i) {
-          const std::size_t at = l * size + i;
-          next[at] = (h_ * setup_.stages.b[l]) * f[i];
-          change += abs(next[at] - x[at]);
-          all += abs(next[at]);
-        }
-      }
-      if (!(change < before / Real(2))) break;
-      x = next;
-      before = change;
-      if (change <= enough * all) break;
-    }
-    return x;
-  }
 
   /// y0 + sum_j mu_lj rows_j, as (y0 + y1)/2 + sum_j N_lj rows_j: symmetric in the two ends.
   template <class S, std::size_t N>
@@ -258,10 +227,12 @@ class RadialCollocation : public TargetEquations<R> {
           const Real of_a = abs(value_of(y[term.a + d]));
           return of_two ? Real(of_a + abs(value_of(y[term.b + d]))) : of_a;
         };
-        pair.reach[l] += Real(2) * (size_of(x) * abs(value_of(pair.w[l][d])) + abs(value_of(pair.r[l][d])) * size_of(v));
+        pair.reach[l] +=
+            Real(2) * (size_of(x) * abs(value_of(pair.w[l][d])) + abs(value_of(pair.r[l][d])) * size_of(v));
       }
     }
-    pair.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, start);
+    const Real inverse_mass = setup_.inverse_mass[term.a] + (of_two ? setup_.inverse_mass[term.b] : Real(0));
+    pair.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, start, Real(term.strength * inverse_mass));
     return pair;
   }
 
@@ -273,12 +244,12 @@ class RadialCollocation : public TargetEquations<R> {
       const Real weight = detail::golden<Real>() * setup_.stages.b[l];
       const Real bend = abs(two) * (abs(pair.law[l].first) + Real(2) * abs(pair.law[l].second) * pair.u[l]);
       for (std::size_t d = 0; d < setup_.space; ++d) {
-        const Real push = two * pair.factors[l] * pair.r[l][d];
+        const Real push = two * pair.factor[l] * pair.r[l][d];
         const std::size_t a = l * size + term.a + d;
         const std::size_t b = term.b == term.centre ? a : l * size + term.b + d;
-        const Real of_factor = abs(two * pair.r[l][d]) * pair.factor_noise[l];
-        const Real noise = abs(h_ * setup_.stages.b[l]) *
-                           (abs(push) + bend * (abs(positions[a]) + abs(positions[b])) + of_factor);
+        const Real of_factor = abs(two * pair.r[l][d]) * pair.noise;
+        const Real noise =
+            abs(h_ * setup_.stages.b[l]) * (abs(push) + bend * (abs(positions[a]) + abs(positions[b])) + of_factor);
         at.sum[a] -= weight * push;
         at.noise[a] += noise;
         if (a == b) continue;
@@ -302,28 +273,66 @@ class RadialCollocation : public TargetEquations<R> {
       for (std::size_t d = 0; d < setup_.space; ++d) {
         Real by_u[RadialPair<Real>::most]{};
         Real by_rate[RadialPair<Real>::most]{};
-        Real excess(0);
-        Real weight(0);
+        Real end(0);  // of u1, which is u0 + h sum b_l u'_l
         for (std::size_t l = 0; l < k_; ++l) {
           by_u[l] = Real(2) * nu[l] * pair.r[l][d];
           by_rate[l] = Real(2) * (nu[l] * pair.w[l][d] + mu(l, m) * pair.r[l][d]);
-          // The change of phi(u1) is phi'(u1) times that of u1, h sum b_l du'_l.
-          excess += s.b[l] * (pair.change[l] * by_rate[l] - pair.law[l].second * pair.rate[l] * by_u[l]);
-          weight += Real(2) * s.b[l] * pair.rate[l] * by_rate[l];
+          end += h_ * s.b[l] * by_rate[l];
         }
-        const bool corrected = k_ > 1 && !(pair.lambda == Real(0));
-        const Real by_lambda = corrected ? Real((excess - pair.lambda * weight) / pair.weight) : Real(0);
+        Real by_factor[RadialPair<Real>::most]{};
+        differentiate(pair, by_u, by_rate, Real(pair.slope * end), by_factor);
         for (std::size_t l = 0; l < k_; ++l) {
-          const Real bent = k_ == 1 ? Real(pair.mean_slope * h_ * by_rate[0])
-                                    : Real(pair.law[l].second * by_u[l] + by_lambda * pair.rate[l] +
-                                           pair.lambda * by_rate[l]);
           for (std::size_t i = 0; i < setup_.space; ++i) {
             const Real change = Real(2) * term.strength * h_ * s.b[l] *
-                                (bent * pair.r[l][i] + (i == d ? Real(pair.factors[l] * nu[l]) : Real(0)));
+                                (by_factor[l] * pair.r[l][i] + (i == d ? Real(pair.factor[l] * nu[l]) : Real(0)));
             couple(term, l * size + i, m * size + d, change, tangent);
           }
         }
       }
+    }
+  }
+  /// The factors along a direction, from u, u' and phi[u0, u1]. Of delta^2, which counts close to u' = 0 alone, the
+  /// change by s_l is taken and that of its prefactor left out: it is smaller by s_l/u_l.
+  void differentiate(const RadialPair<Real>& pair, const Real* by_u, const Real* by_rate, const Real& by_mean,
+                     Real* by_factor) const {
+    const GaussStages<Real>& s = setup_.stages;
+    for (std::size_t l = 0; l < k_; ++l) by_factor[l] = by_mean;
+    if (k_ == 1) return;
+    Real work(0);
+    Real square(0);
+    Real limit(0);
+    for (std::size_t l = 0; l < k_; ++l) {
+      const Real by_gap = by_mean - pair.law[l].second * by_u[l];
+      work += s.b[l] * (by_rate[l] * pair.gap[l] + pair.rate[l] * by_gap);
+      square += Real(2) * s.b[l] * pair.rate[l] * by_rate[l];
+      Real by_error = by_u[l];
+      for (std::size_t j = 0; j < k_; ++j) by_error -= h_ * s.a(l, j) * by_rate[j];
+      const Real bend = pair.u[l] * pair.law[l].second;
+      limit += Real(2) * s.b[l] * bend * bend * pair.error[l] * by_error;
+    }
+    Real by_along(0);
+    Real by_share(0);
+    if (pair.share > Real(0)) {
+      // along = work (1 - chi)/square with d chi = -chi dy, y = square/limit.
+      Real prefactor(0);
+      for (std::size_t l = 0; l < k_; ++l) {
+        const Real bend = pair.u[l] * pair.law[l].second;
+        prefactor += s.b[l] * bend * bend * pair.error[l] * pair.error[l];
+      }
+      const Real y = pair.square / pair.limit;
+      const Real by_y = (square - y * (limit * (pair.limit / prefactor))) / pair.limit;
+      by_share = -pair.share * by_y;
+      const Real part = detail::difference_of_exp(Real(0), Real(-y));  // (1 - chi)/y
+      const Real by_part = y > Real(0.01) ? Real((pair.share - part) / y) : Real(-Real(0.5) + y / Real(3));
+      by_along = (work * part + pair.work * by_part * by_y) / pair.limit -
+                 pair.along * (limit * (pair.limit / prefactor)) / pair.limit;
+    } else if (pair.square > Real(0)) {
+      by_along = (work - pair.along * square) / pair.square;
+    }
+    for (std::size_t l = 0; l < k_; ++l) {
+      const Real by_gap = by_mean - pair.law[l].second * by_u[l];
+      by_factor[l] = pair.law[l].second * by_u[l] + by_along * pair.rate[l] + pair.along * by_rate[l] +
+                     by_share * pair.gap[l] + pair.share * by_gap;
     }
   }
   void couple(const RadialTerm<Real>& term, std::size_t row, std::size_t column, const Real& change,
@@ -350,6 +359,7 @@ class RadialCollocation : public TargetEquations<R> {
 struct Eg {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
+  static constexpr Capability faces[] = {Capability::separable | Capability::quadratic_kinetic | Capability::radial};
   template <class P>
   static constexpr bool accepts = RadialForces<P>;
   EgOptions options{};

@@ -12,6 +12,18 @@
 
 namespace hamflow {
 
+inline MethodInfo midpoint_gradient_claims() {
+  return {.name = "discrete-gradient",
+          .summary = "midpoint discrete gradient of Gonzalez: conserves any H",
+          .reference = "Gonzalez1996; HLW2006, Sect. V.5",
+          .order = 2,
+          .explicit_step = false,
+          .weakly_reversible = true,
+          .symmetric = true,
+          .reversible = true,
+          .energy_conserving = Conservation::yes};
+}
+
 template <class P, class R>
 class MidpointDiscreteGradient {
  public:
@@ -19,17 +31,7 @@ class MidpointDiscreteGradient {
   using Rows = Vector<R, dynamic>;
   explicit MidpointDiscreteGradient(const P& problem) : energy_(problem) {}
 
-  static MethodInfo claims() {
-    return {.name = "discrete-gradient",
-            .summary = "midpoint discrete gradient of Gonzalez: conserves any H",
-            .reference = "Gonzalez1996; HLW2006, Sect. V.5",
-            .order = 2,
-            .explicit_step = false,
-            .weakly_reversible = true,
-            .symmetric = true,
-            .reversible = true,
-            .energy_conserving = Conservation::yes};
-  }
+  static MethodInfo claims() { return midpoint_gradient_claims(); }
 
   template <class S>
   Vector<S, dynamic> at(const P& problem, const Vector<S, dynamic>& z0, const Vector<S, dynamic>& u) const {
@@ -138,8 +140,9 @@ struct DiscreteGradient {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
   template <class P>
-  static constexpr bool accepts = Smooth<P> && Traceable<P, RealOf<P>>;
+  static constexpr bool accepts = Smooth<P>&& Traceable<P, RealOf<P>>;
   NewtonOptions options{};
+  MethodInfo info() const { return described(midpoint_gradient_claims(), options); }
   template <class P, class A>
   using Stepper = ImplicitMethod<P, A, DiscreteGradientStep<P, typename A::Real, MidpointDiscreteGradient>>;
   template <class P, class A>

@@ -1,7 +1,7 @@
 // The discrete gradient of coordinate increments: coordinates change one after the other, q1 .. qn, then p1 .. pn, and
 //     DH_i = [H(z1_1 .. z1_i, z0_(i+1) ..) - H(z1_1 .. z1_(i-1), z0_i ..)]/(z1_i - z0_i).   [ItohAbe1988]
-// Order 1, conserves H whatever it is, needs no derivative of H; not symmetric. The quotient comes from a recording of H
-// (numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a coordinate does not move.
+// Order 1, conserves H whatever it is, needs no derivative of H; not symmetric. The quotient comes from a recording of
+// H (numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a coordinate does not move.
 // Newton takes the exact tangent: dDH_i/dz_j, j < i, is the same quotient of dH/dz_j, and dDH_i/dz1_i is found by dual
 // numbers through the quotient.
 #pragma once
@@ -12,6 +12,16 @@
 
 namespace hamflow {
 
+inline MethodInfo coordinate_increment_claims() {
+  return {.name = "itoh-abe",
+          .summary = "coordinate increments of Itoh and Abe: conserves any H, without derivatives",
+          .reference = "ItohAbe1988; HLW2006, Sect. V.5",
+          .order = 1,
+          .explicit_step = false,
+          .weakly_reversible = true,
+          .energy_conserving = Conservation::yes};
+}
+
 template <class P, class R>
 class CoordinateIncrements {
  public:
@@ -19,15 +29,7 @@ class CoordinateIncrements {
   using Rows = Vector<R, dynamic>;
   explicit CoordinateIncrements(const P& problem) : energy_(problem), gradient_(problem, &tape_of_gradient<R, P, n>) {}
 
-  static MethodInfo claims() {
-    return {.name = "itoh-abe",
-            .summary = "coordinate increments of Itoh and Abe: conserves any H, without derivatives",
-            .reference = "ItohAbe1988; HLW2006, Sect. V.5",
-            .order = 1,
-            .explicit_step = false,
-            .weakly_reversible = true,
-            .energy_conserving = Conservation::yes};
-  }
+  static MethodInfo claims() { return coordinate_increment_claims(); }
 
   template <class S>
   Vector<S, dynamic> at(const P& problem, const Vector<S, dynamic>& z0, const Vector<S, dynamic>& u) const {
@@ -114,8 +116,9 @@ struct ItohAbe {
   static constexpr bool implicit = true;
   static constexpr bool bijective = false;
   template <class P>
-  static constexpr bool accepts = Smooth<P> && Traceable<P, RealOf<P>>;
+  static constexpr bool accepts = Smooth<P>&& Traceable<P, RealOf<P>>;
   NewtonOptions options{};
+  MethodInfo info() const { return described(coordinate_increment_claims(), options); }
   template <class P, class A>
   using Stepper = ImplicitMethod<P, A, DiscreteGradientStep<P, typename A::Real, CoordinateIncrements>>;
   template <class P, class A>

@@ -32,7 +32,7 @@ class LobattoStages : public TargetEquations<R> {
     const LobattoPair<Real>* pair;
     Setup(const P&, const LobattoOptions& chosen) : options(chosen), pair(&lobatto_pair<Real>(chosen.stages)) {}
     MethodInfo info() const { return describe(options); }
-    NewtonOptions newton() const { return options; }
+    NewtonOptions newton() const { return options.newton(); }
     std::string detail() const { return std::to_string(options.stages) + " stages"; }
     template <class Archive>
     void archive(Archive&) {}

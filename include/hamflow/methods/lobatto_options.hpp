@@ -1,6 +1,7 @@
 // What a user can choose about lobatto-3a-3b, and what it then claims.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "hamflow/core/method_info.hpp"
@@ -8,8 +9,16 @@
 
 namespace hamflow {
 
-struct LobattoOptions : NewtonOptions {
-  int stages = 2;  // 2 to 10
+struct LobattoOptions {
+  int stages = 2;                     // 2 to 10
+  std::optional<double> tolerance{};  // on the 2-norm of the residual; unset: its rounding level
+  bool seed_criterion = false;        // stagnation above the tolerance is an error
+  int max_iterations = 15;
+  bool halve = false;  // replace a step that does not converge by two half steps
+  bool diagnostics = false;
+  Iteration iteration = Iteration::newton;
+
+  NewtonOptions newton() const { return {tolerance, seed_criterion, max_iterations, halve, diagnostics, iteration}; }
 };
 
 inline MethodInfo describe(const LobattoOptions& options) {
@@ -24,7 +33,8 @@ inline MethodInfo describe(const LobattoOptions& options) {
           .reversible = true,
           .energy_conserving = Conservation::no,
           .halves_steps = options.halve,
-          .diagnostics = options.diagnostics};
+          .diagnostics = options.diagnostics,
+          .quadratic_iteration = options.iteration == Iteration::newton};
 }
 
 }  // namespace hamflow

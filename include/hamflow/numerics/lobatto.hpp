@@ -1,9 +1,9 @@
 // Lobatto quadrature on [0, 1] and the collocation matrices of the pair IIIA, IIIB.   [HLW2006, Sect. II.1.4, II.2.2]
 //     c_1 = 0, c_s = 1, between them the zeros of P'_(s-1), b_i = 1/(s (s - 1) P_(s-1)(2 c_i - 1)^2): exact to degree
 //     2 s - 3.   a_ij = int_0^(c_i) l_j of IIIA,   b_i A_ij + b_j a_ji = b_i b_j for A of IIIB.
-// With a_ij/b_j = 1/2 + nu_ij that condition says A_ij/b_j = 1/2 - nu_ji: whatever nu is rounded to, the pair that takes
-// nu for both is symplectic. The orthonormal shifted Legendre polynomials are orthogonal in the discrete sense too, with
-// the norm gamma = (2 s - 1)/(s - 1) of the last one and 1 of the others, and so
+// With a_ij/b_j = 1/2 + nu_ij that condition says A_ij/b_j = 1/2 - nu_ji: whatever nu is rounded to, the pair that
+// takes nu for both is symplectic. The orthonormal shifted Legendre polynomials are orthogonal in the discrete sense
+// too, with the norm gamma = (2 s - 1)/(s - 1) of the last one and 1 of the others, and so
 //     nu_ij = int_(1/2)^(c_i) 1 + sum_(m>0) P_m(c_j) I_m(c_i)/gamma_m,   I_m(c) = int_0^c P_m.
 #pragma once
 
@@ -22,7 +22,7 @@ struct LobattoPair {
   int stages = 0;
   std::vector<R> offset;  // c - 1/2, odd about the middle of the step to the last bit
   std::vector<R> b;
-  std::vector<R> nu;      // row after row, nu_(s+1-i,s+1-j) = -nu_ij; -1/2 in the first row, 1/2 in the last
+  std::vector<R> nu;  // row after row, nu_(s+1-i,s+1-j) = -nu_ij; -1/2 in the first row, 1/2 in the last
 };
 
 namespace detail {
@@ -55,7 +55,8 @@ LobattoPair<R> made_lobatto_pair(int stages) {
     R x(1);
     R p(1);
     if (i > 0) {
-      const auto found = lobatto_zero<R>(n, in_the_middle ? R(0) : R(cos(pi_value<R>() * R(static_cast<int>(i)) / R(n))));
+      const auto found =
+          lobatto_zero<R>(n, in_the_middle ? R(0) : R(cos(pi_value<R>() * R(static_cast<int>(i)) / R(n))));
       x = in_the_middle ? R(0) : found.first;
       p = found.second;
     }

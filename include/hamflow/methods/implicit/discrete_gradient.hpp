@@ -11,10 +11,18 @@ namespace hamflow {
 /// What a discrete gradient is at one u.
 template <class Real>
 struct LinearisedGradient {
-  Vector<Real, dynamic> value{};    // DH, first by q, then by p
-  Vector<Real, dynamic> noise{};    // what it rounds by, in units of epsilon
-  Matrix<Real, dynamic> by_u{};     // dDH_i/du_j, where it is wanted
+  Vector<Real, dynamic> value{};  // DH, first by q, then by p
+  Vector<Real, dynamic> noise{};  // what it rounds by, in units of epsilon
+  Matrix<Real, dynamic> by_u{};   // dDH_i/du_j, where it is wanted
 };
+
+/// What a discrete gradient claims, with what follows from the options.
+inline MethodInfo described(MethodInfo claims, const NewtonOptions& options) {
+  claims.halves_steps = options.halve;
+  claims.diagnostics = options.diagnostics;
+  claims.quadratic_iteration = options.iteration == Iteration::newton;
+  return claims;
+}
 
 /// @tparam Rule a discrete gradient:
 ///     Rule(const P&)
@@ -39,12 +47,7 @@ class DiscreteGradientStep : public TargetEquations<R> {
     NewtonOptions options;
     Rule<P, Real> rule;
     Setup(const P& problem, const NewtonOptions& chosen) : options(chosen), rule(problem) {}
-    MethodInfo info() const {
-      MethodInfo claims = Rule<P, Real>::claims();
-      claims.halves_steps = options.halve;
-      claims.diagnostics = options.diagnostics;
-      return claims;
-    }
+    MethodInfo info() const { return described(Rule<P, Real>::claims(), options); }
     NewtonOptions newton() const { return options; }
     std::string detail() const { return "a discrete gradient"; }
     template <class Archive>

@@ -2,10 +2,17 @@
 // [GrossBetschSteinmann2005]   With u(t) = |r|^2 along the trial polynomial, its value and rate at k Gauss points u_l,
 // u'_l, the pair's force is -2 (phi'_l + lambda u'_l) r_l. It does the work -[phi(u1) - phi(u0)] just for
 //     lambda = (phi(u1) - phi(u0) - h sum_l b_l phi'_l u'_l)/(h sum_l b_l u'_l^2).
-// u' has degree 2 k - 1, so that u1 - u0 = h sum b_l u'_l, and with the divided difference phi[u0, u1]
-//     lambda u'_l = u'_l sum_m b_m u'_m (phi[u0, u1] - phi'_m)/sum_m b_m u'_m^2,
-// without the cancellation of energies. Of one point it is phi[u0, u1] - phi'_1: no quotient is left. Of more, where the sum in the numerator is rounding itself (on a circle, at rest) the pair
-// does the right work already, and lambda is 0.
+// u' has degree 2 k - 1, so that u1 - u0 = h sum b_l u'_l, and with the divided difference phi[u0, u1] and
+// g_l = phi[u0, u1] - phi'_l, (x, y) = sum b_l x_l y_l,
+//     lambda u' = u' (u', g)/(u', u'),
+// the projection of g on u', without the cancellation of energies; for k = 1 it is g itself.
+//
+// It has no limit at u' = 0, at rest and on a circle: there it depends on the direction of u', and steps close to it
+// would have no solution. Any u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work. So
+//     chi = exp(-(u', u')/delta^2),   delta = 8 times what u' changes by when g is added to the factor,
+// with the g that is left where u' = 0, phi'' s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of collocation in u,
+// of order k + 1 in h. On a circle the factor is phi[u0, u1], and the step stays on it; where u' is of the size of 9
+// delta or more chi is below any rounding.
 #pragma once
 
 #include <memory>
@@ -16,24 +23,22 @@
 
 namespace hamflow {
 
-/// phi and phi' on a tape, for their divided differences.
+/// phi on a tape, for its divided difference.
 template <class R>
 class RecordedLaw {
  public:
   template <class P>
   explicit RecordedLaw(const P& problem) {
     Recorder<R> recorder(Folding::exact);
-    const RadialLaw<Trace<R>> law = problem.radial_law(recorder.input(R(5) / R(7)));
-    tape_ = std::make_shared<const Tape<R>>(recorder.finish({law.value, law.first}));
+    tape_ = std::make_shared<const Tape<R>>(recorder.finish({problem.radial_law(recorder.input(R(5) / R(7))).value}));
   }
-  /// phi[a, b] and phi'[a, b] (b - a). @param way b - a
+  /// phi[a, b].
   template <class S>
-  std::pair<S, S> differences(const S& a, const S& b, const S& way) const {
+  S difference(const S& a, const S& b) const {
     Vector<Slope<S>, dynamic> nodes(tape_->nodes.size());
     nodes[0] = Slope<S>(a, b, S(R(1)));
     (void)replay(*tape_, nodes);  // laws have no branches
-    const auto output = [&](std::size_t k) { return nodes[static_cast<std::size_t>(tape_->outputs[k])].slope; };
-    return {output(0), output(1) * way};
+    return nodes[static_cast<std::size_t>(tape_->outputs[0])].slope;
   }
 
  private:
@@ -46,6 +51,7 @@ struct GaussStages {
   std::size_t count;
   R b[largest_eg_degree]{};
   R inner[largest_eg_degree][largest_eg_degree]{};
+  R a(std::size_t l, std::size_t j) const { return (R(0.5) + inner[l][j]) * b[j]; }
 
   explicit GaussStages(int degree) : count(static_cast<std::size_t>(degree)) {
     if (degree == 1) {
@@ -74,36 +80,36 @@ struct GaussStages {
 template <class S>
 struct RadialPair {
   static constexpr std::size_t most = largest_eg_degree;
-  S r[most][3]{};      // differences of positions
-  S w[most][3]{};      // and of velocities
-  S rate[most]{};      // u'
+  S r[most][3]{};  // differences of positions
+  S w[most][3]{};  // and of velocities
   S u[most]{};
+  S rate[most]{};  // u'
   RadialLaw<S> law[most]{};
-  S change[most]{};    // phi'(u1) - phi'_l
-  S lambda{};
-  S weight{};          // sum_l b_l u'_l^2; not used for one point
-  S mean_slope{};      // of one point: d phi[u0, u1]/du1
-  // What rounding makes of u'_l, and then of lambda u'_l, in units of epsilon. Close to a circle u' is small beside
-  // phi[u0, u1] - phi', and what lambda u' rounds by may be far more than what phi' rounds by.
-  base_scalar<S> reach[most]{};
-  base_scalar<S> factor_noise[most]{};
-
-  S factors[most]{};   // phi'_l + lambda u'_l
+  S slope{};                     // d phi[u0, u1]/du1
+  S gap[most]{};                 // g
+  S error[most]{};               // s
+  S factor[most]{};              // phi'_l + lambda u'_l
+  S work{};                      // (u', g)
+  S square{};                    // (u', u')
+  S limit{};                     // delta^2
+  S along{};                     // lambda, or what is left of it close to u' = 0
+  S share{};                     // chi
+  base_scalar<S> reach[most]{};  // what u'_l rounds by, in units of epsilon
+  base_scalar<S> noise{};        // and then lambda u'_l
 
   /// From r, w and reach.
-  /// @param start x_a - x_b at the beginning of the step
+  /// @param start x_a - x_b at the beginning of the step   @param strength of the pair over its reduced mass
   template <class P, class R>
   void complete(const P& problem, const RecordedLaw<R>& recorded, const GaussStages<R>& stages, const R& h,
-                std::size_t space, const S (&start)[3]) {
+                std::size_t space, const S (&start)[3], const R& strength) {
     const std::size_t k = stages.count;
-    S end[3]{};
     S u0(R(0));
     S u1(R(0));
     for (std::size_t d = 0; d < space; ++d) {
-      end[d] = start[d];
-      for (std::size_t l = 0; l < k; ++l) end[d] = end[d] + (h * stages.b[l]) * w[l][d];
+      S end = start[d];
+      for (std::size_t l = 0; l < k; ++l) end = end + (h * stages.b[l]) * w[l][d];
       u0 = u0 + start[d] * start[d];
-      u1 = u1 + end[d] * end[d];
+      u1 = u1 + end * end;
     }
     S way(R(0));
     for (std::size_t l = 0; l < k; ++l) {
@@ -115,50 +121,52 @@ struct RadialPair {
       law[l] = problem.radial_law(u[l]);
       way = way + (h * stages.b[l]) * rate[l];
     }
-    const S mean = recorded.differences(u0, u1, way).first;
-    S excess(R(0));
-    weight = S(R(0));
-    for (std::size_t l = 0; l < k; ++l) {
-      excess = excess + stages.b[l] * (rate[l] * (mean - law[l].first));
-      weight = weight + stages.b[l] * (rate[l] * rate[l]);
-      S ahead(R(0));  // u1 - u_l
-      for (std::size_t d = 0; d < space; ++d) ahead = ahead + (end[d] - r[l][d]) * (end[d] + r[l][d]);
-      change[l] = recorded.differences(u[l], u1, ahead).second;
-    }
-    if (k == 1) {
-      factors[0] = mean;
-      complete_single(problem, u0, way, mean);
-      return;
-    }
-    for (std::size_t l = 0; l < k; ++l) factors[l] = law[l].first;
-    R noise(0);  // of excess and of weight, in units of epsilon
-    R loose(0);
-    for (std::size_t l = 0; l < k; ++l) {
-      const R v = abs(value_of(rate[l]));
-      noise += stages.b[l] * (abs(value_of(S(mean - law[l].first))) * reach[l] + v * abs(value_of(law[l].first)));
-      loose += R(2) * stages.b[l] * v * reach[l];
-    }
-    lambda = S(R(0));
-    if (!(abs(value_of(excess)) > R(4) * std::numeric_limits<R>::epsilon() * noise)) return;
-    if (!(value_of(weight) > R(0))) return;
-    lambda = excess / weight;
-    for (std::size_t l = 0; l < k; ++l) {
-      factors[l] = law[l].first + lambda * rate[l];
-      const R of_lambda = abs(value_of(lambda));
-      factor_noise[l] =
-          abs(value_of(rate[l])) * (noise + of_lambda * loose) / value_of(weight) + of_lambda * reach[l];
-    }
+    const S mean = recorded.difference(u0, u1);
+    slope = slope_of_mean(problem, u0, u1, way, mean);
+    for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
+    if (k > 1) project(stages, h, u0, mean, R(R(32) * h * strength));
   }
 
  private:
-  /// d phi[u0, u1]/du1 = (phi'(u1) - phi[u0, u1])/(u1 - u0): where that cancels by its Taylor polynomial, to second order.
+  /// (phi'(u1) - phi[u0, u1])/(u1 - u0): where that cancels by its Taylor polynomial, to second order.
   template <class P>
-  void complete_single(const P& problem, const S& u0, const S& way, const S& mean) {
+  static S slope_of_mean(const P& problem, const S& u0, const S& u1, const S& way, const S& mean) {
     using R = base_scalar<S>;
     const R size = abs(value_of(way));
     const bool close = size * size * size <= std::numeric_limits<R>::epsilon() * value_of(S(u0 * u0 * u0));
-    mean_slope = close ? S(problem.radial_law(S(u0 + way * (R(2) / R(3)))).second / R(2))
-                       : S((law[0].first + change[0] - mean) / way);
+    return close ? S(problem.radial_law(S(u0 + way * (R(2) / R(3)))).second / R(2))
+                 : S((problem.radial_law(u1).first - mean) / way);
+  }
+  /// @param response 8 times what a factor of 1 changes u' by, over u
+  template <class R>
+  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const R& response) {
+    const std::size_t k = stages.count;
+    work = square = limit = S(R(0));
+    R largest(0);
+    R loose(0);
+    for (std::size_t l = 0; l < k; ++l) {
+      gap[l] = mean - law[l].first;
+      error[l] = u[l] - u0;
+      for (std::size_t j = 0; j < k; ++j) error[l] = error[l] - (h * stages.a(l, j)) * rate[j];
+      work = work + stages.b[l] * (rate[l] * gap[l]);
+      square = square + stages.b[l] * (rate[l] * rate[l]);
+      const S here = response * (u[l] * (law[l].second * error[l]));
+      limit = limit + stages.b[l] * (here * here);
+      largest = larger(largest, R(abs(value_of(gap[l]))));
+      loose = larger(loose, reach[l]);
+    }
+    share = along = S(R(0));
+    const R both = value_of(square) + value_of(limit);
+    if (!(both > R(0))) return;
+    noise = largest * loose / sqrt(both);
+    if (value_of(square) > (R(20) - log(std::numeric_limits<R>::epsilon())) * value_of(limit)) {
+      along = work / square;
+    } else {
+      const S y = square / limit;
+      share = exp(-y);
+      along = work * detail::difference_of_exp(S(R(0)), S(-y)) / limit;  // (1 - chi)/(u', u')
+    }
+    for (std::size_t l = 0; l < k; ++l) factor[l] = law[l].first + along * rate[l] + share * gap[l];
   }
 };
 

@@ -39,7 +39,8 @@ class RecordedFunctions {
     tape_ = std::make_shared<const Tape<R>>(record(problem, q, p));
   }
 
-  /// Calls take(k, slope) for the slopes (f_k(z + t s) - f_k(z))/t of all functions, at t = 0 their derivatives along s.
+  /// Calls take(k, slope) for the slopes (f_k(z + t s) - f_k(z))/t of all functions, at t = 0 their derivatives along
+  /// s.
   /// @return false where z and z + t s lie on two sides of a branch
   template <class S, class Take>
   bool slopes(const P& problem, const Vector<S, dynamic>& z, const Vector<S, dynamic>& s, const S& t,

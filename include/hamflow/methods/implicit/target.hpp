@@ -1,6 +1,6 @@
-// What equations of the form  x = (h/kappa) s(x)  have in common: unknowns x, in dynamic rows, their target (h/kappa) s,
-// the residual target - x, and Newton's tangent 1 - d target/dx. Roundings are treated as in natural.hpp: the product
-// with h/kappa is rounded once, together with the last correction.
+// What equations of the form  x = (h/kappa) s(x)  have in common: unknowns x, in dynamic rows, their target (h/kappa)
+// s, the residual target - x, and Newton's tangent 1 - d target/dx. Roundings are treated as in natural.hpp: the
+// product with h/kappa is rounded once, together with the last correction.
 #pragma once
 
 #include "hamflow/methods/implicit/equations.hpp"
@@ -14,11 +14,11 @@ template <class Real>
 struct TargetPoint {
   using Rows = Vector<Real, dynamic>;
   Rows residual{};
-  Rows sum{};                      // s
-  Rows target{};                   // (h/kappa) s
-  Rows noise{};                    // what the target rounds by, in units of epsilon, entry by entry
+  Rows sum{};                       // s
+  Rows target{};                    // (h/kappa) s
+  Rows noise{};                     // what the target rounds by, in units of epsilon, entry by entry
   Matrix<Real, dynamic> tangent{};  // 1 - d target/dx
-  bool linearised = true;          // evaluate() is to compute noise of second order and tangent, too
+  bool linearised = true;           // evaluate() is to compute noise of second order and tangent, too
 };
 
 /// Newton's questions about such equations.
