@@ -161,10 +161,6 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const int digits = digits_beyond_double(request.arithmetic);
   const MethodFamily& family = *find_method(request.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
-  if (family.sized) {
-    const std::size_t degrees = std::max({problem.dimension, full.start.q.size(), problem.info.default_q.size()});
-    full.method.options = family.sized(full.method.options, degrees);
-  }
   if (digits > 0) return problem.simulate_erased(full);
   const bool of_any_size = problem.dimension == 0;
   if (of_any_size && full.kernel == "exact" && full.arithmetic != "lattice") {

@@ -71,7 +71,7 @@ std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Reque
                                                          ExtrapolatedMidpoint{{.tolerance = tolerance}}, simulate);
     }
   }
-  return visit_erased(run.functions.capability, request.method, simulate);
+  return visit_erased(run.functions.capability, run.functions.size, request.method, simulate);
 }
 
 }  // namespace hamflow

@@ -25,7 +25,7 @@ TangentSteps tangents_of(const ErasedFunctions<double>& functions, const Recipe&
 }  // namespace
 
 std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const MethodSpec& method) {
-  return visit_erased(problem.in_double.capability, method,
+  return visit_erased(problem.in_double.capability, problem.in_double.size, method,
                       [&]<Capability c, class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
                         const auto make = [&]<class R>() { return problem.in<R>().template as<c>(); };
                         auto map = std::make_unique<StepMapOf<Faces<c>::template Of, Recipe, true>>(make, recipe);

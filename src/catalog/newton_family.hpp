@@ -8,11 +8,6 @@
 
 namespace hamflow::families {
 
-/// Corrections that a linearly convergent iteration may take where nothing else is said: with every one a tenth smaller
-/// these are 4 digits, with every one half as large 30.
-inline constexpr int linear_iterations = 100;
-inline constexpr const char* fixed_point_word = "fixed-point";
-
 /// Of elements: the Gauss points. @param least the smallest number @param position among the options
 template <class Options>
 BoundOption<Options> quadrature_option(int position) {
@@ -87,19 +82,6 @@ std::pair<std::string, std::string> refused_together(const BoundOptions<Options>
     return {last_option(options, 0), "found true; allowed false, since a fixed-point iteration has no tangent"};
   }
   return {};
-}
-
-/// The options for a system of so many unknowns: large ones never build a matrix.
-template <class Options>
-Texts for_size(const BoundOptions<Options>& options, const Texts& given, std::size_t unknowns) {
-  if (unknowns <= most_dense_unknowns) return given;
-  if (read_newton(options, given).diagnostics) {
-    throw Error(last_option(options, 0) + ": found true; allowed false for systems of more than " +
-                std::to_string(most_dense_unknowns) + " unknowns, of which no tangent is made");
-  }
-  Texts all = given;
-  all[last_option(options, 2)] = fixed_point_word;
-  return all;
 }
 
 template <class Options>

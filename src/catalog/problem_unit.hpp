@@ -183,6 +183,7 @@ class ProblemUnit : ProblemStart<Family> {
       if constexpr (!M::template accepts<P> || !has_typed_kernel<M>()) {
         return nullptr;
       } else if constexpr (always_compensated<M>()) {
+        if (n == dynamic && request.start.q.size() > most_dense_unknowns) return nullptr;  // cg(1) without a matrix
         return build<Compensated<double>>(request, recipe);
       } else {
         if constexpr (has_fast_kernel) {

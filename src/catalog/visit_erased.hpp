@@ -37,10 +37,15 @@ auto visit_face(Capability offered, const M& recipe, F&& f) {
 }
 }  // namespace detail
 
-/// Calls f.operator()<face>(recipe) with the first face of the recipe that the problem offers.
+/// Calls f.operator()<face>(recipe) with the first face of the recipe that the problem offers. cg(1) of a large system
+/// is solved as elements of higher degree are, without a matrix.
+/// @param size its degrees of freedom
 template <class F>
-auto visit_erased(Capability offered, const MethodSpec& spec, F&& f) {
-  return visit_method(spec, [&](const auto& recipe) {
+auto visit_erased(Capability offered, std::size_t size, const MethodSpec& spec, F&& f) {
+  return visit_method(spec, [&]<class M>(const M& recipe) {
+    if constexpr (std::is_same_v<M, Cg>) {
+      if (size > most_dense_unknowns) return detail::visit_face<Averages, 0>(offered, Averages{recipe.options}, f);
+    }
     const auto of_any_shape = with_shape_at_run_time(recipe);
     return detail::visit_face<std::remove_cv_t<decltype(of_any_shape)>, 0>(offered, of_any_shape, f);
   });

@@ -91,6 +91,13 @@ PropertyCell forces_cell(const MethodInfo& claims, std::span<const Measurement> 
           !claimed || (least == wanted && most == wanted) ? Finding::yes : Finding::no};
 }
 
+/// Whether every iteration has a tangent of its own, hence converges quadratically: as many second derivatives as first
+/// ones, but for those with which "auto" looks at a solution.
+bool linearises(std::span<const Measurement> on) {
+  return std::all_of(on.begin(), on.end(),
+                     [](const Measurement& m) { return 2 * m.cost.hessian > std::max(m.cost.force, m.cost.gradient); });
+}
+
 PropertyCell newton_cell(std::span<const Measurement> on) {
   double most = 0;
   for (const Measurement& m : on) most = std::max(most, m.cost.coarse_solves);
@@ -119,7 +126,7 @@ PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on) {
   row.cells.push_back(energy_cell(claims, on));
   row.cells.push_back(forces_cell(claims, on));
   row.cells.push_back(defect("Jacobian is the step's", true, &Measurement::jacobian));
-  if (!claims.explicit_step && claims.quadratic_iteration) row.cells.push_back(newton_cell(on));
+  if (!claims.explicit_step && linearises(on)) row.cells.push_back(newton_cell(on));
   row.on = std::move(on);
   return row;
 }

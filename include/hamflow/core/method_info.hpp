@@ -34,11 +34,10 @@ struct MethodInfo {
   bool symmetric = false;          // Psi_-h o Psi_h = id
   bool reversible = false;         // S Psi_h S Psi_h = id
   Conservation energy_conserving = Conservation::no;
-  int forces_per_step = 0;          // -dV/dq per step when none is computed twice; 0: depends on the iteration
-  bool own_substeps = false;        // a step is made of sub-steps whose lengths the method chooses
-  bool halves_steps = false;        // a step that does not converge is replaced by two half steps
-  bool diagnostics = false;         // every step is diagnosed, see StepDiagnostics
-  bool quadratic_iteration = true;  // of an implicit step: each correction has twice the digits of the one before
+  int forces_per_step = 0;    // -dV/dq per step when none is computed twice; 0: depends on the iteration
+  bool own_substeps = false;  // a step is made of sub-steps whose lengths the method chooses
+  bool halves_steps = false;  // a step that does not converge is replaced by two half steps
+  bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
 };
 
 /// How well conditioned Newton's method was in an implicit step; computed on request.   [Gross1999, figures 3.27, 3.28]

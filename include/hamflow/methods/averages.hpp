@@ -27,6 +27,9 @@ auto averages_for() {
 
 /// Newton's matrix has as many rows and columns as a step has unknowns; of systems of more than these none is made.
 inline constexpr std::size_t most_dense_unknowns = 500;
+/// Corrections that a linearly convergent iteration may take where nothing else is said: with every one a tenth of the
+/// one before they are 100 digits, with nine tenths 4.
+inline constexpr int linear_iterations = 100;
 
 /// The recipe of both. Large systems take Iteration::fixed_point. Without second derivatives of H `iteration` has to be
 /// fixed_point. @throws Error when bound to a problem that has none, with another one
@@ -42,11 +45,23 @@ struct Averages {
   using Stepper = ImplicitMethod<P, A, typename decltype(detail::averages_for<P, typename A::Real>())::type>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
-    AverageOptions chosen = options;
-    if (degrees_of_freedom(problem) * static_cast<std::size_t>(options.element.degree) > most_dense_unknowns) {
-      chosen.element.iteration = Iteration::fixed_point;
+    const bool large =
+        degrees_of_freedom(problem) * static_cast<std::size_t>(options.element.degree) > most_dense_unknowns;
+    return Stepper<P, A>(problem, large ? without_tangent(options) : options);
+  }
+
+ private:
+  /// @throws Error with diagnostics, which are those of a tangent
+  static AverageOptions without_tangent(AverageOptions chosen) {
+    if (chosen.element.diagnostics) {
+      throw Error("systems of more than " + std::to_string(most_dense_unknowns) +
+                  " unknowns are solved without a tangent, of which diagnostics are");
     }
-    return Stepper<P, A>(problem, chosen);
+    if (chosen.element.iteration == Iteration::newton) {
+      chosen.element.max_iterations = larger(chosen.element.max_iterations, linear_iterations);
+    }
+    chosen.element.iteration = Iteration::fixed_point;
+    return chosen;
   }
 };
 

@@ -48,8 +48,7 @@ inline MethodInfo describe(const CgOptions& options) {
                                : collocation ? Conservation::no
                                              : Conservation::up_to_quadrature,
           .halves_steps = options.halve,
-          .diagnostics = options.diagnostics,
-          .quadratic_iteration = options.iteration == Iteration::newton};
+          .diagnostics = options.diagnostics};
 }
 
 }  // namespace hamflow

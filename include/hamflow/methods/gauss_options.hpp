@@ -31,8 +31,7 @@ inline MethodInfo describe(const GaussOptions& options) {
           .reversible = true,
           .energy_conserving = Conservation::no,
           .halves_steps = options.halve,
-          .diagnostics = options.diagnostics,
-          .quadratic_iteration = options.iteration == Iteration::newton};
+          .diagnostics = options.diagnostics};
 }
 
 }  // namespace hamflow

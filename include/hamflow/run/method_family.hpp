@@ -57,9 +57,6 @@ struct MethodFamily {
   std::function<std::string(const Texts& options)> hint;
   /// The options with those that follow from an arithmetic of so many decimal digits; 0: double or less.
   std::function<Texts(const Texts& options, int digits)> completed;
-  /// The options for a system of so many degrees of freedom, where its size decides one. @throws Error where it forbids
-  /// one
-  std::function<Texts(const Texts& options, std::size_t degrees)> sized;
   /// The options with which its order is measured: fixed steps, and an order that halving the step can show.
   std::function<Texts(const Texts& options)> measurable;
 };

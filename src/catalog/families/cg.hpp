@@ -46,11 +46,7 @@ struct Cg {
                           "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
                 },
             .refused = refused,
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-            .sized =
-                [](const Texts& given, std::size_t degrees) {
-                  return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).degree));
-                }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   /// cg(1) by Newton has kernels of its own, compiled with each problem.

@@ -40,11 +40,7 @@ struct Gauss {
                       .avoid = "H = T(p) + V(q) and forces are cheap: kahan-li8; the energy has to be exact: cg"};
                 },
             .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-            .sized =
-                [](const Texts& given, std::size_t degrees) {
-                  return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).stages));
-                }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>

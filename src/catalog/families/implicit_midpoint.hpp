@@ -36,8 +36,7 @@ struct ImplicitMidpoint {
                   .avoid = "the energy has to be exact: cg; a higher order is wanted: gauss; H = T(p) + V(q): verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-        .sized = [](const Texts& given, std::size_t degrees) { return for_size(options(), given, degrees); }};
+        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>
