@@ -33,8 +33,7 @@ inline MethodInfo describe(const EgOptions& options) {
           .reversible = true,
           .energy_conserving = Conservation::yes,
           .halves_steps = options.halve,
-          .diagnostics = options.diagnostics,
-          .quadratic_iteration = options.iteration == Iteration::newton};
+          .diagnostics = options.diagnostics};
 }
 
 }  // namespace hamflow

@@ -20,7 +20,6 @@ struct LinearisedGradient {
 inline MethodInfo described(MethodInfo claims, const NewtonOptions& options) {
   claims.halves_steps = options.halve;
   claims.diagnostics = options.diagnostics;
-  claims.quadratic_iteration = options.iteration == Iteration::newton;
   return claims;
 }
 
