@@ -88,6 +88,7 @@
 #include "hamflow/methods/implicit/extrapolation.hpp"
 #include "hamflow/methods/implicit/general.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
+#include "hamflow/methods/implicit/large_systems.hpp"
 #include "hamflow/methods/implicit/natural.hpp"
 #include "hamflow/methods/implicit/newton.hpp"
 #include "hamflow/methods/implicit/newton_log.hpp"

@@ -10,6 +10,7 @@
 
 #include "hamflow/core/capability.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
+#include "hamflow/methods/implicit/large_systems.hpp"
 #include "hamflow/methods/implicit/radial_pair.hpp"
 #include "hamflow/methods/implicit/target.hpp"
 
@@ -367,7 +368,8 @@ struct Eg {
   using Stepper = ImplicitMethod<P, A, RadialCollocation<P, typename A::Real>>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
-    return Stepper<P, A>(problem, options);
+    return Stepper<P, A>(problem,
+                         for_unknowns(degrees_of_freedom(problem) * static_cast<std::size_t>(options.degree), options));
   }
 };
 

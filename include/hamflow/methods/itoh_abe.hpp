@@ -8,6 +8,7 @@
 
 #include "hamflow/methods/implicit/discrete_gradient.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
+#include "hamflow/methods/implicit/large_systems.hpp"
 #include "hamflow/methods/implicit/recorded_energy.hpp"
 
 namespace hamflow {
@@ -123,7 +124,7 @@ struct ItohAbe {
   using Stepper = ImplicitMethod<P, A, DiscreteGradientStep<P, typename A::Real, CoordinateIncrements>>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
-    return Stepper<P, A>(problem, options);
+    return Stepper<P, A>(problem, for_unknowns(2 * degrees_of_freedom(problem), options));
   }
 };
 

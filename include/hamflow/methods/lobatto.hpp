@@ -7,6 +7,7 @@
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
+#include "hamflow/methods/implicit/large_systems.hpp"
 #include "hamflow/methods/implicit/target.hpp"
 #include "hamflow/methods/lobatto_options.hpp"
 #include "hamflow/numerics/lobatto.hpp"
@@ -197,7 +198,8 @@ struct Lobatto {
   using Stepper = ImplicitMethod<P, A, LobattoStages<P, typename A::Real>>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
-    return Stepper<P, A>(problem, options);
+    return Stepper<P, A>(
+        problem, for_unknowns(2 * degrees_of_freedom(problem) * static_cast<std::size_t>(options.stages), options));
   }
 };
 

@@ -35,8 +35,7 @@ struct DiscreteGradient {
                   .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do for H = T(p) + V(q): verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-        .sized = [](const Texts& given, std::size_t degrees) { return for_size(options(), given, 2 * degrees); }};
+        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>

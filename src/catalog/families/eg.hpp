@@ -49,11 +49,7 @@ struct Eg {
                                       "do: kahan-li8, rkn8-s19"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-        .sized =
-            [](const Texts& given, std::size_t degrees) {
-              return for_size(options(), given, degrees * static_cast<std::size_t>(read(given).degree));
-            }};
+        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>

@@ -34,8 +34,7 @@ struct ItohAbe {
                       .avoid = "the solution has to be right: cg, of order 2 and more, symmetric"};
                 },
             .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-            .sized = [](const Texts& given, std::size_t degrees) { return for_size(options(), given, 2 * degrees); }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>

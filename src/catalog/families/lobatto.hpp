@@ -44,11 +44,7 @@ struct Lobatto {
                       .avoid = "the order has to be high for few stages: gauss; the energy has to be exact: cg"};
                 },
             .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); },
-            .sized =
-                [](const Texts& given, std::size_t degrees) {
-                  return for_size(options(), given, 2 * degrees * static_cast<std::size_t>(read(given).stages));
-                }};
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>
