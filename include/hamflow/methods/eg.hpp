@@ -162,6 +162,7 @@ class RadialCollocation : public TargetEquations<R> {
 
  private:
   using Base::h_;
+  using D = Dual<Real, 1>;
 
   /// y0 + sum_j mu_lj rows_j, as (y0 + y1)/2 + sum_j N_lj rows_j: symmetric in the two ends.
   template <class S, std::size_t N>
@@ -216,9 +217,8 @@ class RadialCollocation : public TargetEquations<R> {
     const std::size_t size = q0.size();
     const bool of_two = term.b != term.centre;
     RadialPair<S> pair;
-    S start[3]{};
     for (std::size_t d = 0; d < setup_.space; ++d) {
-      start[d] = of_two ? S(q0[term.a + d] - q0[term.b + d]) : q0[term.a + d];
+      pair.start[d] = of_two ? S(q0[term.a + d] - q0[term.b + d]) : q0[term.a + d];
       for (std::size_t l = 0; l < k_; ++l) {
         const S* const x = positions.begin() + l * size;
         const S* const v = velocities.begin() + l * size;
@@ -232,8 +232,7 @@ class RadialCollocation : public TargetEquations<R> {
             Real(2) * (size_of(x) * abs(value_of(pair.w[l][d])) + abs(value_of(pair.r[l][d])) * size_of(v));
       }
     }
-    const Real inverse_mass = setup_.inverse_mass[term.a] + (of_two ? setup_.inverse_mass[term.b] : Real(0));
-    pair.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, start, Real(term.strength * inverse_mass));
+    pair.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, strength_of(term));
     return pair;
   }
 
@@ -272,69 +271,38 @@ class RadialCollocation : public TargetEquations<R> {
         for (std::size_t j = 0; j < k_; ++j) nu[l] += h_ * mu(l, j) * s.b[j] * mu(j, m);
       }
       for (std::size_t d = 0; d < setup_.space; ++d) {
-        Real by_u[RadialPair<Real>::most]{};
-        Real by_rate[RadialPair<Real>::most]{};
-        Real end(0);  // of u1, which is u0 + h sum b_l u'_l
-        for (std::size_t l = 0; l < k_; ++l) {
-          by_u[l] = Real(2) * nu[l] * pair.r[l][d];
-          by_rate[l] = Real(2) * (nu[l] * pair.w[l][d] + mu(l, m) * pair.r[l][d]);
-          end += h_ * s.b[l] * by_rate[l];
-        }
-        Real by_factor[RadialPair<Real>::most]{};
-        differentiate(pair, by_u, by_rate, Real(pair.slope * end), by_factor);
+        const RadialPair<D> moved = along(term, pair, m, d, nu);
         for (std::size_t l = 0; l < k_; ++l) {
           for (std::size_t i = 0; i < setup_.space; ++i) {
-            const Real change = Real(2) * term.strength * h_ * s.b[l] *
-                                (by_factor[l] * pair.r[l][i] + (i == d ? Real(pair.factor[l] * nu[l]) : Real(0)));
-            couple(term, l * size + i, m * size + d, change, tangent);
+            const Real change = (moved.factor[l] * moved.r[l][i]).slope[0];
+            couple(term, l * size + i, m * size + d, Real(Real(2) * term.strength * h_ * s.b[l] * change), tangent);
           }
         }
       }
     }
   }
-  /// The factors along a direction, from u, u' and phi[u0, u1]. Of delta^2, which counts close to u' = 0 alone, the
-  /// change by s_l is taken and that of its prefactor left out: it is smaller by s_l/u_l.
-  void differentiate(const RadialPair<Real>& pair, const Real* by_u, const Real* by_rate, const Real& by_mean,
-                     Real* by_factor) const {
-    const GaussStages<Real>& s = setup_.stages;
-    for (std::size_t l = 0; l < k_; ++l) by_factor[l] = by_mean;
-    if (k_ == 1) return;
-    Real work(0);
-    Real square(0);
-    Real limit(0);
-    for (std::size_t l = 0; l < k_; ++l) {
-      const Real by_gap = by_mean - pair.law[l].second * by_u[l];
-      work += s.b[l] * (by_rate[l] * pair.gap[l] + pair.rate[l] * by_gap);
-      square += Real(2) * s.b[l] * pair.rate[l] * by_rate[l];
-      Real by_error = by_u[l];
-      for (std::size_t j = 0; j < k_; ++j) by_error -= h_ * s.a(l, j) * by_rate[j];
-      const Real bend = pair.u[l] * pair.law[l].second;
-      limit += Real(2) * s.b[l] * bend * bend * pair.error[l] * by_error;
-    }
-    Real by_along(0);
-    Real by_share(0);
-    if (pair.share > Real(0)) {
-      // along = work (1 - chi)/square with d chi = -chi dy, y = square/limit.
-      Real prefactor(0);
+  /// The pair as dual numbers along delta = e_d of stage m.
+  RadialPair<D> along(const RadialTerm<Real>& term, const RadialPair<Real>& pair, std::size_t m, std::size_t d,
+                      const Real* nu) const {
+    RadialPair<D> moved;
+    for (std::size_t i = 0; i < setup_.space; ++i) {
+      moved.start[i] = D(pair.start[i]);
       for (std::size_t l = 0; l < k_; ++l) {
-        const Real bend = pair.u[l] * pair.law[l].second;
-        prefactor += s.b[l] * bend * bend * pair.error[l] * pair.error[l];
+        moved.r[l][i] = D(pair.r[l][i]);
+        moved.w[l][i] = D(pair.w[l][i]);
       }
-      const Real y = pair.square / pair.limit;
-      const Real by_y = (square - y * (limit * (pair.limit / prefactor))) / pair.limit;
-      by_share = -pair.share * by_y;
-      const Real part = detail::difference_of_exp(Real(0), Real(-y));  // (1 - chi)/y
-      const Real by_part = y > Real(0.01) ? Real((pair.share - part) / y) : Real(-Real(0.5) + y / Real(3));
-      by_along = (work * part + pair.work * by_part * by_y) / pair.limit -
-                 pair.along * (limit * (pair.limit / prefactor)) / pair.limit;
-    } else if (pair.square > Real(0)) {
-      by_along = (work - pair.along * square) / pair.square;
     }
     for (std::size_t l = 0; l < k_; ++l) {
-      const Real by_gap = by_mean - pair.law[l].second * by_u[l];
-      by_factor[l] = pair.law[l].second * by_u[l] + by_along * pair.rate[l] + pair.along * by_rate[l] +
-                     by_share * pair.gap[l] + pair.share * by_gap;
+      moved.r[l][d].slope[0] = nu[l];
+      moved.w[l][d].slope[0] = Real(0.5) + setup_.stages.inner[l][m];
     }
+    moved.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, strength_of(term));
+    return moved;
+  }
+  /// Over the reduced mass.
+  Real strength_of(const RadialTerm<Real>& term) const {
+    return term.strength *
+           (setup_.inverse_mass[term.a] + (term.b == term.centre ? Real(0) : setup_.inverse_mass[term.b]));
   }
   void couple(const RadialTerm<Real>& term, std::size_t row, std::size_t column, const Real& change,
               Matrix<Real, dynamic>& tangent) const {

@@ -45,6 +45,17 @@ class RecordedLaw {
   std::shared_ptr<const Tape<R>> tape_;
 };
 
+/// The law at a number, or along a dual number; the derivative of phi'', which decides about delta alone, is left out.
+template <class P, class S>
+RadialLaw<S> law_at(const P& problem, const S& u) {
+  if constexpr (IsDual<S>::value) {
+    const auto law = problem.radial_law(u.value);
+    return {detail::chain(u, law.value, law.first), detail::chain(u, law.first, law.second), S(law.second)};
+  } else {
+    return problem.radial_law(u);
+  }
+}
+
 /// Weights of k Gauss points, and N = A B^-1 - 1/2, antisymmetric.   [HLW2006, Sect. II.1.3]
 template <class R>
 struct GaussStages {
@@ -80,28 +91,20 @@ struct GaussStages {
 template <class S>
 struct RadialPair {
   static constexpr std::size_t most = largest_eg_degree;
-  S r[most][3]{};  // differences of positions
+  S start[3]{};    // x_a - x_b at the beginning of the step
+  S r[most][3]{};  // differences of positions, at the points
   S w[most][3]{};  // and of velocities
   S u[most]{};
   S rate[most]{};  // u'
   RadialLaw<S> law[most]{};
-  S slope{};                     // d phi[u0, u1]/du1
-  S gap[most]{};                 // g
-  S error[most]{};               // s
   S factor[most]{};              // phi'_l + lambda u'_l
-  S work{};                      // (u', g)
-  S square{};                    // (u', u')
-  S limit{};                     // delta^2
-  S along{};                     // lambda, or what is left of it close to u' = 0
-  S share{};                     // chi
   base_scalar<S> reach[most]{};  // what u'_l rounds by, in units of epsilon
   base_scalar<S> noise{};        // and then lambda u'_l
 
-  /// From r, w and reach.
-  /// @param start x_a - x_b at the beginning of the step   @param strength of the pair over its reduced mass
+  /// From start, r, w and reach. @param strength of the pair over its reduced mass
   template <class P, class R>
   void complete(const P& problem, const RecordedLaw<R>& recorded, const GaussStages<R>& stages, const R& h,
-                std::size_t space, const S (&start)[3], const R& strength) {
+                std::size_t space, const R& strength) {
     const std::size_t k = stages.count;
     S u0(R(0));
     S u1(R(0));
@@ -111,51 +114,43 @@ struct RadialPair {
       u0 = u0 + start[d] * start[d];
       u1 = u1 + end * end;
     }
-    S way(R(0));
     for (std::size_t l = 0; l < k; ++l) {
       u[l] = rate[l] = S(R(0));
       for (std::size_t d = 0; d < space; ++d) {
         u[l] = u[l] + r[l][d] * r[l][d];
         rate[l] = rate[l] + R(2) * (r[l][d] * w[l][d]);
       }
-      law[l] = problem.radial_law(u[l]);
-      way = way + (h * stages.b[l]) * rate[l];
+      law[l] = law_at(problem, u[l]);
     }
     const S mean = recorded.difference(u0, u1);
-    slope = slope_of_mean(problem, u0, u1, way, mean);
     for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
     if (k > 1) project(stages, h, u0, mean, R(R(32) * h * strength));
   }
 
  private:
-  /// (phi'(u1) - phi[u0, u1])/(u1 - u0): where that cancels by its Taylor polynomial, to second order.
-  template <class P>
-  static S slope_of_mean(const P& problem, const S& u0, const S& u1, const S& way, const S& mean) {
-    using R = base_scalar<S>;
-    const R size = abs(value_of(way));
-    const bool close = size * size * size <= std::numeric_limits<R>::epsilon() * value_of(S(u0 * u0 * u0));
-    return close ? S(problem.radial_law(S(u0 + way * (R(2) / R(3)))).second / R(2))
-                 : S((problem.radial_law(u1).first - mean) / way);
-  }
   /// @param response 8 times what a factor of 1 changes u' by, over u
   template <class R>
   void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const R& response) {
     const std::size_t k = stages.count;
-    work = square = limit = S(R(0));
+    S gap[most];     // g
+    S work(R(0));    // (u', g)
+    S square(R(0));  // (u', u')
+    S limit(R(0));   // delta^2
     R largest(0);
     R loose(0);
     for (std::size_t l = 0; l < k; ++l) {
       gap[l] = mean - law[l].first;
-      error[l] = u[l] - u0;
-      for (std::size_t j = 0; j < k; ++j) error[l] = error[l] - (h * stages.a(l, j)) * rate[j];
+      S error = u[l] - u0;  // s_l
+      for (std::size_t j = 0; j < k; ++j) error = error - (h * stages.a(l, j)) * rate[j];
       work = work + stages.b[l] * (rate[l] * gap[l]);
       square = square + stages.b[l] * (rate[l] * rate[l]);
-      const S here = response * (u[l] * (law[l].second * error[l]));
+      const S here = response * (u[l] * (law[l].second * error));
       limit = limit + stages.b[l] * (here * here);
       largest = larger(largest, R(abs(value_of(gap[l]))));
       loose = larger(loose, reach[l]);
     }
-    share = along = S(R(0));
+    S along(R(0));
+    S share(R(0));  // chi
     const R both = value_of(square) + value_of(limit);
     if (!(both > R(0))) return;
     noise = largest * loose / sqrt(both);
