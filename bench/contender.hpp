@@ -72,6 +72,8 @@ std::vector<Workload> explicit_workloads(const Task& task);
 std::vector<Workload> element_workloads(const Task& task);
 /// The method of order 8 with 17 stages, on this orbit and in the Henon-Heiles potential.
 std::vector<Workload> order_eight_workloads(const Task& task);
+/// N bodies of run-time size; of a task of their own.
+std::vector<Workload> body_workloads();
 /// For verlet, stv4 and kahan-li8.
 void add_fast_contenders(Workload& workload, const Task& task);
 /// For stv4 and kahan-li8, after the plain contenders.

@@ -1,4 +1,4 @@
-// The fast kernel: u^(-3/2) by estimate and series (numerics/inverse_cube.hpp) instead of square root and division. The
+// The fast kernel: u^(-3/2) by estimate and series (core/inverse_cube.hpp) instead of square root and division. The
 // hand-written loops are for AVX-512 alone, whole functions with intrinsics, and are not run where it is missing. The
 // first ones do everything else as the loops with square root and division do; the folded ones show what fused
 // multiply-adds and folded constants could still take off the chain.

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "report.hpp"
 
 namespace bench {
@@ -58,7 +58,7 @@ int main(int argc, char** argv) try {
   CLI::App app("Times hamflow beside hand-written loops; ratios of medians of interleaved rounds.", "hamflow_bench");
   app.add_flag("--json", json, "write JSON instead of a table");
   app.add_flag("--quick", quick, "few and short rounds: a first look, not a measurement");
-  app.add_option("--only", only, "only this method, e.g. stv4, or equal-error");
+  app.add_option("--only", only, "only this method, e.g. stv4, or bodies, or equal-error");
   const auto* rounds = app.add_option("--rounds", plan.rounds, "rounds")->check(CLI::Range(1, 10000));
   CLI11_PARSE(app, argc, argv);
   if (quick) {
@@ -75,6 +75,9 @@ int main(int argc, char** argv) try {
         if (only.empty() || workload.method == only) workloads.push_back(workload);
       }
     }
+  }
+  for (const bench::Workload& workload : bench::body_workloads()) {
+    if (only.empty() || only == "bodies") workloads.push_back(workload);
   }
   const bool racing = only.empty() || only == "equal-error";
   if (workloads.empty() && !racing) throw std::runtime_error("no workload of the method '" + only + "'");

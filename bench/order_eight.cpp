@@ -117,6 +117,7 @@ std::vector<Workload> order_eight_workloads(const Task& task) {
   add_library_contenders(w, task, recipe, 1.1, true);
   add_fast_contenders(w, task);
   add_compensated_contenders(w, task);
+  add_lane_contenders(w, task);
   return {w, well_workload(well_task(task), forces, recipe)};
 }
 

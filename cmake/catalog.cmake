@@ -46,7 +46,7 @@ macro(hamflow_problem_unit header name body)
   set(unit "${generated}/problem_${name}.cpp")
   set(unit_header problem_unit)
   set(unit_class ProblemUnit)
-  set(unit_entry ProblemEntry)
+  set(unit_entry TypedEntry)
   set(entry entry)
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
   list(APPEND HAMFLOW_UNITS "${unit}")
@@ -63,7 +63,7 @@ macro(hamflow_problem_unit header name body)
   else()
     list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
   endif()
-  string(APPEND declarations "ProblemEntry entry_${name}();\nErasedEntry erased_${name}();\n")
+  string(APPEND declarations "TypedEntry entry_${name}();\nErasedEntry erased_${name}();\n")
   string(APPEND problem_calls "joined(entry_${name}(), erased_${name}()), ")
   string(APPEND erased_calls "erased_${name}(), ")
 endmacro()
@@ -173,9 +173,14 @@ using All = List<@family_types@>;
 file(CONFIGURE OUTPUT "${generated}/catalog_lists.hpp" CONTENT [[
 #pragma once
 #include "erased.hpp"
+#include "typed_entry.hpp"
 namespace hamflow {
 @declarations@
-inline ProblemEntry joined(ProblemEntry entry, const ErasedEntry& erased) {
+inline ProblemEntry joined(const TypedEntry& typed, const ErasedEntry& erased) {
+  ProblemEntry entry = erased.facts;
+  entry.accepts = typed.accepts;
+  entry.simulate = typed.simulate;
+  entry.has_pairwise_forces = typed.has_pairwise_forces;
   entry.simulate_erased = erased.simulate;
   entry.simulate_member = erased.simulate_member;
   entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Texts& parameters, const MethodSpec& method,

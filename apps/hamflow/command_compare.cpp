@@ -51,7 +51,8 @@ class RequestReader {
         if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
         Request one = scenario_.request;
         one.method = method;
-        if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one, *scenario_.problem);
+        if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
+        if (why_not.empty()) why_not = refused_fast_step(one);
         if (why_not.empty()) {
           request.methods.push_back(method);
         } else {

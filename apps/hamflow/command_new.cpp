@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "formula_keys.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/verify/measure.hpp"
@@ -19,6 +20,11 @@ void add_once(std::vector<std::string>& list, const std::string& word) {
   if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
 }
 
+bool asks_for_typed_field(const std::string& problem, const std::map<std::string, std::string>& variant) {
+  const auto potential = variant.find(CentralKeys::key);
+  return problem == CentralKeys::problem && potential != variant.end() && potential->second == FormulaKeys::problem;
+}
+
 /// The entry of a problem with the choices given, the usual ones for those not given. @throws Error
 const ProblemEntry& chosen(const NewOptions& options) {
   std::vector<std::string> names;
@@ -30,6 +36,7 @@ const ProblemEntry& chosen(const NewOptions& options) {
       if (!entry.structure) add_once(choices[key], value);
     }
   }
+  if (choices.contains(CentralKeys::key)) add_once(choices[CentralKeys::key], FormulaKeys::problem);
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
     throw Error("there is no problem '" + options.problem + "'; allowed " + joined(names) +
                 suggested_problem(options.problem));
@@ -48,6 +55,11 @@ const ProblemEntry& chosen(const NewOptions& options) {
       throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, joined(all), suggestion(value, all)));
     }
     variant[key] = value;
+  }
+  if (asks_for_typed_field(options.problem, variant)) {
+    const std::string chart =
+        variant.contains(FormulaKeys::coordinates) ? variant[FormulaKeys::coordinates] : "cartesian";
+    variant = central_formula_example(chart);
   }
   return usual_problem(options.problem, variant);
 }

@@ -1,9 +1,4 @@
 // From a request to a block of lanes.
-#include <algorithm>
-
-#include "ensemble_list.hpp"  // generated
-#include "hamflow/numerics/inverse_cube.hpp"
-#include "hamflow/run/splitting_named.hpp"
 #include "recorded_block.hpp"
 
 namespace hamflow {
@@ -17,16 +12,9 @@ LaneSet widest_lanes() {
 }
 
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
-  if (lanes == LaneSet::none || lanes > widest_lanes() || request.arithmetic != "double") return nullptr;
-  const ProblemEntry& problem = find_problem(request.problem, request.variant);
-  // Without the instructions the fast kernel has the bits of the exact one (numerics/inverse_cube.hpp).
-  if (request.kernel != "fast" || !fast_kernel_available()) return make_recorded_block(problem, request, lanes);
-  static const std::vector<EnsembleEntry> entries = generated_ensembles();
-  const std::optional<AnySplitting> method = splitting_named(request.method.name);
-  const auto entry = std::find_if(entries.begin(), entries.end(), [&](const EnsembleEntry& one) {
-    return one.name == problem.info.name && one.variant == problem.info.variant;
-  });
-  return method && entry != entries.end() ? entry->make_fast(*method, lanes) : nullptr;
+  const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
+  if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;
+  return make_recorded_block(find_problem(request.problem, request.variant), request, lanes);
 }
 
 }  // namespace hamflow

@@ -13,6 +13,14 @@
 
 namespace hamflow {
 
+// Recordings are compiled once for each number type, in traces.cpp.
+#define HAMFLOW_FOR_EACH_TRACED(X) X(double) X(long double) X(DoubleDouble) X(Quad) X(Mp)
+#define HAMFLOW_TRACED(R)          \
+  extern template struct Trace<R>; \
+  extern template class Recorder<R>;
+HAMFLOW_FOR_EACH_TRACED(HAMFLOW_TRACED)
+#undef HAMFLOW_TRACED
+
 /// The problem in R. It can be recorded on a tape, for taylor; in double it can also be differentiated, for the
 /// Jacobian of a step.
 template <class R>
@@ -65,8 +73,9 @@ struct ErasedProblem {
 };
 std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const MethodSpec& method);
 
-/// What the catalogue has of one problem behind virtual calls.
+/// What the catalogue has of one problem that is compiled with a light optimisation, beside its kernels.
 struct ErasedEntry {
+  ProblemEntry facts;  // all but how it is simulated
   /// In any arithmetic of `extended`, and in double for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;

@@ -1,7 +1,9 @@
-// The definition of simulate_erased, instantiated in one file for each number type.
+// The definition of simulate_erased, instantiated in one file for each number type, and in double in another one for
+// the methods whose steps are recorded: few of their steps take the ordinary road, so that a light optimisation does.
 #pragma once
 
 #include "hamflow/arithmetic/lattice.hpp"
+#include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
 #include "visit_erased.hpp"
@@ -21,30 +23,64 @@ struct TracedArithmetic<Compensated<double>> {
 };
 
 /// Records steps of a method on the traced functions of a problem.
+/// @param estimated functions by estimates: their steps have to be recorded
 template <Capability c, class A, class M>
-StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool watch) {
+StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool estimated) {
   using Traced = AnyProblem<Trace<double>, c>;
   using TA = typename TracedArithmetic<A>::type;
-  return [problem = Traced(run.functions.size, run.functions.trace), recipe, watch](
-             const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time) {
-    return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch);
+  return [problem = Traced(run.functions.size, run.functions.trace), recipe, estimated](
+             const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
+             bool watch, RecordedAt at) {
+    const auto recorded = [&](double length) {
+      return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, length, time, watch, at);
+    };
+    auto step = recorded(h);
+    // A step that leaves the finite numbers is recorded as little as one that is too long.
+    if (estimated && !step && time.position == 0 && !recorded(h * 0x1p-30)) {
+      throw TooLongToEstimate("found a step of more than " + std::to_string(most_recorded_operations) +
+                              " operations; allowed fewer bodies or a method of fewer stages, or exact");
+    }
+    return step;
   };
 }
 
-template <class R>
-std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+/// A run with the functions of kernel = "fast", where a request asks for it and they are others.
+inline std::optional<ErasedRun<double>> with_estimates(const ErasedRun<double>& run, const Request& request) {
+  if (request.kernel != "fast" || !fast_kernel_available()) return std::nullopt;
+  const FastFunctions fast = fast_functions(run.functions.plain, run.functions.trace);
+  if (!has_estimates(fast, run.q, run.p)) return std::nullopt;
+  ErasedRun<double> other = run;
+  other.functions.plain = fast.plain;
+  other.functions.trace = fast.trace;
+  return other;
+}
+
+/// The half of simulate_erased<double> that is made of recorded steps.
+std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<double>& run, const Request& request, bool estimated);
+
+/// @tparam recorded in double: the methods whose steps are recorded, or all others and the lattice
+template <class R, bool recorded>
+std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request& request,
+                                          [[maybe_unused]] bool estimated) {
   const auto simulate = [&]<Capability c, class M>(const M& recipe) {
     const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
-      const auto problem = run.functions.template as<c>();
-      using P = std::remove_const_t<decltype(problem)>;
-      auto method = recipe.template bind<P, A>(problem);
-      using Ordinary = SimulationOf<P, decltype(method), A>;
-      if constexpr (std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo) {
-        return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
-            Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
-            request.record ? recorder_of<c, A>(run, recipe, request.watch) : StepRecorder(), request.watch);
+      constexpr bool is_of_recorded = std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo;
+      if constexpr (is_of_recorded && !recorded) {
+        return simulate_recorded(run, request, estimated);
+      } else if constexpr (is_of_recorded != recorded) {
+        return nullptr;
       } else {
-        return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
+        const auto problem = run.functions.template as<c>();
+        using P = std::remove_const_t<decltype(problem)>;
+        auto method = recipe.template bind<P, A>(problem);
+        using Ordinary = SimulationOf<P, decltype(method), A>;
+        if constexpr (recorded) {
+          return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
+              Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
+              request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch);
+        } else {
+          return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
+        }
       }
     };
     if constexpr (always_compensated<M>()) {
@@ -72,6 +108,14 @@ std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Reque
     }
   }
   return visit_erased(run.functions.capability, run.functions.size, request.method, simulate);
+}
+
+template <class R>
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+  if constexpr (std::is_same_v<R, double>) {
+    if (const auto fast = with_estimates(run, request)) return simulate_half<double, false>(*fast, request, true);
+  }
+  return simulate_half<R, false>(run, request, false);
 }
 
 }  // namespace hamflow

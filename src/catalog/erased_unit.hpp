@@ -1,11 +1,12 @@
-// One problem behind virtual calls, in every number type. The build makes one translation unit of it per problem.
+// One problem behind virtual calls, in every number type, and what is known of it. The build makes one translation unit
+// of it per problem.
 #pragma once
 
 #include <algorithm>
 
 #include "erased.hpp"
 #include "mp_simulation.hpp"
-#include "problem_start.hpp"
+#include "problem_facts.hpp"
 
 namespace hamflow {
 
@@ -16,7 +17,7 @@ class ErasedUnit : ProblemStart<Family> {
 
  public:
   static ErasedEntry entry() {
-    ErasedEntry e{simulate, step_map};
+    ErasedEntry e{ProblemFacts<Family>::entry(), simulate, step_map};
     e.simulate_member = [](const Request& request, const Parameters<double>& parameters, const std::vector<double>& q,
                            const std::vector<double>& p, double h) {
       const auto moved = [](const std::vector<double>& x) {

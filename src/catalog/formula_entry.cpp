@@ -1,10 +1,14 @@
 // What the catalogue offers of a typed Hamiltonian: as ProblemUnit and ErasedUnit do of a problem that is a type.
 #include "erased.hpp"
+#include "hamflow/problems/support/central_force.hpp"
+#include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/formula_functions.hpp"
 #include "mp_simulation.hpp"
 #include "problem_start.hpp"
 #include "recipes.hpp"
+#include "recorded_element.hpp"
 #include "timed_simulation.hpp"
+#include "typed_potential.hpp"
 #include "typed_problem.hpp"
 
 namespace hamflow {
@@ -39,10 +43,41 @@ std::string refused_size(const ModelPointer& model, std::size_t size) {
 template <class R>
 using StateOf = Start<R, dynamic>;
 
-/// As ProblemStart does it; geometric starts there are none.
+/// What is asked of an entry: its model, and the field, if it is a central one.
+struct Typed {
+  ModelPointer model;
+  std::optional<TypedField> field;
+};
+
+/// By energy and angular momentum, as CentralForce does it.
 template <class R>
-StateOf<R> start_of(const ModelPointer& model, const FormulaFace<R>& problem, const Request& request) {
+StateOf<R> orbit_of(const TypedField& field, const Texts& texts, const StartSpec& spec, Conditions& conditions) {
+  using Rough = std::conditional_t<std::is_floating_point_v<R>, R, long double>;
+  const Parameters<R> given(texts);
+  const Parameters<R> orbit(spec.orbit);
+  const R l = orbit["angular_momentum"];
+  const TypedPotential<R> exact(field.radial, given);
+  const TypedPotential<Rough> rough(field.radial, given.template as<Rough>());
+  const auto at = turning_point<R>(exact, rough, given[CentralKeys::mass], R(orbit["energy"]), l, conditions);
+  Start<R, 2> s = at.circle ? circular_start(at.radius, l) : pericentre_start(at.radius, l);
+  if (field.polar) s = to_polar(s);
+  return {{s.q[0], s.q[1]}, {s.p[0], s.p[1]}};
+}
+
+/// As ProblemStart does it.
+template <class R>
+StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Request& request) {
+  const ModelPointer& model = typed.model;
   const StartSpec& spec = request.start;
+  if (spec.geometric() && typed.field) {
+    Conditions conditions;
+    StateOf<R> s = orbit_of<R>(*typed.field, request.parameters, spec, conditions);
+    for (const Condition& c : conditions.all()) {
+      if (!c.holds()) throw Error(c.key + ": the start needs " + c.statement);
+    }
+    for (R& x : s.p) x = R(spec.direction) * x;
+    return s;
+  }
   const auto with = [&](const R& free) {
     const auto read = [&](const std::vector<std::string>& texts) {
       if (const std::string why_not = refused_size(model, texts.size()); !why_not.empty()) {
@@ -56,10 +91,10 @@ StateOf<R> start_of(const ModelPointer& model, const FormulaFace<R>& problem, co
       return out;
     };
     StateOf<R> s{read(spec.q), read(spec.v.empty() ? spec.p : spec.v)};
-    if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p);
+    if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p, model->size());
     return s;
   };
-  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(problem, with, spec));
+  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), spec));
 }
 
 std::unique_ptr<Simulation> without_time(const ModelPointer& model, std::unique_ptr<Simulation> simulation) {
@@ -67,19 +102,45 @@ std::unique_ptr<Simulation> without_time(const ModelPointer& model, std::unique_
   return std::make_unique<TimedSimulation>(std::move(simulation));
 }
 
-template <class R>
-std::unique_ptr<Simulation> simulate_in(const ModelPointer& model, const Request& request) {
-  const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters);
-  const StateOf<R> s = start_of<R>(model, functions.template as<Capability::smooth>(), request);
-  return without_time(model, simulate_erased<R>({functions, s.q, s.p, evaluate_number<R>(request.dt)}, request));
+/// Operations at one point of a quadrature. With more of them than can be straight code for up to 64 points the loops
+/// over points and coordinates are faster.
+std::size_t operations_at_point(const formula::Model& model) {
+  if (includes(capabilities_of(model.structure()), Capability::quadratic_kinetic)) {
+    return model.force_and_hessian().code->steps.size();
+  }
+  return model.gradient->steps.size() + model.hessian().code->steps.size();
 }
 
-bool accepts(Capability offered, const MethodSpec& method) {
-  constexpr Capability separable = Capability::separable;
+std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, const ErasedRun<double>& run,
+                                               const Request& request) {
+  constexpr std::size_t most_operations = 2000;
+  auto element = visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
+    if constexpr (std::is_same_v<M, Cg>) {
+      if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, recipe.options);
+    }
+    return nullptr;
+  });
+  return element ? std::move(element) : simulate_erased<double>(run, request);
+}
+
+template <class R>
+std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& request) {
+  const ModelPointer& model = typed.model;
+  const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters);
+  const StateOf<R> s = start_of<R>(typed, functions.template as<Capability::smooth>(), request);
+  const ErasedRun<R> run{functions, s.q, s.p, evaluate_number<R>(request.dt)};
+  if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(*model, run, request));
+  return without_time(model, simulate_erased<R>(run, request));
+}
+
+/// Conditions of order for T quadratic in p hold with an explicit t as well: they follow from the degrees in p of
+/// commutators, which T + E and V(q, t) do not exceed; E stands for a momentum whose mass goes to infinity, and of such
+/// T the linear term is a shift of p.
+bool accepts(const FormulaStructure& structure, const MethodSpec& method) {
   constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
   return visit_method(method, [&](const auto& recipe) {
-    if (includes(offered, natural)) return is_accepted<Erased<double, natural>>(recipe);
-    if (includes(offered, separable)) return is_accepted<Erased<double, separable>>(recipe);
+    if (structure.quadratic_kinetic) return is_accepted<Erased<double, natural>>(recipe);
+    if (structure.separable) return is_accepted<Erased<double, Capability::separable>>(recipe);
     return is_accepted<Erased<double, Capability::smooth>>(recipe);
   });
 }
@@ -101,11 +162,11 @@ Frame frame_of(const StateOf<double>& s, std::size_t size) {
 
 }  // namespace
 
-ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
+ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const std::optional<TypedField>& field) {
+  const Typed typed{model, field};
   const auto face = [model](const Texts& parameters) {
     return functions_of<double>(model, parameters).as<Capability::smooth>();
   };
-  const Capability offered = capabilities_of(model->structure());
   ProblemEntry e;
   e.momenta = model->momenta();
   e.structure = model->structure();
@@ -113,16 +174,16 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
   e.refused_size = [model](const Texts&, std::size_t size) { return refused_size(model, size); };
   e.refused_parameters = [](const Texts&) { return std::pair<std::string, std::string>(); };
   e.refused_start = [](const Texts&, const std::vector<double>&) { return std::string(); };
-  e.accepts = [offered](const MethodSpec& method) { return accepts(offered, method); };
+  e.accepts = [model](const MethodSpec& method) { return accepts(model->structure(), method); };
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
-  e.simulate_erased = [model](const Request& request) -> std::unique_ptr<Simulation> {
-    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(model, request);
-    if (request.arithmetic == "quad") return simulate_in<Quad>(model, request);
+  e.simulate_erased = [typed](const Request& request) -> std::unique_ptr<Simulation> {
+    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(typed, request);
+    if (request.arithmetic == "quad") return simulate_in<Quad>(typed, request);
     if (const int digits = mp_digits(request.arithmetic); digits > 0) {
       const MpDigits scope(digits);
-      return with_digits(digits, simulate_in<Mp>(model, request));
+      return with_digits(digits, simulate_in<Mp>(typed, request));
     }
-    return simulate_in<double>(model, request);
+    return simulate_in<double>(typed, request);
   };
   e.simulate_member = [model](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {
@@ -131,9 +192,8 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
                                                         vector_of(p, degrees), h},
                                                        request));
   };
-  e.step_map = [model, offered](const Texts& parameters, const MethodSpec& method,
-                                std::size_t) -> std::unique_ptr<StepMap> {
-    if (!accepts(offered, method)) return nullptr;
+  e.step_map = [model](const Texts& parameters, const MethodSpec& method, std::size_t) -> std::unique_ptr<StepMap> {
+    if (!accepts(model->structure(), method)) return nullptr;
     if (model->structure().time) {
       throw Error("found an H that depends on t; allowed H without t where single steps are measured");
     }
@@ -142,7 +202,11 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
                            method);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
-  e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };
+  e.conditions = [field](const Texts& parameters, const StartSpec& spec) {
+    Conditions conditions;
+    if (field) (void)orbit_of<double>(*field, parameters, spec, conditions);
+    return conditions.all();
+  };
   const std::size_t degrees = model->degrees();
   e.energy = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     return face(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
@@ -165,9 +229,17 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model) {
   e.invariant_sizes = [model](const Texts&, std::size_t) {
     return std::vector<std::size_t>(model->invariants().size(), 1);
   };
-  e.start = [model, face](const Request& request) {
-    return frame_of(start_of<double>(model, face(request.parameters), request), model->size());
+  e.start = [typed, face](const Request& request) {
+    return frame_of(start_of<double>(typed, face(request.parameters), request), typed.model->size());
   };
+  if (field) {
+    e.describe_orbit = [field](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+      Start<double, 2> s{{q.at(0), q.at(1)}, {p.at(0), p.at(1)}};
+      if (field->polar) s = to_cartesian(s);
+      const TypedPotential<double> potential(field->radial, Parameters<double>(parameters));
+      return facts_of(describe_central_orbit(potential, Parameters<double>(parameters)[CentralKeys::mass], s.q, s.p));
+    };
+  }
   return e;
 }
 

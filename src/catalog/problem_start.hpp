@@ -54,7 +54,7 @@ struct ProblemStart {
     if (!spec.energy.empty()) {
       const Family<R> problem = make<R>(parameters_of<R>(request), spec.q.size());
       const auto at = [&](const R& free) { return start_with<R>(request, free); };
-      return at(left_to_energy(problem, at, request.start));
+      return at(left_to_energy(energy_line(problem, at), request.start));
     }
     return start_with<R>(request, R(0));
   }
@@ -96,8 +96,10 @@ struct ProblemStart {
   }
 
   /// p = dL/dv for H at most quadratic in p: v = dH/dp(q, p) solved for p.
+  /// @param moved coordinates whose velocities are given; what is behind them, the time, moves by itself, with p = 0
   template <class R>
-  static Vector<R, n> momenta_of(const Family<R>& problem, const Vector<R, n>& q, const Vector<R, n>& v) {
+  static Vector<R, n> momenta_of(const Family<R>& problem, const Vector<R, n>& q, Vector<R, n> v,
+                                 std::size_t moved = dynamic) {
     if constexpr (QuadraticKinetic<P>) {
       return apply(inverse(inverse_mass_matrix(problem)), v);
     } else {
@@ -109,6 +111,10 @@ struct ProblemStart {
       Matrix<R, n> pp = qq;
       gradient(problem, q, zero, force_at_rest, drift);
       hessian(problem, q, zero, qq, qp, pp);
+      for (std::size_t i = moved; i < v.size(); ++i) {
+        v[i] = drift[i];
+        pp[i][i] = R(1);
+      }
       Vector<R, n> rest = v;
       for (std::size_t i = 0; i < v.size(); ++i) rest[i] -= drift[i];
       const Vector<R, n> p = solve(pp, rest);

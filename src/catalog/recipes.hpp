@@ -63,15 +63,4 @@ auto with_shape_at_run_time(const M& recipe) {
   }
 }
 
-/// The compositions that begin with a kick keep their kernel: for compensated sums, where the order of operations
-/// within a step decides about a tenth of its time.
-template <class M>
-auto with_few_shapes(const M& recipe) {
-  if constexpr (std::is_same_v<M, TableRecipe<Shape::kick_drift_kick>>) {
-    return recipe;
-  } else {
-    return with_shape_at_run_time(recipe);
-  }
-}
-
 }  // namespace hamflow

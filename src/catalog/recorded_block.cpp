@@ -1,92 +1,129 @@
 #include "recorded_block.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
+#include <map>
 
-#include "hamflow/numerics/program_lanes.hpp"
-#include "hamflow/run/recorded_step.hpp"
+#include "block_tangents.hpp"
+#include "family_loop.hpp"
 
 namespace hamflow {
 
 namespace {
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-
-/// The same but for constants.
-bool alike(const RecordedStep& a, const RecordedStep& b) {
-  const auto same_field = [](const CarriedField& x, const CarriedField& y) {
-    return x.kind == y.kind && (x.kind == CarriedField::Kind::kept || x.bits == y.bits);  // a kept number depends on h
-  };
-  return a.program.operations == b.program.operations && a.program.outputs == b.program.outputs &&
-         a.program.checks == b.program.checks && a.program.constants.size() == b.program.constants.size() &&
-         std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(), same_field);
-}
-
 class RecordedBlock final : public EnsembleBlock {
  public:
   RecordedBlock(const ProblemEntry& problem, Request request, LaneSet lanes)
-      : problem_(problem), request_(std::move(request)), set_(lanes) {}
+      : problem_(problem), request_(std::move(request)), set_(lanes), loop_(lanes) {}
 
-  std::size_t lanes() const override { return loop_ ? loop_->lanes() : 0; }
+  std::size_t lanes() const override { return loop_.lanes(); }
 
   bool load(const ParameterShape& shape, std::span<const MemberStart> members) override {
     members_.clear();
     const MemberStart* before = nullptr;
+    FamilyLoop::Steps steps;
     for (const MemberStart& start : members) {
       Member member;
       member.simulation =
           problem_.simulate_member(request_, parameters_of(shape, start.parameters), start.q, start.p, start.h);
       member.recorded = dynamic_cast<RecordedMember*>(member.simulation.get());
       if (member.recorded == nullptr) return false;
-      const bool same_step = before != nullptr && before->parameters == start.parameters && before->h == start.h;
-      member.step = same_step ? members_.back().step : member.recorded->recorded_step();
-      if (!member.step || (!members_.empty() && !alike(*members_[0].step, *member.step))) return false;
+      member.has_step_of_last = before != nullptr && before->parameters == start.parameters && before->h == start.h;
+      member.step = member.has_step_of_last ? members_.back().step : member.recorded->recorded_step();
+      if (!member.step) return false;
+      steps.push_back(member.step);
       before = &start;
       members_.push_back(std::move(member));
     }
-    find_loop();
-    fill();
+    if (!loop_.load(steps)) return false;
+    carried_.assign(step().program.values() * lanes(), 0.0);
+    failed_ = std::make_unique<bool[]>(lanes());
+    values_.resize(step().program.values());
+    before_.clear();
+    taken_ = 0;
     return true;
   }
 
   void advance(std::int64_t steps) override {
-    if (steps > 0 && !under_way_) {
+    if (steps > 0 && taken_ == 0) {
       for (Member& member : members_) member.lost = member.simulation->advance(1) != Outcome::done;
-      read();
+      for (std::size_t lane = 0; lane < lanes(); ++lane) read(lane);
       --steps;
+      taken_ = 1;
     }
     if (steps == 0) return;
-    loop_->run(carried_, constants_, steps, {failed_.get(), lanes()});
+    loop_.run(carried_, steps, {failed_.get(), lanes()});
     taken_ += steps;
   }
 
-  MemberEnd look(std::size_t lane) const override {
-    const Member& member = members_[lane];
+  MemberEnd look(std::size_t lane) override {
+    Member& member = members_[lane];
     MemberEnd end;
-    if (member.lost || failed_[lane]) return end;
-    const std::unique_ptr<Simulation> at_end = member.simulation->clone();
-    std::vector<double> values(member.step->program.values());
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = carried_[k * lanes() + lane];
+    if (is_lost(lane)) return end;
     constexpr double most = std::numeric_limits<double>::max();
-    end.regular = std::all_of(values.begin(), values.end(), [](double x) { return std::abs(x) <= most; });
-    if (under_way_) dynamic_cast<RecordedMember&>(*at_end).take_values(*member.step, values, taken_);
+    end.regular = true;
+    for (std::size_t k = 0; taken_ > 0 && k < values_.size(); ++k) {
+      end.regular = end.regular && std::abs(carried_[k * lanes() + lane]) <= most;
+    }
+    bring(member, lane, carried_, taken_);
     Frame frame;
-    at_end->look(frame);
+    member.simulation->look(frame);
     end.q = frame.q;
     end.p = frame.p;
-    end.energy = at_end->energy();
-    end.energy_scale = at_end->energy_scale();
-    end.invariants = at_end->invariants();
+    end.energy = member.simulation->energy();
+    end.energy_scale = member.simulation->energy_scale();
+    end.invariants = member.simulation->invariants();
     end.regular = end.regular && std::abs(end.energy.final) <= most && end.energy.max_error <= most;
     return end;
   }
 
+  bool is_lost(std::size_t lane) const override { return members_[lane].lost || failed_[lane]; }
+
+  void show(std::size_t lane, Frame& frame) const override {
+    const Member& member = members_[lane];
+    if (taken_ == 0) return member.simulation->look(frame);
+    const std::size_t n = step().state.size() / 2;
+    frame.step = taken_;
+    frame.time = member.recorded->time_after(taken_ - member.simulation->step());
+    frame.q.resize(n);
+    frame.p.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      frame.q[i] = numbers(i)[lane];
+      frame.p[i] = numbers(n + i)[lane];
+    }
+  }
+
+  void take_step() override {
+    if (taken_ == 0) {
+      for (Member& member : members_) member.start = member.simulation->clone();
+    } else {
+      before_ = carried_;
+    }
+    advance(1);
+  }
+  const double* numbers(std::size_t k) const override { return carried_.data() + step().state[k] * lanes(); }
+  const Simulation& before_step(std::size_t lane) override {
+    Member& member = members_[lane];
+    if (taken_ == 1) return *member.start;
+    bring(member, lane, before_, taken_ - 1);
+    return *member.simulation;
+  }
+
+  bool expect_tangents(std::size_t vectors) override {
+    BlockTangents& tangents = tangents_.try_emplace(vectors, set_, vectors).first->second;
+    return tangents.load(tangent_steps(RecordedAt::start), tangent_steps(RecordedAt::steady));
+  }
+  void carry(std::span<LaneTangents> jobs) override {
+    if (!jobs.empty()) tangents_.at(jobs[0].vectors->size()).carry(jobs);
+  }
+
  private:
   struct Member {
-    std::unique_ptr<Simulation> simulation;
+    std::unique_ptr<Simulation> simulation;  // at the first step, or at one that was looked at since
+    std::unique_ptr<Simulation> start;
     RecordedMember* recorded = nullptr;  // the same
     std::shared_ptr<const RecordedStep> step;
+    bool has_step_of_last = false;  // parameters and step length are those of the last member
     bool lost = false;
   };
 
@@ -101,73 +138,42 @@ class RecordedBlock final : public EnsembleBlock {
     return parameters;
   }
 
-  /// A loop serves every block whose members differ in the same constants, or in fewer.
-  void find_loop() {
-    const Program& program = members_[0].step->program;
-    std::vector<bool> differ(program.constants.size());
-    for (const Member& member : members_) {
-      if (member.step == members_[0].step) continue;
-      for (std::size_t k = 0; k < differ.size(); ++k) {
-        if (!same_bits(member.step->program.constants[k], program.constants[k])) differ[k] = true;
-      }
-    }
-    const bool serves = loop_ && alike(*first_, *members_[0].step) && [&] {
-      for (std::size_t k = 0; k < differ.size(); ++k) {
-        if (!differs_[k] && (differ[k] || !same_bits(first_->program.constants[k], program.constants[k]))) return false;
-      }
-      return true;
-    }();
-    if (serves) return;
-    if (loop_ && alike(*first_, *members_[0].step)) {  // what differed once will differ again
-      for (std::size_t k = 0; k < differ.size(); ++k) {
-        differ[k] = differ[k] || differs_[k] || !same_bits(first_->program.constants[k], program.constants[k]);
-      }
-    }
-    first_ = members_[0].step;
-    differs_ = differ;
-    const auto flags = std::make_unique<bool[]>(differ.size());
-    std::copy(differ.begin(), differ.end(), flags.get());
-    loop_ = make_lane_loop(program, {flags.get(), differ.size()}, set_);
-  }
+  const RecordedStep& step() const { return *members_[0].step; }
 
-  const Member& in_lane(std::size_t lane) const { return members_[std::min(lane, members_.size() - 1)]; }
-
-  void fill() {
-    under_way_ = false;
-    taken_ = 0;
-    carried_.assign(members_[0].step->program.values() * lanes(), 0.0);
-    failed_ = std::make_unique<bool[]>(lanes());
-    constants_.clear();
-    for (std::size_t k = 0; k < differs_.size(); ++k) {
-      if (!differs_[k]) continue;
-      for (std::size_t lane = 0; lane < lanes(); ++lane) {
-        constants_.push_back(in_lane(lane).step->program.constants[k]);
-      }
-    }
-  }
   /// After the first step, which leaves what a method keeps for the next one.
-  void read() {
-    under_way_ = true;
-    std::vector<double> values(members_[0].step->program.values());
-    for (std::size_t lane = 0; lane < lanes(); ++lane) {
-      Member& member = members_[std::min(lane, members_.size() - 1)];
-      if (!member.lost && !member.recorded->read_values(*member.step, values)) member.lost = true;
-      for (std::size_t k = 0; k < values.size(); ++k) carried_[k * lanes() + lane] = values[k];
+  void read(std::size_t lane) {
+    Member& member = members_[std::min(lane, members_.size() - 1)];
+    if (!member.lost && !member.recorded->read_values(*member.step, values_)) member.lost = true;
+    for (std::size_t k = 0; k < values_.size(); ++k) carried_[k * lanes() + lane] = values_[k];
+  }
+
+  /// The member's simulation, which is behind, to where a lane is.
+  void bring(Member& member, std::size_t lane, const LaneNumbers& carried, std::int64_t taken) {
+    const std::int64_t steps = taken - member.simulation->step();
+    if (steps == 0) return;
+    for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = carried[k * lanes() + lane];
+    member.recorded->take_values(*member.step, values_, steps);
+  }
+
+  FamilyLoop::Steps tangent_steps(RecordedAt at) {
+    FamilyLoop::Steps steps;
+    for (const Member& member : members_) {
+      steps.push_back(member.has_step_of_last ? steps.back() : member.recorded->tangent_step(at));
     }
+    return steps;
   }
 
   const ProblemEntry& problem_;
   Request request_;
   LaneSet set_;
+  FamilyLoop loop_;
   std::vector<Member> members_;
-  std::shared_ptr<const RecordedStep> first_;  // of the loop
-  std::vector<bool> differs_;
-  std::unique_ptr<const LaneLoop> loop_;
-  std::vector<double> carried_;
-  std::vector<double> constants_;
+  LaneNumbers carried_;
+  LaneNumbers before_;  // the last step
   std::unique_ptr<bool[]> failed_;
-  bool under_way_ = false;
+  std::vector<double> values_;  // of one lane
   std::int64_t taken_ = 0;
+  std::map<std::size_t, BlockTangents> tangents_;  // by the number of vectors
 };
 
 }  // namespace

@@ -2,13 +2,15 @@
 // coordinate: what a look shows has the coordinates that have names.
 #pragma once
 
+#include "hamflow/run/recorded_step.hpp"
 #include "hamflow/run/simulation.hpp"
 
 namespace hamflow {
 
-class TimedSimulation final : public Simulation {
+class TimedSimulation final : public Simulation, public RecordedMember {
  public:
-  explicit TimedSimulation(std::unique_ptr<Simulation> extended) : extended_(std::move(extended)) {}
+  explicit TimedSimulation(std::unique_ptr<Simulation> extended)
+      : extended_(std::move(extended)), recorded_(dynamic_cast<RecordedMember*>(extended_.get())) {}
 
   Outcome advance(std::int64_t steps) override { return extended_->advance(steps); }
   std::int64_t step() const override { return extended_->step(); }
@@ -41,6 +43,25 @@ class TimedSimulation final : public Simulation {
     return outcome;
   }
 
+  std::shared_ptr<const RecordedStep> recorded_step() override {
+    const auto extended = recorded_ != nullptr ? recorded_->recorded_step() : nullptr;
+    if (!extended) return nullptr;
+    auto step = std::make_shared<RecordedStep>(*extended);
+    const auto end_of_q = step->state.begin() + static_cast<std::ptrdiff_t>(step->state.size() / 2);
+    step->state.pop_back();
+    step->state.erase(end_of_q - 1);
+    return step;
+  }
+  /// Steps of H(q, p, t) are not differentiated.
+  std::shared_ptr<const RecordedStep> tangent_step(RecordedAt) override { return nullptr; }
+  bool read_values(const RecordedStep& step, std::span<double> values) const override {
+    return recorded_->read_values(step, values);
+  }
+  void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
+    recorded_->take_values(step, values, steps);
+  }
+  double time_after(std::int64_t steps) const override { return recorded_->time_after(steps); }
+
  private:
   static void strip(Frame& frame) {
     for (auto* numbers : {&frame.q, &frame.p}) {
@@ -52,6 +73,7 @@ class TimedSimulation final : public Simulation {
   }
 
   std::unique_ptr<Simulation> extended_;
+  RecordedMember* recorded_;  // the same, where it is one
 };
 
 }  // namespace hamflow

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "hamflow/problems/support/polar.hpp"
+#include "hamflow/problems/support/potential.hpp"
 
 namespace hamflow {
 
@@ -43,7 +44,11 @@ ProblemEntry formula_entry(const Choices& choices) {
 ProblemEntry central_entry(const Choices& choices) {
   const FormulaTexts texts = central_formula_texts(choices);
   const bool polar = choices.at(Keys::coordinates) == CentralKeys::polar;
-  ProblemEntry entry = entry_of_model(std::make_shared<const formula::Model>(texts));
+  const auto model = std::make_shared<const formula::Model>(texts);
+  std::optional<TypedField> field;
+  if (!model->structure().time)
+    field = TypedField{std::make_shared<const formula::Model>(radial_formula_texts(choices)), polar};
+  ProblemEntry entry = entry_of_model(model, field);
   ProblemInfo& info = entry.info;
   info.name = CentralKeys::problem;
   for (const auto& [key, text] : choices) info.variant.emplace_back(key, text);
@@ -61,6 +66,8 @@ ProblemEntry central_entry(const Choices& choices) {
   info.invariants = {
       {"angular_momentum", texts.invariants[0].second, Components::one, polar ? Terms::momentum : Terms::moments}};
   info.two_bodies = true;
+  if (field) info.starts = {start_by_energy({{"energy", "-0.4"}, {"angular_momentum", "1"}})};
+  info.example = {.q = {1, 0}, .p = {0, 1}, .dt = 0.05};
   if (polar) {
     const auto changed = [](const auto& change) {
       return [change](const std::vector<double>& q, const std::vector<double>& p) {

@@ -11,7 +11,13 @@ bool is_typed(const std::string& name, const Choices& choices);
 /// Its entry, which lives as long as the program. @throws FormulaError when a text is wrong
 const ProblemEntry& typed_problem(const std::string& name, const Choices& choices);
 
+/// A field that is typed: V of r, and the chart of the states.
+struct TypedField {
+  std::shared_ptr<const formula::Model> radial;  // p_r^2/2 + V(r)
+  bool polar = false;
+};
 /// The entry of a model, without info: everything that its functions give. Defined in formula_entry.cpp.
-ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model);
+/// @param field of a central force that does not depend on t: starts by energy and angular momentum, facts of the orbit
+ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const std::optional<TypedField>& field = {});
 
 }  // namespace hamflow

@@ -213,7 +213,8 @@ class NumberReader {
     const std::vector<std::string> symbols{"pi"};
     const std::string near = nearest(lower(name), symbols);
     const bool alike = near.find_first_of(lower(name)) != std::string::npos;
-    refuse_at(text(), begin, "the unknown symbol " + word, "numbers, pi, functions such as sqrt(2)", alike ? near : "");
+    refuse_at(text(), begin, "the unknown symbol " + word, "numbers, pi, functions such as sqrt(2)",
+              alike ? near : written_here(name));
   }
   Span function(std::string_view name, std::size_t begin) {
     const std::size_t opened = at_;
@@ -221,8 +222,9 @@ class NumberReader {
     if (action == nullptr) {
       std::vector<std::string> names;
       for (const auto& [known, its_action] : functions) names.emplace_back(known);
+      const std::string here = written_here(name);
       refuse_at(text(), begin, "the unknown function " + std::string(name), hamflow::joined(names),
-                nearest(lower(name), names));
+                here.empty() ? nearest(lower(name), names) : here);
     }
     const bool two = *action == NumberAction::atan2;
     take("(");

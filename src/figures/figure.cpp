@@ -75,7 +75,8 @@ FigureFacts facts_of(const FigureData& data) {
   return {.degrees_of_freedom = data.q.size(),
           .bodies_in_space = data.space >= 2,
           .diagnostics = !data.diagnostics.empty(),
-          .section = !data.section_coordinate.empty()};
+          .section = !data.section_coordinate.empty(),
+          .stroboscopic = data.q.size() == 1 && !data.section_coordinate.empty()};
 }
 
 std::string why_not(const Figure& figure, const std::string& kind) {

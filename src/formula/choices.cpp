@@ -141,6 +141,16 @@ FormulaTexts central_formula_texts(const Choices& choices) {
   return texts;
 }
 
+FormulaTexts radial_formula_texts(const Choices& choices) {
+  FormulaTexts texts = central_formula_texts(choices);
+  texts.coordinates = {"r"};
+  texts.hamiltonian.clear();
+  texts.kinetic = "p_r^2/2";
+  texts.potential = choices.at(FormulaKeys::central_potential);
+  texts.invariants.clear();
+  return texts;
+}
+
 FormulaTexts formula_texts(const Choices& choices) {
   const auto of = [&](const char* key) {
     const auto found = choices.find(key);

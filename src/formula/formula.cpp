@@ -288,7 +288,7 @@ class Meaning {
     for (const FunctionName& f : functions()) candidates.emplace_back(f.name);
     std::string near = nearest(name, candidates);
     // Short words are near everything: at least a letter has to be the same.
-    if (near.find_first_of(lower(name) + name) == std::string::npos) near.clear();
+    if (near.find_first_of(lower(name) + name) == std::string::npos) near = written_here(name);
     refuse(part.at, name == "t" ? "the time t, which has no meaning here" : "the unknown symbol " + name,
            joined(listed), near);
   }

@@ -258,7 +258,7 @@ Model::Model(const FormulaTexts& texts) {
       for (const int form : by_q) of_force.push_back({form, true});
       velocity = d.code(of_velocity);
       force = d.code(of_force);
-      structure_.quadratic_kinetic = !structure_.time;
+      structure_.quadratic_kinetic = true;
       for (std::size_t i = 0; i < n && structure_.quadratic_kinetic; ++i) {
         std::vector<int> rest{by_p[i]};
         bool any = false;
@@ -271,7 +271,8 @@ Model::Model(const FormulaTexts& texts) {
         }
         structure_.quadratic_kinetic = structure_.quadratic_kinetic && any && d.forms.is_zero(d.forms.sum(rest));
       }
-      if (n > 1 && structure_.quadratic_kinetic && is_one_scalar(d.forms, by_q, 0) && is_one_scalar(d.forms, by_p, n)) {
+      if (n > 1 && structure_.quadratic_kinetic && !structure_.time && is_one_scalar(d.forms, by_q, 0) &&
+          is_one_scalar(d.forms, by_p, n)) {
         for (auto& o : of_force) o.scale = static_cast<int>(factor_symbol());
         for (auto& o : of_velocity) o.scale = static_cast<int>(factor_symbol());
         scaled_force = d.code(of_force);

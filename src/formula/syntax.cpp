@@ -300,7 +300,9 @@ class SyntaxReader {
     }
     std::vector<std::string> names{"sum"};
     for (const FunctionName& f : functions()) names.emplace_back(f.name);
-    refuse(begin, "the unknown function " + std::string(name), joined(names), nearest(lower(name), names));
+    const std::string here = written_here(name);
+    refuse(begin, "the unknown function " + std::string(name), joined(names),
+           here.empty() ? nearest(lower(name), names) : here);
   }
   int call(Op function, std::string_view name, std::size_t begin) {
     const std::string word(name);

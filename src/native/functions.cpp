@@ -9,8 +9,10 @@ FunctionOfOne function_of_one(Instruction instruction) {
     case Instruction::logarithm:
       return std::log;
     case Instruction::sine:
+    case Instruction::sine_of_both:
       return std::sin;
     case Instruction::cosine:
+    case Instruction::cosine_of_both:
       return std::cos;
     case Instruction::tangent:
       return std::tan;
@@ -41,5 +43,7 @@ FunctionOfTwo function_of_two(Instruction instruction) {
       return nullptr;
   }
 }
+
+SineAndCosine sine_and_cosine(double x) { return {std::sin(x), std::cos(x)}; }
 
 }  // namespace hamflow::native

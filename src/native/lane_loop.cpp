@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <new>
 #include <stdexcept>
 
 #include "is_asked.hpp"
@@ -13,20 +12,6 @@ namespace {
 constexpr std::size_t per_number = 4;   // to a number: while one waits for its square root, the others work
 constexpr std::size_t run_of_one = 32;  // 1: 10 % slower for Kepler, 25 % for compensated sums; 12 to 40 differ little
 
-/// Numbers where a whole register can be read at once.
-class Aligned {
- public:
-  explicit Aligned(std::size_t size) : data_(new (alignment) double[size]()) {}
-  ~Aligned() { ::operator delete[](data_, alignment); }
-  Aligned(const Aligned&) = delete;
-  Aligned& operator=(const Aligned&) = delete;
-  double* data() const { return data_; }
-
- private:
-  static constexpr std::align_val_t alignment{64};
-  double* data_;
-};
-
 class LaneLoopOf final : public LaneLoop {
  public:
   LaneLoopOf(LaneProgram program, std::size_t lanes, std::unique_ptr<const Function> function)
@@ -34,20 +19,22 @@ class LaneLoopOf final : public LaneLoop {
 
   std::size_t lanes() const override { return lanes_; }
 
-  void run(std::span<double> carried, std::span<const double> constants, std::int64_t steps,
+  LaneNumbers prepared(std::span<const double> constants) const override {
+    LaneNumbers all(program_.before.values() * lanes_);
+    std::copy_n(constants.data(), program_.given * lanes_, all.data());
+    interpret_lanes(program_.before, program_.uniform, lanes_, all.data(), nullptr, 1, nullptr);
+    return all;
+  }
+
+  void run(LaneNumbers& carried, const LaneNumbers& constants, std::int64_t steps,
            std::span<bool> failed) const override {
-    const Aligned varying(program_.before.values() * lanes_);
-    std::copy_n(constants.data(), program_.given * lanes_, varying.data());
-    interpret_lanes(program_.before, program_.uniform, lanes_, varying.data(), nullptr, 1, nullptr);
-    const Program& step = program_.step;
-    if (!function_)
-      return interpret_lanes(step, program_.uniform, lanes_, carried.data(), varying.data(), steps, failed.data());
-    const std::size_t numbers = step.values() * lanes_;
-    const Aligned state(numbers);
-    std::copy_n(carried.data(), numbers, state.data());
+    if (!function_) {
+      interpret_lanes(program_.step, program_.uniform, lanes_, carried.data(), constants.data(), steps, failed.data());
+      return;
+    }
     std::array<std::uint64_t, per_number> flags{};
-    function_->entry()(state.data(), steps, varying.data(), flags.data());
-    std::copy_n(state.data(), numbers, carried.data());
+    function_->entry()(carried.data(), steps, constants.data(), flags.data());
+    if (std::all_of(flags.begin(), flags.end(), [](std::uint64_t lanes) { return lanes == 0; })) return;
     const std::size_t width = lanes_ / per_number;
     for (std::size_t i = 0; i < lanes_; ++i) failed[i] |= (flags[i / width] >> (i % width) & 1) != 0;
   }

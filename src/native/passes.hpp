@@ -9,6 +9,9 @@ namespace hamflow::native {
 /// negations in the sums, products and quotients that they meet. Only NaN's payloads may differ.
 Program simplified(const Program& program);
 
+/// Where a program has the sine and the cosine of one number, they become one call, where the first of them stands.
+Program with_both(const Program& program);
+
 /// The same operations in an order in which long chains begin early (list scheduling by height, window of `window`
 /// operations). Constants, outputs and checks keep their meaning.
 Program scheduled(const Program& program, std::size_t window = 64);

@@ -52,6 +52,9 @@ class Allocator {
       const auto [is_check, index] = events_[event_];
       if (is_check) {
         place_check(index);
+      } else if (program_.operations[index].instruction == Instruction::cosine_of_both) {
+        pass(program_.operations[index].a, {});  // came with the sine
+        after_line(program_.operations[index].a, {});
       } else if (is_call(program_.operations[index].instruction)) {
         place_call(program_.operations[index], values_ + index);
       } else {
@@ -264,6 +267,7 @@ class Allocator {
     result_.body.push_back({Line::Kind::call, operation.instruction, {}, reg(0), reg(0), b == nowhere ? b : reg(1)});
     after_line(operation.a, operation.b);
     if (uses_.next(number) != never) bind(number, 0);
+    if (operation.instruction == Instruction::sine_of_both && uses_.next(number + 1) != never) bind(number + 1, 1);
   }
 
   /// Every output to where the next step finds it.

@@ -25,7 +25,8 @@ struct Line {
     move,       // to <- a; one of the two is a register
     operation,  // to <- instruction(a, b): registers, but that b may be anywhere. larger(a, b) is a > b ? a : b; of
                 // fused operations c is what `to` was
-    call,       // register 0 <- instruction(register 0, register 1); no register keeps its number
+    call,       // register 0 <- instruction(register 0, register 1); no register keeps its number. Of sine_of_both
+                // register 1 <- the cosine
     check,      // of the register a, with b anywhere; `to` is a register that it may use
   };
   Kind kind;

@@ -87,8 +87,9 @@ class ScalarAssembler final : public LoopAssembler {
 
   void call(Instruction instruction) override {
     const auto one = function_of_one(instruction);
-    a_.mov(x86::rax, Imm(one ? reinterpret_cast<std::uintptr_t>(one)
-                             : reinterpret_cast<std::uintptr_t>(function_of_two(instruction))));
+    a_.mov(x86::rax, Imm(instruction == Instruction::sine_of_both ? reinterpret_cast<std::uintptr_t>(sine_and_cosine)
+                         : one                                    ? reinterpret_cast<std::uintptr_t>(one)
+                               : reinterpret_cast<std::uintptr_t>(function_of_two(instruction))));
     a_.call(x86::rax);
   }
 

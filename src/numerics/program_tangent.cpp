@@ -155,6 +155,8 @@ class Differentiation {
       case I::inverse_root_estimate:
       case I::fused_add:
       case I::fused_subtract:
+      case I::sine_of_both:
+      case I::cosine_of_both:
         return false;
     }
     return false;

@@ -8,22 +8,29 @@
 
 namespace hamflow {
 
-namespace {
-/// Which values of a program move with its first ones.
-std::vector<bool> moving_values(const Program& program, std::size_t first_values) {
-  std::vector<bool> results(program.operations.size());
+std::vector<std::size_t> moving_values(const Program& start, std::size_t state) {
+  std::vector<bool> results(start.operations.size());
   const auto moves = [&](const Operand& x) {
-    if (x.kind == Operand::Kind::carried) return x.index < first_values;
+    if (x.kind == Operand::Kind::carried) return x.index < state;
     return x.kind == Operand::Kind::result && results[x.index];
   };
-  for (std::size_t i = 0; i < program.operations.size(); ++i) {
-    results[i] = moves(program.operations[i].a) || moves(program.operations[i].b);
+  for (std::size_t i = 0; i < start.operations.size(); ++i) {
+    results[i] = moves(start.operations[i].a) || moves(start.operations[i].b);
   }
-  std::vector<bool> all;
-  for (const Operand& output : program.outputs) all.push_back(moves(output));
-  return all;
+  std::vector<std::size_t> moving;
+  for (std::size_t k = 0; k < start.values(); ++k) {
+    if (k < state || moves(start.outputs[k])) moving.push_back(k);
+  }
+  return moving;
 }
 
+std::optional<Program> with_moving(const Program& program, std::span<const std::size_t> moving, std::size_t vectors) {
+  const auto flags = std::make_unique<bool[]>(program.values());
+  for (const std::size_t k : moving) flags[k] = true;
+  return with_tangents(program, {flags.get(), program.values()}, vectors);
+}
+
+namespace {
 /// The loops for steps of one length with so many vectors: one step from a state, and steps that follow.
 struct Loops {
   double h = 0;
@@ -83,15 +90,9 @@ class RecordedTangents {
     const auto steady = recorder_(q, p, h, RecordedAt::steady);
     if (!start || !steady || start->program.values() != steady->program.values()) return loops;
     loops->values = start->program.values();
-    const std::vector<bool> moves = moving_values(start->program, z.size());
-    const auto flags = std::make_unique<bool[]>(moves.size());
-    for (std::size_t k = 0; k < moves.size(); ++k) {
-      flags[k] = moves[k] || k < z.size();
-      if (flags[k]) loops->moving.push_back(k);
-    }
-    const std::span<const bool> wanted(flags.get(), moves.size());
-    const auto with_start = with_tangents(start->program, wanted, vectors);
-    const auto with_steady = with_tangents(steady->program, wanted, vectors);
+    loops->moving = moving_values(start->program, z.size());
+    const auto with_start = with_moving(start->program, loops->moving, vectors);
+    const auto with_steady = with_moving(steady->program, loops->moving, vectors);
     if (!with_start || !with_steady) return loops;
     loops->start = make_step_loop(*with_start);
     loops->steady = make_step_loop(*with_steady);

@@ -71,16 +71,23 @@ bool StateExpression::uses(std::size_t k) const {
          (read_->numbered && read_->formula.uses(static_cast<int>(k + 2 * read_->size)));
 }
 
+bool StateExpression::uses_time() const {
+  return read_->formula.uses(static_cast<int>((read_->numbered ? 4 : 2) * read_->size));
+}
+
 double StateExpression::operator()(const Frame& frame) const {
-  std::vector<double> values;
-  values.reserve(4 * read_->size + 1 + read_->parameters.size());
-  for (int spelling = 0; spelling < (read_->numbered ? 2 : 1); ++spelling) {
-    values.insert(values.end(), frame.q.begin(), frame.q.end());
-    values.insert(values.end(), frame.p.begin(), frame.p.end());
-  }
-  values.push_back(frame.time);
-  values.insert(values.end(), read_->parameters.begin(), read_->parameters.end());
-  return Formula::evaluate<double, double>(read_->code, values);
+  const std::size_t n = read_->size;
+  const std::size_t of_state = (read_->numbered ? 4 : 2) * n;
+  const auto value_of = [&](int symbol) -> double {
+    const auto k = static_cast<std::size_t>(symbol);
+    if (k > of_state) return read_->parameters[k - of_state - 1];
+    if (k == of_state) return frame.time;
+    const std::size_t at = k % (2 * n);
+    return at < n ? frame.q[at] : frame.p[at - n];
+  };
+  double result = 0;
+  read_->code.run<double>(value_of, [&](std::size_t, double value) { result = value; });
+  return result;
 }
 
 }  // namespace hamflow

@@ -76,8 +76,11 @@ void check_coordinates(const std::string& name) {
 const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to) {
   check_coordinates(to);
   const auto charts = charted_problems().find(problem.info.name);
-  if (charts == charted_problems().end() || with_coordinates(charts->second, to) == nullptr) {
-    throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + what_charts_there_are());
+  const bool has_charts = charts != charted_problems().end() && !problem.info.chart_key.empty();
+  if (!has_charts || with_coordinates(charts->second, to) == nullptr) {
+    const std::string allowed =
+        problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
+    throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
   }
   std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
   variant[problem.info.chart_key] = to;

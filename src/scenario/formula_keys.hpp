@@ -14,6 +14,8 @@ namespace hamflow {
 const std::vector<OptionInfo>& formula_options();
 /// Those of `central-force` with a typed potential, beside the others that it has.
 const std::vector<OptionInfo>& central_formula_options();
+/// The choices of the example that stands with them.
+Choices central_formula_example(const std::string& coordinates);
 /// What a formula may be made of, in some sentences.
 const std::vector<std::string>& formula_language();
 

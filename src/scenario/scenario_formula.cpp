@@ -69,6 +69,10 @@ const std::vector<OptionInfo>& central_formula_options() {
   return options;
 }
 
+Choices central_formula_example(const std::string& coordinates) {
+  return central_formula_choices(central_formula_options().front().example, {{"k", "1"}, {"a", "0.01"}}, coordinates);
+}
+
 const std::vector<OptionInfo>& formula_options() {
   using Keys = FormulaKeys;
   static const std::vector<OptionInfo> options{

@@ -55,6 +55,11 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
                             " with a method that halves steps which do not converge; allowed without: a step that "
                             "was halved is not differentiated");
   }
+  if (has_method() && describe(scenario_.request.method).carries_copy) {
+    table.complain(key, table.found(key) +
+                            " with a method that carries a second copy of the state; allowed with the others, e.g. cg, "
+                            "rk4: its steps are no map of (q, p) that could be differentiated");
+  }
   const auto& structure = scenario_.problem != nullptr ? scenario_.problem->structure : std::nullopt;
   if (structure && structure->time) {
     table.complain(key, table.found(key) + " with an H that depends on t; allowed with H(q, p): steps of H(q, p, t) " +
@@ -116,13 +121,16 @@ void ScenarioReader::read_section_expression(TomlTable& section, Section wanted)
   const std::size_t dimension = scenario_.start_q.size();
   std::size_t first = 0;
   while (first < 2 * dimension && !expression->uses(first)) ++first;
-  if (first == 2 * dimension) {
+  wanted.by_time_alone = first == 2 * dimension;
+  if (wanted.by_time_alone && !expression->uses_time()) {
     section.complain(key.name, section.found(key.name) + ", which is the same for every state; allowed an expression " +
-                                   "with a coordinate or a momentum");
+                                   "with a coordinate, a momentum or t");
     return;
   }
-  wanted.coordinate = first % dimension;
-  wanted.momentum = first >= dimension;
+  if (!wanted.by_time_alone) {
+    wanted.coordinate = first % dimension;
+    wanted.momentum = first >= dimension;
+  }
   wanted.expression = expression;
   scenario_.section = wanted;
 }

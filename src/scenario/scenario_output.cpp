@@ -22,7 +22,8 @@ void ScenarioReader::read_output(TomlTable& table) {
   read_observables(table);
   FigureFacts facts{.degrees_of_freedom = scenario_.start_q.size(),
                     .diagnostics = has_method() && describe(scenario_.request.method).diagnostics,
-                    .section = scenario_.section.has_value()};
+                    .section = scenario_.section.has_value(),
+                    .stroboscopic = scenario_.section && scenario_.section->by_time_alone};
   if (scenario_.problem != nullptr) {
     const auto& invariants = scenario_.problem->info.invariants;
     const std::vector<std::string> in_space{"x", "y", "z"};

@@ -33,8 +33,12 @@ void ScenarioReader::read_kernel(TomlTable& table) {
   if (const auto kernel = table.text(keys.kernel)) {
     scenario_.request.kernel = *kernel;
     if (*kernel != keys.kernel.default_value && known) {
-      const std::string why_not = refused_fast_kernel(scenario_.request, *scenario_.problem);
+      const std::string why_not = refused_fast_kernel(scenario_.request);
       if (!why_not.empty()) table.complain(keys.kernel.name, table.found(keys.kernel.name) + "; " + why_not);
+      if (complaints_.empty()) {
+        const std::string too_long = refused_fast_step(scenario_.request);
+        if (!too_long.empty()) table.complain(keys.kernel.name, too_long);
+      }
     }
   }
   if (const auto threads = table.whole(keys.threads)) {

@@ -178,7 +178,11 @@ class TemplateWriter {
       write_typed();
       return;
     }
+    const bool typed_field = problem_.structure.has_value();
     for (const auto& [key, value] : info_.variant) {
+      const std::vector<OptionInfo>& typed = central_formula_options();
+      const auto is_this = [&](const OptionInfo& option) { return option.name == key; };
+      if (typed_field && std::any_of(typed.begin(), typed.end(), is_this)) continue;
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {
         for (const auto& [other_key, other] : entry.info.variant) {
@@ -190,7 +194,13 @@ class TemplateWriter {
       code.append(" = \"").append(value).append("\"");
       page_.line(code, joined(all));
     }
-    for (const ParameterInfo& parameter : info_.parameters) write_parameter(parameter);
+    for (const ParameterInfo& parameter : info_.parameters) {
+      if (!typed_field || parameter.name == CentralKeys::mass) write_parameter(parameter);
+    }
+    if (typed_field) {
+      for (const OptionInfo& option : central_formula_options()) write_option(option, true);
+      for (const std::string& sentence : formula_language()) page_.prose(sentence);
+    }
     write_starts();
   }
 
@@ -335,7 +345,7 @@ class TemplateWriter {
       } else if (key.name == keys.section.name) {
         key.keys.front().example = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
       } else if (key.name == keys.kernel.name) {
-        if (!problem_.has_fast_kernel || !find_method(method_.name).family->not_fast.empty()) continue;
+        if (!find_method(method_.name).family->not_fast.empty()) continue;
         set = true;
       } else if (key.name == keys.lattice.name && !on_lattice) {
         continue;

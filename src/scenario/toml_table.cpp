@@ -99,7 +99,7 @@ void TomlTable::complain_in(const std::string& part, const std::string& message)
     const std::size_t last = there.find_last_of(".[");
     there = last == std::string::npos ? "" : there.substr(0, last);
   }
-  if (where && where->begin.line > 0) {
+  if (where) {  // without a line it was --set
     complain_at(*where, part, message);
   } else {
     complain(part, message);
@@ -150,9 +150,9 @@ std::optional<std::string> TomlTable::plain_string(const std::string& key) {
 
 std::optional<std::string> TomlTable::text(const OptionInfo& option, const std::string& behind) {
   const toml::node* node = find(option.name);
-  const std::string allowed = "; allowed " + allowed_text(option) + behind;
+  const Allowed allowed = [&] { return "; allowed " + allowed_text(option) + behind; };
   if (node == nullptr) {
-    if (option.required) complain(option.name, "found nothing" + allowed);
+    if (option.required) complain(option.name, "found nothing" + allowed());
     return std::nullopt;
   }
   switch (option.type) {
@@ -194,7 +194,7 @@ std::optional<bool> TomlTable::yes_no(const OptionInfo& option) {
 }
 
 std::optional<std::string> TomlTable::number_text(const toml::node& node, const OptionInfo& option,
-                                                  const std::string& allowed) {
+                                                  const Allowed& allowed) {
   // At the node itself: an entry of an array has its own place.
   const auto refuse = [&](const std::string& message) {
     complain_at(node.source(), option.name, message);
@@ -210,37 +210,37 @@ std::optional<std::string> TomlTable::number_text(const toml::node& node, const 
     if (refused_value(option, word->get()).empty()) return word->get();
     // What is no formula has an error of its own, which says where the text goes wrong.
     const bool meant_as_word = !option.words.empty() && word->get().find_first_of("0123456789") == std::string::npos;
-    if (meant_as_word) return refuse(found() + allowed + suggestion(word->get(), option.words));
+    if (meant_as_word) return refuse(found() + allowed() + suggestion(word->get(), option.words));
     try {
       (void)number_value(word->get());
     } catch (const Error& error) {
       return refuse(error.what());
     }
-    return refuse(found() + allowed);
+    return refuse(found() + allowed());
   }
   constexpr std::int64_t exact_in_double = std::int64_t{1} << 53;
   if (const auto* integer = node.as_integer()) {
     const std::int64_t value = integer->get();
     const bool is_rounded = option.range.whole && (value > exact_in_double || value < -exact_in_double);
     if (!is_rounded && option.range.contains(static_cast<double>(value))) return std::to_string(value);
-    return refuse(found() + allowed);
+    return refuse(found() + allowed());
   }
   if (const auto* real = node.as_floating_point()) {
     if (option.range.contains(real->get())) return shortest(real->get());
-    return refuse(found() + allowed);
+    return refuse(found() + allowed());
   }
-  return refuse(found() + allowed + number_forms);
+  return refuse(found() + allowed() + number_forms);
 }
 
 std::optional<std::string> TomlTable::list_text(const toml::node& node, const OptionInfo& option,
-                                                const std::string& allowed) {
+                                                const Allowed& allowed) {
   const auto* array = node.as_array();
   if (array == nullptr) {
-    complain(option.name, "found " + shown(node) + allowed);
+    complain(option.name, "found " + shown(node) + allowed());
     return std::nullopt;
   }
   if (array->empty() || (option.length > 0 && array->size() != option.length)) {
-    complain(option.name, "found " + std::to_string(array->size()) + " entries" + allowed);
+    complain(option.name, "found " + std::to_string(array->size()) + " entries" + allowed());
     return std::nullopt;
   }
   OptionInfo one = option;  // an entry is judged as a number
@@ -255,19 +255,19 @@ std::optional<std::string> TomlTable::list_text(const toml::node& node, const Op
 }
 
 std::optional<std::string> TomlTable::word_text(const toml::node& node, const OptionInfo& option,
-                                                const std::string& allowed) {
+                                                const Allowed& allowed) {
   if (option.type == OptionType::yes_no) {
     if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
-    complain(option.name, "found " + shown(node) + allowed);
+    complain(option.name, "found " + shown(node) + allowed());
     return std::nullopt;
   }
   const auto* word = node.as_string();
   if (word == nullptr) {
-    complain(option.name, "found " + shown(node) + allowed);
+    complain(option.name, "found " + shown(node) + allowed());
     return std::nullopt;
   }
   if (refused_value(option, word->get()).empty()) return word->get();
-  complain(option.name, "found \"" + word->get() + "\"" + allowed + suggestion(word->get(), option.words));
+  complain(option.name, "found \"" + word->get() + "\"" + allowed() + suggestion(word->get(), option.words));
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 // The scenarios of a sweep's members, one after the other, read from one parsed text.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,13 +21,31 @@ class MemberReader {
 
   Reading read(std::size_t member) {
     std::vector<std::size_t> values;
-    for (std::size_t key = 0; key < varied_.size(); ++key) values.push_back(value_of(member, key));
-    return family_.read(paths_, values);
+    std::string no_start;
+    for (std::size_t key = 0; key < varied_.size(); ++key) {
+      if (std::string why = varied_.without_start(member, key); !why.empty()) {
+        no_start = std::move(why);
+        values.push_back(family_.add_value("1"));  // stands for what is not there
+      } else {
+        values.push_back(value_of(member, key));
+      }
+    }
+    Reading reading = family_.read(paths_, values);
+    if (!no_start.empty()) without_start(reading, no_start);
+    return reading;
   }
   const std::vector<std::string>& paths() const { return paths_; }
   const ScenarioFamily& family() const { return family_; }
 
  private:
+  /// The member has everything but a start.
+  static void without_start(Reading& reading, const std::string& why) {
+    reading.no_start = why;
+    if (reading.scenario) reading.startless = std::exchange(reading.scenario, std::nullopt);
+    if (!reading.startless) return;
+    reading.startless->start_q.assign(reading.startless->start_q.size(), std::numeric_limits<double>::quiet_NaN());
+    reading.startless->start_p = reading.startless->start_q;
+  }
   /// Values of a list are parsed once, those of a formula for each member.
   std::size_t value_of(std::size_t member, std::size_t key) {
     const auto [at, is_new] = numbers_.try_emplace({key, varied_.place(member, key)});

@@ -11,6 +11,7 @@
 
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/section.hpp"
+#include "lane_run.hpp"
 #include "memory.hpp"
 
 namespace hamflow {
@@ -65,15 +66,6 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   threads_ = std::max(threads_, 1);
   read_members(name);
   if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
-  count_measured_steps();
-}
-
-/// What is measured beside a run needs every step by itself: members in lanes take them once more.
-void Sweep::count_measured_steps() {
-  if (!observables_.watch) return;
-  for (const auto& [key, group] : groups_) {
-    if (group.lanes > 0) total_steps_ += group.steps * static_cast<std::int64_t>(group.members.size());
-  }
 }
 
 /// 0 where it cannot be read, which is told later.
@@ -188,8 +180,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     group.request = request;
     group.shape = shape;
     group.steps = scenario.steps;
-    // Points of a section are sought on the partial steps of a simulation of its own.
-    const auto block = scenario.section ? nullptr : make_ensemble_block(request, options_.lanes);
+    const auto block = make_ensemble_block(request, options_.lanes);
     group.lanes = block == nullptr || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
   }
   group.members.push_back(member);
@@ -218,59 +209,86 @@ class Sweep::Worker {
  private:
   using Clock = std::chrono::steady_clock;
 
+  /// A member in a lane, with what observes it.
+  struct Watched {
+    Scenario scenario;
+    std::unique_ptr<MemberWatch> watch{};
+    std::optional<SectionSearch> section{};
+  };
+
   void run_in_lanes(const Task& task) {
     const Group& group = *task.group;
     auto& block = blocks_[task.group];
     if (!block) block = make_ensemble_block(group.request, sweep_.options_.lanes);
-    const auto* const members = group.members.data() + task.first;
+    const std::span<const std::size_t> members(group.members.data() + task.first, task.count);
     std::vector<MemberStart> starts;
-    for (std::size_t lane = 0; lane < task.count; ++lane) starts.push_back(sweep_.starts_[members[lane]]);
+    for (const std::size_t member : members) starts.push_back(sweep_.starts_[member]);
+    const bool is_watched = sweep_.observables_.watch || sweep_.common_.section;
     if (!block->load(group.shape, starts)) {
-      for (std::size_t lane = 0; lane < task.count; ++lane) run_alone(members[lane]);
+      for (const std::size_t member : members) run_alone(member);
       return;
     }
-    std::int64_t taken = 0;
+    std::vector<std::unique_ptr<Watched>> watched;
+    for (std::size_t lane = 0; is_watched && lane < task.count; ++lane) watched.push_back(watched_of(members[lane]));
+    LaneRun run(*block, observers_of(watched));
     std::int64_t chunk = 256;
-    while (taken < group.steps && !sweep_.stop_) {
+    while (run.taken() < group.steps && !sweep_.stop_) {
       const auto begin = Clock::now();
-      const std::int64_t steps = std::min(chunk, group.steps - taken);
-      block->advance(steps);
-      taken += steps;
+      const std::int64_t steps = std::min(chunk, group.steps - run.taken());
+      run.advance(steps);
       sweep_.steps_taken_ += steps * static_cast<std::int64_t>(task.count);
       if (Clock::now() - begin < std::chrono::milliseconds(10)) chunk = std::min(chunk * 2, std::int64_t{1} << 40);
     }
-    const bool complete = taken == group.steps;
     for (std::size_t lane = 0; lane < task.count; ++lane) {
-      MemberEnd end = block->look(lane);
-      MemberRow& row = sweep_.rows_[members[lane]];
-      if (!end.regular) {  // the single run shows what happened, and when
-        if (complete) run_alone(members[lane]);
-        continue;
-      }
-      row.status = complete ? Outcome::done : Outcome::stopped;
-      row.steps = taken;
-      row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[members[lane]].h;
-      row.q = std::move(end.q);
-      row.p = std::move(end.p);
-      row.energy = end.energy;
-      row.energy_scale = end.energy_scale;
-      row.invariants = std::move(end.invariants);
-      if (complete && sweep_.observables_.watch) measure(members[lane]);
-      if (row.status == Outcome::done && is_suspect(row))
-        row.nonsense = sweep_.options_.is_nonsense(scenario_of(members[lane]), row);
+      finish_lane(members[lane], block->look(lane), run.taken(), group.steps,
+                  is_watched ? watched[lane].get() : nullptr);
     }
   }
 
-  /// Of a member that ran in lanes, by its steps once more. Where that is interrupted, the member is not finished.
-  void measure(std::size_t member) {
+  std::unique_ptr<Watched> watched_of(std::size_t member) {
+    auto one = std::make_unique<Watched>(Watched{scenario_of(member)});
+    if (sweep_.observables_.watch) one->watch = sweep_.observables_.watch(one->scenario);
+    if (one->scenario.section) one->section.emplace(*one->scenario.section, points_of(sweep_.rows_[member]));
+    return one;
+  }
+  static std::vector<LaneObservers> observers_of(const std::vector<std::unique_ptr<Watched>>& watched) {
+    std::vector<LaneObservers> all;
+    for (const auto& one : watched) {
+      LaneObservers& observers = all.emplace_back();
+      if (one->watch) observers = {one->watch->observers(), one->watch->tangents()};
+      if (one->section) observers.section = &*one->section;
+    }
+    return all;
+  }
+  /// What takes the points of a member's section.
+  static std::function<void(const SectionPoint&)> points_of(MemberRow& row) {
+    return [&row](const SectionPoint& point) {
+      row.section.push_back(point.time);
+      row.section.insert(row.section.end(), point.q.begin(), point.q.end());
+      row.section.insert(row.section.end(), point.p.begin(), point.p.end());
+    };
+  }
+
+  /// @param taken of all steps: fewer where the sweep was stopped
+  void finish_lane(std::size_t member, MemberEnd end, std::int64_t taken, std::int64_t steps, const Watched* watched) {
     MemberRow& row = sweep_.rows_[member];
-    row.status = Outcome::stopped;
-    if (sweep_.stop_) return;
-    const Scenario scenario = scenario_of(member);
-    const auto simulation = make_simulation(scenario.request);
-    const auto watch = sweep_.observables_.watch(scenario, *simulation);
-    row.status = go(*simulation, scenario.steps, watch->observers());
-    if (row.status == Outcome::done) row.observables = watch->row();
+    if (!end.regular) {  // the single run shows what happened, and when
+      row.section.clear();
+      if (taken == steps) run_alone(member);
+      return;
+    }
+    row.status = taken == steps ? Outcome::done : Outcome::stopped;
+    row.steps = taken;
+    row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[member].h;
+    row.q = std::move(end.q);
+    row.p = std::move(end.p);
+    row.energy = end.energy;
+    row.energy_scale = end.energy_scale;
+    row.invariants = std::move(end.invariants);
+    if (watched != nullptr && watched->section) row.section_residual = watched->section->max_residual();
+    if (row.status != Outcome::done) return;
+    if (watched != nullptr && watched->watch) row.observables = watched->watch->row();
+    if (is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(member), row);
   }
 
   /// A run whose steps are counted and which Ctrl-C ends.
@@ -293,16 +311,12 @@ class Sweep::Worker {
     std::optional<SectionFinder> finder;
     std::vector<Observer*> observers;
     if (scenario.section) {
-      finder.emplace(*simulation, *scenario.section, [&](const SectionPoint& point) {
-        row.section.push_back(point.time);
-        row.section.insert(row.section.end(), point.q.begin(), point.q.end());
-        row.section.insert(row.section.end(), point.p.begin(), point.p.end());
-      });
+      finder.emplace(*simulation, *scenario.section, points_of(row));
       observers.push_back(&*finder);
     }
     std::unique_ptr<MemberWatch> watch;
     if (sweep_.observables_.watch) {
-      watch = sweep_.observables_.watch(scenario, *simulation);
+      watch = sweep_.observables_.watch(scenario);
       const std::vector<Observer*> more = watch->observers();
       observers.insert(observers.end(), more.begin(), more.end());
     }

@@ -12,6 +12,7 @@
 
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/observer.hpp"
+#include "hamflow/verify/lyapunov.hpp"
 #include "member_reader.hpp"
 #include "varied.hpp"
 
@@ -20,7 +21,7 @@ namespace hamflow {
 /// The result of a member; of one that failed, its last good state.
 struct MemberRow {
   Outcome status = Outcome::not_run;
-  bool no_start = false;  // no start has the energy asked for: it cannot be run
+  bool no_start = false;  // no start has the energy asked for, or a formula of it no value: it cannot be run
   std::int64_t steps = 0;
   double t = 0;
   std::vector<double> q;
@@ -40,11 +41,13 @@ struct MemberRow {
   std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
 };
 
-/// Observes the run of one member.
+/// Observes one member: alone or in a lane, where frames hold step, time, q and p and nothing else.
 class MemberWatch {
  public:
   virtual ~MemberWatch() = default;
   virtual std::vector<Observer*> observers() = 0;
+  /// Those of them that follow tangent vectors.
+  virtual std::vector<TangentWatch*> tangents() { return {}; }
   /// What was seen of a run that is done: a number for each of MemberObservables::names.
   virtual std::vector<double> row() const = 0;
 };
@@ -52,7 +55,7 @@ class MemberWatch {
 /// Further columns, e.g. an exponent: what is seen beside the run of each member.
 struct MemberObservables {
   std::vector<std::string> names;
-  std::function<std::unique_ptr<MemberWatch>(const Scenario&, const Simulation&)> watch;  // none: no columns
+  std::function<std::unique_ptr<MemberWatch>(const Scenario&)> watch;  // none: no columns. The scenario outlives it.
 };
 
 struct SweepOptions {
@@ -84,7 +87,7 @@ class Sweep {
   std::size_t lane_count() const { return lane_count_; }
   /// Members that run in lanes.
   std::size_t members_in_lanes() const { return in_lanes_; }
-  /// Of all members, those taken once more beside the lanes included.
+  /// Of all members.
   std::int64_t total_steps() const { return total_steps_; }
   /// Whether a member has more digits than double.
   bool beyond_double() const { return beyond_double_; }
@@ -114,7 +117,6 @@ class Sweep {
   void take_as_common(std::size_t member, const Scenario& scenario);
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
-  void count_measured_steps();
   void report(const std::map<std::string, std::vector<std::size_t>>& found);
 
   Varied varied_;

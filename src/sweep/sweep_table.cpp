@@ -133,8 +133,7 @@ void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memo
 }
 
 void write_column(hid_t file, const SweepColumn& column) {
-  const std::size_t values = std::max({column.texts.size(), column.counts.size(), column.numbers.size()});
-  const hsize_t rows = values / column.width;
+  const hsize_t rows = column.rows();
   const hsize_t size[2] = {rows, column.width};
   const int rank = column.scalar ? 1 : 2;
   if (!column.texts.empty()) {
@@ -224,10 +223,56 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   whole.put_in_place();
 }
 
-void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
+namespace {
+
+/// A text with commas, quotes or line ends as CSV has it.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string all = "\"";
+  for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return all + "\"";
+}
+
+std::string cell(const SweepColumn& column, std::size_t at) {
+  if (!column.texts.empty()) return quoted(column.texts[at]);
+  if (!column.counts.empty()) return std::to_string(column.counts[at]);
+  return fmt::format("{:.17g}", column.numbers[at]);
+}
+
+/// @throws FileError
+void write_csv(const std::filesystem::path& file, const std::vector<SweepColumn>& columns) {
   WholeFile whole(file, next_name(file));
   std::ofstream out(whole.part());
   if (!out) throw FileError("cannot write " + file.string());
+  std::vector<std::string> labels;
+  for (const SweepColumn& column : columns) {
+    for (std::size_t i = 0; i < column.width; ++i) labels.push_back(quoted(csv_name(column, i)));
+  }
+  out << joined(labels, ",") << '\n';
+  for (std::size_t row = 0; row < columns[0].rows(); ++row) {
+    std::vector<std::string> cells;
+    for (const SweepColumn& column : columns) {
+      for (std::size_t i = 0; i < column.width; ++i) cells.push_back(cell(column, row * column.width + i));
+    }
+    out << joined(cells, ",") << '\n';
+  }
+  out.close();
+  if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
+  whole.put_in_place();
+}
+
+}  // namespace
+
+std::string csv_name(const SweepColumn& column, std::size_t i) {
+  const std::string varied = "varied/", section = "section/";
+  std::string name = column.name;
+  for (const std::string& table : {varied, section}) {
+    if (name.starts_with(table)) name = name.substr(table.size());
+  }
+  return name + (column.scalar ? "" : std::to_string(i + 1));
+}
+
+void write_sweep_csv(const std::filesystem::path& folder, const Sweep& sweep) {
   // Each column with all its digits, where there are more than those of a double. What was varied stays a number.
   std::vector<SweepColumn> columns = columns_of(sweep);
   const std::string beyond_double = "digits/";
@@ -238,38 +283,8 @@ void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep) {
     }
   }
   std::erase_if(columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
-  const auto quoted = [](const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string all = "\"";
-    for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return all + "\"";
-  };
-  std::vector<std::string> labels;
-  for (const SweepColumn& column : columns) {
-    const std::string label = column.name.starts_with("varied/") ? column.name.substr(7) : column.name;
-    for (std::size_t i = 0; i < column.width; ++i) {
-      labels.push_back(quoted(label) + (column.scalar ? "" : std::to_string(i + 1)));
-    }
-  }
-  out << joined(labels, ",") << '\n';
-  for (std::size_t row = 0; row < sweep.members(); ++row) {
-    std::vector<std::string> cells;
-    for (const SweepColumn& column : columns) {
-      for (std::size_t i = 0; i < column.width; ++i) {
-        if (!column.texts.empty()) {
-          cells.push_back(quoted(column.texts[row * column.width + i]));
-        } else if (!column.counts.empty()) {
-          cells.push_back(std::to_string(column.counts[row]));
-        } else {
-          cells.push_back(fmt::format("{:.17g}", column.numbers[row * column.width + i]));
-        }
-      }
-    }
-    out << joined(cells, ",") << '\n';
-  }
-  out.close();
-  if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
-  whole.put_in_place();
+  write_csv(folder / "sweep.csv", columns);
+  if (sweep.common().section) write_csv(folder / "section.csv", section_columns_of(sweep));
 }
 
 }  // namespace hamflow

@@ -1,6 +1,7 @@
-// The rows of a sweep as columns, and the files they go to: sweep.h5, sweep.csv.
+// The rows of a sweep as columns, and the files they go to: sweep.h5, sweep.csv, section.csv.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct SweepColumn {
   std::vector<double> numbers{};
   std::vector<std::int64_t> counts{};
   std::vector<std::string> texts{};
+
+  std::size_t rows() const { return std::max({texts.size(), counts.size(), numbers.size()}) / width; }
 };
 
 /// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
@@ -37,7 +40,9 @@ struct SweepDescription {
 
 /// @throws FileError
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description);
-/// @throws FileError
-void write_sweep_csv(const std::filesystem::path& file, const Sweep& sweep);
+/// What the i-th part of a column is called in CSV: "final/q1", and without their table "problem.k" and "member".
+std::string csv_name(const SweepColumn& column, std::size_t i);
+/// sweep.csv, and section.csv where a section is asked for. @throws FileError
+void write_sweep_csv(const std::filesystem::path& folder, const Sweep& sweep);
 
 }  // namespace hamflow

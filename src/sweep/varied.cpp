@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
@@ -160,7 +161,26 @@ std::string Varied::text(std::size_t member, std::size_t key) const {
 
 double Varied::number(std::size_t member, std::size_t key) const {
   const Vary& own = keys_[key];
-  return own.formula.empty() ? own.numbers[place(member, key)] : evaluate_number<double>(text(member, key));
+  if (own.formula.empty()) return own.numbers[place(member, key)];
+  try {
+    return evaluate_number<double>(text(member, key));
+  } catch (const Error&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+std::string Varied::without_start(std::size_t member, std::size_t key) const {
+  const Vary& own = keys_[key];
+  const auto starts = {"problem.initial.", "problem.orbit."};
+  const bool of_start =
+      std::any_of(starts.begin(), starts.end(), [&](const char* path) { return own.path.starts_with(path); });
+  if (own.formula.empty() || !of_start) return {};
+  try {
+    (void)evaluate_number<double>(text(member, key));
+    return {};
+  } catch (const Error& error) {
+    return own.path + ": " + as_typed(error.what(), member);
+  }
 }
 
 std::string Varied::described(std::size_t member) const {

@@ -34,8 +34,11 @@ class Varied {
   /// The value as --set takes it. Of a formula the same with the values of the other keys in the place of their
   /// paths, so that every arithmetic reads its own digits.
   std::string text(std::size_t member, std::size_t key) const;
-  /// The same as a number. @throws Error where a formula has none
+  /// The same as a number; NaN where a formula has none.
   double number(std::size_t member, std::size_t key) const;
+  /// Why a formula of a component of the start gives this member none: sqrt(0.25 - q^2) beyond its reach. Else empty:
+  /// of any other key a formula without a value is a wrong request.
+  std::string without_start(std::size_t member, std::size_t key) const;
   /// "member 3: problem.k=0.5, run.dt=0.1"; formulas as they were typed.
   std::string described(std::size_t member) const;
   /// A complaint about a formula with the member's values in it, told with the formula as it was typed and the values.

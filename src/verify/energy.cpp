@@ -53,7 +53,7 @@ double short_level(const StepMap& map, const Region& region, double h) {
 }
 
 /// The step with which the error is measured: that of the region. Where an implicit method of high order does not claim
-/// to conserve the energy its defect may lie below the rounding of that step: then twice, four times, eight times it.
+/// to conserve the energy its defect may lie below the rounding of that step: then twice, four times, .. 32 times it.
 double telling_step(const StepMap& map, const Region& region, double unit) {
   const MethodInfo claims = map.claims();
   double h = region.step;
@@ -61,7 +61,7 @@ double telling_step(const StepMap& map, const Region& region, double unit) {
   const auto shows = [&](double level, double step) {
     return level / unit > 0x1p10 * rounding_level(region, step, 128 * region.step / step);
   };
-  for (int k = 0; k < 3 && !shows(short_level(map, region, h), h); ++k) {
+  for (int k = 0; k < 5 && !shows(short_level(map, region, h), h); ++k) {
     if (!(short_level(map, region, 2 * h) < unit)) break;  // no step that long
     h *= 2;
   }

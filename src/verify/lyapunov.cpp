@@ -140,10 +140,18 @@ std::int64_t steps_between(std::int64_t present, std::span<const double> logs) {
   return largest < 2 ? std::min(2 * present, most) : present;
 }
 
-TangentWatch::TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
-    : map_(std::move(map)), h_(h), last_step_(last_step) {
-  if (map_ == nullptr) throw Error("hamflow: there is no map of one step to differentiate");
+namespace {
+StepMapSource source_of(std::shared_ptr<const StepMap> map) {
+  if (map == nullptr) throw Error("hamflow: there is no map of one step to differentiate");
+  return {map->dimension(), [map] { return map; }};
 }
+}  // namespace
+
+TangentWatch::TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
+    : TangentWatch(source_of(std::move(map)), h, last_step) {}
+
+TangentWatch::TangentWatch(StepMapSource source, double h, std::int64_t last_step)
+    : source_(std::move(source)), h_(h), last_step_(last_step) {}
 
 std::int64_t TangentWatch::next_due(std::int64_t step) const {
   if (!followed_ || step > last_step_) return never;
@@ -151,27 +159,44 @@ std::int64_t TangentWatch::next_due(std::int64_t step) const {
 }
 
 Verdict TangentWatch::observe(const Frame& frame) {
-  State<double> now = frame.q;
-  now.insert(now.end(), frame.p.begin(), frame.p.end());
   std::int64_t next = 1;
-  if (at_ >= 0 && frame.step < due_) {  // a longer run would not have looked here
-    Writer ar;
-    fields(ar);
-    before_the_end_ = ar.take();
-  }
+  if (at_ >= 0 && frame.step < due_ && frame.step != carried_to_) keep_before_the_end();
   if (at_ >= 0 && frame.step > at_) {
     const std::int64_t steps = frame.step - at_;
-    followed_ = map_->advance_with_tangents(z_, tangents(), h_, steps);
+    followed_ = frame.step == carried_to_ || advance(steps);
     next = followed_ ? taken(steps) : 0;
     followed_ = next > 0;
   }
-  z_ = std::move(now);  // of the run itself, to the bit
+  z_.assign(frame.q.begin(), frame.q.end());  // of the run itself, to the bit
+  z_.insert(z_.end(), frame.p.begin(), frame.p.end());
   at_ = frame.step;
   due_ = at_ + next;
   return Verdict::go_on;
 }
 
+/// A longer run would not look where this one ends.
+void TangentWatch::keep_before_the_end() {
+  Writer ar;
+  fields(ar);
+  before_the_end_ = ar.take();
+}
+
+bool TangentWatch::advance(std::int64_t steps) {
+  if (map_ == nullptr) map_ = source_.map();
+  if (map_ == nullptr) throw Error("hamflow: there is no map of one step to differentiate");
+  return map_->advance_with_tangents(z_, tangents(), h_, steps);
+}
+
+std::optional<TangentsUnderWay> TangentWatch::under_way() {
+  const std::int64_t next = next_due(at_ + 1);
+  if (at_ < 0 || next == never || carried_to_ == next) return std::nullopt;
+  if (next < due_) keep_before_the_end();
+  return TangentsUnderWay{&z_, &tangents(), next - at_};
+}
+
 void TangentWatch::archive(Writer& ar) {
+  if (before_the_end_.empty() && carried_to_ > at_)
+    throw Error("found tangent vectors that were carried ahead of a run");
   if (before_the_end_.empty()) {
     fields(ar);
   } else {
@@ -183,7 +208,8 @@ void TangentWatch::archive(Reader& ar) {
   const std::size_t count = tangents().size();
   fields(ar);
   before_the_end_.clear();
-  const auto is_whole = [&](const State<double>& v) { return v.size() == 2 * map_->dimension(); };
+  carried_to_ = -1;
+  const auto is_whole = [&](const State<double>& v) { return v.size() == 2 * dimension(); };
   const bool begun = at_ >= 0;
   if (tangents().size() != count || !std::all_of(tangents().begin(), tangents().end(), is_whole) ||
       (begun && !is_whole(z_))) {
@@ -192,8 +218,11 @@ void TangentWatch::archive(Reader& ar) {
 }
 
 LyapunovWatch::LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count)
-    : TangentWatch(map, h, last_step),
-      frame_(map->dimension(), count > 0 ? count : 2 * map->dimension()),
+    : LyapunovWatch(source_of(std::move(map)), h, last_step, count) {}
+
+LyapunovWatch::LyapunovWatch(StepMapSource source, double h, std::int64_t last_step, std::size_t count)
+    : TangentWatch(std::move(source), h, last_step),
+      frame_(dimension(), count > 0 ? count : 2 * dimension()),
       sums_(frame_.vectors().size()),
       logs_(frame_.vectors().size()) {}
 

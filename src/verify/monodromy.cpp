@@ -71,7 +71,10 @@ std::vector<std::vector<double>> derivative_of_steps(const StepMap& map, State<d
 }
 
 MonodromyWatch::MonodromyWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step)
-    : TangentWatch(map, h, last_step), columns_(unit_vectors(2 * map->dimension())) {}
+    : TangentWatch(std::move(map), h, last_step), columns_(unit_vectors(2 * dimension())) {}
+
+MonodromyWatch::MonodromyWatch(StepMapSource source, double h, std::int64_t last_step)
+    : TangentWatch(std::move(source), h, last_step), columns_(unit_vectors(2 * dimension())) {}
 
 std::vector<std::vector<double>> MonodromyWatch::rows() const { return transposed(columns_); }
 

@@ -64,9 +64,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   std::vector<double> log_step;
   std::vector<double> log_error;
   bool masked = false;
-  // Beyond order 12 even quad has no four halvings left there: they begin with steps four times as long.
-  const double longest = (map.claims().order > 12 ? 16 : 4) * region.step;
-  std::int64_t steps = static_cast<std::int64_t>(std::ceil(region.time / longest));
+  std::int64_t steps = static_cast<std::int64_t>(std::ceil(region.time / (4 * region.step)));
   for (int k = 0; k <= halvings && !masked; ++k, steps *= 2) {
     State<Long> z = start;
     const Long h = time / static_cast<Long>(steps);

@@ -92,7 +92,8 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
   Defects symmetric;
   Defects reversible;
   for (std::uint64_t k = 0; k < states; ++k) {
-    const State<double> z = random_state(region, k);
+    const State<double> start = random_state(region, k);
+    const State<double> z = map.begun(start);
     const Rows m = map.jacobian(z, h);
     if (m.empty()) {  // the step failed: nothing holds
       for (Defects* all : {&jacobian, &symplectic, &weak, &symmetric, &reversible}) {
@@ -100,8 +101,8 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
       }
       continue;
     }
-    const double uneven = map.energies(reversed(z), h, 0, 0).front() - map.energies(z, h, 0, 0).front();
-    if (abs(uneven) > 64 * epsilon * map.energy_scale(z)) found.even_in_momenta = false;
+    const double uneven = map.energies(reversed(start), h, 0, 0).front() - map.energies(start, h, 0, 0).front();
+    if (abs(uneven) > 64 * epsilon * map.energy_scale(start)) found.even_in_momenta = false;
     add_jacobian_mismatch(map, z, h, m, jacobian);
     for_each_symplectic_defect(m, [&](double defect, double terms) { symplectic.add(defect, terms); });
 

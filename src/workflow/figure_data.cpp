@@ -129,7 +129,7 @@ RunForFigure read_for_figure(const fs::path& run) {
   if (problem.dimension == 1) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
-  if (scenario.section && samples.description.section && data.q.size() >= 2) {
+  if (scenario.section && samples.description.section && (data.q.size() >= 2 || scenario.section->by_time_alone)) {
     add_section(*scenario.section, names, samples, data);
   }
   fs::path named = run;

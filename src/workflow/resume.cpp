@@ -6,7 +6,7 @@
 
 #include "csv_file.hpp"
 #include "hamflow/core/hash.hpp"
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
 

@@ -36,7 +36,7 @@ struct KindOfFolder {
 const std::vector<KindOfFolder>& kinds_of_folders() {
   static const std::vector<KindOfFolder> all{
       {FolderOf::run, "run", {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"}},
-      {FolderOf::sweep, "sweep", {"sweep.h5", "sweep.csv", "summary.json"}},
+      {FolderOf::sweep, "sweep", {"sweep.h5", "sweep.csv", "section.csv", "summary.json"}},
       {FolderOf::comparison, "comparison", {"compare.json", "compare.csv"}}};
   return all;
 }

@@ -12,9 +12,10 @@
 
 namespace hamflow {
 
-/// The coordinate in whose plane, with its momentum, the points are drawn: the one after that of the section.
+/// The coordinate in whose plane, with its momentum, the points are drawn: the one after that of the section, the first
+/// where the section is one of time.
 inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
-  return (section.coordinate + 1) % size;
+  return section.by_time_alone ? 0 : (section.coordinate + 1) % size;
 }
 
 /// "section x = 0, x increasing", enhanced text.

@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "certificate_json.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/formula/problem_texts.hpp"
-#include "hamflow/numerics/inverse_cube.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
 #include "warnings.hpp"

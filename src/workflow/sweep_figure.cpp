@@ -55,6 +55,24 @@ FigureKeys figure_keys(const Varied& varied) {
   return keys;
 }
 
+/// A column of numbers, or one of several side by side, with its name in sweep.csv; of one alone that in sweep.h5 too.
+struct DrawnColumn {
+  std::string name;
+  std::vector<double> numbers;
+};
+std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
+  std::vector<DrawnColumn> all;
+  for (const SweepColumn& column : columns_of(sweep)) {
+    for (std::size_t i = 0; !column.numbers.empty() && i < column.width; ++i) {
+      DrawnColumn& one = all.emplace_back(DrawnColumn{column.scalar ? column.name : csv_name(column, i), {}});
+      for (std::size_t row = 0; row < column.rows(); ++row)
+        one.numbers.push_back(column.numbers[row * column.width + i]);
+    }
+    if (!column.numbers.empty() && column.width == 1 && !column.scalar) all.push_back({column.name, column.numbers});
+  }
+  return all;
+}
+
 /// The last part of a key, and the coordinate that an entry of a start belongs to.
 std::string key_label(const Sweep& sweep, const std::string& path) {
   const Scenario& scenario = sweep.common();
@@ -80,6 +98,18 @@ std::string invariant_label(const std::string& name) {
   return what == "max_error" ? "largest error of " + figures::escaped(words) : figures::escaped(name);
 }
 
+/// "x" of final/q1, final/q of one coordinate too; empty for other columns.
+std::string name_at_the_end(const Sweep& sweep, const std::string& column) {
+  const Scenario& scenario = sweep.common();
+  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+  for (const auto& [table, list] : {std::pair{"final/q", &names.q}, {"final/p", &names.p}}) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      if (column == fmt::format("{}{}", table, i + 1) || column == table) return figures::symbol((*list)[i]);
+    }
+  }
+  return {};
+}
+
 std::string value_label(const Sweep& sweep, const std::string& column) {
   static const std::map<std::string, std::string> known{{"energy/initial", "{/:Italic H}_0"},
                                                         {"energy/final", "{/:Italic H} at the end"},
@@ -88,11 +118,7 @@ std::string value_label(const Sweep& sweep, const std::string& column) {
                                                         {"final/t", "{/:Italic t} at the end"}};
   const auto found = known.find(column);
   if (found != known.end()) return found->second;
-  if (column == "final/q" || column == "final/p") {
-    const Scenario& scenario = sweep.common();
-    const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
-    return figures::symbol(column == "final/q" ? names.q.front() : names.p.front()) + " at the end";
-  }
+  if (const std::string name = name_at_the_end(sweep, column); !name.empty()) return name + " at the end";
   const std::size_t slash = column.find('/');
   const std::string name = slash == std::string::npos ? column : column.substr(slash + 1);
   if (column.starts_with("invariants/")) return invariant_label(name);
@@ -164,7 +190,9 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
   const std::string wrong = refused_figure_file(file);
   if (!wrong.empty()) return "--figure: error: " + wrong;
   if (draws_section(sweep, colour)) {
-    const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(), .section = true};
+    const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
+                            .section = true,
+                            .stroboscopic = sweep.common().section->by_time_alone};
     const std::string refused = refused_figure("section", facts);
     return refused.empty() ? "" : "--figure: error: " + refused;
   }
@@ -178,9 +206,7 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
                        lines.path, most_map_lines);
   }
   std::vector<std::string> columns;
-  for (const SweepColumn& column : columns_of(sweep)) {
-    if (!column.numbers.empty() && column.width == 1) columns.push_back(column.name);
-  }
+  for (const DrawnColumn& column : drawn_columns(sweep)) columns.push_back(column.name);
   if (!colour.empty() && std::find(columns.begin(), columns.end(), colour) == columns.end()) {
     const auto whole = std::find_if(columns.begin(), columns.end(),
                                     [&](const std::string& column) { return column.ends_with("/" + colour); });
@@ -207,8 +233,8 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
   figure.value_label = value_label(sweep, colour);
   figure.x_label = key_label(sweep, varied.keys()[keys.over].path);
   if (keys.map) figure.y_label = key_label(sweep, varied.keys()[keys.above].path);
-  for (const SweepColumn& one : columns_of(sweep)) {
-    if (one.name == colour) figure.value = one.numbers;
+  for (DrawnColumn& one : drawn_columns(sweep)) {
+    if (one.name == colour) figure.value = std::move(one.numbers);
   }
   const Vary& x = varied.keys()[keys.over];
   if (!x.is_number()) {

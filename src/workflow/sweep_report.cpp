@@ -160,8 +160,8 @@ std::string readable_sweep(const Json& s) {
        fmt::format("{} ({} done, {} failed, {} unfinished)", s["members"].get<std::size_t>(),
                    s["done"].get<std::size_t>(), s["failed"].get<std::size_t>(), s["unfinished"].get<std::size_t>()));
   if (s.contains("no_start")) {
-    line("no start",
-         fmt::format("{} of the failed: the energy is out of their reach", s["no_start"].get<std::size_t>()));
+    line("no start", fmt::format("{} of the failed: the energy, or what a formula asks for, is out of their reach",
+                                 s["no_start"].get<std::size_t>()));
   }
   for (const auto& [path, entry] : s["varied"].items()) {
     line("varied", entry.contains("first")

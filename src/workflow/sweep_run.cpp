@@ -42,7 +42,7 @@ void save(const Sweep& sweep, const fs::path& folder, const std::string& summary
   if (std::find(formats.begin(), formats.end(), "h5") != formats.end()) {
     write_sweep_h5(folder / "sweep.h5", sweep, {HAMFLOW_VERSION, host_name()});
   }
-  if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder / "sweep.csv", sweep);
+  if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder, sweep);
   write_text(folder / "summary.json", summary);
 }
 
@@ -127,7 +127,7 @@ class ScenarioSweep::Impl {
     Varied varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
     how.observables_of = [this](const Scenario& common) {
-      notes = notes_on(common);
+      notes = common.notes;
       return sweep_columns(common);
     };
     how.is_nonsense = [](const Scenario& scenario, const MemberRow& row) {
@@ -143,17 +143,6 @@ class ScenarioSweep::Impl {
   std::vector<std::string> complaints;
   std::vector<std::string> notes;
   std::optional<Sweep> sweep;
-
- private:
-  /// What belongs to single runs is left out.
-  static std::vector<std::string> notes_on(const Scenario& common) {
-    std::vector<std::string> all = common.notes;
-    for (const MeasureKind& kind : measure_kinds()) {
-      if (kind.columns != nullptr || kind.points_in_sweeps || !kind.requested(common)) continue;
-      all.push_back("run." + kind.key + " belongs to single runs: a sweep leaves it out");
-    }
-    return all;
-  }
 };
 
 ScenarioSweep::ScenarioSweep(const SweepRequest& request) : impl_(std::make_unique<Impl>(request)) {}

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/run/state_names.hpp"
 
 namespace hamflow {

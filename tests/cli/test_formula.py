@@ -97,6 +97,68 @@ parameters = { a = 0.1, w = 0.7 }\ninitial = { q = [0.2], p = [0] }\n[method]\nn
         self.assertIn("problem.parameters.aa", refused)
         self.assertIn("stands in no formula; did you mean a?", refused)
         self.hamflow("sweep", "d.toml", "--out", "none", "--vary", "problem.parameters.z=0.5,0.7", status=2)
+        self.assertTrue(refused.startswith("--set: error: problem.parameters.aa: found"), refused)
+
+    def test_section_of_time(self):
+        """Points of a section by t alone are those of partial steps to the times: of x'' = cos t from rest x = 1 - cos t."""
+        self.write("s.toml", """[problem]\nname = "formula"\ncoordinates = ["x"]\nhamiltonian = "p_x^2/2 - x*cos(w*t)"
+parameters = { w = 1 }\ninitial = { q = [0], p = [0] }\n[method]\nname = "kahan-li8"
+[run]\ndt = 0.07\nsteps = 400\nsection = { expression = "sin(w*t - 0.5)", direction = 1 }\n[output]\nfigures = ["section"]\n""")
+        summary = json.loads(self.hamflow("run", "s.toml", "--out", "s.run", "--json").stdout)
+        self.assertEqual(summary["section"]["points"], 5)  # t = 0.5 + 2 pi k < 28
+        self.assertLess(summary["section"]["max_residual"], 1e-13)
+        self.assertTrue((self.folder / "s.run/figures/section.svg").is_file())
+        if h5py is not None:
+            with h5py.File(self.folder / "s.run/run.h5") as file:
+                times, q, p = (file["section"][name][...] for name in ("t", "q", "p"))
+            for k, (t, x, v) in enumerate(zip(times, q[:, 0], p[:, 0], strict=True)):
+                self.assertAlmostEqual(t, 0.5 + 2 * math.pi * k, delta=1e-12)
+                self.assertAlmostEqual(x, 1 - math.cos(t), delta=1e-9)
+                self.assertAlmostEqual(v, math.sin(t), delta=1e-9)
+        both = self.summary("s.toml", "--set", "run.section.direction=0", "--set", "output.figures=[]")
+        self.assertEqual(both["section"]["points"], 9)
+        # Partial steps, of any problem: t is known everywhere.
+        own = self.summary("b.toml", "--set", "run.section={ expression = 'cos(t)', direction = -1 }")
+        self.assertEqual(own["section"]["points"], 4 - 1)  # pi/2 + 2 pi k < 20, three of them
+        refused = self.hamflow("run", "s.toml", "--out", "none", "--set", "run.section.expression=w + 1", status=2).stderr
+        self.assertIn("the same for every state; allowed an expression with a coordinate, a momentum or t", refused)
+        self.hamflow("sweep", "s.toml", "--vary", "problem.initial.q[0]=0,0.1,0.2", "--out", "none", "--figure", "all.svg",
+                     "--set", "output.figures=[]", "--quiet")
+        self.assertTrue((self.folder / "all.svg").is_file())
+
+    def test_with_time_every_method_for_quadratic_kinetic_energy(self):
+        self.write("d.toml", """[problem]\nname = "formula"\ncoordinates = ["q"]\nhamiltonian = "p^2/2 - cos(q) - q*cos(w*t)"
+parameters = { w = 0.7 }\ninitial = { q = [0.2], v = [0.1] }\n[method]\nname = "stv4"\n[run]\ndt = 0.05\nsteps = 20\n""")
+        ends = [self.summary("d.toml", "--set", f"method.name={name}")["final"]
+                for name in ("rkn8-s19", "srkn11b", "chin4a", "dop853")]
+        for end in ends:
+            self.assertAlmostEqual(end["q"][0], ends[-1]["q"][0], delta=1e-7)
+        self.assertEqual(self.summary("d.toml")["parameters"]["structure"],
+                         {"separable": True, "quadratic_kinetic": True, "time": True})
+        refused = self.hamflow("run", "d.toml", "--out", "none", "--set", "method.name=chin4a", "--set",
+                               "problem.hamiltonian=sqrt(1 + p^2) - cos(q) - q*cos(w*t)", status=2).stderr
+        self.assertIn("T quadratic in p with constant mass matrix", refused)
+
+    def test_scale_of_the_energy(self):
+        """|T| + |V| where H is their sum, whichever method asks."""
+        sets = self.sets(["problem.hamiltonian=sqrt(1 + p_x^2 + p_y^2) - 3*cosh(k*x)*cosh(y)"])
+        scales = {self.summary("f.toml", *sets, "--set", f"method.name={name}", "--set", "run.steps=2")["energy"]["scale"]
+                  for name in ("stv4", "rk4", "cg", "dop853")}
+        self.assertEqual(len(scales), 1)
+        self.assertAlmostEqual(scales.pop(), math.sqrt(1.1) + 3 * math.cosh(0.1) * math.cosh(0.2), delta=1e-14)
+
+    def test_charts(self):
+        refused = self.hamflow("convert", "f.toml", "--to", "polar", status=2).stderr
+        self.assertIn("formula has no polar coordinates; allowed: those that were typed, x, y", refused)
+
+    def test_names_of_others(self):
+        for text, meant in (("ln(x)", "log(x)"), ("pow(x, 2)", "x^y"), ("e^x", "exp(x) for e^x"), ("sqr(x)", "x^2"),
+                            ("log10(x)", "log(x)/log(10)"), ("cbrt(x)", "x^(1/3)")):
+            refused = self.hamflow("run", "f.toml", "--out", "none", "--set",
+                                   f"problem.hamiltonian=p_x^2 + p_y^2 + k*({text})", status=2).stderr
+            self.assertIn("; did you mean", refused)
+            self.assertIn(meant, refused)
+        self.assertIn("did you mean log(x)?", self.hamflow("run", "f.toml", "--out", "none", "--set", "run.dt=ln(2)", status=2).stderr)
 
     def test_every_function_in_long_runs(self):
         """Steps are recorded after some hundred of them: each function of the language has to be one that a recording has."""
@@ -266,6 +328,37 @@ steps = 50
         self.write("polar.toml", self.hamflow("convert", "typed.toml", "--to", "polar").stdout)
         polar = self.summary("polar.toml")
         self.assertAlmostEqual(polar["energy"]["initial"], one["energy"]["initial"], delta=1e-15)
+
+    def test_orbit_of_a_typed_potential(self):
+        """Turning points, apsidal angle and period come from V(r) and its derivatives, as for built-in potentials."""
+        for chart in ("cartesian", "polar"):
+            sets = ["--set", f"problem.coordinates={chart}"]
+            if chart == "polar":
+                sets += ["--set", "problem.initial={ q = [1, 0.3], p = [0.1, 1.1] }"]
+            one, two = self.summary("typed.toml", *sets)["orbit"], self.summary("kepler.toml", *sets)["orbit"]
+            self.assertEqual((one["type"], one["closed"], one["circular_stable"]),
+                             (two["type"], two["closed"], two["circular_stable"]))
+            for key in ("r_min", "r_max", "circular_radius", "apsidal_angle", "radial_period"):
+                self.assertAlmostEqual(one[key], two[key], delta=1e-13 * abs(two[key]), msg=key)
+        start = ["--set", "problem.orbit={ energy = -0.4, angular_momentum = 1.1 }", "--set", "run.steps=0"]
+        for arithmetic in ("double", "quad"):
+            one, two = (self.summary(name, *start, "--set", f"run.arithmetic={arithmetic}")["final"]
+                        for name in ("typed.toml", "kepler.toml"))
+            for key in "qp":
+                for a, b in zip(one[key], two[key], strict=True):
+                    self.assertAlmostEqual(float(a), float(b), delta=1e-15)
+        deep = ["--set", "problem.orbit={ energy = -40, angular_momentum = 1.1 }"]
+        self.assertIn("V_eff <= energy", self.hamflow("run", "typed.toml", *deep, "--out", "none", status=2).stderr)
+        # With a time there is neither an energy nor an orbit.
+        timed = self.summary("typed.toml", "--set", "problem.V=-k/r*(1 + cos(t)/9)")
+        self.assertNotIn("orbit", timed)
+
+    def test_new_with_a_typed_potential(self):
+        for chart in ("cartesian", "polar"):
+            self.write("new.toml", self.hamflow("new", "central-force", "--potential", "formula", "--coordinates", chart).stdout)
+            run = self.summary("new.toml")
+            self.assertEqual((run["status"], run["parameters"]["potential"]), ("done", "formula"))
+            self.assertLess(run["energy"]["max_relative_error"], 0.02)
 
     def test_wrong_potentials(self):
         for old, new, words in (

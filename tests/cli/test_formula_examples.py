@@ -1,10 +1,15 @@
-"""The ten formulas of examples/formulas, each against something that is known: an invariant, a period, a limit, a reference
+"""The formulas of examples/formulas, each against something that is known: an invariant, a period, a limit, a reference
 computed here."""
 
 import math
 import unittest
 
 from command import EXAMPLES, CommandCase
+
+try:
+    import h5py
+except ImportError:  # the test that needs it is left out
+    h5py = None
 
 
 def example(name):
@@ -66,6 +71,21 @@ class FormulaExamples(CommandCase):
             self.assertAlmostEqual(found["final"]["q"][0], q, delta=tolerance, msg=method)
             self.assertAlmostEqual(found["final"]["p"][0], p, delta=tolerance, msg=method)
         self.assertLess(self.run_example("driven_pendulum")["energy"]["max_error"], 1e-3)
+
+    def test_driven_duffing(self):
+        """Once a period: without the force every point lies on the start's level of H."""
+        found = self.run_example("driven_duffing", "run.steps=6400", "output.figures=[]")
+        self.assertIn(found["section"]["points"], (99, 100))  # the last one is the end of the run, to rounding
+        self.assertLess(found["section"]["max_residual"], 1e-10)
+        if h5py is None:
+            return
+        self.hamflow("run", example("driven_duffing"), "--set", "problem.parameters.f=0", "--set", "run.steps=6400", "--out",
+                     "free.run", "--quiet")
+        with h5py.File(self.folder / "free.run/run.h5") as file:
+            q, p = file["section/q"][:, 0], file["section/p"][:, 0]
+        level = 0.1**4 / 4 - 0.1**2 / 2
+        for x, v in zip(q, p):
+            self.assertAlmostEqual(v * v / 2 - x * x / 2 + x**4 / 4, level, delta=1e-8)
 
     def test_relativistic_oscillator(self):
         """The period 4 int dx/v, with x = sin(theta): gamma = 1 + (1 - x^2)/2 for c = m = omega = 1."""

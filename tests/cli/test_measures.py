@@ -125,6 +125,42 @@ class Measures(CommandCase):
         self.assertEqual([f"lyapunov{i}" in whole[0] for i in (1, 4, 5)], [True, True, False])
         self.assertAlmostEqual(whole[0]["lyapunov1"] + whole[0]["lyapunov4"], 0, delta=1e-12)
 
+    def test_eigenvalues_in_sweeps(self):
+        done = self.hamflow("sweep", "chaos.toml", "--vary", "problem.initial.p[1]=0.08:0.12:5", "--out", "none", "--json",
+                            "--set", "run.steps=500", "--set", "run.eigenvalues=true")
+        summary = json.loads(done.stdout)
+        self.assertEqual(summary["members_in_lanes"], 5)
+        for row in summary["rows"]:
+            single = self.summary("--out", "none", "--set", "run.steps=500", "--set", "run.eigenvalues=true", "--set",
+                                  f"problem.initial.p[1]={row['problem.initial.p[1]']!r}")["eigenvalues"]
+            self.assertEqual([[row[f"eigenvalue{i}_re"], row[f"eigenvalue{i}_im"]] for i in range(1, 5)],
+                             single["values"])
+            for key in ("pair_defect", "symplectic_defect", "norm"):
+                self.assertEqual(row[f"eigenvalues_{key}"], single[key])
+
+    def test_members_whose_steps_cannot_be_differentiated_in_lanes(self):
+        """A step with |x| is recorded, but its program has no derivative: vectors go the way that they go in a run."""
+        self.write("chaos.toml", """
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "(p_x^2 + p_y^2)/2 + x^2*abs(x) + y^2 + k*x*y"
+parameters = { k = 0.3 }
+initial = { q = [0.5, 0.2], p = [0.3, -0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.05
+steps = 300
+lyapunov = true
+""")
+        done = self.hamflow("sweep", "chaos.toml", "--vary", "problem.parameters.k=0.2,0.3,0.4", "--out", "none", "--json")
+        summary = json.loads(done.stdout)
+        self.assertEqual(summary["members_in_lanes"], 3)
+        for row in summary["rows"]:
+            single = self.summary("--out", "none", "--set", f"problem.parameters.k={row['problem.parameters.k']}")["lyapunov"]["exponents"]
+            self.assertEqual([row[f"lyapunov{i}"] for i in range(1, 5)], single)
+
     def test_converted_runs_have_no_section(self):
         sets = ("--set", "run.section={coordinate='y'}", "--set", "output.figures=['section', 'orbit']")
         self.hamflow("run", "kepler.toml", *sets)

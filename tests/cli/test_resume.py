@@ -74,6 +74,8 @@ class Resume(CommandCase):
             ('name = "stv4" # watched', "dt = 0.1\nsteps = 20_000" + MEASURES, CHAOS),
             ('name = "boris"', "dt = 0.01\nsteps = 300_000", MAGNETIC),
             ('name = "cg"\ndiagnostics = true\non_divergence = "halve"', "dt = 0.1\nsteps = 30_000", KEPLER),
+            ('name = "cg"\ndegree = 2', "dt = 0.1\nsteps = 30_000", KEPLER),
+            ('name = "gauss"\nstages = 4\niteration = "fixed-point"', "dt = 0.1\nsteps = 30_000", KEPLER),
         ):
             with self.subTest(method=method, run=run):
                 self.scenario(method, run + "\ncheckpoint_every = 7001", problem)

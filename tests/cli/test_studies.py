@@ -1,5 +1,6 @@
 """Starts of given energy, sweeps whose values follow from each other, sections of all members in one file and figure."""
 
+import csv
 import json
 import math
 import unittest
@@ -231,10 +232,21 @@ class Studies(CommandCase):
         self.assertIn("itself; allowed formulas of keys that have values", cycle)
 
     def test_complaints_show_formulas_as_typed(self):
-        formula = "sqrt(problem.initial.q[1])/10 + 0.05"
+        formula = "sqrt(problem.initial.q[1])/10 + 0.05"  # of dt; a start without a value is the member's affair
         text = self.refused("--vary", "problem.initial.q[1]=-0.01,0.1", "--vary", f"run.dt={formula}")
         self.assertIn(f'found "{formula}" where problem.initial.q[1]=-0.01: sqrt((-0.01)) is not a real number', text)
         self.assertIn(f"(member 0: problem.initial.q[1]=-0.01, run.dt={formula})", text)
+
+    def test_starts_that_formulas_do_not_give(self):
+        """A component of the start that has no real value leaves its member without a start, not the sweep."""
+        formula = "sqrt(0.02 - problem.initial.q[1]^2)"
+        found = self.sweep("--set", "problem.initial={ q = [0, 0.1], p = [0.1, 0.1] }", "--vary",
+                           "problem.initial.q[1]=0,0.1,0.2,0.3", "--vary", f"problem.initial.p[0]={formula}")
+        self.assertEqual([row["status"] for row in found["rows"]], ["done", "done", "no_start", "no_start"])
+        self.assertIn("is not a real number", found["rows"][2]["message"])
+        self.assertIsNone(found["rows"][3]["problem.initial.p[0]"])
+        self.assertAlmostEqual(found["rows"][1]["problem.initial.p[0]"], 0.1, delta=1e-15)
+        self.assertEqual(found["no_start"], 2)
 
     def test_what_decides_the_columns_is_not_varied(self):
         section = ("--set", "run.section={ coordinate = 'q1' }")
@@ -282,6 +294,45 @@ class Studies(CommandCase):
                     self.assertEqual(section[name][own].tolist(), file[f"section/{name}"][()].tolist())
             self.assertEqual(row["section"]["points"], own.sum())
             self.assertGreater(own.sum(), 10)
+
+    def test_sections_as_text(self):
+        self.hamflow("sweep", "hh.toml", *self.SECTION, "--set", 'output.formats=["csv"]', "--out", "s", "--quiet")
+        self.assertEqual(sorted(path.name for path in (self.folder / "s").iterdir() if path.suffix in (".csv", ".h5")),
+                         ["section.csv", "sweep.csv"])
+        table = list(csv.DictReader((self.folder / "s/section.csv").read_text().splitlines()))
+        self.assertEqual(list(table[0]), ["member", "t", "q1", "q2", "p1", "p2"])
+        rows = self.sweep(*self.SECTION)["rows"]
+        for member, row in enumerate(rows):
+            own = [line for line in table if line["member"] == str(member)]
+            self.assertEqual(len(own), row.get("section", {"points": 0})["points"])
+            for line in own:
+                self.assertLess(abs(float(line["q1"])), 1e-15)
+                self.assertGreater(float(line["p1"]), 0)
+        # --force takes it away with the rest.
+        self.hamflow("sweep", "hh.toml", "--vary", "run.dt=0.1,0.05", "--out", "s", "--quiet", "--force")
+        self.assertFalse((self.folder / "s/section.csv").exists())
+
+    SECTIONS = ("{ coordinate = 'q1' }", "{ coordinate = 'p2', value = 0.05, direction = 0 }",
+                "{ expression = 'lambda*q1 - 0.1*q2 + 0.001*t', direction = -1 }")
+
+    def test_what_is_measured_in_lanes_is_that_of_runs(self):
+        """Everything at once, also of members that escape over the saddle and break off."""
+        for section in self.SECTIONS:
+            sets = (f"run.section={section}", "run.lyapunov=true", "run.eigenvalues=true",
+                    "output.observables={ r = 'q1^2 + q2^2', e = 'exp(-abs(p1))*t' }", "run.steps=2000",
+                    "problem.initial.p[1]=0.05", 'output.formats=["csv"]')
+            arguments = [word for one in sets for word in ("--set", one)]
+            found = {}
+            for lanes in ("none", "auto", "generic"):
+                self.hamflow("sweep", "hh.toml", "--vary", "problem.initial.q[1]=-0.2:0.4:12", "--vary",
+                             "problem.initial.energy=0.125,0.3", "--vary", "problem.lambda=0.9,1", *arguments,
+                             "--lanes", lanes, "--out", f"{lanes}.sweep", "--quiet", "--force")
+                found[lanes] = [(self.folder / f"{lanes}.sweep" / name).read_text()
+                                for name in ("sweep.csv", "section.csv")]
+            self.assertEqual(found["none"], found["auto"])
+            self.assertEqual(found["none"], found["generic"])
+            self.assertGreater(found["auto"][1].count("\n"), 500)
+            self.assertGreater(found["auto"][0].count("non_finite"), 5)
 
     def test_figures_of_sections_that_cannot_be(self):
         # Without a section, and with a column, there is a map of the column as ever.

@@ -137,13 +137,33 @@ steps = 200
 
     def test_without_lanes(self):
         self.write("k.toml", KEPLER)
-        for sets in (["method.name=dop853"], ["method.name=cg"], ["run.arithmetic=lattice"],
-                     ["run.arithmetic=compensated"]):
+        for sets in (["method.name=dop853"], ["method.name=cg"], ["run.arithmetic=lattice"]):
             more = [word for one in sets for word in ("--set", one)]
             self.check("k.toml", "problem.k=0.9:1.1:5", *more, members=(0, 4), lanes=False)
         self.write("p.toml", scenario('name = "central-force"\npotential = "power"\na = [1.0]\nn = [1.0]',
                                       "[1.0, 0.0]", "[0.0, 1.0]"))
         self.check("p.toml", "problem.a[0]=0.9:1.1:3", members=(0, 2))  # lists are no hindrance
+
+    def test_arithmetic_and_time(self):
+        """Compensated sums, and an H that depends on t: lanes like any other."""
+        self.write("k.toml", KEPLER)
+        self.check("k.toml", "problem.k=0.9:1.1:18", "--set", "run.arithmetic=compensated")
+        self.write("t.toml", """
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y + f*x*cos(w*t)"
+parameters = { f = 0.1, w = 1.5 }
+initial = { q = [0.1, 0.2], p = [0.3, -0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.05
+steps = 333
+""")
+        for method in ("stv4", "rk4"):
+            for more in ((), ("--set", "run.arithmetic=compensated")):
+                self.check("t.toml", "problem.parameters.w=1:2:18", "--set", f"method.name={method}", *more)
 
     def test_more_digits(self):
         """Rows, files and CSV have the digits of the single runs; nothing is rounded to double on the way."""
@@ -279,9 +299,8 @@ steps = 200
         self.assertGreater(int(begun[0]["member/steps"]), 0)
 
     def test_interrupt_while_measuring(self):
-        """What is measured takes the steps of members in lanes once more; that ends at Ctrl-C too."""
-        # The lanes are done in a fraction of the time that 16 members take to measure.
-        self.write("long.toml", scenario('name = "henon-heiles"', "[0.1, 0.1]", "[0.2, 0.3]", steps=2000000))
+        """Between looks at members in lanes, Ctrl-C is seen; what is not finished has no columns of what is measured."""
+        self.write("long.toml", scenario('name = "henon-heiles"', "[0.1, 0.1]", "[0.2, 0.3]", steps=10**9))
         for key, value, column in (("run.lyapunov", "1", "lyapunov1"),
                                    ("output.observables", "{ a = 'exp(sin(q1))*p1' }", "a_mean")):
             process = subprocess.Popen(
@@ -304,7 +323,11 @@ steps = 200
                      "--vary", "run.dt=0.01:0.1:4", "--vary", "problem.orbit.r_aph=2:3:5", "--out", "none",
                      "--figure", "map.svg")
         self.assertIn("<svg", (self.folder / "map.svg").read_text())
+        for column in ("final/q1", "final/p2", "invariants/angular_momentum/final", "varied/run.dt"):
+            self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "run.dt=0.01:0.1:4", "--out", "none",
+                         "--quiet", "--figure", "column.svg", "--colour", column)
         for options, words in ((("--colour", "energy/least"), "allowed varied/run.dt"),
+                               (("--colour", "final/q3"), "did you mean final/q1?"),
                                (("--colour", "max_error"), "did you mean energy/max_error?"),
                                (("--colour", "lyapunov1"), "with run.lyapunov = 1 there is observables/lyapunov1"),
                                (("--figure", "map.gif"), "allowed a file .svg")):

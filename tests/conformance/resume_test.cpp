@@ -25,8 +25,8 @@ const std::string of_degree = "cg(2,auto,diagnostics=true,on_divergence=halve)";
 
 /// One method of each kind of memory.
 bool is_of_each_kind(const std::string& name) {
-  static const std::set<std::string> each{"verlet", "euler-b",       "chin4a",  "rk4",    "boris",
-                                          "cg",     with_everything, of_degree, "dop853", "taylor"};
+  static const std::set<std::string> each{"verlet",        "euler-b", "chin4a", "rk4",    "boris", "cg",
+                                          with_everything, of_degree, "dop853", "taylor", "tao4"};
   return each.contains(name);
 }
 
@@ -41,7 +41,7 @@ std::vector<Request> every_request() {
     const std::size_t size = request.start.q.size();
     for (const std::string& name : names) {
       request.method = parse_method(name);
-      if (!refusal(request.method, problem).empty()) continue;
+      if (!refusal(request.method, problem).empty() || !test::is_bound(request.method, problem)) continue;
       for (const std::string& listed : arithmetics()) {
         const std::string arithmetic = listed == "mp(d)" ? "mp(40)" : listed;
         if (!refusal(request.method, arithmetic).empty()) continue;
@@ -54,9 +54,9 @@ std::vector<Request> every_request() {
           request.watch = false;
           all.push_back(request);
         }
-        if (problem.has_fast_kernel && refused_fast_kernel(request, problem).empty()) {
+        if (is_of_each_kind(name) && refused_fast_kernel(request).empty()) {
           request.kernel = "fast";
-          all.push_back(request);
+          if (refused_fast_step(request).empty()) all.push_back(request);
           request.kernel = "exact";
         }
       }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "../support/allocations.hpp"
+#include "../support/measured_request.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/splitting_named.hpp"
@@ -32,6 +33,7 @@ std::vector<Request> every_request() {
     const Region region = region_of(problem.info.name, variant);
     for (const std::string& name : names) {
       const MethodSpec method = parse_method(name);
+      if (!test::is_bound(method, problem)) continue;
       // Beyond double all is compiled alike: one of them, and without what belongs to MPFR, which allocates.
       for (const char* arithmetic : {"double", "compensated", "double-double", "lattice"}) {
         if (!refusal(method, arithmetic).empty() || !refusal(method, problem).empty()) continue;

@@ -68,8 +68,9 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
             "found \"section\", which needs run.section, e.g. { coordinate = \"q1\" }; allowed orbit, phase, "
             "time, energy-error, energy");
   EXPECT_EQ(refused_figure("section", with_everything(1)),
-            "found \"section\" for a problem with 1 degree of freedom, where a section needs 2 or more; allowed "
-            "phase, time, energy-error, energy, condition");
+            "found \"section\" for a problem with 1 degree of freedom, where a section needs 2 or more, or an "
+            "expression of t alone; allowed phase, time, energy-error, energy, condition");
+  EXPECT_EQ(refused_figure("section", {.degrees_of_freedom = 1, .section = true, .stroboscopic = true}), "");
 }
 
 TEST(FigureKinds, ChosenColumnsNeedNoRoomForAll) {

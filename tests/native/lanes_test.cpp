@@ -52,7 +52,8 @@ void compare(const Family& family, LaneSet set, Tally& tally) {
   const auto loop = make_lane_loop(program, {family.differs.get(), constants}, set);
   const std::size_t lanes = loop->lanes();
   ASSERT_LE(lanes, family.programs.size());
-  std::vector<double> carried(values * lanes), given;
+  LaneNumbers carried(values * lanes);
+  std::vector<double> given;
   for (std::size_t k = 0; k < values; ++k) {
     for (std::size_t i = 0; i < lanes; ++i) carried[k * lanes + i] = family.starts[i][k];
   }
@@ -60,7 +61,7 @@ void compare(const Family& family, LaneSet set, Tally& tally) {
     for (std::size_t i = 0; family.differs[c] && i < lanes; ++i) given.push_back(family.programs[i].constants[c]);
   }
   const auto failed = std::make_unique<bool[]>(lanes);
-  loop->run(carried, given, family.base.steps, {failed.get(), lanes});
+  loop->run(carried, loop->prepared(given), family.base.steps, {failed.get(), lanes});
   for (std::size_t i = 0; i < lanes; ++i) {
     std::vector<double> expected = family.starts[i];
     const bool held = make_interpreter(family.programs[i])->run(expected, family.base.steps);
@@ -118,10 +119,10 @@ TEST(LaneLoop, AFailedLaneStopsNoOther) {
     const auto loop = make_lane_loop(p, differs, set);
     const std::size_t lanes = loop->lanes();
     for (std::size_t bad = 0; bad < lanes; ++bad) {
-      std::vector<double> x(lanes, 1), d(lanes, 0.5);
+      LaneNumbers x(lanes, 1), d(lanes, 0.5);
       d[bad] = 0x1p600;
       const auto failed = std::make_unique<bool[]>(lanes);
-      loop->run(x, d, 10, {failed.get(), lanes});
+      loop->run(x, loop->prepared(d), 10, {failed.get(), lanes});
       for (std::size_t i = 0; i < lanes; ++i) {
         EXPECT_EQ(failed[i], i == bad);
         if (i != bad) {

@@ -79,7 +79,7 @@ TEST(RandomPrograms, PassesKeepSpecialNumbers) {
 
 TEST(RandomPrograms, MachineCodeHasTheBitsOfTheInterpreter) {
   if (native::scalar_registers() == 0) GTEST_SKIP() << "this processor is no x86-64 with AVX";
-  expect_substance(compare(seed + 1, count, up_to(5000), native::make_machine_code));
+  expect_substance(compare(seed + 1, count, up_to(20000), native::make_machine_code));
 }
 
 TEST(RandomPrograms, RegistersHoldWhatTheyShouldHoweverFewThereAre) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <bit>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -209,6 +210,41 @@ TEST(StepLoop, IsInterpretedWhereExecutableMemoryIsRefused) {
     std::exit(refused && held && z == expected ? 0 : 1);
   };
   EXPECT_EXIT(check(), testing::ExitedWithCode(0), "");
+}
+
+/// One call for both, and the bits of two.
+TEST(StepLoop, SineAndCosineOfOneNumber) {
+  Draw draw(11);
+  for (int k = 0; k < 200'000; ++k) {
+    const double x =
+        draw.chance(0.05) ? draw.special() : std::ldexp(draw.uniform() - 0.5, static_cast<int>(draw.below(80)) - 30);
+    const native::SineAndCosine both = native::sine_and_cosine(x);
+    if (std::isfinite(x)) {
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(both.sine), std::bit_cast<std::uint64_t>(std::sin(x))) << x;
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(both.cosine), std::bit_cast<std::uint64_t>(std::cos(x))) << x;
+    }
+  }
+  // Several numbers at once, in either order, with others between, and a check of the sine.
+  Program p;
+  const auto add = [&](I instruction, Operand a, Operand b = {}) {
+    p.operations.push_back({instruction, a, b});
+    return result(static_cast<std::uint32_t>(p.operations.size() - 1));
+  };
+  const Operand difference = add(I::subtract, carried(0), carried(1));
+  const Operand cosine0 = add(I::cosine, carried(0));
+  const Operand sine1 = add(I::sine, difference);
+  const Operand scaled = add(I::multiply, cosine0, sine1);
+  const Operand sine0 = add(I::sine, carried(0));
+  const Operand cosine1 = add(I::cosine, difference);
+  const Operand only = add(I::sine, carried(1));
+  const Operand more = add(I::add, add(I::multiply, sine0, cosine1), add(I::multiply, only, scaled));
+  p.outputs = {add(I::add, carried(0), more), add(I::subtract, carried(1), scaled), cosine1, sine0};
+  p.checks = {{Program::Check::Kind::finite, sine1, {}}, {Program::Check::Kind::finite, sine0, {}}};
+  std::vector<double> a{0.3, -1.7, 0, 0};
+  std::vector<double> b = a;
+  ASSERT_TRUE(make_step_loop(p)->run(a, 1000));
+  ASSERT_TRUE(make_interpreter(p)->run(b, 1000));
+  EXPECT_EQ(a, b);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "hamflow/formula/bound_model.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/duffing.hpp"
+#include "hamflow/problems/fput.hpp"
 #include "hamflow/problems/harmonic.hpp"
 #include "hamflow/problems/henon_heiles.hpp"
 #include "hamflow/problems/lennard_jones_oscillator.hpp"
@@ -17,7 +18,9 @@
 #include "hamflow/problems/potentials/hooke.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/potentials/linear.hpp"
+#include "hamflow/problems/potentials/power.hpp"
 #include "hamflow/problems/sextic.hpp"
+#include "hamflow/problems/support/polar.hpp"
 
 namespace hamflow {
 namespace {
@@ -37,7 +40,8 @@ struct Differences {
 
 template <class P>
 Differences differences(const P& problem, const FormulaTexts& texts, double least = -2) {
-  constexpr std::size_t n = P::dimension;
+  constexpr std::size_t fixed = P::dimension;
+  const std::size_t n = degrees_of_freedom(problem);
   const auto model = std::make_shared<const formula::Model>(texts);
   const formula::BoundModel<double> typed(model, Parameters<double>(texts.parameters));
   EXPECT_EQ(model->structure().separable, Separable<P>) << texts.hamiltonian;
@@ -47,16 +51,16 @@ Differences differences(const P& problem, const FormulaTexts& texts, double leas
   std::uniform_real_distribution<double> number(least, 2);
   const auto distance = [](double a, double b, double size) { return std::fabs(a - b) / (size + 1); };
   for (int k = 0; k < 5000; ++k) {
-    Vector<double, n> q{};
-    Vector<double, n> p{};
+    auto q = zeros<double, fixed>(n);
+    auto p = zeros<double, fixed>(n);
     Vector<double, dynamic> tq(n);
     Vector<double, dynamic> tp(n);
     for (std::size_t i = 0; i < n; ++i) {
       tq[i] = q[i] = number(random);
       tp[i] = p[i] = number(random);
     }
-    Vector<double, n> a{};
-    Vector<double, n> b{};
+    auto a = zeros<double, fixed>(n);
+    auto b = zeros<double, fixed>(n);
     Vector<double, dynamic> ta(n);
     Vector<double, dynamic> tb(n);
     const auto count = [&](int& first, int& second) {
@@ -89,14 +93,14 @@ Differences differences(const P& problem, const FormulaTexts& texts, double leas
       d.worst_gradient = std::max({d.worst_gradient, distance(a[i], ta[i], size), distance(b[i], tb[i], size)});
     }
     d.energy += bits(energy(problem, q, p)) != bits(typed.energy(tq, tp));
-    Matrix<double, n> m[3]{};
+    Matrix<double, fixed> m[3]{zero_matrix(q), zero_matrix(q), zero_matrix(q)};
     Matrix<double, dynamic> t[3]{Matrix<double, dynamic>(n), Matrix<double, dynamic>(n), Matrix<double, dynamic>(n)};
     hessian(problem, q, p, m[0], m[1], m[2]);
     typed.hessian(tq, tp, t[0], t[1], t[2]);
     size = 0;
     for (const auto& all : m) {
-      for (const auto& row : all) {
-        for (const double x : row) size += std::fabs(x);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) size += std::fabs(all[i][j]);
       }
     }
     for (std::size_t which = 0; which < 3; ++which) {
@@ -166,6 +170,49 @@ TEST(FormulaBits, OfOtherProblems) {
                                                                 {{"mu", "1.3"}, {"alpha", "-1.7"}, {"beta", "0.9"}})),
               "duffing");
   expect_bits(differences(Sextic<double>(), line("p^3/3 - p/2 + q^6/30 + q^4/4 - q^3/3 + 1/6")), "sextic");
+}
+
+/// By hand the tension of a link is nested in its length; of the typed sum the terms of equal power come together.
+TEST(FormulaBits, OfAChainAgreeToRounding) {
+  const FormulaTexts texts{.coordinates = {"q1", "q2", "q3", "q4"},
+                           .hamiltonian =
+                               "let r0 = q1, r1 = q2 - q1, r2 = q3 - q2, r3 = q4 - q3, r4 = -q4 in "
+                               "(p1^2 + p2^2 + p3^2 + p4^2)/2 + (r0^2 + r1^2 + r2^2 + r3^2 + r4^2)/2 "
+                               "+ alpha/3*(r0^3 + r1^3 + r2^3 + r3^3 + r4^3) "
+                               "+ beta/4*(r0^4 + r1^4 + r2^4 + r3^4 + r4^4)",
+                           .parameters = {{"alpha", "0.25"}, {"beta", "0.5"}}};
+  const Differences d = differences(Fput<double>(4, 0.25, 0.5), texts);
+  EXPECT_EQ(d.velocity, 0);
+  EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
+  EXPECT_LE(d.worst_hessian, rounding);
+}
+
+/// Powers of r are powers of u = r^2 by hand, of which every term is added to the force; typed ones are collected.
+TEST(FormulaBits, OfSumsOfPowersAgreeToRounding) {
+  const CentralForce<double, Power> by_hand(1.7, Power<double>({0.5, -0.5}, {2, -2.5}));
+  const Differences d = differences(
+      by_hand, plane("(p_x^2 + p_y^2)/(2*m) + (let r = sqrt(x^2 + y^2) in 0.5*r^3 - 0.5*r^-1.5)", {{"m", "1.7"}}));
+  EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
+  EXPECT_LE(d.worst_hessian, rounding);
+}
+
+/// By hand the gradient goes by the rate p_phi/r^2, which is rounded before it is multiplied.
+TEST(FormulaBits, OfPolarFormsAgreeToRounding) {
+  const auto typed = [](const std::string& potential, const Texts& parameters) {
+    FormulaTexts texts{.coordinates = {"r", "phi"},
+                       .hamiltonian = "(p_r^2 + p_phi^2/r^2)/(2*m) + (" + potential + ")",
+                       .parameters = parameters};
+    texts.parameters["m"] = "1.7";
+    return texts;
+  };
+  for (const Differences& d :
+       {differences(PolarCentralForce<double, Kepler>(1.7, Kepler<double>(1.3)), typed("-k/r", {{"k", "1.3"}}), 0.5),
+        differences(PolarCentralForce<double, Hooke>(1.7, Hooke<double>(-1.3)), typed("-k*r^2/2", {{"k", "-1.3"}}),
+                    0.5),
+        differences(PolarCentralForce<double, Linear>(1.7, Linear<double>(1.3)), typed("k*r", {{"k", "1.3"}}), 0.5)}) {
+    EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
+    EXPECT_LE(d.worst_hessian, rounding);
+  }
 }
 
 /// By hand its gradient goes by the velocities, with a determinant that is a sum of positive terms; the typed one

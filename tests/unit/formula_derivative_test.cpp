@@ -145,7 +145,9 @@ TEST(FormulaStructure, IsFoundFromTheExpression) {
   EXPECT_FALSE(structure("(p_x^2 + p_y^2)/2 + x*p_y - y*p_x").separable);
   EXPECT_FALSE(structure("p_x^2/(2*x) + p_y^2/2").separable);
   const auto driven = structure("(p_x^2 + p_y^2)/2 + x*cos(t)");
-  EXPECT_TRUE(driven.time && driven.separable && !driven.quadratic_kinetic);
+  EXPECT_TRUE(driven.time && driven.separable && driven.quadratic_kinetic);
+  EXPECT_FALSE(structure("p_x^2*cos(t)/2 + p_y^2/2 + x*y").quadratic_kinetic);  // M is not constant
+  EXPECT_FALSE(structure("p_x^2/2 + x*y*cos(t)").quadratic_kinetic);            // M is singular
 }
 
 /// The time is the last coordinate, H + E the energy: t' = 1, E' = -dH/dt.

@@ -1,6 +1,8 @@
 // Typed Hamiltonians run: by name beside the built-in problem, and as a C++ problem in the typed templates.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "../support/near.hpp"
 #include "hamflow/hamflow.hpp"
 
@@ -148,6 +150,90 @@ TEST(FormulaRuns, CarryTheTime) {
   const auto run = make_simulation(r);
   EXPECT_EQ(run->advance(300), Outcome::done);
   EXPECT_LT(run->energy().max_error, 1e-12);
+}
+
+/// Order conditions for T quadratic in p, and the force gradient, hold with an explicit t: halving the step divides the
+/// error by 2^order, here to a quarter of the exponent, since steps are long enough to be far from rounding.
+TEST(FormulaRuns, WithTimeKeepTheOrderOfMethodsForQuadraticKineticEnergy) {
+  const FormulaTexts texts{.coordinates = {"x", "y"},
+                           .hamiltonian =
+                               "p_x^2/2 + p_x*p_y/3 + p_y^2 + x^4/4 + y^2*(1 + sin(t)/2)/2 "
+                               "+ x*y*cos(2*t)/3 - x*cos(t)"};
+  Request r = request_of(FormulaKeys::problem, formula_choices(texts), {}, {"0.7", "-0.4"}, {"0.2", "0.5"}, "0.01");
+  EXPECT_TRUE(find_problem(r.problem, r.variant).structure->quadratic_kinetic);
+  const auto end = [&](const std::string& method, int steps) {
+    r.dt = "2/" + std::to_string(steps);
+    return end_of(r, method, "double", steps);
+  };
+  const Frame exact = end("taylor(tolerance=1e-15)", 20);
+  const auto distance = [&](const Frame& a) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 2; ++i) sum += std::hypot(a.q[i] - exact.q[i], a.p[i] - exact.p[i]);
+    return sum;
+  };
+  struct Case {
+    const char* method;
+    int order;
+    int steps;
+  };
+  for (const Case& c :
+       {Case{"srkn6b", 4, 16}, Case{"srkn11b", 6, 12}, Case{"srkn14a", 6, 12}, Case{"okunbor-skeel6", 6, 24},
+        Case{"rkn8-s19", 8, 6}, Case{"chin4a", 4, 24}, Case{"chin4b", 4, 24}}) {
+    const double coarse = distance(end(c.method, c.steps));
+    const double fine = distance(end(c.method, 2 * c.steps));
+    EXPECT_NEAR(std::log2(coarse / fine), c.order, 0.25 * c.order) << c.method << " " << coarse << " " << fine;
+    EXPECT_GT(fine, 1e-12) << c.method;
+  }
+}
+
+/// p = M v has nothing to do with the time.
+TEST(FormulaRuns, WithTimeStartFromVelocities) {
+  const FormulaTexts texts{.coordinates = {"x", "y"}, .hamiltonian = "p_x^2/4 + (p_y - x)^2/2 + x*y*cos(t)"};
+  Request r = request_of(FormulaKeys::problem, formula_choices(texts), {}, {"0.5", "0.3"}, {}, "0.01");
+  r.start.v = {"0.25", "-1"};
+  for (const char* arithmetic : {"double", "quad"}) {
+    const Frame start = end_of(r, "cg", arithmetic, 0);
+    EXPECT_EQ(start.p, (std::vector<double>{0.5, -0.5})) << arithmetic;
+  }
+}
+
+/// |T| + |V| of an H that is their sum, whatever the method asks of it.
+TEST(FormulaRuns, ScaleOfTheEnergyIsThatOfItsParts) {
+  const FormulaTexts texts{.coordinates = {"x"}, .hamiltonian = "sqrt(1 + p_x^2) - 2*cosh(x)"};
+  Request r = request_of(FormulaKeys::problem, formula_choices(texts), {}, {"0.5"}, {"0.75"}, "0.01");
+  for (const char* arithmetic : {"double", "quad"}) {
+    for (const char* method : {"stv4", "rk4", "dop853", "taylor", "cg(1,5)"}) {
+      if (arithmetic == std::string("quad") && method == std::string("taylor")) continue;
+      r.method = parse_method(method);
+      r.arithmetic = arithmetic;
+      EXPECT_NEAR(make_simulation(r)->energy_scale(), 1.25 + 2 * std::cosh(0.5), 1e-15) << method << arithmetic;
+    }
+  }
+}
+
+/// Elements of few coordinates are recorded: where second derivatives have the bits of those by hand, the runs have
+/// them.
+TEST(FormulaRuns, ElementsHaveTheBitsOfTheBuiltInProblem) {
+  const FormulaTexts sextic{.coordinates = {"q"},
+                            .hamiltonian = "p^3/3 - p/2 + q^6/30 + q^4/4 - q^3/3 + 1/6"};  // solved in (q, p)
+  std::vector<Pair> all = pairs();
+  all.push_back({"sextic", request_of("sextic", {}, {}, {"0.5"}, {"0.5"}, "0.05"), sextic});
+  int same = 0;
+  for (const Pair& pair : all) {
+    const std::set<std::string> with_bits{"henon-heiles", "pendulum", "sextic", "duffing", "binomial", "lennard-jones"};
+    if (!with_bits.contains(pair.name)) continue;
+    for (const char* method :
+         {"cg(1,5)", "cg", "cg(1,1)", "cg(quadrature=4,tolerance=1e-12)", "cg(1,2,diagnostics=true)"}) {
+      const Frame a = end_of(pair.built_in, method, "double", 500);
+      const Frame b = end_of(typed(pair), method, "double", 500);
+      EXPECT_EQ(a.q, b.q) << pair.name << " " << method;
+      EXPECT_EQ(a.p, b.p) << pair.name << " " << method;
+      EXPECT_EQ(a.effort.linear_solves, b.effort.linear_solves) << pair.name << " " << method;
+      EXPECT_EQ(a.effort.force + a.effort.gradient, b.effort.force + b.effort.gradient) << pair.name << " " << method;
+      ++same;
+    }
+  }
+  EXPECT_EQ(same, 30);
 }
 
 TEST(FormulaProblems, RunInTypedTemplates) {

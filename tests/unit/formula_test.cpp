@@ -134,7 +134,7 @@ TEST(Formula, SaysWhatIsWrongAndWhere) {
             "such as sqrt(2); did you mean p_x?");
   EXPECT_EQ(complaint("sqr(x)"),
             "found \"sqr(x)\", column 1: the unknown function sqr; allowed sum, sqrt, exp, log, sin, cos, tan, asin, "
-            "acos, atan, atan2, sinh, cosh, tanh, abs; did you mean sqrt?");
+            "acos, atan, atan2, sinh, cosh, tanh, abs; did you mean x^2, or sqrt(x)?");
   EXPECT_EQ(complaint("x(1 + y)"),
             "found \"x(1 + y)\", column 2: no operator between x and '('; allowed an operator (+ - * / ^); did you "
             "mean x*(1 + y)?");

@@ -1,5 +1,5 @@
 // u^(-3/2) by estimate and series: its error, its edges, its fallback, and the problem that uses it.
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 
 #include "../support/near.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"

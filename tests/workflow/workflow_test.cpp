@@ -189,10 +189,11 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
 
   ScenarioSweep sweep({.text = chaos, .name = "chaos", .varied = {"problem.initial.p[1]=0.1,0.12"}});
   ASSERT_TRUE(sweep.complaints().empty());
-  EXPECT_EQ(sweep.notes().size(), 1U);  // eigenvalues belong to single runs
+  EXPECT_TRUE(sweep.notes().empty());
   const SweepReport swept = sweep.run();
   EXPECT_EQ(swept.status, "done");
   EXPECT_NE(sweep.json_with_rows(swept).find("\"lyapunov4\""), std::string::npos);
+  EXPECT_NE(sweep.json_with_rows(swept).find("\"eigenvalue4_re\""), std::string::npos);
 
   Session session(scenario());
   ASSERT_EQ(session.advance(10), Outcome::done);

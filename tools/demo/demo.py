@@ -68,7 +68,7 @@ def comment_of(text: str) -> str:
 def scenario_html(file: pathlib.Path) -> str:
     text = file.read_text()
     folder = f"{file.stem}.run"
-    command = f"build/release/hamflow run examples/{file.name} --set 'output.figures=[]' --force --out build/demo/{folder}"
+    command = f"build/release/hamflow run {file.relative_to(ROOT)} --set 'output.figures=[]' --force --out build/demo/{folder}"
     output = run(command)
     figures = []
     for kind in tomllib.loads(text).get("output", {}).get("figures", []):  # drawn as SVG alone, which takes a third of the time
@@ -91,7 +91,7 @@ def main() -> None:
     start = time.monotonic()
     shutil.rmtree(REPORT, ignore_errors=True)
     REPORT.mkdir(parents=True)
-    scenarios = sorted((ROOT / "examples").glob("*.toml"))
+    scenarios = sorted((ROOT / "examples").glob("*.toml")) + sorted((ROOT / "examples/formulas").glob("*.toml"))
     programs = [file for file in sorted((ROOT / "examples").glob("*.cpp")) if file.stem != "hand_loop"]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         chapters = {chapter.title: pool.submit(chapter_html, chapter) for chapter in STORY if not chapter.alone}

@@ -37,6 +37,7 @@ struct MethodInfo {
   int forces_per_step = 0;    // -dV/dq per step when none is computed twice; 0: depends on the iteration
   bool own_substeps = false;  // a step is made of sub-steps whose lengths the method chooses
   bool halves_steps = false;  // a step that does not converge is replaced by two half steps
+  bool carries_copy = false;  // a second copy of the state goes with the run: its properties are those of both
   bool diagnostics = false;   // every step is diagnosed, see StepDiagnostics
 };
 

@@ -13,15 +13,18 @@
 // guard. From it whole steps are made (run/recorded_step.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <unordered_map>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "hamflow/core/dual.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/math.hpp"
 
 namespace hamflow {
@@ -54,8 +57,11 @@ enum class Operation {
   larger,      // a < b ? b : a
   arcsine,
   arccosine,
-  arctangent2,  // atan2(a, b)
-  power_of_two  // a^b, of two numbers
+  arctangent2,   // atan2(a, b)
+  power_of_two,  // a^b, of two numbers
+  // By estimate and series (inverse_cube.hpp), where a recording estimates.
+  inverse_cube,  // a/(b sqrt(b))
+  inverse_root   // a/sqrt(b)
 };
 
 struct TapeNode {
@@ -131,56 +137,16 @@ struct Trace {
   Trace& operator/=(const Trace& b) { return *this = *this / b; }
 
   // Friends, so that constants of any type convert.
-  friend Trace operator+(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
-    if (a.is_exactly(0) && !b.is_exact()) return b;
-    if (b.is_exactly(0) && !a.is_exact()) return a;
-    const R sum = a.value + b.value;
-    if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, sum);
-    if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, sum);
-    return a.recorder->of_two(Operation::add, a.node, b.node, sum);
-  }
-  friend Trace operator-(const Trace& a, const Trace& b) {
-    if (b.is_constant()) return a + Trace(R(-b.value));
-    if (a.is_constant()) return a + -b;
-    return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
-  }
-  friend Trace operator-(const Trace& a) {
-    if (a.is_constant()) return Trace(R(-a.value));
-    return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
-  }
-  friend Trace operator*(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
-    if (a.is_constant()) return b * a;
-    if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1) && !a.is_exact()) return a;
-    if (b.is_exactly(-1) && !a.is_exact()) return -a;
-    const R product = a.value * b.value;
-    if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, product);
-    if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, product);
-    return a.recorder->of_two(Operation::multiply, a.node, b.node, product);
-  }
-  friend Trace operator/(const Trace& a, const Trace& b) {
-    if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
-    if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
-    if (b.is_exactly(1) && !a.is_exact()) return a;
-    const R quotient = a.value / b.value;
-    if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, quotient);
-    if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, quotient);
-    return a.recorder->of_two(Operation::divide, a.node, b.node, quotient);
-  }
-
-  friend constexpr bool operator==(const Trace& a, const Trace& b) {
-    return compared(a, b, Tape<R>::Relation::equal, a.value <= b.value && b.value <= a.value);
-  }
-  friend bool operator<(const Trace& a, const Trace& b) {
-    return ordered(a, b), compared(a, b, Tape<R>::Relation::less, a.value < b.value);
-  }
-  friend bool operator>(const Trace& a, const Trace& b) { return b < a; }
-  friend bool operator<=(const Trace& a, const Trace& b) {
-    return ordered(a, b), !compared(a, b, Tape<R>::Relation::greater, !(a.value <= b.value));
-  }
-  friend bool operator>=(const Trace& a, const Trace& b) { return b <= a; }
+  friend Trace operator+(const Trace& a, const Trace& b) { return sum(a, b); }
+  friend Trace operator-(const Trace& a, const Trace& b) { return difference(a, b); }
+  friend Trace operator-(const Trace& a) { return negative(a); }
+  friend Trace operator*(const Trace& a, const Trace& b) { return product(a, b); }
+  friend Trace operator/(const Trace& a, const Trace& b) { return quotient(a, b); }
+  friend bool operator==(const Trace& a, const Trace& b) { return are_equal(a, b); }
+  friend bool operator<(const Trace& a, const Trace& b) { return is_less(a, b); }
+  friend bool operator>(const Trace& a, const Trace& b) { return is_less(b, a); }
+  friend bool operator<=(const Trace& a, const Trace& b) { return !is_greater(a, b); }
+  friend bool operator>=(const Trace& a, const Trace& b) { return !is_greater(b, a); }
 
   /// Whether it belongs to an exact recording.
   bool is_exact() const { return recorder != nullptr && recorder->is_exact(); }
@@ -194,26 +160,17 @@ struct Trace {
 
  private:
   using Relation = typename Tape<R>::Relation;
-  static void ordered(const Trace& a, const Trace& b) {
-    if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
-  }
-  /// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
-  /// are 0 for equal numbers only.
-  static constexpr bool compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
-    if (a.is_constant() && b.is_constant()) return holds;
-    if (b.is_constant()) {
-      a.recorder->guard(a.node, b.value, holds, relation);
-    } else if (a.is_constant()) {
-      const Relation turned = relation == Relation::equal  ? Relation::equal
-                              : relation == Relation::less ? Relation::greater
-                                                           : Relation::less;
-      b.recorder->guard(b.node, a.value, holds, turned);
-    } else {
-      const Trace difference = a - b;
-      if (!difference.is_constant()) difference.recorder->guard(difference.node, R(0), holds, relation);
-    }
-    return holds;
-  }
+  // Not inline: a program that uses many traces instantiates them once (extern template, src/catalog/erased.hpp).
+  static Trace sum(const Trace& a, const Trace& b);
+  static Trace difference(const Trace& a, const Trace& b);
+  static Trace negative(const Trace& a);
+  static Trace product(const Trace& a, const Trace& b);
+  static Trace quotient(const Trace& a, const Trace& b);
+  static bool are_equal(const Trace& a, const Trace& b);
+  static bool is_less(const Trace& a, const Trace& b);
+  static bool is_greater(const Trace& a, const Trace& b);
+  static void ordered(const Trace& a, const Trace& b);
+  static bool compared(const Trace& a, const Trace& b, Relation relation, bool holds);
 };
 
 template <class R>
@@ -233,20 +190,62 @@ class Recorder {
   explicit Recorder(Folding folding = Folding::usual, std::size_t most_nodes = static_cast<std::size_t>(-1))
       : exact_(folding == Folding::exact), most_nodes_(most_nodes) {}
   bool is_exact() const { return exact_; }
+  /// Forgets everything, but keeps its memory.
+  void clear() {
+    tape_.inputs = 0;
+    tape_.nodes.clear();
+    tape_.constants.clear();
+    tape_.outputs.clear();
+    tape_.guards.clear();
+    values_.clear();
+    std::fill(known_.begin(), known_.end(), 0);
+    entries_ = 0;
+    estimates_ = has_estimated_ = false;
+  }
+
+  /// From here on, a/(u sqrt(u)) and a/sqrt(u) are estimated: kernel = "fast", which is for double.
+  void set_estimates(bool wanted) { estimates_ = wanted && std::is_same_v<R, double>; }
+  bool estimates() const { return estimates_; }
+  bool has_estimated() const { return has_estimated_; }
+  /// sqrt(u) and u sqrt(u) below a line, as what a quotient by them is; of: the node of u, or -1 for anything else.
+  struct PowerBelow {
+    Operation operation;
+    int of = -1;
+  };
+  PowerBelow power_below(int divisor) {
+    const TapeNode& b = node(divisor);
+    const auto is_root = [&](int i, int of) { return node(i).operation == Operation::square_root && node(i).a == of; };
+    if (b.operation == Operation::square_root) return {Operation::inverse_root, b.a};
+    if (b.operation != Operation::multiply) return {Operation::divide, -1};
+    if (is_root(b.b, b.a)) return {Operation::inverse_cube, b.a};
+    return is_root(b.a, b.b) ? PowerBelow{Operation::inverse_cube, b.b} : PowerBelow{Operation::divide, -1};
+  }
+  /// a/sqrt(u) or a/(u sqrt(u)).
+  Trace<R> estimated(const PowerBelow& power, const Trace<R>& a) {
+    if constexpr (std::is_same_v<R, double>) {
+      has_estimated_ = true;
+      const double u = values_[static_cast<std::size_t>(power.of)];
+      const double value =
+          power.operation == Operation::inverse_cube ? inverse_cube(u, a.value) : inverse_root(u, a.value);
+      return of_two(power.operation, node_of(a), power.of, value);
+    } else {
+      throw std::logic_error("hamflow: estimates are for double");
+    }
+  }
 
   Trace<R> input(const R& value) {
     ++tape_.inputs;
     return push({.operation = Operation::input}, value);
   }
-  Trace<R> of_two(Operation operation, int a, int b, const R& value) {
+  [[gnu::noinline]] Trace<R> of_two(Operation operation, int a, int b, const R& value) {
     if ((operation == Operation::add || operation == Operation::multiply) && b < a) std::swap(a, b);
     return once({.operation = operation, .a = a, .b = b}, value);
   }
-  Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
+  [[gnu::noinline]] Trace<R> with_constant(Operation operation, int a, const R& c, const R& value) {
     return once({.operation = operation, .a = a, .b = -1, .constant = constant(c)}, value);
   }
   /// Two functions that differentiate into each other. @return the first
-  Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
+  [[gnu::noinline]] Trace<R> pair(Operation first, Operation second, int a, const R& value1, const R& value2) {
     const int at = size();
     const Trace<R> found = once({.operation = first, .a = a, .b = at + 1}, value1);
     if (found.node == at) push({.operation = second, .a = a, .b = at}, value2);
@@ -256,17 +255,17 @@ class Recorder {
     return {values_[static_cast<std::size_t>(first.node) + 1], this, first.node + 1};
   }
   /// y(a) whose derivative is made of y^2.
-  Trace<R> with_square(Operation operation, int a, const R& value) {
+  [[gnu::noinline]] Trace<R> with_square(Operation operation, int a, const R& value) {
     const int at = size();
     const Trace<R> y = once({.operation = operation, .a = a, .b = at + 1}, value);
     if (y.node == at) push({.operation = Operation::square, .a = at}, R(value * value));
     return y;
   }
   /// A function of two numbers of which one may be a constant.
-  Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
+  [[gnu::noinline]] Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
     return of_two(operation, node_of(a), node_of(b), value);
   }
-  void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
+  [[gnu::noinline]] void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
     tape_.guards.push_back({node, value, holds, relation});
   }
 
@@ -299,17 +298,37 @@ class Recorder {
   /// The same operation on the same operands is one node. Companions (b after the node itself) follow from a.
   Trace<R> once(const TapeNode& n, const R& value) {
     const bool companion = n.b >= size();
-    const auto key = (static_cast<std::size_t>(n.a) * 1000003U + static_cast<std::size_t>(companion ? -1 : n.b)) * 64U +
-                     static_cast<std::size_t>(n.operation);
-    const auto [first, last] = known_.equal_range(key);
-    for (auto it = first; it != last; ++it) {
-      const TapeNode& old = node(it->second);
+    if (known_.size() < 2 * (entries_ + 1)) enlarge();
+    std::size_t at = place_of(n, companion);
+    for (; known_[at] != 0; at = (at + 1) & (known_.size() - 1)) {
+      const int i = known_[at] - 1;
+      const TapeNode& old = node(i);
       if (old.operation == n.operation && old.a == n.a && (companion || old.b == n.b) && old.constant == n.constant) {
-        return {values_[static_cast<std::size_t>(it->second)], this, it->second};
+        return {values_[static_cast<std::size_t>(i)], this, i};
       }
     }
-    known_.emplace(key, size());
+    known_[at] = size() + 1;
+    ++entries_;
     return push(n, value);
+  }
+  /// Where in the table of known nodes to begin with the search.
+  std::size_t place_of(const TapeNode& n, bool companion) const {
+    std::uint64_t key =
+        (static_cast<std::uint64_t>(n.a) * 1000003U + static_cast<std::uint64_t>(companion ? -1 : n.b)) * 64U +
+        static_cast<std::uint64_t>(n.operation);
+    key *= 0x9e3779b97f4a7c15U;
+    return static_cast<std::size_t>(key >> 32) & (known_.size() - 1);
+  }
+  void enlarge() {
+    const std::vector<int> old = std::move(known_);
+    known_.assign(std::max<std::size_t>(64, 2 * old.size()), 0);
+    for (const int entry : old) {
+      if (entry == 0) continue;
+      const TapeNode& n = node(entry - 1);
+      std::size_t at = place_of(n, n.b >= entry);  // a companion stands behind its node
+      while (known_[at] != 0) at = (at + 1) & (known_.size() - 1);
+      known_[at] = entry;
+    }
   }
   int constant(const R& value) {
     const std::size_t count = tape_.constants.size();
@@ -356,11 +375,98 @@ class Recorder {
   }
 
   bool exact_;
+  bool estimates_ = false;
+  bool has_estimated_ = false;
   std::size_t most_nodes_;
   Tape<R> tape_;
   std::vector<R> values_;
-  std::unordered_multimap<std::size_t, int> known_;
+  std::vector<int> known_;  // nodes + 1 by their keys, 0: free; a power of two
+  std::size_t entries_ = 0;
 };
+
+template <class R>
+Trace<R> Trace<R>::sum(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value + b.value));
+  if (a.is_exactly(0) && !b.is_exact()) return b;
+  if (b.is_exactly(0) && !a.is_exact()) return a;
+  const R value = a.value + b.value;
+  if (a.is_constant()) return b.recorder->with_constant(Operation::add_constant, b.node, a.value, value);
+  if (b.is_constant()) return a.recorder->with_constant(Operation::add_constant, a.node, b.value, value);
+  return a.recorder->of_two(Operation::add, a.node, b.node, value);
+}
+template <class R>
+Trace<R> Trace<R>::difference(const Trace& a, const Trace& b) {
+  if (b.is_constant()) return a + Trace(R(-b.value));
+  if (a.is_constant()) return a + -b;
+  return a.recorder->of_two(Operation::subtract, a.node, b.node, R(a.value - b.value));
+}
+template <class R>
+Trace<R> Trace<R>::negative(const Trace& a) {
+  if (a.is_constant()) return Trace(R(-a.value));
+  return a.recorder->of_two(Operation::negate, a.node, -1, R(-a.value));
+}
+template <class R>
+Trace<R> Trace<R>::product(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value * b.value));
+  if (a.is_constant()) return b * a;
+  if (b.is_exactly(0) && !a.is_exact()) return Trace(R(0));
+  if (b.is_exactly(1) && !a.is_exact()) return a;
+  if (b.is_exactly(-1) && !a.is_exact()) return -a;
+  const R value = a.value * b.value;
+  if (b.is_constant()) return a.recorder->with_constant(Operation::scale, a.node, b.value, value);
+  if (a.node == b.node) return a.recorder->of_two(Operation::square, a.node, -1, value);
+  return a.recorder->of_two(Operation::multiply, a.node, b.node, value);
+}
+template <class R>
+Trace<R> Trace<R>::quotient(const Trace& a, const Trace& b) {
+  if (a.is_constant() && b.is_constant()) return Trace(R(a.value / b.value));
+  if (a.is_exactly(0) && !b.is_exact()) return Trace(R(0));
+  if (b.is_exactly(1) && !a.is_exact()) return a;
+  if (!b.is_constant() && b.recorder->estimates()) {
+    if (const auto power = b.recorder->power_below(b.node); power.of >= 0) return b.recorder->estimated(power, a);
+  }
+  const R value = a.value / b.value;
+  if (a.is_constant()) return b.recorder->with_constant(Operation::invert, b.node, a.value, value);
+  if (b.is_constant()) return a.recorder->with_constant(Operation::divide_constant, a.node, b.value, value);
+  return a.recorder->of_two(Operation::divide, a.node, b.node, value);
+}
+template <class R>
+bool Trace<R>::are_equal(const Trace& a, const Trace& b) {
+  return compared(a, b, Relation::equal, a.value <= b.value && b.value <= a.value);
+}
+template <class R>
+bool Trace<R>::is_less(const Trace& a, const Trace& b) {
+  ordered(a, b);
+  return compared(a, b, Relation::less, a.value < b.value);
+}
+/// Or not ordered.
+template <class R>
+bool Trace<R>::is_greater(const Trace& a, const Trace& b) {
+  ordered(a, b);
+  return compared(a, b, Relation::greater, !(a.value <= b.value));
+}
+template <class R>
+void Trace<R>::ordered(const Trace& a, const Trace& b) {
+  if (!(a.is_constant() || a.is_exact()) || !(b.is_constant() || b.is_exact())) refuse();
+}
+/// The answer at the recording; for later states it is guarded. Differences have the sign of the comparison: they
+/// are 0 for equal numbers only.
+template <class R>
+bool Trace<R>::compared(const Trace& a, const Trace& b, Relation relation, bool holds) {
+  if (a.is_constant() && b.is_constant()) return holds;
+  if (b.is_constant()) {
+    a.recorder->guard(a.node, b.value, holds, relation);
+  } else if (a.is_constant()) {
+    const Relation turned = relation == Relation::equal  ? Relation::equal
+                            : relation == Relation::less ? Relation::greater
+                                                         : Relation::less;
+    b.recorder->guard(b.node, a.value, holds, turned);
+  } else {
+    const Trace off = a - b;
+    if (!off.is_constant()) off.recorder->guard(off.node, R(0), holds, relation);
+  }
+  return holds;
+}
 
 namespace detail {
 /// f of a constant at once, else a node of its own.

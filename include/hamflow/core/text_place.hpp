@@ -20,6 +20,8 @@ constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' &&
 constexpr bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 /// With small letters in place of large ones.
 std::string lower(std::string_view word);
+/// How what others write as a function or a constant ("ln", "pow", "e") is written here; empty where nothing is known.
+std::string written_here(std::string_view name);
 /// The character at a place in quotes, or "the end".
 std::string character_at(std::string_view text, std::size_t at);
 

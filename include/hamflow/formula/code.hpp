@@ -52,18 +52,22 @@ class MachineCode {
  public:
   /// Null for the first runs.
   const StepLoop* loop(const Code& code, const std::vector<double>& constants) {
-    if (runs_.load(std::memory_order_relaxed) < worth_it) {
-      runs_.fetch_add(1, std::memory_order_relaxed);
-      return nullptr;
-    }
-    std::call_once(once_, [&] { loop_ = make_step_loop(program_of(code, constants)); });
-    return loop_.get();
+    if (const StepLoop* const ready = ready_.load(std::memory_order_acquire)) return ready;
+    return runs_.fetch_add(1, std::memory_order_relaxed) < worth_it ? nullptr : made(code, constants);
   }
 
  private:
+  [[gnu::noinline]] const StepLoop* made(const Code& code, const std::vector<double>& constants) {
+    std::call_once(once_, [&] {
+      loop_ = make_step_loop(program_of(code, constants));
+      ready_.store(loop_.get(), std::memory_order_release);
+    });
+    return loop_.get();
+  }
   static constexpr int worth_it = 100;
   std::atomic<int> runs_{0};
   std::once_flag once_;
+  std::atomic<const StepLoop*> ready_{nullptr};
   std::unique_ptr<const StepLoop> loop_;
 };
 
@@ -125,11 +129,12 @@ class BoundCode {
     const std::size_t inputs = code_->symbols.size();
     const std::size_t outputs = code_->outputs.size();
     constexpr std::size_t few = 32;
-    double in_place[few]{};
+    double in_place[few];
     std::vector<double, PoolAllocator<double>> many;
     if (inputs + outputs > few) many.resize(inputs + outputs);
     const std::span<double> carried(many.empty() ? in_place : many.data(), inputs + outputs);
     for (std::size_t i = 0; i < inputs; ++i) carried[i] = value_of(code_->symbols[i]);
+    std::fill(carried.begin() + static_cast<std::ptrdiff_t>(inputs), carried.end(), 0.0);
     (void)loop.run(carried, 1);  // without checks
     for (std::size_t k = 0; k < outputs; ++k) put(k, carried[inputs + k]);
   }

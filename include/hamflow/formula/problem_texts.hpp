@@ -72,6 +72,8 @@ Choices formula_choices(const FormulaTexts& texts);
 Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates);
 /// A particle of mass `mass` in such a field, in the coordinates of the choices: the same as a whole Hamiltonian.
 FormulaTexts central_formula_texts(const Choices& choices);
+/// The field alone, p_r^2/2 + V(r).
+FormulaTexts radial_formula_texts(const Choices& choices);
 /// Back: the texts that choices were made of; of parameters the values that choices keep, others "?".
 FormulaTexts formula_texts(const Choices& choices);
 

@@ -150,10 +150,14 @@ class ForceGradientStep {
   void kick_with_gradient(const P& problem, const Base& h, const Action& action, PhasePoint<A, n>& z) {
     const auto& q = z.positions();
     Vector<Real, n> f = zeros<Real, n>(q.size());
-    Vector<Real, n> a = zeros<Real, n>(q.size());  // M^-1 F: the velocity is linear in p
+    Vector<Real, n> a = zeros<Real, n>(q.size());  // M^-1 F: the velocity of a p like F
     Matrix<Real, n> hessian = zero_matrix(f);
     force_and_hessian(problem, q, f, hessian);
-    velocity(problem, f, a);
+    if constexpr (requires { problem.inverse_mass_times(f, a); }) {
+      problem.inverse_mass_times(f, a);
+    } else {
+      velocity(problem, f, a);
+    }
     const Base first = action.kick * h;
     const Base third = Base(2) * action.gradient * (h * h * h);
     for (std::size_t i = 0; i < f.size(); ++i) {

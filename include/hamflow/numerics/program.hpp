@@ -20,7 +20,7 @@ enum class Instruction : std::uint8_t {
   absolute,     // |a|
   larger,       // a < b ? b : a
   square_root,  // of a; correctly rounded
-  // Of with_estimates alone.
+  // Of kernel = "fast" alone (run/recorded_step.cpp).
   inverse_root_estimate,  // a^(-1/2) to within 2^-14, of the processor
   fused_add,              // a b + c with one rounding
   fused_subtract,         // c - a b with one rounding
@@ -37,7 +37,10 @@ enum class Instruction : std::uint8_t {
   cosh,
   tanh,
   arctangent2,  // atan2(a, b)
-  power         // pow(a, b)
+  power,        // pow(a, b)
+  // Of machine code alone: the sine of a number and, directly behind it, its cosine, by one call.
+  sine_of_both,
+  cosine_of_both
 };
 
 /// The value of an earlier operation, of what is carried, or of a constant.
@@ -87,11 +90,5 @@ class StepLoop {
 std::unique_ptr<const StepLoop> make_step_loop(const Program& program);
 /// Interpreted anywhere.
 std::unique_ptr<const StepLoop> make_interpreter(const Program& program);
-
-/// The program of kernel = "fast": of what the first `state` outputs are computed from, k/(u sqrt(u)) and k/sqrt(u) by
-/// estimate and series, at most 2^-53 from the exact value for k = 1; bits differ from those of the program, k/(u
-/// sqrt(u)) has those of inverse_cube (numerics/inverse_cube.hpp), whose domain holds. All else, such as an energy that
-/// is watched, stays. The program itself where the processor has no estimates.
-Program with_estimates(const Program& program, std::size_t state);
 
 }  // namespace hamflow

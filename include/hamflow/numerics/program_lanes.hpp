@@ -2,6 +2,7 @@
 // constants. Every lane has the bits of the member run alone.
 #pragma once
 
+#include "hamflow/numerics/lane_numbers.hpp"
 #include "hamflow/numerics/lane_set.hpp"
 #include "hamflow/numerics/program.hpp"
 
@@ -12,12 +13,15 @@ class LaneLoop {
  public:
   virtual ~LaneLoop() = default;
   virtual std::size_t lanes() const = 0;
-  /// Repeats the program `steps` times in every lane.
-  /// @param carried values() x lanes() numbers, in place: of value k in lane i at k lanes() + i
+  /// What every run of the same members needs of their constants.
   /// @param constants of the j-th constant that differs, in the program's order, in lane i at j lanes() + i
+  virtual LaneNumbers prepared(std::span<const double> constants) const = 0;
+  /// Repeats the program `steps` times in every lane.
+  /// @param carried values() x lanes() numbers, in place: of value k in lane i at k lanes() + i   @param constants
+  /// prepared
   /// @param failed lanes() flags; set where a check fails at any step, never cleared. What such a lane carries is
   /// undefined, all others go on
-  virtual void run(std::span<double> carried, std::span<const double> constants, std::int64_t steps,
+  virtual void run(LaneNumbers& carried, const LaneNumbers& constants, std::int64_t steps,
                    std::span<bool> failed) const = 0;
 };
 

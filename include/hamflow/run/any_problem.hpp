@@ -35,8 +35,11 @@ class Functions {
   virtual S energy(const V& q, const V& p) const = 0;
   virtual S kinetic(const V& p) const = 0;
   virtual S potential(const V& q) const = 0;
+  virtual bool has_parts() const = 0;  // H = T + V, by which kinetic and potential are there
   virtual void velocity(const V& p, V& v) const = 0;
   virtual void force(const V& q, V& f) const = 0;
+  /// M^-1 f of a T quadratic in p. The velocity, but that the time of H(q, p, t) moves whatever f is.
+  virtual void inverse_mass_times(const V& f, V& out) const { velocity(f, out); }
   // Of a problem that has them.
   virtual bool has_scaled_velocity() const = 0;
   virtual bool has_scaled_force() const = 0;
@@ -119,6 +122,7 @@ class FunctionsOf final : public Functions<S> {
   static constexpr bool charge = ChargeInField<P>;
   static constexpr bool radial = RadialForces<P>;
   static constexpr bool has_hessian = !first_derivatives_only<S>;
+  static constexpr bool in_double = std::is_same_v<S, double> && std::is_same_v<RealOf<P>, double>;
   static constexpr bool drifts_by = takes_factors<S> && Separable<P> && HasScaledVelocity<P, base_scalar<S>, S>;
   static constexpr bool kicks_by = takes_factors<S> && Separable<P> && HasScaledForce<P, base_scalar<S>, S>;
 
@@ -142,6 +146,7 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
+  bool has_parts() const override { return Separable<P>; }
   void velocity(const V& p, V& v) const override {
     if constexpr (Separable<P> && n == dynamic) {
       hamflow::velocity(problem_, p, v);
@@ -221,32 +226,33 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
-  void forces_at(std::size_t, std::size_t count, const S* q, S* f) const override {
-    if constexpr (Separable<P> && has_hessian) {
+  // In double without a virtual call for each point; in other number types that is lost beside their arithmetic.
+  void forces_at(std::size_t size, std::size_t count, const S* q, S* f) const override {
+    if constexpr (Separable<P> && in_double) {
       hamflow::forces_at(problem_, count, q, f);
     } else {
-      absent();
+      Functions<S>::forces_at(size, count, q, f);
     }
   }
-  void forces_and_hessians_at(std::size_t, std::size_t count, const S* q, S* f, S* h) const override {
-    if constexpr (TwiceDifferentiable<P> && has_hessian) {
+  void forces_and_hessians_at(std::size_t size, std::size_t count, const S* q, S* f, S* h) const override {
+    if constexpr (TwiceDifferentiable<P> && in_double) {
       hamflow::forces_and_hessians_at(problem_, count, q, f, h);
     } else {
-      absent();
+      Functions<S>::forces_and_hessians_at(size, count, q, f, h);
     }
   }
-  void gradients_at(std::size_t, std::size_t count, const S* q, const S* p, S* dq, S* dp) const override {
-    if constexpr (has_hessian) {
+  void gradients_at(std::size_t size, std::size_t count, const S* q, const S* p, S* dq, S* dp) const override {
+    if constexpr (in_double) {
       hamflow::gradients_at(problem_, count, q, p, dq, dp);
     } else {
-      absent();
+      Functions<S>::gradients_at(size, count, q, p, dq, dp);
     }
   }
-  void hessians_at(std::size_t, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const override {
-    if constexpr (Smooth<P> && has_hessian && std::is_same_v<S, RealOf<P>>) {
+  void hessians_at(std::size_t size, std::size_t count, const S* q, const S* p, S* qq, S* qp, S* pp) const override {
+    if constexpr (Smooth<P> && in_double) {
       hamflow::hessians_at(problem_, count, q, p, qq, qp, pp);
     } else {
-      absent();
+      Functions<S>::hessians_at(size, count, q, p, qq, qp, pp);
     }
   }
   V invariants(const V& q, const V& p, const S& t) const override {
@@ -401,6 +407,14 @@ class AnyProblem {
   template <class S>
   void force(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const requires separable {
     on<S>().force(q, f);
+  }
+  template <class S>
+  void inverse_mass_times(const Vector<S, dynamic>& f, Vector<S, dynamic>& out) const requires quadratic_kinetic {
+    on<S>().inverse_mass_times(f, out);
+  }
+  /// |T| + |V| where H is their sum, which is known at run time also where the type does not promise it; else 0.
+  R size_of_parts(const Vector<R, dynamic>& q, const Vector<R, dynamic>& p) const {
+    return on<R>().has_parts() ? R(abs(on<R>().kinetic(p)) + abs(on<R>().potential(q))) : R(0);
   }
   /// Whether the functions of a factor are there, which is known at run time only; their bits are not those of
   /// products.

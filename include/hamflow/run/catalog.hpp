@@ -76,7 +76,6 @@ struct ProblemEntry {
   std::function<std::string(const Texts& parameters, const std::vector<double>& q)> refused_start;
   /// Whether the problem has what the method needs.
   std::function<bool(const MethodSpec&)> accepts;
-  bool has_fast_kernel = false;
   bool has_pairwise_forces = false;  // on the lattice several threads may compute them
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The same problem behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
@@ -170,7 +169,9 @@ std::string refusal(const MethodSpec& spec, const std::string& arithmetic);
 /// Why a method cannot run on a problem, and which can; empty if it can.
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem);
 /// Why a request cannot have kernel = "fast"; empty if it can.
-std::string refused_fast_kernel(const Request& request, const ProblemEntry& problem);
+std::string refused_fast_kernel(const Request& request);
+/// Why the step of a complete request cannot have it: "found ...; allowed ..."; empty if it can.
+std::string refused_fast_step(const Request& request);
 /// Why a request cannot have several threads; empty if it can.
 std::string refused_threads(const Request& request, const ProblemEntry& problem);
 inline constexpr int most_threads = 256;

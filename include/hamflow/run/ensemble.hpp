@@ -10,6 +10,7 @@
 
 #include "hamflow/numerics/lane_set.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/step_map.hpp"
 
 namespace hamflow {
 
@@ -37,6 +38,15 @@ struct MemberEnd {
   std::vector<InvariantExcursion> invariants;
 };
 
+/// Tangent vectors of a lane that wait to be carried through so many steps from a state, as StepMap does it.
+struct LaneTangents {
+  std::size_t lane;
+  State<double>* z;
+  std::vector<State<double>>* vectors;
+  std::int64_t steps;
+  bool carried = false;  // z and vectors are those behind the steps; if not, they are as they were
+};
+
 /// As many members as there are lanes. One virtual call advances all of them by many steps.
 class EnsembleBlock {
  public:
@@ -45,12 +55,26 @@ class EnsembleBlock {
   /// Lanes without a member repeat the last one. False: these members cannot run in lanes.
   virtual bool load(const ParameterShape& shape, std::span<const MemberStart> members) = 0;
   virtual void advance(std::int64_t steps) = 0;
-  virtual MemberEnd look(std::size_t lane) const = 0;
+  virtual MemberEnd look(std::size_t lane) = 0;
+
+  /// Whether a lane has left its program: nothing that it shows counts.
+  virtual bool is_lost(std::size_t lane) const = 0;
+  /// Step, time, q and p of the frame become those of a lane; nothing else of it changes.
+  virtual void show(std::size_t lane, Frame& frame) const = 0;
+  /// One step. The states before it stay at hand.
+  virtual void take_step() = 0;
+  /// The k-th number of (q, p) in every lane, behind the first step.
+  virtual const double* numbers(std::size_t k) const = 0;
+  /// The member as it was before the last take_step(), until the next call.
+  virtual const Simulation& before_step(std::size_t lane) = 0;
+  /// Before the first step: makes ready for so many tangent vectors to a lane. False: they cannot go in lanes.
+  virtual bool expect_tangents(std::size_t vectors) = 0;
+  /// Carries the vectors of some lanes, equally many in each, all together, with the bits of a StepMap.
+  virtual void carry(std::span<LaneTangents> jobs) = 0;
 };
 
-/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, the arithmetic is
-/// not double, or the kernel is "fast" and has none. load() is false where the members' steps are not the same but for
-/// constants.
+/// Null where members of such a request cannot run in lanes: steps of the method are not recorded, or the arithmetic is
+/// neither double nor compensated. load() is false where the members' steps are not the same but for constants.
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes);
 
 }  // namespace hamflow

@@ -18,6 +18,11 @@ class FormulaFunctions final : public Functions<S> {
   S energy(const V& q, const V& p) const override { return model_->template energy<S>(q, p); }
   S kinetic(const V& p) const override { return model_->template kinetic<S>(p); }
   S potential(const V& q) const override { return model_->template potential<S>(q); }
+  bool has_parts() const override { return model_->model().structure().separable; }
+  void inverse_mass_times(const V& f, V& out) const override {
+    velocity(f, out);
+    if (model_->model().structure().time) out[out.size() - 1] = S(R(0));
+  }
   void velocity(const V& p, V& v) const override { model_->template velocity<S>(p, v); }
   void force(const V& q, V& f) const override { model_->template force<S>(q, f); }
   bool has_scaled_velocity() const override { return model_->has_scaled(); }
@@ -57,15 +62,18 @@ class FormulaFunctions final : public Functions<S> {
 inline Capability capabilities_of(const FormulaStructure& structure) {
   Capability all = Capability::smooth;
   if (structure.separable) all = all | Capability::separable;
-  if (structure.quadratic_kinetic) all = all | Capability::quadratic_kinetic;
+  // With the time and its momentum among the coordinates T has a linear term: velocities are not M^-1 p.
+  if (structure.quadratic_kinetic && !structure.time) all = all | Capability::quadratic_kinetic;
   return all;
 }
 /// @throws FormulaError when it does not offer `wanted`
 inline void require_of_formula(const FormulaStructure& structure, Capability wanted) {
   if (includes(capabilities_of(structure), wanted)) return;
   throw FormulaError(FormulaKeys::hamiltonian,
-                     std::string("found an H that is ") +
-                         (structure.separable ? "not quadratic in p with constant coefficients" : "not T(p) + V(q)") +
+                     std::string("found an H that ") +
+                         (structure.separable && structure.quadratic_kinetic ? "depends on t"
+                          : structure.separable ? "is not quadratic in p with constant coefficients"
+                                                : "is not T(p) + V(q)") +
                          "; allowed " +
                          (structure.separable ? "p^T M^-1 p/2 + V(q), else separable_formula_problem"
                                               : "T(p) + V(q), else formula_problem"));

@@ -38,10 +38,29 @@ std::vector<std::size_t> invariant_sizes(const P& problem) {
   }
 }
 
+/// The problem with parameters in double, whose description stands for those of all number types: it is long to
+/// compile.
+template <class P>
+struct InDouble {
+  using type = P;
+};
+template <template <class> class Family, class R>
+requires std::same_as<R, RealOf<Family<R>>>
+struct InDouble<Family<R>> {
+  using type = Family<double>;
+};
+template <template <class, template <class> class> class Family, class R, template <class> class Part>
+requires std::same_as<R, RealOf<Family<R, Part>>>
+struct InDouble<Family<R, Part>> {
+  using type = Family<double, Part>;
+};
+
 /// A problem's name with its choices.
 template <class P>
 std::string problem_label() {
-  if constexpr (requires { P::info().variant; }) {
+  if constexpr (!std::is_same_v<P, typename InDouble<P>::type>) {
+    return problem_label<typename InDouble<P>::type>();
+  } else if constexpr (requires { P::info().variant; }) {
     const auto info = P::info();
     std::string text = info.name;
     for (const auto& [key, value] : info.variant) text += " " + key + " = " + value;

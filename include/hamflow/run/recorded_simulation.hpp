@@ -17,9 +17,10 @@
 
 namespace hamflow {
 
-/// Records the step of length h from a state.
-using StepRecorder = std::function<std::optional<RecordedStep>(
-    const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time)>;
+/// Records the step of length h from a state, with what is looked at in every step or without.
+using StepRecorder =
+    std::function<std::optional<RecordedStep>(const Vector<double, dynamic>& q, const Vector<double, dynamic>& p,
+                                              double h, const RecordedTime& time, bool watch, RecordedAt at)>;
 
 template <class P, class M, Arithmetic A>
 class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMember {
@@ -69,13 +70,24 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     if (!step_ || step_of_ != h) {
       const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
                               static_cast<double>(clock_.direction())};
-      auto step = (*recorder_)(z_.positions(), z_.momenta(), h, time);
+      auto step = (*recorder_)(z_.positions(), z_.momenta(), h, time, watch_, RecordedAt::steady);
       if (!step) return nullptr;
       step_ = std::make_shared<const RecordedStep>(*std::move(step));
       step_of_ = h;
     }
     return step_;
   }
+  /// Tangent vectors follow steps in plain double alone.
+  std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) override {
+    if constexpr (std::is_same_v<A, Plain<double>>) {
+      if (!*recorder_) return nullptr;
+      auto step = (*recorder_)(z_.positions(), z_.momenta(), clock_.step_length(), {}, false, at);
+      return step ? std::make_shared<const RecordedStep>(*std::move(step)) : nullptr;
+    } else {
+      return nullptr;
+    }
+  }
+  double time_after(std::int64_t steps) const override { return static_cast<double>(clock_.time_after(steps)); }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {
     values.back() = static_cast<double>(clock_.position());
     return gather(step.fields, values, z_, method_, probe_);

@@ -8,8 +8,7 @@
 #include <span>
 
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/tape.hpp"
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/numerics/program_of_tape.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"
 #include "hamflow/run/probe.hpp"
@@ -21,14 +20,16 @@ namespace hamflow {
 struct RecordedStep {
   Program program;
   std::vector<CarriedField> fields;
+  std::vector<std::size_t> state;  // which values q, then p, are shown as
 };
 
-/// Longer steps take the ordinary road: straight code that no longer fits into the processor's cache of instructions
-/// is slower than the loops over bodies that are compiled (15 bodies with stv4, 6 with kahan-li8).
-inline constexpr std::size_t most_recorded_operations = 8000;
+/// Longer steps take the ordinary road: straight code of twice this length, which no longer fits into a processor's
+/// second cache, is as slow as the compiled loops over bodies (20 bodies with stv4, 9 with kahan-li8).
+inline constexpr std::size_t most_recorded_operations = 20000;
 
-/// The program of an exact recording: what the outputs and the guards need of the tape.
-Program program_of(const Tape<double>& tape);
+/// Which step of many is recorded: one that goes on from what the last one kept, or one from a state that was changed
+/// from outside, which carries nothing in but the state.
+enum class RecordedAt { steady, start };
 
 /// What a simulation offers to lanes: its step, and the numbers that go through it (run/recorded_simulation.hpp).
 class RecordedMember {
@@ -36,11 +37,15 @@ class RecordedMember {
   virtual ~RecordedMember() = default;
   /// The step from the present state; null where it cannot be recorded.
   virtual std::shared_ptr<const RecordedStep> recorded_step() = 0;
+  /// The step that tangent vectors take from the present state, without a probe; null where there is none.
+  virtual std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) = 0;
   /// The values that are carried into such a step. @return false where what the method keeps is not as recorded: one
   /// step by the ordinary road mends it
   virtual bool read_values(const RecordedStep& step, std::span<double> values) const = 0;
   /// The values after so many steps, from those that were read.
   virtual void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) = 0;
+  /// The time that so many steps from now will have, in double.
+  virtual double time_after(std::int64_t steps) const = 0;
 };
 
 namespace detail {
@@ -77,10 +82,6 @@ struct RecordedTime {
   double direction = 1;
 };
 
-/// Which step of many is recorded: one that goes on from what the last one kept, or one from a state that was changed
-/// from outside, which carries nothing in but the state.
-enum class RecordedAt { steady, start };
-
 /// Records the step from (q, p).
 /// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
 /// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
@@ -105,13 +106,15 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
           counts.push_back(std::is_integral_v<T> && !std::is_same_v<T, bool>);
         },
         z, method, probe);
+    RecordedStep recorded;
+    for (const Number& x : z.positions()) recorded.state.push_back(static_cast<std::size_t>(x.node));
+    for (const Number& x : z.momenta()) recorded.state.push_back(static_cast<std::size_t>(x.node));
     const Number position = recorder.input(time.position + time.direction) + Number(time.direction);
     const detail::TracedFields before = detail::traced_fields(z, method, probe);
     if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
     const Number t = Number(time.start) + position * Number(time.step);
     if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
     detail::TracedFields after = detail::traced_fields(z, method, probe);
-    RecordedStep recorded;
     if (at == RecordedAt::steady) {
       recorded.fields = detail::carried_fields(before, after, counts);
       if (recorded.fields.empty()) return std::nullopt;

@@ -58,6 +58,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   }
   void negate_momenta() override {
     z_.negate_momenta();
+    if constexpr (requires { method_.negate_momenta(); }) method_.negate_momenta();  // of a copy that it carries
     method_.invalidate();
   }
   StepDiagnostics diagnostics() const override {

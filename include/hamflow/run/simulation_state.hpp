@@ -106,6 +106,8 @@ class SimulationState : public Simulation {
     scale_ = abs(initial_energy_);
     if constexpr (Separable<P>) {
       scale_ = larger(scale_, Real(abs(problem_.kinetic(stored_p)) + abs(problem_.potential(stored_q))));
+    } else if constexpr (requires { problem_.size_of_parts(stored_q, stored_p); }) {
+      scale_ = larger(scale_, problem_.size_of_parts(stored_q, stored_p));
     }
   }
 

@@ -21,6 +21,7 @@ class StateExpression {
   const std::string& text() const;
   /// Whether the k-th number of q, then of p, decides its value.
   bool uses(std::size_t k) const;
+  bool uses_time() const;
 
  private:
   struct Read;

@@ -27,6 +27,9 @@ class StepMap {
   virtual ~StepMap() = default;
   virtual std::size_t dimension() const = 0;
   virtual MethodInfo claims() const = 0;
+  /// Where a run that begins at z = (q, p) has its first step. A method that carries a second copy (x, y) of the state
+  /// is a map of (q, x, p, y): advance() and jacobian() take such states, too, and give them back.
+  virtual State<double> begun(const State<double>& z) const { return z; }
   /// `steps` steps of length h from a fresh start, in double. False when a step fails.
   virtual bool advance(State<double>& z, double h, std::int64_t steps) const = 0;
   /// The same in long double: measured orders are not limited by the rounding of double.

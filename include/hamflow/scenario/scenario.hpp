@@ -61,7 +61,7 @@ struct Scenario {
 struct Reading {
   std::optional<Scenario> scenario;  // set when there is nothing to complain about
   std::vector<Complaint> complaints;
-  std::string no_start;               // why no start has the energy that was asked for
+  std::string no_start;               // why no start has the energy, or the component, that was asked for
   std::optional<Scenario> startless;  // of a sweep's member, where that is all that is wrong with it
 };
 

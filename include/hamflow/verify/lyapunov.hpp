@@ -11,7 +11,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -85,12 +87,27 @@ class LyapunovSums {
 /// about as many bits of the most contracting directions, and stays below 2^20 unless it suddenly triples.
 std::int64_t steps_between(std::int64_t present, std::span<const double> logs);
 
+/// Where the map of a step comes from: made when it is first needed, which members in lanes never need.
+struct StepMapSource {
+  std::size_t dimension = 0;  // n
+  std::function<std::shared_ptr<const StepMap>()> map;
+};
+
+/// Tangent vectors on the way to the next observation: they depend on nothing that the run does until then.
+struct TangentsUnderWay {
+  State<double>* z;
+  std::vector<State<double>>* vectors;
+  std::int64_t steps;
+};
+
 /// Follows a run: tangent vectors are carried along its states, which it does not change. Of a run in double.
 class TangentWatch : public Observer {
  public:
   /// @param last_step of the run   @throws Error when there is no such map
   TangentWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
+  TangentWatch(StepMapSource source, double h, std::int64_t last_step);
   std::int64_t next_due(std::int64_t step) const override;
+  /// @throws Error when there is no map
   Verdict observe(const Frame& frame) override;
   void archive(Writer& ar) final;
   void archive(Reader& ar) final;
@@ -99,6 +116,11 @@ class TangentWatch : public Observer {
   /// The step that the vectors have reached, -1 before the first.
   std::int64_t step() const { return at_; }
 
+  /// What others may carry to the next observation, many watches together; nothing where that is done, or none is due.
+  std::optional<TangentsUnderWay> under_way();
+  /// They have been carried, state and vectors. Until the observation there is nothing to archive.
+  void set_carried() { carried_to_ = next_due(at_ + 1); }
+
  protected:
   virtual std::vector<State<double>>& tangents() = 0;
   /// Called after so many steps. Returns how many to take next; 0: the vectors cannot be followed any further.
@@ -106,21 +128,25 @@ class TangentWatch : public Observer {
   /// The fields of the class that carries the vectors.
   virtual void archive_tangents(Writer& ar) = 0;
   virtual void archive_tangents(Reader& ar) = 0;
-  const StepMap& map() const { return *map_; }
+  std::size_t dimension() const { return source_.dimension; }
   double step_length() const { return h_; }
 
  private:
+  bool advance(std::int64_t steps);
+  void keep_before_the_end();
   template <class Archive>
   void fields(Archive& ar) {
     ar(due_, at_, z_, followed_);
     archive_tangents(ar);
   }
 
-  std::shared_ptr<const StepMap> map_;
+  StepMapSource source_;
+  std::shared_ptr<const StepMap> map_;  // of the source, once it is needed
   double h_;
   std::int64_t last_step_;
   std::int64_t due_ = 0;
-  std::int64_t at_ = -1;  // the step to which the vectors belong
+  std::int64_t at_ = -1;          // the step to which the vectors belong
+  std::int64_t carried_to_ = -1;  // the step to which others have carried them
   State<double> z_;
   bool followed_ = true;
   std::vector<std::byte> before_the_end_;  // what archive() writes after an observation that only the end made due
@@ -131,7 +157,8 @@ class LyapunovWatch final : public TangentWatch {
  public:
   /// @param count of exponents, the largest first; 0: all 2n
   LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count = 0);
-  LyapunovSpectrum spectrum() const { return sums_.spectrum(map().dimension(), step_length()); }
+  LyapunovWatch(StepMapSource source, double h, std::int64_t last_step, std::size_t count = 0);
+  LyapunovSpectrum spectrum() const { return sums_.spectrum(dimension(), step_length()); }
 
  protected:
   std::vector<State<double>>& tangents() override { return frame_.vectors(); }

@@ -27,6 +27,7 @@ std::vector<std::vector<double>> derivative_of_steps(const StepMap& map, State<d
 class MonodromyWatch final : public TangentWatch {
  public:
   MonodromyWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step);
+  MonodromyWatch(StepMapSource source, double h, std::int64_t last_step);
   std::vector<std::vector<double>> rows() const;
 
  protected:

@@ -27,6 +27,46 @@ State<R> joined(const Vector<R, N>& q, const Vector<R, N>& p) {
   z.insert(z.end(), p.begin(), p.end());
   return z;
 }
+/// A second copy of the state that the method carries.
+template <class M>
+concept CarriesCopy = requires(const M& method) {
+  method.copy();
+};
+/// Brings a state and a method there; of (q, x, p, y) the copy is the method's.
+template <class A, std::size_t N, class M, class R>
+PhasePoint<A, N> placed(const State<R>& z, [[maybe_unused]] std::size_t size, [[maybe_unused]] M& method) {
+  const auto part = [&](std::size_t first) {
+    auto x = zeros<typename A::Real, N>(size);
+    for (std::size_t i = 0; i < size; ++i) x[i] = z[first + i];
+    return x;
+  };
+  PhasePoint<A, N> point;
+  point.store(part(0), part(z.size() / 2));
+  if constexpr (CarriesCopy<M>) {
+    if (z.size() == 4 * size) {
+      PhasePoint<A, N> copy;
+      copy.store(part(size), part(3 * size));
+      method.begin_with(copy);
+    }
+  }
+  return point;
+}
+/// The state that it is then, with as many numbers as z.
+template <class A, std::size_t N, class M, class R>
+void taken_from(const PhasePoint<A, N>& point, [[maybe_unused]] const M& method, State<R>& z) {
+  const auto put = [&](std::size_t first, const auto& x) {
+    for (std::size_t i = 0; i < x.size(); ++i) z[first + i] = x[i];
+  };
+  put(0, point.positions());
+  put(z.size() / 2, point.momenta());
+  if constexpr (CarriesCopy<M>) {
+    const std::size_t size = point.q.size();
+    if (z.size() == 4 * size) {
+      put(size, method.copy().positions());
+      put(3 * size, method.copy().momenta());
+    }
+  }
+}
 template <template <class> class Family, bool quad>
 struct QuadProblem {
   using type = std::optional<Family<Quad>>;
@@ -61,6 +101,17 @@ class StepMapOf final : public StepMap {
 
   std::size_t dimension() const override { return size_; }
   MethodInfo claims() const override { return recipe_.template bind<P, Arithmetic<double>>(problem_).info(); }
+  State<double> begun(const State<double>& z) const override {
+    if constexpr (!detail::CarriesCopy<typename Recipe::template Stepper<P, Arithmetic<double>>>) {
+      return z;
+    } else {
+      State<double> both;
+      for (std::size_t first : {std::size_t{0}, size_}) {
+        for (int copy = 0; copy < 2; ++copy) both.insert(both.end(), &z[first], &z[first] + size_);
+      }
+      return both;
+    }
+  }
   bool advance(State<double>& z, double h, std::int64_t steps) const override { return go(problem_, z, h, steps); }
   bool advance(State<long double>& z, long double h, std::int64_t steps) const override {
     return go(long_problem_, z, h, steps);
@@ -82,17 +133,15 @@ class StepMapOf final : public StepMap {
     } else {
       using D = Dual<double, 1>;
       using A = Plain<D>;
-      std::vector<std::vector<double>> rows(2 * size_, std::vector<double>(2 * size_));
-      for (std::size_t k = 0; k < 2 * size_; ++k) {
+      std::vector<std::vector<double>> rows(z.size(), std::vector<double>(z.size()));
+      for (std::size_t k = 0; k < z.size(); ++k) {
         auto method = recipe_.template bind<P, A>(problem_);
-        PhasePoint<A, n> point;
-        point.store(seeded(detail::part_of<double, n>(z, 0), k, 0),
-                    seeded(detail::part_of<double, n>(z, size_), k, size_));
+        State<D> at(z.begin(), z.end());
+        at[k].slope[0] = 1;
+        auto point = detail::placed<A, n>(at, size_, method);
         (void)method.step(problem_, h, point);
-        for (std::size_t i = 0; i < size_; ++i) {
-          rows[i][k] = point.q[i].slope[0];
-          rows[size_ + i][k] = point.p[i].slope[0];
-        }
+        detail::taken_from(point, method, at);
+        for (std::size_t i = 0; i < z.size(); ++i) rows[i][k] = at[i].slope[0];
       }
       return rows;
     }
@@ -167,12 +216,11 @@ class StepMapOf final : public StepMap {
   bool go(const Q& problem, State<R>& z, const R& h, std::int64_t steps) const {
     using A = Arithmetic<R>;
     auto method = recipe_.template bind<Q, A>(problem);
-    PhasePoint<A, n> point;
-    point.store(detail::part_of<R, n>(z, 0), detail::part_of<R, n>(z, size_));
+    auto point = detail::placed<A, n>(z, size_, method);
     for (std::int64_t i = 0; i < steps; ++i) {
       if (method.step(problem, h, point) != Outcome::done) return false;
     }
-    z = detail::joined<R, n>(point.positions(), point.momenta());
+    detail::taken_from(point, method, z);
     return true;
   }
 

@@ -10,7 +10,9 @@ namespace hamflow::figures {
 
 namespace section {
 std::string refused(const FigureFacts& facts) {
-  if (facts.degrees_of_freedom == 1) return for_degrees(facts) + ", where a section needs 2 or more";
+  if (facts.degrees_of_freedom == 1 && !facts.stroboscopic) {
+    return for_degrees(facts) + ", where a section needs 2 or more, or an expression of t alone";
+  }
   return facts.section ? "" : ", which needs run.section, e.g. { coordinate = \"q1\" }";
 }
 
@@ -54,14 +56,14 @@ Page page(const Figure& figure) {
 }
 }  // namespace section
 
-extern const FigureKind section_figure{
-    "section",
-    "the points of a Poincare section, of a run with run.section and 2 or more degrees of freedom",
-    7,
-    section::refused,
-    section::obstacle,
-    section::apart,
-    no_columns,
-    section::page};
+extern const FigureKind section_figure{"section",
+                                       "the points of a Poincare section, of a run with run.section and 2 or more "
+                                       "degrees of freedom, or a section of time",
+                                       7,
+                                       section::refused,
+                                       section::obstacle,
+                                       section::apart,
+                                       no_columns,
+                                       section::page};
 
 }  // namespace hamflow::figures

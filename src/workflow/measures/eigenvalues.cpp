@@ -1,6 +1,7 @@
 // run.eigenvalues: of the derivative of all steps; on a periodic orbit the Floquet multipliers.
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "hamflow/verify/monodromy.hpp"
@@ -19,11 +20,11 @@ class EigenvalueMeasure final : public Measure {
  public:
   explicit EigenvalueMeasure(const Scenario& scenario) : watch_(step_map_of(scenario), scenario.dt, scenario.steps) {}
   Observer& observer() override { return watch_; }
+  TangentWatch* tangents() override { return &watch_; }
   Json summary() const override {
     Json all;
     try {
-      if (!watch_.followed()) throw Error("a step could not be differentiated");
-      const SymplecticEigenvalues found = symplectic_eigenvalues(watch_.rows());
+      const SymplecticEigenvalues found = eigenvalues();
       all["values"] = Json::array();
       for (const auto& value : found.values) all["values"].push_back({value.real(), value.imag()});
       all["pair_defect"] = found.pair_defect;
@@ -35,10 +36,39 @@ class EigenvalueMeasure final : public Measure {
     all["steps"] = watch_.step();
     return all;
   }
+  /// NaN where the summary of a run has none.
+  std::vector<double> row() const override {
+    const std::size_t n = watch_.rows().size();
+    try {
+      const SymplecticEigenvalues found = eigenvalues();
+      std::vector<double> all;
+      for (const auto& value : found.values) all.insert(all.end(), {value.real(), value.imag()});
+      all.insert(all.end(), {found.pair_defect, found.symplectic_defect, found.norm});
+      return all;
+    } catch (const Error&) {
+      return std::vector<double>(2 * n + 3, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
 
  private:
+  SymplecticEigenvalues eigenvalues() const {
+    if (!watch_.followed()) throw Error("a step could not be differentiated");
+    return symplectic_eigenvalues(watch_.rows());
+  }
+
   MonodromyWatch watch_;
 };
+
+/// Values in the order of the summary: partners next to each other.
+std::vector<std::string> columns(const Scenario& first) {
+  std::vector<std::string> all;
+  for (std::size_t i = 1; i <= 2 * first.start_q.size(); ++i) {
+    for (const char* part : {"_re", "_im"}) all.push_back("eigenvalue" + std::to_string(i) + part);
+  }
+  all.insert(all.end(), {"pair_defect", "symplectic_defect", "norm"});
+  for (std::size_t i = all.size() - 3; i < all.size(); ++i) all[i] = "eigenvalues_" + all[i];
+  return all;
+}
 
 std::string eigenvalues_text(const Json& found) {
   if (found["values"].is_null()) return found["message"].get<std::string>();
@@ -61,10 +91,11 @@ MeasureKind measure_eigenvalues() {
   return {.key = run_keys().eigenvalues.name,
           .label = "eigenvalues",
           .requested = [](const Scenario& scenario) { return scenario.eigenvalues; },
-          .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+          .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
             return std::make_unique<EigenvalueMeasure>(scenario);
           },
-          .text = eigenvalues_text};
+          .text = eigenvalues_text,
+          .columns = columns};
 }
 
 }  // namespace hamflow

@@ -24,6 +24,7 @@ class LyapunovMeasure final : public Measure {
   explicit LyapunovMeasure(const Scenario& scenario)
       : watch_(step_map_of(scenario), scenario.dt, scenario.steps, scenario.lyapunov) {}
   Observer& observer() override { return watch_; }
+  TangentWatch* tangents() override { return &watch_; }
   Json summary() const override {
     const LyapunovSpectrum found = watch_.spectrum();
     Json all{{"exponents", found.exponents},
@@ -64,7 +65,7 @@ std::string lyapunov_text(const Json& found) {
   return line;
 }
 
-std::vector<std::string> columns(const Scenario& first) {
+std::vector<std::string> columns_of_exponents(const Scenario& first) {
   std::vector<std::string> all;
   for (std::size_t i = 1; i <= first.lyapunov; ++i) all.push_back("lyapunov" + std::to_string(i));
   return all;
@@ -76,11 +77,11 @@ MeasureKind measure_lyapunov() {
   return {.key = run_keys().lyapunov.name,
           .label = "Lyapunov exponents",
           .requested = [](const Scenario& scenario) { return scenario.lyapunov > 0; },
-          .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+          .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
             return std::make_unique<LyapunovMeasure>(scenario);
           },
           .text = lyapunov_text,
-          .columns = columns};
+          .columns = columns_of_exponents};
 }
 
 }  // namespace hamflow

@@ -11,6 +11,7 @@
 
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "hamflow/verify/lyapunov.hpp"
 #include "sweep.hpp"
 
 namespace hamflow {
@@ -23,6 +24,8 @@ class Measure {
   virtual ~Measure() = default;
   /// Woken with the other observers; its archive() stands in the checkpoints.
   virtual Observer& observer() = 0;
+  /// The same where it follows tangent vectors, which many members carry together.
+  virtual TangentWatch* tangents() { return nullptr; }
   /// Its entry in the summary, from what was seen so far.
   virtual nlohmann::ordered_json summary() const = 0;
   /// Its numbers in a sweep, from what was seen of a member that is done, one for each of the columns.
@@ -33,20 +36,22 @@ struct MeasureKind {
   std::string key;    // of [run], of the summary, of the checkpoint
   std::string label;  // of its line in the summary for people
   bool (*requested)(const Scenario&);
-  /// @param recorder takes what is recorded beside the samples; may be null
-  std::unique_ptr<Measure> (*make)(const Scenario&, const Simulation&, Recorder* recorder);
+  /// Of anything that shows step, time, q and p: a run, a lane. The scenario outlives it.
+  std::unique_ptr<Measure> (*make)(const Scenario&) = nullptr;
+  /// In its place, of what needs more of a run.   @param recorder takes what is recorded beside the samples; may be
+  /// null
+  std::unique_ptr<Measure> (*make_of_run)(const Scenario&, const Simulation&, Recorder* recorder) = nullptr;
   /// Its line for people, from its entry in the summary.
   std::string (*text)(const nlohmann::ordered_json& entry);
-  /// The names of the columns that it gives a sweep whose first member is this scenario; null: it belongs to single
-  /// runs.
+  /// The names of the columns that it gives a sweep whose first member is this scenario; null: a sweep records it for
+  /// each member in a table of its own.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;
-  bool points_in_sweeps = false;  // a sweep records it for each member, in a table of its own
 };
 
 /// Every kind, in the alphabetical order of its files.
 std::span<const MeasureKind> measure_kinds();
 
 /// The map of one step that the scenario's method takes.
-std::shared_ptr<const StepMap> step_map_of(const Scenario& scenario);
+StepMapSource step_map_of(const Scenario& scenario);
 
 }  // namespace hamflow

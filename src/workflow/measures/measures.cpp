@@ -11,13 +11,18 @@ std::span<const MeasureKind> measure_kinds() {
   return all;
 }
 
-std::shared_ptr<const StepMap> step_map_of(const Scenario& scenario) {
-  return scenario.problem->step_map(scenario.request.parameters, scenario.request.method, scenario.start_q.size());
+StepMapSource step_map_of(const Scenario& scenario) {
+  const std::size_t n = scenario.start_q.size();
+  return {n, [&scenario, n] {
+            return scenario.problem->step_map(scenario.request.parameters, scenario.request.method, n);
+          }};
 }
 
 Measures::Measures(const Scenario& scenario, const Simulation& simulation, Recorder* recorder) {
   for (const MeasureKind& kind : measure_kinds()) {
-    if (kind.requested(scenario)) requested_.emplace_back(&kind, kind.make(scenario, simulation, recorder));
+    if (!kind.requested(scenario)) continue;
+    requested_.emplace_back(
+        &kind, kind.make != nullptr ? kind.make(scenario) : kind.make_of_run(scenario, simulation, recorder));
   }
 }
 
@@ -36,12 +41,19 @@ namespace {
 /// A column of a sweep is what the same measure shows of the single run.
 class MeasuredMember final : public MemberWatch {
  public:
-  MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario, const Simulation& simulation) {
-    for (const MeasureKind* kind : kinds) measures_.push_back(kind->make(scenario, simulation, nullptr));
+  MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario) {
+    for (const MeasureKind* kind : kinds) measures_.push_back(kind->make(scenario));
   }
   std::vector<Observer*> observers() override {
     std::vector<Observer*> all;
     for (const auto& measure : measures_) all.push_back(&measure->observer());
+    return all;
+  }
+  std::vector<TangentWatch*> tangents() override {
+    std::vector<TangentWatch*> all;
+    for (const auto& measure : measures_) {
+      if (TangentWatch* const watch = measure->tangents()) all.push_back(watch);
+    }
     return all;
   }
   std::vector<double> row() const override {
@@ -69,9 +81,7 @@ MemberObservables sweep_columns(const Scenario& first) {
     all.names.insert(all.names.end(), names.begin(), names.end());
   }
   if (kinds.empty()) return all;
-  all.watch = [kinds](const Scenario& scenario, const Simulation& simulation) {
-    return std::make_unique<MeasuredMember>(kinds, scenario, simulation);
-  };
+  all.watch = [kinds](const Scenario& scenario) { return std::make_unique<MeasuredMember>(kinds, scenario); };
   return all;
 }
 

@@ -85,7 +85,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   std::int64_t steps_ = -1;  // the last that was seen
 };
 
-std::vector<std::string> columns(const Scenario& first) {
+std::vector<std::string> columns_of_observables(const Scenario& first) {
   std::vector<std::string> all;
   for (const NamedExpression& each : first.observables) {
     for (const char* what : {"_initial", "_mean", "_final"}) all.push_back(each.name + what);
@@ -100,7 +100,7 @@ MeasureKind measure_observables() {
       .key = output_keys().observables.name,
       .label = "observables",
       .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
-      .make = [](const Scenario& scenario, const Simulation&, Recorder*) -> std::unique_ptr<Measure> {
+      .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
         return std::make_unique<ObservablesMeasure>(scenario.observables);
       },
       .text =
@@ -112,7 +112,7 @@ MeasureKind measure_observables() {
             }
             return joined(all, "; ");
           },
-      .columns = columns};
+      .columns = columns_of_observables};
 }
 
 }  // namespace hamflow

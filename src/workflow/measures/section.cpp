@@ -38,14 +38,13 @@ MeasureKind measure_section() {
   return {.key = run_keys().section.name,
           .label = "section",
           .requested = [](const Scenario& scenario) { return scenario.section.has_value(); },
-          .make = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
+          .make_of_run = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
               -> std::unique_ptr<Measure> { return std::make_unique<SectionMeasure>(scenario, simulation, recorder); },
           .text =
               [](const Json& found) {
                 return fmt::format("{} points, at most {} off it", found["points"].get<std::int64_t>(),
                                    number_text(found["max_residual"], "{:.2g}"));
-              },
-          .points_in_sweeps = true};
+              }};
 }
 
 }  // namespace hamflow

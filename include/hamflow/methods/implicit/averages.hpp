@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/error.hpp"
 #include "hamflow/methods/cg_options.hpp"
 #include "hamflow/methods/gauss_options.hpp"
 #include "hamflow/methods/implicit/average_table.hpp"
@@ -82,6 +83,9 @@ class AverageSetup {
     int points = table().points;
     ar(points);
     if constexpr (Archive::reading) {
+      if (points < table().averages || points > most_gauss_points) {
+        throw Error("saved bytes hold a number of Gauss points that cannot be");
+      }
       if (points != table().points) use(points);
     }
   }

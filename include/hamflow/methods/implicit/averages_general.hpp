@@ -52,7 +52,10 @@ class GeneralAverages : public AverageEquations<P, R> {
     }
     return x;
   }
-  Variables started(const Memory& last) const { return detail::continued(table_, last); }
+  Variables started(const Memory& last) const {
+    if (last.size() != k_ * m_) return last_state();  // of a state that was saved elsewhere
+    return detail::continued(table_, last);
+  }
 
   void evaluate(const Variables& x, Point& at) const {
     detail::clear(at, x.size(), 3 * size_ * size_ * k_ * k_);

@@ -49,7 +49,10 @@ class NaturalAverages : public AverageEquations<P, R> {
     }
     return x;
   }
-  Variables started(const Memory& last) const { return detail::continued(table_, last); }
+  Variables started(const Memory& last) const {
+    if (last.size() != k_ * size_) return last_state();  // of a state that was saved elsewhere
+    return detail::continued(table_, last);
+  }
 
   void evaluate(const Variables& x, Point& at) const {
     detail::clear(at, x.size(), size_ * size_ * k_ * k_);

@@ -4,6 +4,8 @@
 //     K_T = I + h sum_l b_l alpha_l [[-H_pq, -H_pp], [H_qq, H_qp]].
 #pragma once
 
+#include <algorithm>
+
 #include "hamflow/methods/implicit/segment.hpp"
 
 namespace hamflow {
@@ -65,10 +67,14 @@ class GeneralElement : public SegmentEquations<P, R> {
   const Matrix<Real, m>& tangent(const Point& at) const { return at.tangent; }
   /// The largest correction in units of its noise: q and p have units of their own.
   Correction<Real> measure(const Z& x, const Point& at, const Z& correction) const {
+    return measured(at.noise, x, correction);
+  }
+  template <class X>
+  static Correction<Real> measured(const X& noise, const X& x, const X& correction) {
     Real distance(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Real size = abs(correction[i]);
-      Real unit = epsilon * (at.noise[i] + abs(x[i]));
+      Real unit = epsilon * (noise[i] + abs(x[i]));
       if (!(unit > epsilon * (epsilon * size))) unit = epsilon * size;  // at 0 so far, without noise of its own
       const Real here = size / larger(unit, std::numeric_limits<Real>::min());
       distance = here <= distance ? distance : here;
@@ -110,6 +116,10 @@ class GeneralElement : public SegmentEquations<P, R> {
   /// Whether one more point sees more energy gained along the segment than rounding explains. With the points in use
   /// the gain is zero: int H_q.(q1 - q0) + int H_p.(p1 - p0) = -(p1 - p0).(q1 - q0)/h + (q1 - q0).(p1 - p0)/h.
   bool too_coarse(const Z&, const Increment<Real, n>& u) const {
+    const Real rounding = rounding_of_work(u);
+    return abs(finer_work(u).gain) > rounding;
+  }
+  Real rounding_of_work(const Increment<Real, n>& u) const {
     const V middle_q = detail::midpoint<Real>(q0_, u.q);
     const V middle_p = detail::midpoint<Real>(p0_, u.p);
     V dq = zeros_like(q0_);
@@ -134,21 +144,14 @@ class GeneralElement : public SegmentEquations<P, R> {
       }
       rounding += epsilon * (abs(u.q[i]) * of_q + abs(u.p[i]) * of_p);
     }
-    return abs(finer_work(u).gain) > rounding;
+    return rounding;
   }
   /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
   bool believable(const Z&, const Increment<Real, n>& u) const {
-    if (rule_.points == 1 || rule_.points == most_gauss_points) return true;
+    if (rule_.points == 1) return true;
     const Work work = finer_work(u);
     return Real(100) * abs(work.gain) <= work.size;
   }
-
- private:
-  using Base::h_;
-  using Base::problem_;
-  using Base::rule_;
-  using Base::unit_;
-  static constexpr auto epsilon = Epsilon<Real>{};
 
   /// What one more point sees: the energy gained, and the sizes of its terms.
   struct Work {
@@ -156,7 +159,7 @@ class GeneralElement : public SegmentEquations<P, R> {
     Real size{0};
   };
   Work finer_work(const Increment<Real, n>& u) const {
-    const GaussRule<Real>& finer = gauss_rule<Real>(rule_.points + 1);
+    const GaussRule<Real>& finer = gauss_rule<Real>(std::min(rule_.points + 1, most_gauss_points));
     const V middle_q = detail::midpoint<Real>(q0_, u.q);
     const V middle_p = detail::midpoint<Real>(p0_, u.p);
     V dq = zeros_like(q0_);
@@ -173,6 +176,13 @@ class GeneralElement : public SegmentEquations<P, R> {
     effort_.gradient += finer.points;
     return work;
   }
+
+ private:
+  using Base::h_;
+  using Base::problem_;
+  using Base::rule_;
+  using Base::unit_;
+  static constexpr auto epsilon = Epsilon<Real>{};
 
   /// sum = kappa int J grad H; k_t the tangent; noise the sum of the absolute values of what enters the target, with
   /// what coordinates rounded to epsilon change in it.

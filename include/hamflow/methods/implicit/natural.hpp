@@ -5,6 +5,8 @@
 // p1 is p0 + h F, never 2 M d/h - p0, which would amplify rounding by 2 M/h.
 #pragma once
 
+#include <algorithm>
+
 #include "hamflow/methods/implicit/energy_gain.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 
@@ -88,9 +90,14 @@ class NaturalElement : public SegmentEquations<P, R> {
   /// The residual cannot be computed better than to epsilon |target|, however far p0 and the impulse cancel in it at a
   /// turning point, and the terms of M^-1 p with each other: |h| |M^-1| |p0|.
   [[gnu::always_inline]] Correction<Real> measure(const V& d, const Point& at, const V& correction) const {
-    V next = d;
+    return measured(flight_, at.target, d, correction);
+  }
+  template <class X>
+  [[gnu::always_inline]] static Correction<Real> measured(const Real& flight, const X& target, const X& d,
+                                                          const X& correction) {
+    X next = d;
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
-    return {max_norm(correction), epsilon * (larger(flight_, max_norm(at.target)) + max_norm(next))};
+    return {max_norm(correction), epsilon * (larger(flight, max_norm(target)) + max_norm(next))};
   }
 
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at) const {
@@ -106,24 +113,20 @@ class NaturalElement : public SegmentEquations<P, R> {
     const Expanded half = half_impulse(at);
     V c = correction;
     if constexpr (n <= 2) {
-      V more = lost_in_residual(at, half);
-      const Matrix<Real, n> k = tangent(at);
-      Real from_identity(0);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) from_identity += abs(k[i][j] - Real(i == j));
-      }
-      // Where steps resolve the motion a division would cost more than the thirtieth that it adds.
-      if (!(from_identity < Real(0.03125))) more = hamflow::solve(k, more);
+      const V more = made_up_for(tangent(at), lost_in_residual(at, half));
       for (std::size_t i = 0; i < n; ++i) c[i] += more[i];
     }
-    V impulse = zeros_like(d);
-    for (std::size_t i = 0; i < d.size(); ++i) {
-      Real change(0);
-      for (std::size_t j = 0; j < d.size(); ++j) change += at.stiffness[i][j] * c[j];
-      impulse[i] = 2 * half.high[i] + (2 * half.low[i] - h_ * change);
+    return taken(d, at, half, c);
+  }
+  /// What the solution lacks where the residual has lost so much, in the plane.
+  template <class M, class X>
+  [[gnu::always_inline]] static X made_up_for(const M& k, const X& lost) {
+    Real from_identity(0);
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      for (std::size_t j = 0; j < lost.size(); ++j) from_identity += abs(k[i][j] - Real(i == j));
     }
-    for (std::size_t i = 0; i < d.size(); ++i) d[i] += c[i];
-    return {d, impulse};
+    // Where steps resolve the motion a division would cost more than the thirtieth that it adds.
+    return from_identity < Real(0.03125) ? lost : hamflow::solve(k, lost);
   }
   V memory(const V&, const Increment<Real, n>& taken) const { return taken.p; }
 
@@ -153,6 +156,10 @@ class NaturalElement : public SegmentEquations<P, R> {
       return detail::gains_energy(finer_work(taken, 1), rule_.points + 2 <= most_gauss_points,
                                   [&] { return finer_work(taken, 2).gain; });
     }
+    const Real rounding = rounding_of_work(taken);
+    return abs(finer_work(taken).gain) > rounding;
+  }
+  Real rounding_of_work(const Increment<Real, n>& taken) const {
     const V& d = taken.q;
     const Real terms(rule_.points + 5);
     const V middle = detail::midpoint<Real>(q0_, d);
@@ -170,25 +177,18 @@ class NaturalElement : public SegmentEquations<P, R> {
       }
       rounding += epsilon * abs(d[i]) * units;
     }
-    return abs(finer_work(taken, 1).gain) > rounding;
+    return rounding;
   }
   /// Whether the energy is kept to a hundredth of the work done. The midpoint rule does not promise that.
   bool believable(const V&, const Increment<Real, n>& taken) const {
-    if (rule_.points == 1 || rule_.points == most_gauss_points) return true;
+    if (rule_.points == 1) return true;
     const detail::Gain<Real> work = finer_work(taken, 1);
     return Real(100) * abs(work.gain) <= work.size;
   }
 
- private:
-  using Base::h_;
-  using Base::problem_;
-  using Base::rule_;
-  using Base::unit_;
-  static constexpr auto epsilon = Epsilon<Real>{};
-
   /// What more points see of the energy gained.
-  detail::Gain<Real> finer_work(const Increment<Real, n>& taken, int more) const {
-    const GaussRule<Real>& finer = gauss_rule<Real>(rule_.points + more);
+  detail::Gain<Real> finer_work(const Increment<Real, n>& taken, int more = 1) const {
+    const GaussRule<Real>& finer = gauss_rule<Real>(std::min(rule_.points + more, most_gauss_points));
     const V& d = taken.q;
     const V middle = detail::midpoint<Real>(q0_, d);
     V f = zeros_like(d);
@@ -210,6 +210,13 @@ class NaturalElement : public SegmentEquations<P, R> {
     work.noise = rounding.of_terms(finer.points + 4);
     return work;
   }
+
+ protected:
+  using Base::h_;
+  using Base::problem_;
+  using Base::rule_;
+  using Base::unit_;
+  static constexpr auto epsilon = Epsilon<Real>{};
 
   /// |h| |M^-1| |p0|, coordinate by coordinate.
   V terms_of_flight() const {
@@ -324,6 +331,18 @@ class NaturalElement : public SegmentEquations<P, R> {
     velocity(problem_, lost, rest);
     for (std::size_t i = 0; i < p0_.size(); ++i) rest[i] = product_error(h_, v[i], at.target[i]) + h_ * rest[i];
     return rest;
+  }
+
+  /// With the whole correction c. See above.
+  [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at, const Expanded& half, const V& c) const {
+    V impulse = zeros_like(d);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      Real change(0);
+      for (std::size_t j = 0; j < d.size(); ++j) change += at.stiffness[i][j] * c[j];
+      impulse[i] = 2 * half.high[i] + (2 * half.low[i] - h_ * change);
+    }
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] += c[i];
+    return {d, impulse};
   }
 
   const Setup& setup_;

@@ -14,7 +14,7 @@
 #include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/methods/implicit/extrapolation.hpp"
 #include "hamflow/methods/implicit/newton_log.hpp"
-#include "hamflow/numerics/dense.hpp"
+#include "hamflow/numerics/few.hpp"
 #include "hamflow/numerics/lu_factors.hpp"
 
 namespace hamflow {
@@ -68,8 +68,8 @@ struct GuessesOf<E> {
   using type = typename E::Guesses;
 };
 
-template <class Real, std::size_t N>
-[[gnu::noinline]] void note_tangent(const Matrix<Real, N>& tangent, StepDiagnostics& out) {
+template <class M>
+[[gnu::noinline]] void note_tangent(const M& tangent, StepDiagnostics& out) {
   out.condition_tangent = static_cast<double>(condition_number(tangent));
   out.determinant_tangent = static_cast<double>(determinant(tangent));
 }

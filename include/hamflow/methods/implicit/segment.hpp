@@ -8,8 +8,8 @@
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/methods/cg_options.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
-#include "hamflow/numerics/dense.hpp"
 #include "hamflow/numerics/exact_product.hpp"
+#include "hamflow/numerics/few.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"
 
 namespace hamflow {

@@ -2,7 +2,7 @@
 // Starts: the circle at phi = pi/2 (2.127), (2.128), the other conics at pericentre on the x-axis (2.131).
 #pragma once
 
-#include "hamflow/numerics/inverse_cube.hpp"
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 #include "hamflow/problems/support/kepler_flow.hpp"
 
@@ -54,8 +54,6 @@ class Kepler {
   template <class S, class F = R>
   S fast_slope(const S& u, const F& factor = F(1)) const {
     if constexpr (std::is_same_v<S, double> && std::is_same_v<R, double> && std::is_same_v<F, double>) {
-      return inverse_cube(u, factor * k_);
-    } else if constexpr (requires { requires S::fast_inverse_cube; }) {  // lanes that have the instructions
       return inverse_cube(u, factor * k_);
     } else {
       return slope(u, factor);

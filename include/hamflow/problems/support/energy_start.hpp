@@ -45,17 +45,13 @@ R polished(const F& f, long double x) {
 }
 }  // namespace detail
 
+/// @param exact, potential the same in R and in the hardware's numbers, in which the search is done
 /// @param conditions receives "V_eff <= energy" at the deepest point of V_eff, which fails where there is no orbit
 /// @throws Error when the motion has no turning point
-template <template <class> class Potential, class R>
-TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const R& angular_momentum,
-                              Conditions& conditions) {
+template <class R, class Exact, class Rough>
+TurningPoint<R> turning_point(const Exact& exact, const Rough& potential, const R& mass, const R& energy,
+                              const R& angular_momentum, Conditions& conditions) {
   using L = long double;
-  // The search is done in the hardware's numbers.
-  using Rough = std::conditional_t<std::is_floating_point_v<R>, R, L>;
-  const Potential<R> exact(given);
-  const Potential<Rough> potential(given.template as<Rough>());
-  const R mass = given["mass"];
   const L l = static_cast<L>(angular_momentum);
   const L mu = static_cast<L>(mass);
   const L e = static_cast<L>(energy);
@@ -78,7 +74,7 @@ TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const
   };
   // The shape of V_eff is the same for every energy: any state of this angular momentum shows its extrema, between
   // which V_eff is monotone.
-  const RadialMotion<Potential<Rough>> shape(potential, mu, Vector<L, 2>{1, 0}, Vector<L, 2>{0, l}, rounding);
+  const RadialMotion<Rough> shape(potential, mu, Vector<L, 2>{1, 0}, Vector<L, 2>{0, l}, rounding);
   std::vector<L> radii{0x1p-60L, 0x1p60L};
   for (const CircularOrbit& at : shape.extrema()) radii.push_back(at.radius);
   std::sort(radii.begin(), radii.end());
@@ -110,6 +106,14 @@ TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const
   conditions.require("problem.orbit.energy", "V_eff <= energy at the lowest point of V_eff", effective(deepest), e,
                      false);
   return {static_cast<R>(deepest), true};
+}
+/// Of a potential with parameters, `mass` among them.
+template <template <class> class Potential, class R>
+TurningPoint<R> turning_point(const Parameters<R>& given, const R& energy, const R& angular_momentum,
+                              Conditions& conditions) {
+  using Rough = std::conditional_t<std::is_floating_point_v<R>, R, long double>;
+  return turning_point<R>(Potential<R>(given), Potential<Rough>(given.template as<Rough>()), R(given["mass"]), energy,
+                          angular_momentum, conditions);
 }
 
 }  // namespace hamflow

@@ -1,7 +1,7 @@
 // A problem whose force is computed by its fast kernel. Everything else, the energy that is watched above all, stays.
 //     hamflow::FastKernel problem{hamflow::CentralForce<double, hamflow::Kepler>(1, hamflow::Kepler<double>(1))};
 // Results differ in the last bits from those of the problem itself, and between machines with and without the
-// instructions (numerics/inverse_cube.hpp); without them they are those of the problem itself, bit for bit.
+// instructions (core/inverse_cube.hpp); without them they are those of the problem itself, bit for bit.
 // Implicit methods, which ask for force and Hessian together, compute as before.
 #pragma once
 

@@ -1,11 +1,12 @@
-// u^(-3/2), the heart of every inverse-square force, without square root and division: both stand on the chain of
-// dependent operations from one force to the next, and cost more than all the rest of it.
+// u^(-3/2), the heart of every inverse-square force, and u^(-1/2) without square root and division: both stand on the
+// chain of dependent operations from one force to the next, and cost more than all the rest of it.
 //
 // The AVX-512 instruction vrsqrt14sd gives y = u^(-1/2) (1 + delta) with |delta| < 2^-14. With e = 1 - u y^2, one fused
 // operation, u = (1 - e)/y^2 and
 //     u^(-3/2) = y^3 (1 - e)^(-3/2) = y^3 (1 + e (3/2 + 15/8 e + 35/16 e^2 + 315/128 e^3)) + R,   |R| < 2^-63 y^3.
 // y has so few digits that y^2 and y^3 are exact; what remains is the rounding of the last addition: the error is at
-// most 1.002 x 2^-53, against 2.5 x 2^-53 for 1/(u sqrt(u)).
+// most 1.002 x 2^-53, against 2.5 x 2^-53 for 1/(u sqrt(u)). Likewise for u^(-1/2). kernel = "fast" is these two in
+// place of quotients, in the motion of any problem (core/tape.hpp, run/fast_functions.hpp).
 //
 // The library is compiled for any x86-64, and the instructions are used only where the processor (and the system)
 // reports that it has them. They stand here as assembly and not as intrinsics in functions of another target, because
@@ -70,6 +71,16 @@ inline double fused_subtract(double a, double b, double c) { return std::fma(-a,
   return fused_add(leading * e, sum, leading);
 }
 
+/// k u^(-1/2), likewise: y (1 - e)^(-1/2) = y (1 + e (1/2 + 3/8 e + 5/16 e^2 + 35/128 e^3)) + R, |R| < 2^-66 y.
+[[gnu::always_inline]] inline double inverse_root_series(double u, double y, double k) {
+  const double e = fused_subtract(u, y * y, 1.0);
+  const double low = fused_add(e, 3.0 / 8, 1.0 / 2);
+  const double high = fused_add(e, 35.0 / 128, 5.0 / 16);
+  const double sum = fused_add(e * e, high, low);
+  const double leading = k * y;
+  return fused_add(leading * e, sum, leading);
+}
+
 }  // namespace detail
 
 /// Whether inverse_cube has its fast form on this machine.
@@ -82,6 +93,12 @@ inline InstructionSet fast_kernel_instruction_set() {
 [[gnu::always_inline]] inline double inverse_cube(double u, double k = 1) {
   if (detail::has_estimate()) return detail::inverse_cube_series(u, detail::inverse_root_estimate(u), k);
   return k / (u * std::sqrt(u));
+}
+
+/// k u^(-1/2), by estimate and series where there is AVX-512, else k/sqrt(u) with the bits of just that expression.
+[[gnu::always_inline]] inline double inverse_root(double u, double k = 1) {
+  if (detail::has_estimate()) return detail::inverse_root_series(u, detail::inverse_root_estimate(u), k);
+  return k / std::sqrt(u);
 }
 
 }  // namespace hamflow

@@ -1,0 +1,45 @@
+// The steps of a block's members as one loop: their programs are the same but for constants, and what differs is a
+// number for each lane. A loop is kept for the blocks that come after.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hamflow/numerics/program_lanes.hpp"
+#include "hamflow/run/recorded_step.hpp"
+
+namespace hamflow {
+
+class FamilyLoop {
+ public:
+  /// Of each member, in the order of lanes; the last one stands for lanes without a member.
+  using Steps = std::vector<std::shared_ptr<const RecordedStep>>;
+  /// Makes a program of a member's, by appending constants that are the same for all. Nothing: it cannot.
+  using Make = std::function<std::optional<Program>(const Program&)>;
+
+  explicit FamilyLoop(LaneSet lanes) : set_(lanes) {}
+
+  /// @return false where the members' steps differ in more than constants, or the program cannot be made
+  bool load(const Steps& steps, const Make& make = {});
+  std::size_t lanes() const { return lanes_; }
+  /// @param carried values of the program that was made x lanes(), as LaneLoop has them
+  void run(LaneNumbers& carried, std::int64_t steps, std::span<bool> failed) const {
+    loop_->run(carried, constants_, steps, failed);
+  }
+
+ private:
+  bool serves(const Program& program, const std::vector<bool>& differ) const;
+  bool make_loop(const Program& program, const Make& make);
+  void fill(const Steps& steps);
+
+  LaneSet set_;
+  std::shared_ptr<const RecordedStep> first_;  // of the loop
+  std::vector<bool> differs_;                  // of each of its constants
+  std::unique_ptr<const LaneLoop> loop_;
+  std::size_t lanes_ = 0;
+  LaneNumbers constants_;
+};
+
+}  // namespace hamflow

@@ -1,0 +1,12 @@
+// cg(1) in double on a problem behind virtual calls with few coordinates, its equations recorded.
+#pragma once
+
+#include "erased.hpp"
+#include "hamflow/methods/cg_options.hpp"
+
+namespace hamflow {
+
+/// Null where the problem has more coordinates.
+std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const CgOptions& options);
+
+}  // namespace hamflow

@@ -1,0 +1,191 @@
+#include "hamflow/numerics/program_of_tape.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+namespace hamflow {
+
+namespace {
+/// Fills a program in the order of the tape; operations that nothing needs are left out.
+class Translation {
+ public:
+  explicit Translation(const Tape<double>& tape) : tape_(tape), place_(tape.nodes.size()) {}
+
+  Program program() {
+    mark_needed();
+    for (std::size_t i = 0; i < tape_.nodes.size(); ++i) {
+      if (needed_[i]) translate(i);
+    }
+    for (const int output : tape_.outputs) program_.outputs.push_back(at(output));
+    for (const auto& guard : tape_.guards) add_check(guard);
+    return std::move(program_);
+  }
+
+ private:
+  const TapeNode& node(int i) const { return tape_.nodes[static_cast<std::size_t>(i)]; }
+  Operand at(int i) const { return place_[static_cast<std::size_t>(i)]; }
+
+  /// The companion of a function, which only Taylor coefficients need, is no operand.
+  static bool has_second_operand(Operation operation) {
+    return operation == Operation::add || operation == Operation::subtract || operation == Operation::multiply ||
+           operation == Operation::divide || operation == Operation::larger || operation == Operation::arctangent2 ||
+           operation == Operation::power_of_two || operation == Operation::inverse_cube ||
+           operation == Operation::inverse_root;
+  }
+  void mark_needed() {
+    needed_.assign(tape_.nodes.size(), false);
+    for (const int output : tape_.outputs) needed_[static_cast<std::size_t>(output)] = true;
+    for (const auto& guard : tape_.guards) needed_[static_cast<std::size_t>(guard.node)] = true;
+    for (std::size_t i = tape_.nodes.size(); i-- > 0;) {
+      const TapeNode& n = tape_.nodes[i];
+      if (!needed_[i]) continue;
+      if (n.a >= 0) needed_[static_cast<std::size_t>(n.a)] = true;
+      if (has_second_operand(n.operation)) needed_[static_cast<std::size_t>(n.b)] = true;
+    }
+    for (std::size_t i = 0; i < tape_.inputs; ++i) needed_[i] = true;  // they are the first nodes
+  }
+
+  Operand constant(int index) {
+    const double value = tape_.constants[static_cast<std::size_t>(index)];
+    return constant(value);
+  }
+  Operand constant(double value) {
+    program_.constants.push_back(value);
+    return {Operand::Kind::constant, static_cast<std::uint32_t>(program_.constants.size() - 1)};
+  }
+
+  void translate(std::size_t i) {
+    const TapeNode& n = tape_.nodes[i];
+    const auto result = [&](Instruction instruction, Operand a, Operand b = {}) {
+      place_[i] = {Operand::Kind::result, static_cast<std::uint32_t>(program_.operations.size())};
+      program_.operations.push_back({instruction, a, b});
+    };
+    const auto of_one = [&](Instruction instruction) { result(instruction, at(n.a)); };
+    const auto of_two = [&](Instruction instruction) { result(instruction, at(n.a), at(n.b)); };
+    const auto with_constant = [&](Instruction instruction) { result(instruction, at(n.a), constant(n.constant)); };
+    switch (n.operation) {
+      case Operation::input:
+        place_[i] = {Operand::Kind::carried, static_cast<std::uint32_t>(inputs_++)};
+        return;
+      case Operation::constant:
+        place_[i] = constant(n.constant);
+        return;
+      case Operation::add:
+        return of_two(Instruction::add);
+      case Operation::subtract:
+        return of_two(Instruction::subtract);
+      case Operation::negate:
+        return of_one(Instruction::negate);
+      case Operation::add_constant:
+        return with_constant(Instruction::add);
+      case Operation::scale:
+        return with_constant(Instruction::multiply);
+      case Operation::divide_constant:
+        return with_constant(Instruction::divide);
+      case Operation::multiply:
+        return of_two(Instruction::multiply);
+      case Operation::square:
+        return result(Instruction::multiply, at(n.a), at(n.a));
+      case Operation::divide:
+        return of_two(Instruction::divide);
+      case Operation::invert:
+        return result(Instruction::divide, constant(n.constant), at(n.a));
+      case Operation::square_root:
+        return of_one(Instruction::square_root);
+      case Operation::exponential:
+        return of_one(Instruction::exponential);
+      case Operation::logarithm:
+        return of_one(Instruction::logarithm);
+      case Operation::sine:
+        return of_one(Instruction::sine);
+      case Operation::cosine:
+        return of_one(Instruction::cosine);
+      case Operation::sinh:
+        return of_one(Instruction::sinh);
+      case Operation::cosh:
+        return of_one(Instruction::cosh);
+      case Operation::tangent:
+        return of_one(Instruction::tangent);
+      case Operation::tanh:
+        return of_one(Instruction::tanh);
+      case Operation::arctangent:
+        return of_one(Instruction::arctangent);
+      case Operation::power:
+        return with_constant(Instruction::power);
+      case Operation::absolute:
+        return of_one(Instruction::absolute);
+      case Operation::larger:
+        return of_two(Instruction::larger);
+      case Operation::arcsine:
+        return of_one(Instruction::arcsine);
+      case Operation::arccosine:
+        return of_one(Instruction::arccosine);
+      case Operation::arctangent2:
+        return of_two(Instruction::arctangent2);
+      case Operation::power_of_two:
+        return of_two(Instruction::power);
+      case Operation::inverse_cube:
+      case Operation::inverse_root:
+        place_[i] = power(at(n.a), at(n.b), n.operation == Operation::inverse_cube);
+        return;
+    }
+    throw std::logic_error("hamflow: an operation of a tape is not known to programs");
+  }
+
+  Operand add(Instruction instruction, Operand a, Operand b = {}, Operand c = {}) {
+    program_.operations.push_back({instruction, a, b, c});
+    return {Operand::Kind::result, static_cast<std::uint32_t>(program_.operations.size() - 1)};
+  }
+  /// k/(u sqrt(u)) or k/sqrt(u): the operations of inverse_cube and inverse_root (core/inverse_cube.hpp), in their
+  /// order.
+  Operand power(Operand k, Operand u, bool is_cube) {
+    if (!fast_kernel_available()) {
+      const Operand root = add(Instruction::square_root, u);
+      return add(Instruction::divide, k, is_cube ? add(Instruction::multiply, u, root) : root);
+    }
+    const Operand y = add(Instruction::inverse_root_estimate, u);
+    const Operand yy = add(Instruction::multiply, y, y);
+    const Operand e = add(Instruction::fused_subtract, u, yy, constant(1.0));
+    const Operand low =
+        add(Instruction::fused_add, e, constant(is_cube ? 15.0 / 8 : 3.0 / 8), constant(is_cube ? 3.0 / 2 : 1.0 / 2));
+    const Operand high = add(Instruction::fused_add, e, constant(is_cube ? 315.0 / 128 : 35.0 / 128),
+                             constant(is_cube ? 35.0 / 16 : 5.0 / 16));
+    const Operand sum = add(Instruction::fused_add, add(Instruction::multiply, e, e), high, low);
+    const Operand leading = add(Instruction::multiply, k, is_cube ? add(Instruction::multiply, y, yy) : y);
+    return add(Instruction::fused_add, add(Instruction::multiply, leading, e), sum, leading);
+  }
+
+  using Guard = Tape<double>::Guard;
+  void add_check(const Guard& guard) {
+    using Kind = Program::Check::Kind;
+    const Operand a = at(guard.node);
+    if (guard.relation == Tape<double>::Relation::greater && !guard.holds &&
+        !(guard.value < std::numeric_limits<double>::max())) {
+      program_.checks.push_back({Kind::finite, a, {}});
+      return;
+    }
+    const Operand b = constant(guard.value);
+    switch (guard.relation) {
+      case Tape<double>::Relation::equal:
+        program_.checks.push_back({guard.holds ? Kind::equal : Kind::unequal, a, b});
+        return;
+      case Tape<double>::Relation::less:
+        program_.checks.push_back({guard.holds ? Kind::less : Kind::not_less, a, b});
+        return;
+      case Tape<double>::Relation::greater:
+        program_.checks.push_back({guard.holds ? Kind::less : Kind::not_less, b, a});
+        return;
+    }
+  }
+
+  const Tape<double>& tape_;
+  std::vector<Operand> place_;
+  std::vector<bool> needed_;
+  std::size_t inputs_ = 0;
+  Program program_;
+};
+}  // namespace
+
+Program program_of(const Tape<double>& tape) { return Translation(tape).program(); }
+
+}  // namespace hamflow

@@ -1,0 +1,102 @@
+#include "lane_run.hpp"
+
+#include <algorithm>
+
+namespace hamflow {
+
+LaneRun::LaneRun(EnsembleBlock& block, std::vector<LaneObservers> observers)
+    : block_(block), observers_(std::move(observers)), has_sections_(!observers_.empty() && observers_[0].section) {
+  if (observers_.empty()) {
+    due_ = Observer::never;
+    return;
+  }
+  wake();
+  for (TangentWatch* watch : observers_[0].tangents) {
+    const std::optional<TangentsUnderWay> vectors = watch->under_way();
+    go_in_lanes_.push_back(vectors && block_.expect_tangents(vectors->vectors->size()));
+  }
+  if (!has_sections_) return;
+  for (std::size_t lane = 0; lane < observers_.size(); ++lane) distances_.push_back(section_distance(lane));
+}
+
+void LaneRun::advance(std::int64_t steps) {
+  const std::int64_t end = taken_ + steps;
+  while (taken_ < end) {
+    if (has_sections_) {
+      block_.take_step();
+      ++taken_;
+      look_for_sections();
+    } else {
+      const std::int64_t next = std::min(end, due_);
+      block_.advance(next - taken_);
+      taken_ = next;
+    }
+    if (taken_ == due_) wake();
+  }
+}
+
+std::int64_t LaneRun::next_due() const {
+  std::int64_t due = Observer::never;
+  for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
+    if (block_.is_lost(lane)) continue;
+    for (const Observer* observer : observers_[lane].all) due = std::min(due, observer->next_due(taken_ + 1));
+  }
+  return due;
+}
+
+void LaneRun::wake() {
+  if (taken_ > 0) carry_tangents();
+  for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
+    if (block_.is_lost(lane)) continue;
+    bool shown = false;
+    for (Observer* observer : observers_[lane].all) {
+      if (observer->next_due(taken_) != taken_) continue;
+      if (!shown) block_.show(lane, frame_);
+      shown = true;
+      (void)observer->observe(frame_);
+    }
+  }
+  due_ = next_due();
+}
+
+/// Once the vectors of one lane are wanted, those of all lanes are carried to where theirs will be wanted.
+void LaneRun::carry_tangents() {
+  for (std::size_t kind = 0; kind < go_in_lanes_.size(); ++kind) {
+    if (!go_in_lanes_[kind]) continue;
+    jobs_.clear();
+    bool wanted = false;
+    for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
+      TangentWatch& watch = *observers_[lane].tangents[kind];
+      if (block_.is_lost(lane)) continue;
+      const std::optional<TangentsUnderWay> vectors = watch.under_way();
+      if (!vectors) continue;
+      wanted = wanted || watch.next_due(taken_) == taken_;
+      jobs_.push_back({lane, vectors->z, vectors->vectors, vectors->steps});
+    }
+    if (!wanted) continue;
+    block_.carry(jobs_);
+    for (const LaneTangents& job : jobs_) {  // what could not be carried is left to the watch itself
+      if (job.carried) observers_[job.lane].tangents[kind]->set_carried();
+    }
+  }
+}
+
+double LaneRun::section_distance(std::size_t lane) {
+  block_.show(lane, frame_);
+  return observers_[lane].section->distance(frame_);
+}
+
+void LaneRun::look_for_sections() {
+  const Section& first = observers_[0].section->section();
+  const std::size_t size = frame_.q.size();
+  const double* const x = first.expression ? nullptr : block_.numbers(first.coordinate + (first.momentum ? size : 0));
+  for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
+    SectionSearch& search = *observers_[lane].section;
+    const double now = x == nullptr ? section_distance(lane) : x[lane] - first.value;
+    const double before = std::exchange(distances_[lane], now);
+    if (!search.crosses(before, now) || search.failed() || block_.is_lost(lane)) continue;
+    search.locate(block_.before_step(lane), before, now);
+  }
+}
+
+}  // namespace hamflow
