@@ -125,7 +125,8 @@ Mp as_mp(const R& x) {
   }
 }
 
-constexpr double start[4] = {0.7, -0.5, 0.5, 0.6};
+// Not q2 = -1/2, where the force on q1 vanishes and the quotient as it is written is 0/0.
+constexpr double start[4] = {0.7, -0.25, 0.5, 0.6};
 
 /// One step of a recipe in R against the definition in mp(80).
 template <template <class> class Family, class R, class Recipe, class DH>
