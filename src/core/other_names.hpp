@@ -14,7 +14,10 @@ euler-a: symplectic-euler, semi-implicit-euler
 euler: explicit-euler, forward-euler
 rk4: runge-kutta
 dop853: rk8, dopri, dopri5, dopri8
-cg: discrete-gradient, hbvm, hamiltonian-boundary-value
+cg: hbvm, hamiltonian-boundary-value
+discrete-gradient: gonzalez
+eg: energy-momentum, labudde-greenspan
+lobatto-3a-3b: lobatto, lobatto-iiia-iiib
 avf: averaged-vector-field
 gauss: gauss-legendre, collocation, irk
 implicit-midpoint: midpoint, midpoint-rule

@@ -29,6 +29,9 @@ class Forwarding : public Functions<S> {
   void velocity_of(const V& q, const V& p, V& v) const override { exact_->velocity_of(q, p, v); }
   void momentum_of(const V& q, const V& v, V& p) const override { exact_->momentum_of(q, v, p); }
   V rotation() const override { return exact_->rotation(); }
+  std::size_t radial_space() const override { return exact_->radial_space(); }
+  std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override { return exact_->radial_terms(); }
+  RadialLaw<S> radial_law(const S& u) const override { return exact_->radial_law(u); }
 
  protected:
   Pointer exact_;

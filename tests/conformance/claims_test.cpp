@@ -44,6 +44,8 @@ bool stands_for_others(const std::string& name) {
   // their kernel. Other names are other names. The adaptive references are tested by themselves.
   if (spec.name == "cg") return name == "cg(1,5)" || name == "cg(1,auto)" || name == "cg(2,auto)";
   if (spec.name == "gauss") return name == "gauss(2)";
+  if (spec.name == "eg") return name == "eg(2)";
+  if (spec.name == "lobatto-3a-3b") return name == "lobatto-3a-3b(3)";
   if (spec.name == "avf" || spec.name == "implicit-midpoint") return false;
   if (spec.name == "tao4") return false;  // three steps of tao2
   if (describe(spec).own_substeps) return false;

@@ -1,7 +1,7 @@
 // What a problem offers to methods: the concepts of core/concepts.hpp as flags.
 #pragma once
 
-#include "hamflow/core/concepts.hpp"
+#include "hamflow/core/radial_forces.hpp"
 
 namespace hamflow {
 
@@ -10,7 +10,8 @@ enum class Capability : unsigned {
   separable = 1,          // H = T(p) + V(q)
   quadratic_kinetic = 2,  // T quadratic with constant mass matrix
   cyclic = 4,             // the last coordinate is cyclic
-  charge = 8              // a charge in a uniform magnetic field
+  charge = 8,             // a charge in a uniform magnetic field
+  radial = 16             // forces along the lines between bodies or to a centre
 };
 constexpr Capability operator|(Capability a, Capability b) {
   return static_cast<Capability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -25,6 +26,7 @@ constexpr Capability capabilities_of() {
   if constexpr (QuadraticKinetic<P>) all = all | Capability::quadratic_kinetic;
   if constexpr (Cyclic<P>) all = all | Capability::cyclic;
   if constexpr (ChargeInField<P>) all = all | Capability::charge;
+  if constexpr (RadialForces<P>) all = all | Capability::radial;
   return all;
 }
 

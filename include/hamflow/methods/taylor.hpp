@@ -21,35 +21,12 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
-#include "hamflow/core/tape.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/substeps.hpp"
+#include "hamflow/methods/tape_of_motion.hpp"
 #include "hamflow/numerics/taylor_series.hpp"
 
 namespace hamflow {
-
-/// **Traceable**: the derivatives of H as templates that a recording can be passed through.
-template <class P, class R>
-concept Traceable = Differentiable<P> &&
-    ((HasVelocity<P, Trace<R>> && HasForce<P, Trace<R>>) || HasGradient<P, Trace<R>> ||
-     (P::dimension != dynamic &&
-      (detail::HasParts<P, Dual<Trace<R>, P::dimension>> || detail::HasEnergy<P, Dual<Trace<R>, 2 * P::dimension>>)));
-
-/// q' = dH/dp, p' = -dH/dq on a tape, recorded at (q, p).
-template <class R, class P, std::size_t N>
-Tape<R> tape_of_motion(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
-  Recorder<R> recorder;
-  Vector<Trace<R>, N> x = zeros<Trace<R>, N>(q.size());
-  Vector<Trace<R>, N> y = zeros_like(x);
-  Vector<Trace<R>, N> dq = zeros_like(x);
-  Vector<Trace<R>, N> dp = zeros_like(x);
-  for (std::size_t i = 0; i < q.size(); ++i) x[i] = recorder.input(q[i]);
-  for (std::size_t i = 0; i < q.size(); ++i) y[i] = recorder.input(p[i]);
-  motion(problem, x, y, dq, dp);
-  std::vector<Trace<R>> outputs(dq.begin(), dq.end());
-  outputs.insert(outputs.end(), dp.begin(), dp.end());
-  return recorder.finish(outputs);
-}
 
 template <class P, Arithmetic A>
 class TaylorMethod {
@@ -63,13 +40,7 @@ class TaylorMethod {
   /// Records H at a state like any other, so that what cannot be recorded is refused before anything runs.
   TaylorMethod(const P& problem, const AdaptiveOptions& options)
       : options_(options), order_(options.order > 0 ? options.order : cheapest_order(options.tolerance)) {
-    const std::size_t size = degrees_of_freedom(problem);
-    Vector<Base, n> q = zeros<Base, n>(size);
-    Vector<Base, n> p = q;
-    for (std::size_t i = 0; i < size; ++i) {
-      q[i] = Base(static_cast<int>(5 + 2 * i)) / Base(7);
-      p[i] = Base(static_cast<int>(4 + 3 * i)) / Base(11);
-    }
+    const auto [q, p] = detail::any_state<Base, n>(problem);
     record(problem, q, p);
   }
   /// [JorbaZou2005, (3-7)]

@@ -111,6 +111,10 @@ class Functions {
   virtual void velocity_of(const V& q, const V& p, V& v) const = 0;
   virtual void momentum_of(const V& q, const V& v, V& p) const = 0;
   virtual V rotation() const = 0;
+  // Of forces between bodies or to a centre.
+  virtual std::size_t radial_space() const = 0;
+  virtual std::vector<RadialTerm<base_scalar<S>>> radial_terms() const = 0;
+  virtual RadialLaw<S> radial_law(const S& u) const = 0;
 };
 
 /// Shared by their base, or the library's counting of references would be compiled for each problem.
@@ -127,6 +131,7 @@ class FunctionsOf final : public Functions<S> {
   using X = Vector<S, n>;  // as the problem has it
   static constexpr bool cyclic = Cyclic<P>;
   static constexpr bool charge = ChargeInField<P>;
+  static constexpr bool radial = RadialForces<P>;
   static constexpr bool has_hessian = !first_derivatives_only<S>;
   static constexpr bool in_double = std::is_same_v<S, double> && std::is_same_v<RealOf<P>, double>;
   static constexpr bool drifts_by = takes_factors<S> && Separable<P> && HasScaledVelocity<P, base_scalar<S>, S>;
@@ -317,6 +322,27 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
+  std::size_t radial_space() const override {
+    if constexpr (radial) {
+      return problem_.radial_space();
+    } else {
+      absent();
+    }
+  }
+  std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override {
+    if constexpr (radial && std::is_same_v<S, RealOf<P>>) {
+      return problem_.radial_terms();
+    } else {
+      absent();
+    }
+  }
+  RadialLaw<S> radial_law(const S& u) const override {
+    if constexpr (radial) {
+      return problem_.radial_law(u);
+    } else {
+      absent();
+    }
+  }
 
  private:
   [[noreturn]] static void absent() { throw std::logic_error("hamflow: the problem does not have this function"); }
@@ -359,6 +385,7 @@ class AnyProblem {
   static constexpr bool separable = includes(capability, Capability::separable);
   static constexpr bool cyclic = includes(capability, Capability::cyclic);
   static constexpr bool charge = includes(capability, Capability::charge);
+  static constexpr bool radial = includes(capability, Capability::radial);
 
   AnyProblem(std::size_t size, std::shared_ptr<const Functions<R>> own,
              std::shared_ptr<const Functions<Others>>... others)
@@ -473,6 +500,12 @@ class AnyProblem {
     on<S>().momentum_of(q, v, p);
   }
   Vector<R, dynamic> rotation() const requires charge { return on<R>().rotation(); }
+  std::size_t radial_space() const requires radial { return on<R>().radial_space(); }
+  std::vector<RadialTerm<R>> radial_terms() const requires radial { return on<R>().radial_terms(); }
+  template <class S>
+  RadialLaw<S> radial_law(const S& u) const requires radial {
+    return on<S>().radial_law(u);
+  }
 
  private:
   template <class S>

@@ -48,6 +48,9 @@ class FormulaFunctions final : public Functions<S> {
   void velocity_of(const V&, const V&, V&) const override { absent(); }
   void momentum_of(const V&, const V&, V&) const override { absent(); }
   V rotation() const override { absent(); }
+  std::size_t radial_space() const override { absent(); }
+  std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override { absent(); }
+  RadialLaw<S> radial_law(const S&) const override { absent(); }
 
  private:
   [[noreturn]] static void absent() { throw std::logic_error("hamflow: a typed problem does not have this function"); }

@@ -9,6 +9,7 @@
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/core/radial_forces.hpp"
 #include "hamflow/problems/support/effective_potential.hpp"
 #include "hamflow/problems/support/energy_start.hpp"
 #include "hamflow/problems/support/potential.hpp"
@@ -103,6 +104,14 @@ class CentralForce {
     hessian[0][0] = d.slope + cx * q[0];
     hessian[0][1] = hessian[1][0] = cx * q[1];
     hessian[1][1] = d.slope + d.curvature * (q[1] * q[1]);
+  }
+  // As RadialForces.
+  static std::size_t radial_space() { return 2; }
+  static std::vector<RadialTerm<R>> radial_terms() { return {{0, RadialTerm<R>::centre, R(1)}}; }
+  template <class S>
+  RadialLaw<S> radial_law(const S& u) const {
+    const CentralDerivatives<S> d = potential_.derivatives(u);
+    return {potential_.value(u), d.slope / R(2), d.curvature / R(4)};
   }
   template <class S>
   Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p, const S& /*t*/) const {

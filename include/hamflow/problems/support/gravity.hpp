@@ -8,6 +8,7 @@
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/core/radial_forces.hpp"
 
 namespace hamflow {
 
@@ -136,6 +137,25 @@ class Gravity {
     for (std::size_t i = 0; i < masses_.size(); ++i) {
       for (std::size_t j = i + 1; j < masses_.size(); ++j) add_pair(q, i, j, hessian);
     }
+  }
+
+  // As RadialForces.
+  std::size_t radial_space() const { return space_; }
+  std::vector<RadialTerm<R>> radial_terms() const {
+    std::vector<RadialTerm<R>> terms;
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      for (std::size_t j = i + 1; j < masses_.size(); ++j) {
+        terms.push_back({i * space_, j * space_, constant_ * masses_[i] * masses_[j]});
+      }
+    }
+    return terms;
+  }
+  template <class S>
+  RadialLaw<S> radial_law(const S& u) const {
+    const S inverse = R(1) / (u + softening_squared_);
+    const S root = sqrt(inverse);
+    const S first = inverse * root / R(2);
+    return {-root, first, R(-1.5) * first * inverse};
   }
 
   const R& total_mass() const { return total_mass_; }

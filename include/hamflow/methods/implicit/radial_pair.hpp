@@ -1,0 +1,168 @@
+// One pair of bodies, or a body and the centre, on a step of eg(k): the force factor that keeps the energy.
+// [GrossBetschSteinmann2005]   With u(t) = |r|^2 along the trial polynomial, its value and rate at k Gauss points u_l,
+// u'_l, the pair's force is -2 (phi'_l + lambda u'_l) r_l. It does the work -[phi(u1) - phi(u0)] just for
+//     lambda = (phi(u1) - phi(u0) - h sum_l b_l phi'_l u'_l)/(h sum_l b_l u'_l^2).
+// u' has degree 2 k - 1, so that u1 - u0 = h sum b_l u'_l, and with the divided difference phi[u0, u1] and
+// g_l = phi[u0, u1] - phi'_l, (x, y) = sum b_l x_l y_l,
+//     lambda u' = u' (u', g)/(u', u'),
+// the projection of g on u', without the cancellation of energies; for k = 1 it is g itself.
+//
+// It has no limit at u' = 0, at rest and on a circle: there it depends on the direction of u', and steps close to it
+// would have no solution. Any u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work. So
+//     chi = exp(-(u', u')/delta^2),   delta = 8 times what u' changes by when g is added to the factor,
+// with the g that is left where u' = 0, phi'' s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of collocation in u,
+// of order k + 1 in h. On a circle the factor is phi[u0, u1], and the step stays on it; where u' is of the size of 9
+// delta or more chi is below any rounding.
+#pragma once
+
+#include <memory>
+
+#include "hamflow/core/radial_forces.hpp"
+#include "hamflow/methods/eg_options.hpp"
+#include "hamflow/numerics/tape_replay.hpp"
+
+namespace hamflow {
+
+/// phi on a tape, for its divided difference.
+template <class R>
+class RecordedLaw {
+ public:
+  template <class P>
+  explicit RecordedLaw(const P& problem) {
+    Recorder<R> recorder(Folding::exact);
+    tape_ = std::make_shared<const Tape<R>>(recorder.finish({problem.radial_law(recorder.input(R(5) / R(7))).value}));
+  }
+  /// phi[a, b].
+  template <class S>
+  S difference(const S& a, const S& b) const {
+    Vector<Slope<S>, dynamic> nodes(tape_->nodes.size());
+    nodes[0] = Slope<S>(a, b, S(R(1)));
+    (void)replay(*tape_, nodes);  // laws have no branches
+    return nodes[static_cast<std::size_t>(tape_->outputs[0])].slope;
+  }
+
+ private:
+  std::shared_ptr<const Tape<R>> tape_;
+};
+
+/// The law at a number, or along a dual number; the derivative of phi'', which decides about delta alone, is left out.
+template <class P, class S>
+RadialLaw<S> law_at(const P& problem, const S& u) {
+  if constexpr (IsDual<S>::value) {
+    const auto law = problem.radial_law(u.value);
+    return {detail::chain(u, law.value, law.first), detail::chain(u, law.first, law.second), S(law.second)};
+  } else {
+    return problem.radial_law(u);
+  }
+}
+
+/// Weights of k Gauss points, and N = A B^-1 - 1/2, antisymmetric.   [HLW2006, Sect. II.1.3]
+template <class R>
+struct GaussStages {
+  std::size_t count;
+  R b[largest_eg_degree]{};
+  R inner[largest_eg_degree][largest_eg_degree]{};
+  R a(std::size_t l, std::size_t j) const { return (R(0.5) + inner[l][j]) * b[j]; }
+
+  explicit GaussStages(int degree) : count(static_cast<std::size_t>(degree)) {
+    if (degree == 1) {
+      b[0] = R(1);
+    } else if (degree == 2) {
+      b[0] = b[1] = R(0.5);
+      couple(0, 1, R(-1) / sqrt(R(3)));
+    } else {
+      b[0] = b[2] = R(5) / R(18);
+      b[1] = R(4) / R(9);
+      const R root = sqrt(R(15));
+      couple(0, 1, R(-3) * root / R(20));
+      couple(0, 2, R(-3) * root / R(25));
+      couple(1, 2, R(-3) * root / R(20));
+    }
+  }
+
+ private:
+  void couple(std::size_t i, std::size_t j, const R& n) {
+    inner[i][j] = n;
+    inner[j][i] = -n;
+  }
+};
+
+/// At the points of a step.
+template <class S>
+struct RadialPair {
+  static constexpr std::size_t most = largest_eg_degree;
+  S start[3]{};    // x_a - x_b at the beginning of the step
+  S r[most][3]{};  // differences of positions, at the points
+  S w[most][3]{};  // and of velocities
+  S u[most]{};
+  S rate[most]{};  // u'
+  RadialLaw<S> law[most]{};
+  S factor[most]{};              // phi'_l + lambda u'_l
+  base_scalar<S> reach[most]{};  // what u'_l rounds by, in units of epsilon
+  base_scalar<S> noise{};        // and then lambda u'_l
+
+  /// From start, r, w and reach. @param strength of the pair over its reduced mass
+  template <class P, class R>
+  void complete(const P& problem, const RecordedLaw<R>& recorded, const GaussStages<R>& stages, const R& h,
+                std::size_t space, const R& strength) {
+    const std::size_t k = stages.count;
+    S u0(R(0));
+    S u1(R(0));
+    for (std::size_t d = 0; d < space; ++d) {
+      S end = start[d];
+      for (std::size_t l = 0; l < k; ++l) end = end + (h * stages.b[l]) * w[l][d];
+      u0 = u0 + start[d] * start[d];
+      u1 = u1 + end * end;
+    }
+    for (std::size_t l = 0; l < k; ++l) {
+      u[l] = rate[l] = S(R(0));
+      for (std::size_t d = 0; d < space; ++d) {
+        u[l] = u[l] + r[l][d] * r[l][d];
+        rate[l] = rate[l] + R(2) * (r[l][d] * w[l][d]);
+      }
+      law[l] = law_at(problem, u[l]);
+    }
+    const S mean = recorded.difference(u0, u1);
+    for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
+    if (k > 1) project(stages, h, u0, mean, R(R(32) * h * strength));
+  }
+
+ private:
+  /// @param response 8 times what a factor of 1 changes u' by, over u
+  template <class R>
+  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const R& response) {
+    const std::size_t k = stages.count;
+    S gap[most];     // g
+    S work(R(0));    // (u', g)
+    S square(R(0));  // (u', u')
+    S limit(R(0));   // delta^2
+    R largest(0);
+    R loose(0);
+    for (std::size_t l = 0; l < k; ++l) {
+      gap[l] = mean - law[l].first;
+      S error = u[l] - u0;  // s_l
+      for (std::size_t j = 0; j < k; ++j) error = error - (h * stages.a(l, j)) * rate[j];
+      work = work + stages.b[l] * (rate[l] * gap[l]);
+      square = square + stages.b[l] * (rate[l] * rate[l]);
+      const S here = response * (u[l] * (law[l].second * error));
+      limit = limit + stages.b[l] * (here * here);
+      largest = larger(largest, R(abs(value_of(gap[l]))));
+      loose = larger(loose, reach[l]);
+    }
+    S along(R(0));
+    S share(R(0));  // chi
+    const R both = value_of(square) + value_of(limit);
+    if (!(both > R(0))) return;
+    noise = largest * loose / sqrt(both);
+    if (value_of(square) > (R(20) - log(std::numeric_limits<R>::epsilon())) * value_of(limit)) {
+      along = work / square;
+    } else {
+      const S y = square / limit;
+      share = exp(-y);
+      along = work * detail::difference_of_exp(S(R(0)), S(-y)) / limit;  // (1 - chi)/(u', u')
+    }
+    for (std::size_t l = 0; l < k; ++l) factor[l] = law[l].first + along * rate[l] + share * gap[l];
+  }
+};
+
+}  // namespace hamflow

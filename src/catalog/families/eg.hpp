@@ -1,0 +1,64 @@
+// Energy and momentum together.
+#pragma once
+
+#include "hamflow/methods/eg.hpp"
+#include "hamflow/run/method_family.hpp"
+#include "newton_family.hpp"
+
+namespace hamflow::families {
+
+struct Eg {
+  static const BoundOptions<EgOptions>& options() {
+    static const BoundOptions<EgOptions> all = [] {
+      BoundOptions<EgOptions> list{
+          bind_number({.name = "degree",
+                       .default_value = "1",
+                       .meaning = "polynomial degree in time, and Gauss points; the order is twice that",
+                       .range = Range::whole_from(1, 3),
+                       .position = 1},
+                      &EgOptions::degree)};
+      add_newton_options(list);
+      return list;
+    }();
+    return all;
+  }
+
+  static MethodFamily declared() {
+    return {
+        .name = "eg",
+        .meaning = "enhanced elements that keep energy, linear and angular momentum of bodies in Cartesian coordinates",
+        .methods = {"eg"},
+        .options = declarations_of(options()),
+        .rank = 2,
+        .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+        .not_fast = "an implicit step needs the exact force",
+        .representatives = {"eg(1)", "eg(2)", "eg(3)"},
+        .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
+        .needs =
+            [](std::size_t) {
+              return "forces along the lines between bodies or to a centre, functions of the distance: n-body, "
+                     "solar-system, central-force in Cartesian coordinates";
+            },
+        .advice =
+            [](std::size_t) {
+              return MethodAdvice{.take =
+                                      "energy and angular momentum have both to be exact, for bodies or a central "
+                                      "force in Cartesian coordinates",
+                                  .avoid =
+                                      "H has no such forces: cg; bits have to come back (lattice), or many cheap steps "
+                                      "do: kahan-li8, rkn8-s19"};
+            },
+        .refused = [](const Texts& given) { return refused_together(options(), given); },
+        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const Texts& given, F&& f) {
+    return f(hamflow::Eg{read(given)});
+  }
+
+ private:
+  static EgOptions read(const Texts& given) { return read_newton(options(), given); }
+};
+
+}  // namespace hamflow::families

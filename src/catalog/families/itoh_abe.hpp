@@ -1,0 +1,49 @@
+// The discrete gradient of coordinate increments.
+#pragma once
+
+#include "hamflow/methods/itoh_abe.hpp"
+#include "hamflow/run/method_family.hpp"
+#include "newton_family.hpp"
+
+namespace hamflow::families {
+
+struct ItohAbe {
+  static const BoundOptions<NewtonOptions>& options() {
+    static const BoundOptions<NewtonOptions> all = [] {
+      BoundOptions<NewtonOptions> list;
+      add_newton_options(list);
+      return list;
+    }();
+    return all;
+  }
+
+  static MethodFamily declared() {
+    return {.name = "itoh-abe",
+            .meaning = "the coordinate increments of Itoh and Abe: conserves any H, without derivatives, order 1",
+            .methods = {"itoh-abe"},
+            .options = declarations_of(options()),
+            .rank = 2,
+            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+            .not_fast = "an implicit step needs the exact force",
+            .describe = [](std::size_t, const Texts& given) { return hamflow::ItohAbe{read(given)}.info(); },
+            .needs = [](std::size_t) { return "a twice differentiable H whose formula can be recorded"; },
+            .advice =
+                [](std::size_t) {
+                  return MethodAdvice{
+                      .take = "a map that conserves the energy is to be compared that uses values of H alone",
+                      .avoid = "the solution has to be right: cg, of order 2 and more, symmetric"};
+                },
+            .refused = [](const Texts& given) { return refused_together(options(), given); },
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const Texts& given, F&& f) {
+    return f(hamflow::ItohAbe{read(given)});
+  }
+
+ private:
+  static NewtonOptions read(const Texts& given) { return read_newton(options(), given); }
+};
+
+}  // namespace hamflow::families

@@ -1,0 +1,59 @@
+// The Lobatto pair IIIA-IIIB.
+#pragma once
+
+#include "hamflow/methods/lobatto.hpp"
+#include "hamflow/run/method_family.hpp"
+#include "newton_family.hpp"
+
+namespace hamflow::families {
+
+struct Lobatto {
+  static const BoundOptions<LobattoOptions>& options() {
+    static const BoundOptions<LobattoOptions> all = [] {
+      BoundOptions<LobattoOptions> list{bind_number({.name = "stages",
+                                                     .default_value = "2",
+                                                     .meaning = "of the pair; the order is 2 stages - 2",
+                                                     .range = Range::whole_from(2, 10),
+                                                     .position = 1},
+                                                    &LobattoOptions::stages)};
+      add_newton_options(list);
+      return list;
+    }();
+    return all;
+  }
+
+  static MethodFamily declared() {
+    return {.name = "lobatto-3a-3b",
+            .meaning =
+                "the partitioned Runge-Kutta pair of Lobatto: symplectic, of any even order, for any twice "
+                "differentiable H",
+            .methods = {"lobatto-3a-3b"},
+            .options = declarations_of(options()),
+            .rank = 2,
+            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+            .not_fast = "an implicit step needs the exact force",
+            .representatives = {"lobatto-3a-3b(2)", "lobatto-3a-3b(3)", "lobatto-3a-3b(4)"},
+            .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
+            .needs = [](std::size_t) { return "a twice differentiable H"; },
+            .advice =
+                [](std::size_t) {
+                  return MethodAdvice{
+                      .take =
+                          "verlet is to be taken for an H that is not T(p) + V(q), at any even order: two stages are "
+                          "verlet where it is",
+                      .avoid = "the order has to be high for few stages: gauss; the energy has to be exact: cg"};
+                },
+            .refused = [](const Texts& given) { return refused_together(options(), given); },
+            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+  }
+
+  template <class F>
+  static auto visit(std::size_t, const Texts& given, F&& f) {
+    return f(hamflow::Lobatto{read(given)});
+  }
+
+ private:
+  static LobattoOptions read(const Texts& given) { return read_newton(options(), given); }
+};
+
+}  // namespace hamflow::families
