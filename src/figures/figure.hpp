@@ -29,6 +29,7 @@ struct FigureData : FigureSamples {
   /// H - H0 at each sample, where it was formed with more digits than those of `energy`; else empty.
   std::vector<double> energy_difference{};
   double energy_scale = 1;      // max(|H0|, |T0| + |V0|)
+  bool has_time = false;        // of H(q, p, t): the energies are H less the integral of dH/dt
   std::vector<double> curve_x;  // exact orbit, empty if unknown; NaN separates branches
   std::vector<double> curve_y;
   /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies, or the place of one; 0 otherwise.

@@ -187,7 +187,7 @@ std::vector<double> relative_energy_error(const FigureData& data) {
 
 std::string energy_error_label(const FigureData& data) {
   const std::string divisor = scale_name(data);
-  const std::string difference = energy_name + " − " + energy_start;
+  const std::string difference = energy_name + " − " + energy_start + (data.has_time ? energy_of_time : "");
   return divisor.empty() ? difference : "(" + difference + ")/" + divisor;
 }
 

@@ -15,6 +15,8 @@ namespace hamflow::figures {
 constexpr double padding = 0.06;                // between data and frame, a fraction of the range
 constexpr std::size_t most_separate_dots = 40;  // on a line over a page; more would run into each other
 inline const std::string energy_name = "{/:Italic H}";
+inline const std::string energy_of_time =
+    " − ∫ ∂{/:Italic H}/∂{/:Italic t d}{/:Italic t}";  // follows it for H(q, p, t)
 inline const std::string energy_start = "{/:Italic H}_0";
 
 /// How the n-th of `count` runs is drawn, with its name in the legend; one alone has none.

@@ -97,7 +97,7 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
   };
   all.emplace_back(file, "q", H5T_IEEE_F64LE, n, rows, ColumnText{run.coordinates, "coordinates", unit.q});
   all.emplace_back(file, "p", H5T_IEEE_F64LE, n, rows, ColumnText{run.momenta, "canonical momenta", unit.p});
-  number("energy", H5T_IEEE_F64LE, "H(q, p)", unit.energy);
+  number("energy", H5T_IEEE_F64LE, "H(q, p); of H(q, p, t) less the integral of dH/dt, which is constant", unit.energy);
   for (const InvariantColumn& each : run.invariants) {
     all.emplace_back(file, "invariants/" + each.name, H5T_IEEE_F64LE, each.size == 1 ? 0 : each.size, rows,
                      ColumnText{component_names(each), each.meaning, each.unit});

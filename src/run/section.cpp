@@ -17,14 +17,22 @@ void SectionSearch::locate(const Simulation& before_step, double before, double 
   SectionPoint best;
   best.residual = std::numeric_limits<double>::infinity();
   const auto look = [&](double theta) {
+    if (theta != theta) return 0.0;  // beside a pole the next guess is none
     failed_ = failed_ || before_step.look_part(theta, partial_) != Outcome::done;
+    if (failed_) return 0.0;  // there is no state to look at
     const double x = distance(partial_);
-    if (!failed_ && std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x)};
+    if (std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x)};
     return x;
   };
   const double theta = bracketed_root([&](double at) { return failed_ ? 0 : look(at); }, 0.0, 1.0, before, now);
   (void)look(theta);
   if (failed_) return;
+  // What is continuous has come down to its rounding, a jump or a pole has not.
+  constexpr double at_most = 0x1p-10;
+  if (!(best.residual <= at_most * std::max(std::abs(before), std::abs(now)))) {
+    ++jumps_;
+    return;
+  }
   ++points_;
   max_residual_ = std::max(max_residual_, best.residual);
   found_(best);

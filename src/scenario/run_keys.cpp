@@ -94,7 +94,8 @@ const RunKeys& run_keys() {
                   .keys = {lattice_keys().position, lattice_keys().momentum}},
       .kernel = {.name = "kernel",
                  .default_value = "exact",
-                 .meaning = "fast: 1/sqrt(u) and its cube by estimate and series (AVX-512), other bits",
+                 .meaning = "fast: 1/sqrt(u) and its cube by estimate and series (AVX-512), other bits; for few "
+                            "bodies, many are slower",
                  .type = OptionType::word,
                  .words = {"exact", "fast"}},
       .threads = {.name = "threads",

@@ -67,6 +67,15 @@ void ScenarioReader::read_orbit(TomlTable& table) {
   const bool has_these = by_keys != nullptr && std::all_of(by_keys->keys.begin(), by_keys->keys.end(),
                                                            [&](const std::string& key) { return orbit.has(key); });
   if (!orbit.has("kind")) {
+    if (!has_these && kinds.empty() && by_keys != nullptr) {
+      for (const std::string& key : by_keys->keys) {
+        orbit.know(key);
+        if (!orbit.has(key)) orbit.missing(key, "a number: a start takes " + joined(by_keys->keys) + " together");
+      }
+      orbit.know("direction");
+      orbit.finish();
+      return;
+    }
     if (!has_these) {
       orbit.missing("kind", joined(kinds) + (by_keys == nullptr ? ""
                                                                 : (kinds.empty() ? "" : "; or, without kind, ") +
@@ -79,6 +88,16 @@ void ScenarioReader::read_orbit(TomlTable& table) {
     orbit.know("kind");
     start = by_keys;
   } else {
+    if (kinds.empty()) {
+      orbit.complain("kind",
+                     orbit.found("kind") + "; allowed without: " +
+                         (by_keys == nullptr ? "this problem has no starts by geometry" : joined(by_keys->keys)));
+      for (const StartInfo& any : info.starts) orbit.know_all(any.keys);
+      orbit.know("kind");
+      orbit.know("direction");
+      orbit.finish();
+      return;
+    }
     const auto kind = orbit.text(kind_key(kinds));
     if (!kind) return;
     start =

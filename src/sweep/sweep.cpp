@@ -162,6 +162,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   ParameterShape shape;
   MemberStart start{scenario.start_q, scenario.start_p, {}, evaluate_number<double>(request.dt)};
   std::string key = request.problem + '\n' + request.method.name + '\n' + request.arithmetic + '\n' + request.kernel;
+  for (const auto& [option, value] : request.method.options) key += '\n' + option + '=' + value;
   for (const auto& [choice, value] : request.variant) key += '\n' + choice + '=' + value;
   for (const ParameterInfo& info : scenario.problem->info.parameters) {
     if (!parameters.has(info.name)) continue;

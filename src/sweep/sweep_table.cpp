@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hdf5_text.hpp"
 #include "whole_file.hpp"
@@ -216,6 +217,9 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "problem", request.problem);
   write_attribute(id, "arithmetic", request.arithmetic);
   write_attribute(id, "kernel", request.kernel);
+  if (request.kernel == "fast") {
+    write_attribute(id, "instruction_set", std::string(name(fast_kernel_instruction_set())));
+  }
   write_text_dataset(id, "scenario", sweep.text());
   for (const SweepColumn& column : columns_of(sweep)) write_column(id, column);
   for (const SweepColumn& column : section_columns_of(sweep)) write_column(id, column);

@@ -108,6 +108,7 @@ RunForFigure read_for_figure(const fs::path& run) {
   const Texts& parameters = scenario.request.parameters;
   RunForFigure result;
   FigureData& data = result.data;
+  data.has_time = problem.structure && problem.structure->time;
   const StateNames names = state_names(problem, parameters, samples.q.size());
   data.coordinates = names.q;
   data.momenta = names.p;

@@ -374,6 +374,32 @@ steps = 50
             self.assertIn(words, text, new)
 
 
+class FallsIntoTheCentre(FormulaCase):
+    def test_typed_fields_run_as_built_in_ones(self):
+        found = []
+        for potential in ['potential = "kepler"', 'potential = "formula"\nV = "-1/r"']:
+            self.write("d.toml", f"""
+[problem]
+name = "central-force"
+{potential}
+orbit = {{ energy = -0.5, angular_momentum = 0 }}
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 20
+""")
+            done = self.summary("d.toml")
+            self.assertTrue(done["orbit"]["falls_into_centre"])
+            found.append(done["final"]["q"][0])
+        self.assertAlmostEqual(found[0], found[1], delta=1e-14)
+
+    def test_starts_of_a_typed_field_have_no_kind(self):
+        self.write("d.toml", """[problem]\nname = "central-force"\npotential = "formula"\nV = "-1/r"\norbit = { kind = "circle", r0 = 1 }
+[method]\nname = "stv4"\n[run]\ndt = 0.01\nsteps = 20\n""")
+        self.assertIn("allowed without: energy, angular_momentum", self.hamflow("run", "d.toml", "--out", "none", status=2).stderr)
+
+
 class Expressions(FormulaCase):
     def test_sections_on_expressions(self):
         by_name = self.summary("b.toml", "--set", "run.section={ coordinate = 'q1', value = 0.05 }")
@@ -389,6 +415,50 @@ class Expressions(FormulaCase):
         self.assertGreater(len(q), 10)
         for (x, y), (p_x, p_y) in zip(q, p, strict=True):
             self.assertAlmostEqual(x * p_y - y * p_x, 0, delta=1e-15)
+
+    def test_jumps_and_poles_are_no_points(self):
+        self.write("o.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2 + x^2/2"
+initial = { q = [2], p = [0] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 400
+section = { expression = "x", direction = 0 }
+""")
+        zeros = self.summary("o.toml")["section"]["points"]
+        self.assertEqual(zeros, 13)  # of cos(t) up to t = 40
+        for jumping in ["1/x", "x/abs(x)"]:
+            found = self.summary("o.toml", "--set", f'run.section={{expression="{jumping}",direction=0}}')["section"]
+            self.assertEqual(found["points"], 0, jumping)
+            self.assertEqual(found["message"], "13 changes of sign were no zeros: the expression jumps there, or has a pole")
+        found = self.summary("o.toml", "--set", 'run.section={expression="tan(x)",direction=0}')["section"]
+        self.assertEqual(found["points"], zeros)
+        self.assertLess(found["max_residual"], 1e-14)
+        self.assertIn("no zeros", found["message"])
+
+    def test_a_section_of_a_run_that_fails(self):
+        """The partial step fails at the first look, before there is any state."""
+        self.write("l.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2 + sqrt(x^2) + log(x)"
+initial = { q = [0.890625], p = [0] }
+[method]
+name = "rk4"
+[run]
+dt = 0.02
+steps = 100
+section = { coordinate = "p_x", direction = 0 }
+""")
+        done = self.hamflow("run", "l.toml", "--out", "none", "--json", "--quiet", status=1)
+        self.assertEqual(json.loads(done.stdout)["status"], "failed")
+        self.assertIn("a partial step failed", json.loads(done.stdout)["section"]["message"])
 
     def test_wrong_sections(self):
         for section, words in (

@@ -43,6 +43,29 @@ steps = {steps}
 """
 
 
+class OptionsOfMethods(CommandCase):
+    def test_members_in_lanes_have_their_own(self):
+        self.write("t.toml", """
+[problem]
+name = "formula"
+coordinates = ["q"]
+hamiltonian = "(q^2 + 1)*(p^2 + 1)/2"
+initial = { q = [-3], p = [0] }
+[method]
+name = "tao4"
+[run]
+dt = 0.02
+steps = 100
+""")
+        found = {}
+        for lanes in ["none", "generic", "auto"]:
+            done = self.hamflow("sweep", "t.toml", "--vary", "method.omega=5,20,40", "--lanes", lanes, "--out", "none", "--json", "--quiet")
+            found[lanes] = [row["final"] for row in json.loads(done.stdout)["rows"]]
+        self.assertEqual(len({row["q"][0] for row in found["none"]}), 3)
+        self.assertEqual(found["none"], found["generic"])
+        self.assertEqual(found["none"], found["auto"])
+
+
 class Sweep(CommandCase):
     def sweep(self, *arguments, status=0):
         done = self.hamflow("sweep", *arguments, "--out", "none", "--json", "--quiet", status=status)

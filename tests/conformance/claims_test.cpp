@@ -42,6 +42,7 @@ bool stands_for_others(const std::string& name) {
   const MethodSpec spec = parse_method(name);
   // Of the elements the ends: five points, and as many as it takes. The adaptive references are tested by themselves.
   if (spec.name == "cg") return name == "cg(1,5)" || name == "cg(1,auto)";
+  if (spec.name == "tao4") return false;  // three steps of tao2
   if (describe(spec).own_substeps) return false;
   if (!splitting_named(spec.name)) return true;
   const std::vector<std::string> chosen{"euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "sb3a-4"};

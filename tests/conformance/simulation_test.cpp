@@ -167,9 +167,9 @@ TEST(Simulation, AdvancingAllocatesNothing) {
     if (request.method.name == "cg" && request.arithmetic == "double-double") continue;
     const auto simulation = make_simulation(request);
     // Vectors of any size keep the memory of the first steps, and swap it at the ends of blocks; a step is recorded
-    // once after some hundred of them.
+    // once after some hundred of them, the programs of an element after 500 runs of each.
     for (int block = 0; block < 3; ++block) (void)simulation->advance(20);
-    if (digits_beyond_double(request.arithmetic) == 0) (void)simulation->advance(200);
+    if (digits_beyond_double(request.arithmetic) == 0) (void)simulation->advance(600);
     const long long before = test::allocations();
     const Outcome outcome = simulation->advance(steps);
     EXPECT_EQ(test::allocations(), before) << label(request);

@@ -48,11 +48,13 @@ class SectionSearch {
   void give_up() { failed_ = true; }
   std::int64_t points() const { return points_; }
   double max_residual() const { return max_residual_; }
+  /// Changes of sign that were no zeros: the expression jumps there, or has a pole.
+  std::int64_t jumps() const { return jumps_; }
   /// Whether a step of the search failed: no points are sought after that.
   bool failed() const { return failed_; }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(failed_, points_, max_residual_);
+    ar(failed_, points_, jumps_, max_residual_);
   }
 
  private:
@@ -60,6 +62,7 @@ class SectionSearch {
   std::function<void(const SectionPoint&)> found_;
   bool failed_ = false;
   std::int64_t points_ = 0;
+  std::int64_t jumps_ = 0;
   double max_residual_ = 0;
   Frame partial_;
 };
@@ -76,6 +79,7 @@ class SectionFinder final : public Observer {
   void archive(Reader& ar) override;
   std::int64_t points() const { return search_.points(); }
   double max_residual() const { return search_.max_residual(); }
+  std::int64_t jumps() const { return search_.jumps(); }
   bool failed() const { return search_.failed(); }
 
  private:

@@ -14,7 +14,8 @@ struct Tao {
          .meaning = "frequency of the springs between the two copies of the state, 1/time: above the second "
                     "derivatives of H by q and by p, or the copies part; the error grows as omega dt^order, "
                     "so that omega dt stays below 1/4",
-         .range = Range::positive},
+         .range = Range::positive,
+         .position = 1},
         &TaoOptions::omega)};
     return all;
   }

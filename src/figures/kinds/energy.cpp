@@ -50,12 +50,18 @@ Page page(const Figure& figure) {
     range.include(std::min(start + scale, most));
   }
   panel.y = fit_axis(range, padding, {6});
-  panel.y_label = energy_name;
+  panel.y_label = energy_name + (figure.runs.front().has_time ? energy_of_time : "");
   return {figure.runs.front().title, {panel}};
 }
 }  // namespace energy
 
-extern const FigureKind energy_figure{
-    "energy", "the energy H over time", 5, never, energy::obstacle, any_runs, no_columns, energy::page};
+extern const FigureKind energy_figure{"energy",
+                                      "the energy H over time, of H(q, p, t) less the integral of dH/dt",
+                                      5,
+                                      never,
+                                      energy::obstacle,
+                                      any_runs,
+                                      no_columns,
+                                      energy::page};
 
 }  // namespace hamflow::figures

@@ -24,7 +24,16 @@ class SectionMeasure final : public Measure {
   Observer& observer() override { return finder_; }
   Json summary() const override {
     Json all{{"points", finder_.points()}, {"max_residual", finder_.max_residual()}};
-    if (finder_.failed()) all["message"] = "a partial step failed: no points after it were sought";
+    std::string message;
+    if (finder_.jumps() > 0) {
+      message = fmt::format("{} of sign {}: the expression jumps there, or has a pole",
+                            finder_.jumps() == 1 ? "1 change" : fmt::format("{} changes", finder_.jumps()),
+                            finder_.jumps() == 1 ? "was no zero" : "were no zeros");
+    }
+    if (finder_.failed()) {
+      message += (message.empty() ? "" : "; ") + std::string("a partial step failed: no points after it were sought");
+    }
+    if (!message.empty()) all["message"] = message;
     return all;
   }
 
@@ -42,8 +51,9 @@ MeasureKind measure_section() {
               -> std::unique_ptr<Measure> { return std::make_unique<SectionMeasure>(scenario, simulation, recorder); },
           .text =
               [](const Json& found) {
-                return fmt::format("{} points, at most {} off it", found["points"].get<std::int64_t>(),
-                                   number_text(found["max_residual"], "{:.2g}"));
+                return fmt::format("{} points, at most {} off it{}", found["points"].get<std::int64_t>(),
+                                   number_text(found["max_residual"], "{:.2g}"),
+                                   found.contains("message") ? "; " + found["message"].get<std::string>() : "");
               }};
 }
 
