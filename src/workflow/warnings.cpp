@@ -50,6 +50,7 @@ double period_of_orbit(const Json& orbit) {
 }
 
 void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns, Json& all) {
+  if (describe(scenario.request.method).varies_steps) return;  // dt is the first of many lengths
   const auto seen = turns.fastest();
   double dt = turns.longest_step();
   double period = 0;
