@@ -165,9 +165,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("hamflow", type=pathlib.Path)
     parser.add_argument("studies", nargs="+", choices=["flows", "orders", "energy", "sextic", "binomial"])
-    parser.add_argument("--steps", type=int, default=1_000_000, help="of study energy, a multiple of 512")
+    parser.add_argument("--steps", type=int, default=1_000_000, help="of study energy, rounded up to a multiple of 512")
     given = parser.parse_args()
-    studies = Studies(given.hamflow.resolve(), given.steps // 512 * 512)
+    studies = Studies(given.hamflow.resolve(), -(-given.steps // 512) * 512)
     for name in given.studies:
         getattr(studies, name)()
 
