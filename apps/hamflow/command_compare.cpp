@@ -53,6 +53,9 @@ class RequestReader {
         one.method = method;
         if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
         if (why_not.empty()) why_not = refused_fast_step(one);
+        if (why_not.empty() && describe(method).varies_steps) {
+          why_not = "allowed step_control=fixed: steps of varying length do not end at the same time";
+        }
         if (why_not.empty()) {
           request.methods.push_back(method);
         } else {

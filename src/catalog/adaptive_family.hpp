@@ -6,6 +6,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
+#include "hamflow/methods/step_control.hpp"
 #include "hamflow/run/method_family.hpp"
 
 namespace hamflow::families {
@@ -20,10 +21,10 @@ inline BoundOptions<AdaptiveOptions> adaptive_options(int tolerance_position) {
                    .range = Range::between(0, 1),
                    .position = tolerance_position},
                   &AdaptiveOptions::tolerance);
-  return {tolerance, bind_word({.name = "step_control",
+  return {tolerance, bind_word({.name = step_control_option,
                                 .default_value = "adaptive",
                                 .meaning = "fixed: one sub-step a step, whatever its error"},
-                               &AdaptiveOptions::fixed, {{"adaptive", false}, {"fixed", true}})};
+                               &AdaptiveOptions::fixed, {{"adaptive", false}, {fixed_steps, true}})};
 }
 
 /// "taylor(order=20,tolerance=1e-10)": the options that were given, in the order of their declaration.

@@ -8,6 +8,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/recorded_step.hpp"
+#include "step_control.hpp"
 #include "typed_problem.hpp"
 
 namespace hamflow {
@@ -75,7 +76,7 @@ Texts complete(const ProblemInfo& info, const Texts& given) {
 }
 
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
-  if (problem.accepts(spec)) return {};
+  if (problem.accepts(spec)) return refused_monitor(spec, problem);
   // All of them, or, of the many, those with which to begin.
   std::vector<std::string> accepted;
   std::vector<std::string> first;
@@ -103,6 +104,9 @@ std::string refused_fast_kernel(const Request& request) {
   if (request.arithmetic == "lattice") return "on the lattice forces are exact; allowed exact";
   const std::string& not_fast = find_method(request.method.name).family->not_fast;
   if (!not_fast.empty()) return not_fast + "; allowed exact";
+  if (step_control_of(request.method).reversible) {
+    return "the fast kernel is for equal steps, which are recorded; allowed exact";
+  }
   if (digits_beyond_double(request.arithmetic) > 0) {
     return "the fast kernel is for double and compensated; allowed exact";
   }
@@ -122,6 +126,9 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
   if (request.threads == 1) return {};
   if (request.threads < 1 || request.threads > most_threads) {
     return "allowed a whole number from 1 to " + std::to_string(most_threads);
+  }
+  if (step_control_of(request.method).reversible) {
+    return "threads share steps of equal length only; allowed 1, or step_control = \"fixed\"";
   }
   if (!problem.has_pairwise_forces) {
     std::vector<std::string> all;
@@ -176,7 +183,8 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const int digits = digits_beyond_double(request.arithmetic);
   const MethodFamily& family = *find_method(request.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
-  if (digits > 0) return problem.simulate_erased(full);
+  // Steps of varying length are taken behind virtual calls, one by one, in every arithmetic.
+  if (digits > 0 || step_control_of(full.method).reversible) return problem.simulate_erased(full);
   const bool of_any_size = problem.dimension == 0;
   if (of_any_size && full.arithmetic != "lattice") {
     auto simulation = problem.simulate_erased(full);

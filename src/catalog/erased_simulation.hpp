@@ -6,6 +6,7 @@
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
+#include "varying_steps.hpp"
 #include "visit_erased.hpp"
 
 namespace hamflow {
@@ -74,12 +75,16 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
         using P = std::remove_const_t<decltype(problem)>;
         auto method = recipe.template bind<P, A>(problem);
         using Ordinary = SimulationOf<P, decltype(method), A>;
+        const auto requested = [&](auto simulation) {
+          vary_steps_as_requested(*simulation, run, request);
+          return simulation;
+        };
         if constexpr (recorded) {
-          return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
+          return requested(std::make_unique<RecordedSimulation<P, decltype(method), A>>(
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
-              request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch);
+              request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch));
         } else {
-          return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
+          return requested(std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic));
         }
       }
     };

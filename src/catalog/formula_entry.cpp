@@ -21,18 +21,20 @@ using FormulaFace = Erased<R, Capability::smooth>;
 using ModelPointer = std::shared_ptr<const formula::Model>;
 
 template <class R>
-ErasedFunctions<R> functions_of(const ModelPointer& model, const Parameters<R>& parameters) {
+ErasedFunctions<R> functions_of(const ModelPointer& model, const Parameters<R>& parameters,
+                                TypedCentre centre = TypedCentre::none) {
   const auto bound = std::make_shared<const formula::BoundModel<R>>(model, parameters);
   ErasedFunctions<R> all{capabilities_of(model->structure()), model->degrees(),
-                         std::make_shared<FormulaFunctions<R, R>>(bound),
+                         std::make_shared<FormulaFunctions<R, R>>(bound, centre),
                          std::make_shared<FormulaFunctions<R, Trace<R>>>(bound), nullptr};
   if constexpr (std::is_same_v<R, double>) all.dual = std::make_shared<FormulaFunctions<R, Dual<double, 1>>>(bound);
   return all;
 }
 
 template <class R>
-ErasedFunctions<R> functions_of(const ModelPointer& model, const Texts& parameters) {
-  return functions_of<R>(model, Parameters<R>(parameters));
+ErasedFunctions<R> functions_of(const ModelPointer& model, const Texts& parameters,
+                                TypedCentre centre = TypedCentre::none) {
+  return functions_of<R>(model, Parameters<R>(parameters), centre);
 }
 
 std::string refused_size(const ModelPointer& model, std::size_t size) {
@@ -47,6 +49,10 @@ using StateOf = Start<R, dynamic>;
 struct Typed {
   ModelPointer model;
   std::optional<TypedField> field;
+  TypedCentre centre() const {
+    if (!field) return TypedCentre::none;
+    return field->polar ? TypedCentre::of_radius : TypedCentre::origin;
+  }
 };
 
 /// By energy and angular momentum, as CentralForce does it.
@@ -116,7 +122,7 @@ std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, cons
   constexpr std::size_t most_operations = 2000;
   auto element = visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
     if constexpr (std::is_same_v<M, Cg>) {
-      if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, recipe.options);
+      if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, request, recipe.options);
     }
     return nullptr;
   });
@@ -126,7 +132,7 @@ std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, cons
 template <class R>
 std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& request) {
   const ModelPointer& model = typed.model;
-  const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters);
+  const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters, typed.centre());
   const StateOf<R> s = start_of<R>(typed, functions.template as<Capability::smooth>(), request);
   const ErasedRun<R> run{functions, s.q, s.p, evaluate_number<R>(request.dt)};
   if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(*model, run, request));
@@ -171,6 +177,7 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
   e.momenta = model->momenta();
   e.structure = model->structure();
   e.dimension = model->size();
+  e.has_distance = field.has_value();
   e.refused_size = [model](const Texts&, std::size_t size) { return refused_size(model, size); };
   e.refused_parameters = [](const Texts&) { return std::pair<std::string, std::string>(); };
   e.refused_start = [](const Texts&, const std::vector<double>&) { return std::string(); };

@@ -3,6 +3,7 @@
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "step_control.hpp"
 
 namespace hamflow {
 
@@ -55,6 +56,10 @@ class OptionReader {
   }
   const OptionInfo& next() {
     if (at_ < positional_.size()) return *positional_[at_++];
+    if (positional_.empty()) {
+      throw Error(method_ + ": found an option without a name; allowed by name: " +
+                  joined(options_, [](const OptionInfo& o) { return o.name + "=VALUE"; }));
+    }
     throw Error(method_ + ": found more than " + std::to_string(positional_.size()) +
                 " options without a name; allowed " + method_ + "(" +
                 joined(positional_, [](const OptionInfo* o) { return o->name; }) + "), the others by name: NAME=VALUE");
@@ -81,6 +86,7 @@ std::optional<RefusedOption> refused_option(const MethodSpec& spec) {
       return RefusedOption{name, std::move(refused)};
     }
   }
+  if (auto refused = refused_step_control(spec)) return refused;
   if (!family.refused) return std::nullopt;
   auto [name, message] = family.refused(spec.options);
   return message.empty() ? std::nullopt : std::optional(RefusedOption{std::move(name), std::move(message)});
@@ -95,7 +101,6 @@ MethodSpec parse_method(const std::string& text) {
   const std::string rest = trimmed(text.substr(open));
   if (rest.back() != ')') throw Error("method '" + text + "' lacks its closing parenthesis");
   const std::string inside = trimmed(rest.substr(1, rest.size() - 2));
-  if (options.empty()) throw Error("method '" + spec.name + "' takes no options");
   if (inside.empty()) return spec;
   OptionReader reader(spec.name, options);
   for (const std::string& part : split_list(inside)) reader.read(part, spec.options);

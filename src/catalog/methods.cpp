@@ -6,11 +6,16 @@
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/splitting_named.hpp"
 #include "recipes.hpp"
+#include "step_control.hpp"
 
 namespace hamflow {
 
 std::span<const MethodFamily> method_families() {
-  static const std::vector<MethodFamily> all = families::All::declared();
+  static const std::vector<MethodFamily> all = [] {
+    std::vector<MethodFamily> families = families::All::declared();
+    for (MethodFamily& family : families) add_step_control(family);
+    return families;
+  }();
   return all;
 }
 
@@ -52,7 +57,9 @@ std::size_t family_number(const MethodEntry& method) {
 
 MethodInfo describe(const MethodSpec& spec) {
   const MethodEntry& entry = find_method(spec.name);
-  return entry.family->describe(entry.index, spec.options);
+  MethodInfo info = entry.family->describe(entry.index, spec.options);
+  const StepControl control = step_control_of(spec);
+  return control.reversible ? with_varying_steps(std::move(info), control.monitor) : info;
 }
 
 MethodAdvice advice(const MethodSpec& spec) {

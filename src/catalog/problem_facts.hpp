@@ -21,6 +21,7 @@ class ProblemFacts : ProblemStart<Family> {
     ProblemEntry e;
     e.info = P::info();
     e.dimension = n == dynamic ? 0 : n;
+    e.has_distance = HasDistanceRate<P>;
     e.refused_size = refused_size;
     e.refused_parameters = [](const Texts& parameters) -> std::pair<std::string, std::string> {
       if constexpr (HasRefusedParameters<P>) {

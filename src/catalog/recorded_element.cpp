@@ -4,6 +4,7 @@
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "recorded_element.hpp"
+#include "varying_steps.hpp"
 
 namespace hamflow {
 
@@ -21,7 +22,8 @@ auto recorder(const ErasedFunctions<double>& functions, const CgOptions& options
 
 }  // namespace
 
-std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const CgOptions& options) {
+std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const Request& request,
+                                                      const CgOptions& options) {
   constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
   using P = Erased<double, Capability::smooth>;
   const std::size_t n = run.functions.size;
@@ -36,7 +38,10 @@ std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& r
   using A = Compensated<double>;
   using Method = ImplicitMethod<P, A, RecordedElement<P>>;
   const P problem = run.functions.as<Capability::smooth>();
-  return std::make_unique<SimulationOf<P, Method, A>>(problem, Method(problem, recorded), run.q, run.p, run.h);
+  auto simulation =
+      std::make_unique<SimulationOf<P, Method, A>>(problem, Method(problem, recorded), run.q, run.p, run.h);
+  vary_steps_as_requested(*simulation, run, request);
+  return simulation;
 }
 
 }  // namespace hamflow

@@ -7,6 +7,8 @@
 namespace hamflow {
 
 /// Null where the problem has more coordinates.
-std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const CgOptions& options);
+/// @param request whether its steps vary
+std::unique_ptr<Simulation> simulate_recorded_element(const ErasedRun<double>& run, const Request& request,
+                                                      const CgOptions& options);
 
 }  // namespace hamflow

@@ -29,6 +29,7 @@ class Forwarding : public Functions<S> {
   void velocity_of(const V& q, const V& p, V& v) const override { exact_->velocity_of(q, p, v); }
   void momentum_of(const V& q, const V& v, V& p) const override { exact_->momentum_of(q, v, p); }
   V rotation() const override { return exact_->rotation(); }
+  S distance_rate(const V& q, const V& v) const override { return exact_->distance_rate(q, v); }
   std::size_t radial_space() const override { return exact_->radial_space(); }
   std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override { return exact_->radial_terms(); }
   RadialLaw<S> radial_law(const S& u) const override { return exact_->radial_law(u); }

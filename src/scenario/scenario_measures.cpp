@@ -60,6 +60,11 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
                             " with a method that carries a second copy of the state; allowed with the others, e.g. cg, "
                             "rk4: its steps are no map of (q, p) that could be differentiated");
   }
+  if (has_method() && describe(scenario_.request.method).varies_steps) {
+    table.complain(key, table.found(key) +
+                            " with steps of varying length; allowed with step_control = \"fixed\": the lengths depend "
+                            "on the state and are not differentiated");
+  }
   const auto& structure = scenario_.problem != nullptr ? scenario_.problem->structure : std::nullopt;
   if (structure && structure->time) {
     table.complain(key, table.found(key) + " with an H that depends on t; allowed with H(q, p): steps of H(q, p, t) " +

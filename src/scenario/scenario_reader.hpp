@@ -72,6 +72,7 @@ class ScenarioReader {
   void read_run(TomlTable& table);
   void read_kernel(TomlTable& table);
   void read_length(TomlTable& table);
+  bool refuse_time(TomlTable& table, const std::string& key, const std::string& allowed);
   void read_measures(TomlTable& table);
   void refuse_derivative(TomlTable& table, const std::string& key);
   void read_section(TomlTable& table);

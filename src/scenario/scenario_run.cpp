@@ -68,6 +68,14 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
 }
 
+/// True, with a complaint, for a key of times that no step ends at where t is a part of the state.
+bool ScenarioReader::refuse_time(TomlTable& table, const std::string& key, const std::string& allowed) {
+  if (!table.has(key) || !has_method() || !describe(scenario_.request.method).varies_steps) return false;
+  table.complain(key, table.found(key) + " with " + describe(scenario_.request.method).name + "; allowed " + allowed +
+                          ": with steps of varying length t is a part of the state");
+  return true;
+}
+
 void ScenarioReader::read_length(TomlTable& table) {
   const std::string& steps_key = run_keys().steps.name;
   const std::string& end_key = run_keys().t_end.name;
@@ -75,6 +83,7 @@ void ScenarioReader::read_length(TomlTable& table) {
   const bool by_time = table.has(end_key);
   const auto steps = table.whole(run_keys().steps);
   const auto t_end = table.number(run_keys().t_end);
+  if (refuse_time(table, end_key, steps_key)) return;
   if (by_steps && by_time) {
     table.complain(end_key, "found " + steps_key + " and " + end_key + " together; allowed exactly one of them");
   } else if (!by_steps && !by_time) {
@@ -108,7 +117,7 @@ void ScenarioReader::read_samples(TomlTable& table) {
   const auto every = table.whole(keys.record_every);
   scenario_.record_every = every ? *every : default_record_every(scenario_.steps);
   const auto times = table.numbers(keys.record);
-  if (!times) return;
+  if (!times || refuse_time(table, keys.record.name, keys.record_every.name)) return;
   if (table.has(keys.record_every.name)) {
     table.complain(keys.record.name,
                    "found " + keys.record.name + " and " + keys.record_every.name + " together; allowed one of them");

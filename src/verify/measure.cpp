@@ -61,6 +61,12 @@ MethodSpec measurable(const MethodSpec& method) {
 }  // namespace
 
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method) {
+  if (describe(method).varies_steps) {
+    throw Error(
+        "found " + describe(method).name +
+        "; allowed step_control=fixed: what is measured are maps of (q, p), and with steps of varying length the "
+        "density of steps is a part of the state");
+  }
   const ProblemEntry& entry = find_problem(region.problem, region.variant);
   const MethodSpec fixed = measurable(method);
   auto map = entry.step_map(complete(entry.info, region.parameters), fixed, region.centre.size() / 2);

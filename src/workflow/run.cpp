@@ -90,7 +90,7 @@ class ScenarioRun {
       : scenario_(scenario),
         settings_(settings),
         simulation_(make_simulation(scenario.request)),
-        turns_(scenario.dt, !simulation_->method().own_substeps) {
+        turns_(scenario.dt, takes_equal_steps(simulation_->method())) {
     const Checkpoint* const from = last != nullptr && !has_only_begun(*last) ? last : nullptr;
     if (from != nullptr) {
       restore(*simulation_, *from);

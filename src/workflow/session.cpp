@@ -81,7 +81,7 @@ void Session::restart() {
   reference_ = start.invariants;
   offset_.assign(start.invariants.size(), 0);
   worst_invariants_.assign(sizes_.size(), 0);
-  turns_ = TurnWatch(evaluate_number<double>(request_.dt), !simulation_->method().own_substeps);
+  turns_ = TurnWatch(evaluate_number<double>(request_.dt), takes_equal_steps(simulation_->method()));
 }
 
 void Session::set_step_length(const std::string& text) {
@@ -176,7 +176,7 @@ void Session::change(const Request& next, const std::string& what) {
   simulation_ = std::move(other);
   request_ = from_here;
   changes_.push_back({step_before_, time_before_, what});
-  turns_.restart(step_before_, evaluate_number<double>(request_.dt), !simulation_->method().own_substeps);
+  turns_.restart(step_before_, evaluate_number<double>(request_.dt), takes_equal_steps(simulation_->method()));
 }
 
 Scenario Session::present() const {

@@ -21,19 +21,26 @@ namespace hamflow {
 namespace {
 
 const std::string with_everything = "cg(diagnostics=true,on_divergence=halve)";
+const std::string of_any_length = "verlet(step_control=reversible)";
 const std::string of_degree = "cg(2,auto,diagnostics=true,on_divergence=halve)";
 
 /// One method of each kind of memory.
 bool is_of_each_kind(const std::string& name) {
   static const std::set<std::string> each{"verlet",        "euler-b", "chin4a", "rk4",    "boris", "cg",
-                                          with_everything, of_degree, "dop853", "taylor", "tao4"};
+                                          with_everything, of_degree, "dop853", "taylor", "tao4",  of_any_length};
   return each.contains(name);
 }
 
 /// Every method and arithmetic on every problem, with what cg remembers beyond a plain step.
 std::vector<Request> every_request() {
-  std::vector<std::string> names{"cg(quadrature=5,tolerance=1e-13)", with_everything, of_degree,
-                                 "gauss(3,iteration=fixed-point)"};
+  std::vector<std::string> names{"cg(quadrature=5,tolerance=1e-13)",
+                                 with_everything,
+                                 of_degree,
+                                 "gauss(3,iteration=fixed-point)",
+                                 of_any_length,
+                                 "stv4-dkd(step_control=reversible,monitor=distance)",
+                                 "cg(1,auto,step_control=reversible)",
+                                 "tao2(step_control=reversible)"};
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
   std::vector<Request> all;
   for (const ProblemEntry& problem : problems()) {

@@ -98,6 +98,14 @@ concept HasBarycentre = requires(const P& problem, VectorOf<P, S>& x) {
   problem.to_barycentre(x, x);
 };
 
+/// distance_rate(q, v): the rate of change of the logarithm of the distance that matters most for the length of a step,
+/// from the centre or between the two bodies that are nearest to each other, where coordinates change at the rates v.
+/// Smooth, and odd in v. Default: there is no such distance.
+template <class P, class S = RealOf<P>>
+concept HasDistanceRate = requires(const P& problem, const VectorOf<P, S>& x) {
+  { problem.distance_rate(x, x) } -> std::convertible_to<S>;
+};
+
 // What is known of the motion without integrating it. Defaults: nothing.
 
 /// exact(q, p, t): the state after time t, in long double; std::nullopt where it is not known.

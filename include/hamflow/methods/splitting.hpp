@@ -215,6 +215,10 @@ class Splitting {
     return Outcome::done;
   }
 
+  /// Steps of any length follow each other: of a problem that knows it at run time the force is kept without its
+  /// factor, which no other step has.
+  void take_any_steps() { force_takes_factor_ = false; }
+
   /// To be called when the state was changed from outside.
   void invalidate() { kick_is_current_ = false; }
   /// How many threads compute the forces; the bits are the same for any number.

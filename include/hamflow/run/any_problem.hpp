@@ -111,6 +111,8 @@ class Functions {
   virtual void velocity_of(const V& q, const V& p, V& v) const = 0;
   virtual void momentum_of(const V& q, const V& v, V& p) const = 0;
   virtual V rotation() const = 0;
+  // Of bodies or a centre.
+  virtual S distance_rate(const V& q, const V& v) const = 0;
   // Of forces between bodies or to a centre.
   virtual std::size_t radial_space() const = 0;
   virtual std::vector<RadialTerm<base_scalar<S>>> radial_terms() const = 0;
@@ -322,6 +324,13 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
+  S distance_rate(const V& q, const V& v) const override {
+    if constexpr (HasDistanceRate<P, S>) {
+      return problem_.distance_rate(in(q), in(v));
+    } else {
+      absent();
+    }
+  }
   std::size_t radial_space() const override {
     if constexpr (radial) {
       return problem_.radial_space();
@@ -499,6 +508,14 @@ class AnyProblem {
                    Vector<S, dynamic>& p) const requires charge {
     on<S>().momentum_of(q, v, p);
   }
+  /// Of a problem that has it, which is known at run time only.
+  template <class S>
+  S distance_rate(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v) const {
+    return on<S>().distance_rate(q, v);
+  }
+  /// Whether states of this number type can be asked about.
+  template <class S>
+  static constexpr bool knows = (std::is_same_v<S, R> || ... || std::is_same_v<S, Others>);
   Vector<R, dynamic> rotation() const requires charge { return on<R>().rotation(); }
   std::size_t radial_space() const requires radial { return on<R>().radial_space(); }
   std::vector<RadialTerm<R>> radial_terms() const requires radial { return on<R>().radial_terms(); }

@@ -77,6 +77,7 @@ struct ProblemEntry {
   /// Whether the problem has what the method needs.
   std::function<bool(const MethodSpec&)> accepts;
   bool has_pairwise_forces = false;  // on the lattice several threads may compute them
+  bool has_distance = false;         // from a centre or between bodies, which steps can follow
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
   /// The same problem behind virtual calls: in arithmetic beyond double, and for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate_erased;

@@ -7,13 +7,17 @@
 
 namespace hamflow {
 
+/// Whether the coordinates of a typed Hamiltonian have a centre from which distances are taken.
+enum class TypedCentre { none, origin, of_radius };  // of_radius: the first coordinate is the distance
+
 /// For states of type S, with parameters of type R.
 template <class R, class S>
 class FormulaFunctions final : public Functions<S> {
  public:
   using typename Functions<S>::V;
   using typename Functions<S>::M;
-  explicit FormulaFunctions(std::shared_ptr<const formula::BoundModel<R>> model) : model_(std::move(model)) {}
+  explicit FormulaFunctions(std::shared_ptr<const formula::BoundModel<R>> model, TypedCentre centre = TypedCentre::none)
+      : model_(std::move(model)), centre_(centre) {}
 
   S energy(const V& q, const V& p) const override { return model_->template energy<S>(q, p); }
   S kinetic(const V& p) const override { return model_->template kinetic<S>(p); }
@@ -48,6 +52,17 @@ class FormulaFunctions final : public Functions<S> {
   void velocity_of(const V&, const V&, V&) const override { absent(); }
   void momentum_of(const V&, const V&, V&) const override { absent(); }
   V rotation() const override { absent(); }
+  S distance_rate(const V& q, const V& v) const override {
+    if (centre_ == TypedCentre::none) absent();
+    if (centre_ == TypedCentre::of_radius) return v[0] / q[0];
+    S along = q[0] * v[0];
+    S square = q[0] * q[0];
+    for (std::size_t i = 1; i < q.size(); ++i) {
+      along += q[i] * v[i];
+      square += q[i] * q[i];
+    }
+    return along / square;
+  }
   std::size_t radial_space() const override { absent(); }
   std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override { absent(); }
   RadialLaw<S> radial_law(const S&) const override { absent(); }
@@ -56,6 +71,7 @@ class FormulaFunctions final : public Functions<S> {
   [[noreturn]] static void absent() { throw std::logic_error("hamflow: a typed problem does not have this function"); }
 
   std::shared_ptr<const formula::BoundModel<R>> model_;
+  TypedCentre centre_;
 };
 
 /// What a typed Hamiltonian offers to methods.

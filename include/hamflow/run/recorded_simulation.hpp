@@ -38,6 +38,7 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
         watch_(watch) {}
 
   Outcome advance(std::int64_t steps) override {
+    if (Base::varies_steps()) return ordinary(steps);
     const Loop* const loop = loop_for(clock_.step_length(), steps);
     if (loop == nullptr || steps < 1) return ordinary(steps);
     values_.resize(loop->step->program.values());
@@ -65,7 +66,7 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
   }
 
   std::shared_ptr<const RecordedStep> recorded_step() override {
-    if (!*recorder_) return nullptr;
+    if (!*recorder_ || Base::varies_steps()) return nullptr;
     const double h = clock_.step_length();
     if (!step_ || step_of_ != h) {
       const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),

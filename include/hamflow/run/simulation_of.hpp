@@ -8,6 +8,7 @@
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/methods/recipe.hpp"
+#include "hamflow/methods/step_control.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/simulation_state.hpp"
 
@@ -29,6 +30,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
 
  protected:
   using State::clock_;
+  using State::density_;
   using State::probe_;
   using State::problem_;
   using State::z_;
@@ -44,8 +46,17 @@ class SimulationOf : public SimulationState<P, A, Probe> {
                Real t0 = 0)
       : State(std::move(problem), q, p, h, arithmetic, t0), method_(std::move(method)) {}
 
+  /// Reversible steps of varying length from here on, of a symmetric method; the first has the length of the equal ones
+  /// (methods/step_density.hpp, step_monitors.hpp). The time is then the sum of the lengths.
+  [[gnu::cold]] void vary_steps(typename State::Monitor monitor) {
+    State::begin_varying(std::move(monitor));
+    if constexpr (requires { method_.take_any_steps(); }) method_.take_any_steps();
+    method_.invalidate();
+  }
+
   Outcome advance(std::int64_t steps) override {
     if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
+    if (density_) return take_varying(steps);
     std::int64_t taken = 0;
     const Outcome outcome = march(steps, clock_.step_length(), taken, method_, z_, probe_);
     clock_.advance(taken);
@@ -54,11 +65,13 @@ class SimulationOf : public SimulationState<P, A, Probe> {
 
   void reverse_time() override {
     clock_.reverse();
+    if (density_) density_->reverse_time(this->monitored_rate());
     method_.invalidate();
   }
   void negate_momenta() override {
     z_.negate_momenta();
     if constexpr (requires { method_.negate_momenta(); }) method_.negate_momenta();  // of a copy that it carries
+    if (density_) density_->turn(this->monitored_rate());
     method_.invalidate();
   }
   StepDiagnostics diagnostics() const override {
@@ -69,10 +82,13 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     }
   }
   Effort effort() const override { return method_.effort(); }
-  MethodInfo method() const override { return method_.info(); }
+  MethodInfo method() const override {
+    return density_ ? with_varying_steps(method_.info(), this->monitor().name) : method_.info();
+  }
   std::string failure() const override {
+    if (const std::string why = this->unusable_density(); !why.empty()) return why;
     if constexpr (requires { method_.failure(problem_, clock_.step_length(), z_); }) {
-      return method_.failure(problem_, clock_.step_length(), z_);
+      return method_.failure(problem_, this->next_length(), z_);
     } else {
       return {};
     }
@@ -97,6 +113,20 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<SimulationOf>(*this); }
 
  private:
+  /// One by one: each knows the length of the next.
+  [[gnu::cold, gnu::noinline]] Outcome take_varying(std::int64_t steps) {
+    for (; steps > 0; --steps) {
+      if (!density_->is_usable()) return Outcome::not_converged;
+      const Real h = density_->length();
+      std::int64_t taken = 0;
+      const Outcome outcome = march(1, h, taken, method_, z_, probe_);
+      if (outcome != Outcome::done) return outcome;
+      clock_.advance(1);
+      density_->advance(h, this->monitored_rate());
+    }
+    return Outcome::done;
+  }
+
   [[gnu::cold]] Outcome show_after(const Real& part, const Real& t, Frame& frame) const override {
     if (z_.arithmetic.lost()) return Outcome::lattice_overflow;
     M method = method_;
@@ -125,7 +155,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
         return retrace(i, outcome, h, taken, method_out, z_out, probe_out);
       if (z.arithmetic.lost()) [[unlikely]]
         return retrace(i, Outcome::lattice_overflow, h, taken, method_out, z_out, probe_out);
-      if (!probe.look(problem, z.positions(), z.momenta(), clock_.time_after(i + 1))) [[unlikely]] {
+      if (!probe.look(problem, z.positions(), z.momenta(), this->time_after(i + 1, h))) [[unlikely]] {
         return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
       }
     }

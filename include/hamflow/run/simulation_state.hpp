@@ -4,12 +4,15 @@
 
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "hamflow/core/archive.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/step_clock.hpp"
+#include "hamflow/methods/step_density.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/simulation.hpp"
 
@@ -38,15 +41,16 @@ class SimulationState : public Simulation {
  public:
   using Real = typename A::Real;
   static constexpr std::size_t n = P::dimension;
+  using Monitor = StepMonitor<Real, n>;
 
   std::int64_t step() const final { return clock_.steps_taken(); }
   const PhasePoint<A, n>& state() const { return z_; }
   const P& problem() const { return problem_; }
 
-  void look(Frame& frame) const final { show(z_, clock_.time(), frame); }
+  void look(Frame& frame) const final { show(z_, time(), frame); }
   [[gnu::cold]] Outcome look_ahead(const std::string& time, Frame& frame) const final {
     const Real t = evaluate_number<Real>(time);
-    const Real part = t - clock_.time();
+    const Real part = t - SimulationState::time();
     if (abs(part) <= 4 * std::numeric_limits<Real>::epsilon() * abs(t)) {  // t_n itself is a rounded product
       look(frame);
       return Outcome::done;
@@ -58,8 +62,8 @@ class SimulationState : public Simulation {
       look(frame);
       return Outcome::done;
     }
-    const Real part = Real(theta) * clock_.step_length();
-    return show_after(part, clock_.time() + part, frame);
+    const Real part = Real(theta) * next_length();
+    return show_after(part, time() + part, frame);
   }
 
   std::vector<std::byte> bits() const final {
@@ -80,7 +84,7 @@ class SimulationState : public Simulation {
   std::vector<InvariantExcursion> invariants() const final {
     std::vector<InvariantExcursion> all;
     if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
-      const auto now = problem_.invariants(z_.positions(), z_.momenta(), clock_.time());
+      const auto now = problem_.invariants(z_.positions(), z_.momenta(), time());
       std::size_t i = 0;
       for (const std::size_t size : detail::invariant_sizes(problem_)) {
         InvariantExcursion e{{}, {}, static_cast<double>(probe_.worst(all.size()))};
@@ -109,6 +113,27 @@ class SimulationState : public Simulation {
     } else if constexpr (requires { problem_.size_of_parts(stored_q, stored_p); }) {
       scale_ = larger(scale_, problem_.size_of_parts(stored_q, stored_p));
     }
+  }
+
+  bool varies_steps() const { return density_.has_value(); }
+  const Monitor& monitor() const { return *monitor_; }
+  /// Equal steps are counted, others are added up.
+  Real time() const { return density_ ? density_->time() : clock_.time(); }
+  Real next_length() const { return density_ ? density_->length() : clock_.step_length(); }
+  /// The time after so many steps from here on, or after one of length h where steps vary.
+  Real time_after(std::int64_t steps, const Real& h) const {
+    return density_ ? Real(density_->time() + h) : clock_.time_after(steps);
+  }
+  [[gnu::cold]] void begin_varying(Monitor monitor) {
+    monitor_ = std::make_shared<const Monitor>(std::move(monitor));
+    density_.emplace(clock_.step_length(), clock_.time());
+  }
+  Real monitored_rate() const { return monitor_->rate(z_.positions(), z_.momenta()); }
+  /// Why there is no next step; empty where there is one.
+  [[gnu::cold]] std::string unusable_density() const {
+    if (!density_ || density_->is_usable()) return {};
+    return "the density of steps became " + shortest(static_cast<double>(density_->density())) +
+           ": the lengths that the monitor asks for change too much within a step";
   }
 
   /// The state after one step of length `part`, which is at time t.
@@ -159,6 +184,7 @@ class SimulationState : public Simulation {
   [[gnu::cold]] void save_state(Writer& ar) const {
     ar(kind());
     ar(z_, clock_, probe_, initial_energy_, scale_);
+    if (density_) ar(*density_);
   }
   /// What was saved, but for the method: read as a whole before anything here changes.
   struct Saved {
@@ -167,13 +193,15 @@ class SimulationState : public Simulation {
     Probe probe;
     Real initial_energy;
     Real scale;
+    std::optional<StepDensity<A>> density;
   };
   [[gnu::cold]] Saved read_state(Reader& ar) const {
     std::string of;
     ar(of);
     detail::expect_same_kind(of, kind());
-    Saved saved{z_, clock_, probe_, initial_energy_, scale_};
+    Saved saved{z_, clock_, probe_, initial_energy_, scale_, density_};
     ar(saved.z, saved.clock, saved.probe, saved.initial_energy, saved.scale);
+    if (saved.density) ar(*saved.density);
     return saved;
   }
   [[gnu::cold]] void expect_same(const Saved& saved) const {
@@ -187,6 +215,7 @@ class SimulationState : public Simulation {
     clock_ = saved.clock;
     initial_energy_ = saved.initial_energy;
     scale_ = saved.scale;
+    density_ = std::move(saved.density);
   }
 
   P problem_;
@@ -195,6 +224,8 @@ class SimulationState : public Simulation {
   StepClock<Real> clock_;
   Real initial_energy_{};
   Real scale_{};
+  std::optional<StepDensity<A>> density_;  // of reversible steps, with what decides their lengths
+  std::shared_ptr<const Monitor> monitor_;
 };
 
 }  // namespace hamflow

@@ -113,6 +113,11 @@ class CentralForce {
     const CentralDerivatives<S> d = potential_.derivatives(u);
     return {potential_.value(u), d.slope / R(2), d.curvature / R(4)};
   }
+  /// Of the distance from the centre.
+  template <class S>
+  S distance_rate(const Vector<S, 2>& q, const Vector<S, 2>& v) const {
+    return (q[0] * v[0] + q[1] * v[1]) / square(q);
+  }
   template <class S>
   Vector<S, 1> invariants(const Vector<S, 2>& q, const Vector<S, 2>& p, const S& /*t*/) const {
     return {q[0] * p[1] - q[1] * p[0]};

@@ -158,6 +158,31 @@ class Gravity {
     return {-root, first, R(-1.5) * first * inverse};
   }
 
+  /// Of d = (sum_{i<j} u_ij^-3)^(-1/6), u = r^2 + softening^2: the distance of the nearest two bodies, as they would be
+  /// alone, and smooth where another pair becomes the nearest one. Their least distance is at most (N (N - 1)/2)^(1/6)
+  /// d.
+  template <class S>
+  S distance_rate(const Vector<S, dynamic>& q, const Vector<S, dynamic>& v) const {
+    S approach(0);
+    S closeness(0);
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      for (std::size_t j = i + 1; j < masses_.size(); ++j) {
+        S u(softening_squared_);
+        S half_rate(0);  // of u
+        for (std::size_t k = 0; k < space_; ++k) {
+          const S d = q[i * space_ + k] - q[j * space_ + k];
+          u += d * d;
+          half_rate += d * (v[i * space_ + k] - v[j * space_ + k]);
+        }
+        const S inverse = R(1) / u;
+        const S weight = inverse * inverse * inverse;
+        closeness += weight;
+        approach += weight * inverse * half_rate;
+      }
+    }
+    return masses_.size() > 1 ? S(approach / closeness) : S(0);
+  }
+
   const R& total_mass() const { return total_mass_; }
   /// q_i <- q_i - sum m q/M, p_i <- p_i - m_i P/M. Done twice: what rounding leaves of the first is taken by the
   /// second.

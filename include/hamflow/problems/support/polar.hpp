@@ -118,6 +118,11 @@ class PolarCentralForce {
     pp[0][0] = S(R(1) / mass_);
     pp[1][1] = R(1) / (mass_ * u);
   }
+  /// Of the distance from the centre.
+  template <class S>
+  S distance_rate(const Vector<S, 2>& q, const Vector<S, 2>& v) const {
+    return v[0] / q[0];
+  }
   template <class S>
   Vector<S, 1> invariants(const Vector<S, 2>&, const Vector<S, 2>& p, const S& /*t*/) const {
     return {p[1]};

@@ -1,0 +1,111 @@
+// The lengths that steps should have, up to a factor (methods/step_density.hpp).
+//     simulation.vary_steps(arclength_monitor(problem, q, p));
+#pragma once
+
+#include <limits>
+
+#include "hamflow/core/derivatives.hpp"
+#include "hamflow/methods/step_control.hpp"
+#include "hamflow/methods/step_density.hpp"
+
+namespace hamflow {
+
+namespace detail {
+/// The sum of the squares of all entries, for the weights of blocks of coordinates.
+template <class M>
+auto square_of_entries(const M& m) {
+  auto sum = m[0][0] * m[0][0];
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (std::size_t j = i == 0 ? 1 : 0; j < m.size(); ++j) sum += m[i][j] * m[i][j];
+  }
+  return sum;
+}
+
+/// q'' and p'' of the motion: the gradient of H differentiated along (q', p'), by dual numbers behind virtual calls,
+/// where a Hessian of many bodies would be large, else by the Hessian.
+template <class P, class R, std::size_t N>
+void acceleration(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, const Vector<R, N>& dq,
+                  const Vector<R, N>& dp, Vector<R, N>& ddq, Vector<R, N>& ddp) {
+  using D = Dual<R, 1>;
+  const auto along = [](const R& x, const R& slope) {
+    D all(x);
+    all.slope[0] = slope;
+    return all;
+  };
+  if constexpr (requires { requires P::template knows<D>; }) {
+    Vector<D, N> x = zeros<D, N>(q.size());
+    Vector<D, N> y = x;
+    Vector<D, N> by_q = x;
+    Vector<D, N> by_p = x;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      x[i] = along(q[i], dq[i]);
+      y[i] = along(p[i], dp[i]);
+    }
+    gradient(problem, x, y, by_q, by_p);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      ddq[i] = by_p[i].slope[0];
+      ddp[i] = -by_q[i].slope[0];
+    }
+  } else {
+    Matrix<R, N> qq = zero_matrix(q);
+    Matrix<R, N> qp = qq;
+    Matrix<R, N> pp = qq;
+    hessian(problem, q, p, qq, qp, pp);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      ddq[i] = R(0);
+      ddp[i] = R(0);
+      for (std::size_t j = 0; j < q.size(); ++j) {
+        ddq[i] += qp[j][i] * dq[j] + pp[i][j] * dp[j];
+        ddp[i] -= qq[i][j] * dq[j] + qp[i][j] * dp[j];
+      }
+    }
+  }
+}
+}  // namespace detail
+
+/// **arclength**: every step covers the same length of the trajectory in phase space, sigma = 1/S with
+///     S^2 = |H_qq| |q'|^2 + |H_pp| |p'|^2
+/// and the Frobenius norms of the Hessian's blocks at the start, constants of the run. They bring q and p to a common
+/// unit: each term is an energy over the square of a time, whatever H, and for an oscillator S is constant. For any H
+/// with second derivatives. At rest, where S = 0, every length is right, and G is 0.
+template <class P, class R, std::size_t N>
+StepMonitor<R, N> arclength_monitor(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
+  Matrix<R, N> qq = zero_matrix(q);
+  Matrix<R, N> qp = qq;
+  Matrix<R, N> pp = qq;
+  hessian(problem, q, p, qq, qp, pp);
+  const R of_q = sqrt(detail::square_of_entries(qq));
+  const R of_p = sqrt(detail::square_of_entries(pp));
+  return {default_monitor, [problem, of_q, of_p](const Vector<R, N>& x, const Vector<R, N>& y) {
+            Vector<R, N> dq = zeros_like(x);
+            Vector<R, N> dp = dq;
+            Vector<R, N> ddq = dq;
+            Vector<R, N> ddp = dq;
+            motion(problem, x, y, dq, dp);
+            detail::acceleration(problem, x, y, dq, dp, ddq, ddp);
+            R square(0);
+            R half_rate(0);
+            for (std::size_t i = 0; i < x.size(); ++i) {
+              square += of_q * (dq[i] * dq[i]) + of_p * (dp[i] * dp[i]);
+              half_rate += of_q * (dq[i] * ddq[i]) + of_p * (dp[i] * ddp[i]);
+            }
+            return square > R(0) ? R(half_rate / square) : R(0);
+          }};
+}
+
+/// **distance**: sigma = d^(3/2), d the distance from the centre or of the nearest two bodies (distance_rate in
+/// core/optional_functions.hpp). By Kepler's third law the time that a motion at distance d takes is proportional to
+/// d^(3/2): an encounter of two bodies has as many steps, however close it is.
+template <class P>
+requires HasDistanceRate<P> StepMonitor<RealOf<P>, P::dimension> distance_monitor(const P& problem) {
+  using R = RealOf<P>;
+  using V = VectorOf<P>;
+  return {distance_monitor_name, [problem](const V& q, const V& p) {
+            V dq = zeros_like(q);
+            V dp = dq;
+            motion(problem, q, p, dq, dp);
+            return R(R(-1.5) * problem.distance_rate(q, dq));
+          }};
+}
+
+}  // namespace hamflow

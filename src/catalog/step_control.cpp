@@ -1,0 +1,71 @@
+#include "step_control.hpp"
+
+#include "hamflow/core/text.hpp"
+
+namespace hamflow {
+
+namespace {
+
+const BoundOptions<StepControl>& control_options() {
+  static const BoundOptions<StepControl> all{
+      bind_word({.name = step_control_option,
+                 .default_value = fixed_steps,
+                 .meaning = "reversible: steps of varying length, for symmetric methods, of which dt is the first; the "
+                            "time is then a part of the state"},
+                &StepControl::reversible, {{fixed_steps, false}, {reversible_steps, true}}),
+      bind_word({.name = monitor_option,
+                 .default_value = default_monitor,
+                 .meaning = "what the length of a step follows: equal lengths of the trajectory in phase space, or the "
+                            "distance from the centre or of the nearest two bodies to the power 3/2 (central-force, "
+                            "n-body, solar-system)",
+                 .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps + "\""},
+                &StepControl::monitor,
+                {{default_monitor, default_monitor}, {distance_monitor_name, distance_monitor_name}})};
+  return all;
+}
+bool declares(const MethodFamily& family) { return find_option(family.options, monitor_option) != nullptr; }
+
+}  // namespace
+
+StepControl step_control_of(const MethodSpec& method) {
+  return declares(*find_method(method.name).family) ? read_options(control_options(), method.options) : StepControl{};
+}
+
+void add_step_control(MethodFamily& family) {
+  if (find_option(family.options, step_control_option) != nullptr) return;
+  for (OptionInfo& option : declarations_of(control_options())) family.options.push_back(std::move(option));
+}
+
+std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
+  const MethodEntry& entry = find_method(method.name);
+  if (!declares(*entry.family)) return std::nullopt;
+  const StepControl control = step_control_of(method);
+  if (!control.reversible) {
+    if (!method.options.contains(monitor_option)) return std::nullopt;
+    return RefusedOption{monitor_option, std::string("found it without ") + step_control_option + " = \"" +
+                                             reversible_steps + "\"; allowed with it: equal steps follow nothing"};
+  }
+  const MethodInfo info = entry.family->describe(entry.index, method.options);
+  if (!info.symmetric) {
+    return RefusedOption{step_control_option, std::string("found \"") + reversible_steps + "\" with " + info.name +
+                                                  ", which is not symmetric; allowed " + fixed_steps +
+                                                  ", or a symmetric method, e.g. verlet, stv4, cg, gauss"};
+  }
+  if (info.diagnostics) {
+    return RefusedOption{step_control_option,
+                         std::string("found \"") + reversible_steps +
+                             "\" with diagnostics, whose times are those of equal steps; allowed " + fixed_steps +
+                             ", or no diagnostics"};
+  }
+  return std::nullopt;
+}
+
+std::string refused_monitor(const MethodSpec& method, const ProblemEntry& problem) {
+  const StepControl control = step_control_of(method);
+  if (!control.reversible || control.monitor == default_monitor || problem.has_distance) return {};
+  return std::string(monitor_option) + ": found \"" + control.monitor + "\" for " + problem.info.name +
+         ", which has neither a centre nor bodies; allowed " + default_monitor +
+         " (any H), or central-force, n-body, solar-system";
+}
+
+}  // namespace hamflow
