@@ -88,11 +88,13 @@ class RadialCollocation : public TargetEquations<R> {
 
   void evaluate(const Variables& x, Point& at) const {
     const Variables velocities = velocities_of(p0_, x);
-    const Variables positions = positions_of(q0_, displacements(velocities));
+    const Variables moved = displacements(velocities);
+    const Variables positions = positions_of(q0_, moved);
+    const Reach reach{terms_of(q0_, moved), scaled(terms_of(p0_, x))};
     Base::clear(at, x.size());
     for (const RadialTerm<Real>& term : setup_.terms) {
-      const RadialPair<Real> pair = pair_of(term, q0_, positions, velocities);
-      add_force(term, pair, positions, at);
+      const RadialPair<Real> pair = pair_of(term, q0_, positions, velocities, &reach);
+      add_force(term, pair, reach, at);
       if (at.linearised) add_tangent(term, pair, at.tangent);
     }
     for (std::size_t i = 0; at.linearised && i < x.size(); ++i) at.tangent[i][i] += Real(1);
@@ -163,6 +165,10 @@ class RadialCollocation : public TargetEquations<R> {
  private:
   using Base::h_;
   using D = Dual<Real, 1>;
+  /// The sizes of what positions and velocities are summed from: what they round by, in units of epsilon.
+  struct Reach {
+    Variables positions, velocities;
+  };
 
   /// y0 + sum_j mu_lj rows_j, as (y0 + y1)/2 + sum_j N_lj rows_j: symmetric in the two ends.
   template <class S, std::size_t N>
@@ -180,11 +186,28 @@ class RadialCollocation : public TargetEquations<R> {
     }
     return all;
   }
+  Variables terms_of(const V& y0, const Variables& rows) const {
+    const std::size_t size = y0.size();
+    Variables all(rows.size());
+    for (std::size_t l = 0; l < k_; ++l) {
+      for (std::size_t i = 0; i < size; ++i) {
+        all[l * size + i] = abs(y0[i]);
+        for (std::size_t j = 0; j < k_; ++j) {
+          all[l * size + i] += (Real(0.5) + abs(setup_.stages.inner[l][j])) * abs(rows[j * size + i]);
+        }
+      }
+    }
+    return all;
+  }
+  /// M^-1 of each stage.
+  template <class S>
+  Vector<S, dynamic> scaled(Vector<S, dynamic> v) const {
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = setup_.inverse_mass[i % q0_.size()] * v[i];
+    return v;
+  }
   template <class S>
   Vector<S, dynamic> velocities_of(const Vector<S, n>& p0, const Vector<S, dynamic>& pushed) const {
-    Vector<S, dynamic> v = stage_values(p0, pushed);
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = setup_.inverse_mass[i % p0.size()] * v[i];
-    return v;
+    return scaled(stage_values(p0, pushed));
   }
   template <class S>
   Vector<S, dynamic> positions_of(const Vector<S, n>& q0, const Vector<S, dynamic>& moved) const {
@@ -211,33 +234,31 @@ class RadialCollocation : public TargetEquations<R> {
     return taken;
   }
 
+  /// @param reach for the pair's noise, where it is of interest
   template <class S>
   RadialPair<S> pair_of(const RadialTerm<Real>& term, const Vector<S, n>& q0, const Vector<S, dynamic>& positions,
-                        const Vector<S, dynamic>& velocities) const {
+                        const Vector<S, dynamic>& velocities, const Reach* reach = nullptr) const {
     const std::size_t size = q0.size();
     const bool of_two = term.b != term.centre;
     RadialPair<S> pair;
     for (std::size_t d = 0; d < setup_.space; ++d) {
       pair.start[d] = of_two ? S(q0[term.a + d] - q0[term.b + d]) : q0[term.a + d];
       for (std::size_t l = 0; l < k_; ++l) {
-        const S* const x = positions.begin() + l * size;
-        const S* const v = velocities.begin() + l * size;
-        pair.r[l][d] = of_two ? S(x[term.a + d] - x[term.b + d]) : x[term.a + d];
-        pair.w[l][d] = of_two ? S(v[term.a + d] - v[term.b + d]) : v[term.a + d];
-        const auto size_of = [&](const S* y) {
-          const Real of_a = abs(value_of(y[term.a + d]));
-          return of_two ? Real(of_a + abs(value_of(y[term.b + d]))) : of_a;
-        };
-        pair.reach[l] +=
-            Real(2) * (size_of(x) * abs(value_of(pair.w[l][d])) + abs(value_of(pair.r[l][d])) * size_of(v));
+        const std::size_t a = l * size + term.a + d;
+        const std::size_t b = l * size + term.b + d;
+        pair.r[l][d] = of_two ? S(positions[a] - positions[b]) : positions[a];
+        pair.w[l][d] = of_two ? S(velocities[a] - velocities[b]) : velocities[a];
+        if (reach == nullptr) continue;
+        const auto both = [&](const Variables& y) { return of_two ? Real(y[a] + y[b]) : y[a]; };
+        pair.reach[l] += Real(2) * (both(reach->positions) * abs(value_of(pair.w[l][d])) +
+                                    abs(value_of(pair.r[l][d])) * both(reach->velocities));
       }
     }
     pair.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, strength_of(term));
     return pair;
   }
 
-  void add_force(const RadialTerm<Real>& term, const RadialPair<Real>& pair, const Variables& positions,
-                 Point& at) const {
+  void add_force(const RadialTerm<Real>& term, const RadialPair<Real>& pair, const Reach& reach, Point& at) const {
     const std::size_t size = q0_.size();
     const Real two = Real(2) * term.strength;
     for (std::size_t l = 0; l < k_; ++l) {
@@ -249,7 +270,7 @@ class RadialCollocation : public TargetEquations<R> {
         const std::size_t b = term.b == term.centre ? a : l * size + term.b + d;
         const Real of_factor = abs(two * pair.r[l][d]) * pair.noise;
         const Real noise =
-            abs(h_ * setup_.stages.b[l]) * (abs(push) + bend * (abs(positions[a]) + abs(positions[b])) + of_factor);
+            abs(h_ * setup_.stages.b[l]) * (abs(push) + bend * (reach.positions[a] + reach.positions[b]) + of_factor);
         at.sum[a] -= weight * push;
         at.noise[a] += noise;
         if (a == b) continue;

@@ -64,7 +64,7 @@ class MidpointDiscreteGradient {
       for (std::size_t i = 0; i < m; ++i) {
         R bend(0);
         for (std::size_t j = 0; j < m; ++j) {
-          out.noise[i] += abs(out.by_u[i][j] * middle[j]);
+          out.noise[i] += abs(out.by_u[i][j]) * (abs(z0[j]) + abs(u[j]));
           bend += out.by_u[i][j] * u[j] / R(2);
         }
         if (square > R(0)) w[i] = (end[i] - g[i] - bend - R(2) * c * u[i]) / square;

@@ -57,7 +57,7 @@ class CoordinateIncrements {
     Rows z = z0;
     for (std::size_t i = 0; i < m; ++i) {
       const Rows quotients = quotients_of_gradient(problem, z, u[i], i);
-      for (std::size_t j = 0; j < m; ++j) out.noise[i] += abs(quotients[j] * z[j]);
+      for (std::size_t j = 0; j < m; ++j) out.noise[i] += abs(quotients[j]) * (abs(z0[j]) + abs(u[j]));
       for (std::size_t j = 0; j < i; ++j) out.by_u[i][j] = quotients[j];
       out.by_u[i][i] = by_increment(problem, z, u[i], i, out.value[i]);
       z[i] = z[i] + u[i];

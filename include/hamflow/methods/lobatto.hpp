@@ -84,6 +84,7 @@ class LobattoStages : public TargetEquations<R> {
     Matrix<Real, n> pp = qq;
     for (std::size_t i = 0; i < s; ++i) {
       const Increment<Real, n> y = stage(q0_, p0_, x, i);
+      const Increment<Real, n> reach = terms_of_stage(x, i);
       gradient(problem_, y.q, y.p, dq, dp);
       if (at.linearised) hessian(problem_, y.q, y.p, qq, qp, pp);
       const Real part = detail::golden<Real>() * pair_.b[i];
@@ -96,8 +97,8 @@ class LobattoStages : public TargetEquations<R> {
         Real of_k = abs(dp[a]);
         Real of_l = abs(dq[a]);
         for (std::size_t b = 0; at.linearised && b < size; ++b) {
-          of_k += abs(qp[b][a] * y.q[b]) + abs(pp[a][b] * y.p[b]);
-          of_l += abs(qq[a][b] * y.q[b]) + abs(qp[a][b] * y.p[b]);
+          of_k += abs(qp[b][a]) * reach.q[b] + abs(pp[a][b]) * reach.p[b];
+          of_l += abs(qq[a][b]) * reach.q[b] + abs(qp[a][b]) * reach.p[b];
           for (std::size_t j = 0; j < s; ++j) {
             const std::size_t by_k = 2 * size * j + b;
             const std::size_t by_l = by_k + size;
@@ -176,6 +177,21 @@ class LobattoStages : public TargetEquations<R> {
       y.p[a] = (p0[a] + Real(0.5) * half_p) + inner_p;
     }
     return y;
+  }
+  /// The sizes of what Q_i and P_i are summed from.
+  Increment<Real, n> terms_of_stage(const Variables& x, std::size_t i) const {
+    const std::size_t size = q0_.size();
+    const std::size_t s = pair_.b.size();
+    Increment<Real, n> reach{q0_, p0_};
+    for (std::size_t a = 0; a < size; ++a) {
+      reach.q[a] = abs(q0_[a]);
+      reach.p[a] = abs(p0_[a]);
+      for (std::size_t j = 0; j < s; ++j) {
+        reach.q[a] += (Real(0.5) + abs(pair_.nu[i * s + j])) * abs(x[2 * size * j + a]);
+        reach.p[a] += (Real(0.5) + abs(pair_.nu[j * s + i])) * abs(x[2 * size * j + size + a]);
+      }
+    }
+    return reach;
   }
   Increment<Real, n> sum_of(const Variables& x) const { return setup_.template increment<n>(x); }
 

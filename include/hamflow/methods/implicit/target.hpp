@@ -14,9 +14,9 @@ template <class Real>
 struct TargetPoint {
   using Rows = Vector<Real, dynamic>;
   Rows residual{};
-  Rows sum{};                       // s
-  Rows target{};                    // (h/kappa) s
-  Rows noise{};                     // what the target rounds by, in units of epsilon, entry by entry
+  Rows sum{};     // s
+  Rows target{};  // (h/kappa) s
+  Rows noise{};   // what the target rounds by, in units of epsilon, entry by entry: sizes of terms, not of sums
   Matrix<Real, dynamic> tangent{};  // 1 - d target/dx
   bool linearised = true;           // evaluate() is to compute noise of second order and tangent, too
 };
@@ -34,14 +34,14 @@ class TargetEquations {
     for (const Real& r : at.residual) sum += r * r;
     return sqrt(sum);
   }
-  /// The largest correction in units of its noise: entries have units of their own.
+  /// The largest correction in units of its noise: entries have units of their own. A correction of an entry that was 0
+  /// is as large as the entry, and no larger: what looks like more makes the next one look too good by comparison.
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     constexpr auto epsilon = Epsilon<Real>{};
     Real distance(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Real size = abs(correction[i]);
-      Real unit = epsilon * Real(at.noise[i] + abs(x[i]));
-      if (!(unit > epsilon * Real(epsilon * size))) unit = epsilon * size;  // at 0 so far, without noise of its own
+      const Real unit = epsilon * larger(Real(at.noise[i] + abs(x[i])), size);
       const Real here = size / larger(unit, std::numeric_limits<Real>::min());
       distance = here <= distance ? distance : here;
     }
