@@ -130,15 +130,8 @@ void show_scenario(const Scenario& scenario) {
       shortest(scenario.problem->energy(scenario.request.parameters, scenario.start_q, scenario.start_p)));
 }
 
-void show_problem(const ProblemEntry& entry) {
-  const ProblemInfo& info = entry.info;
-  std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
-                           variant_of(entry).empty() ? "" : " with " + variant_text(entry), info.formula,
-                           degrees_of_freedom(entry), info.reference);
-  if (entry.structure) std::cout << "  found: " << structure_text(*entry.structure) << "\n";
-  if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
-  for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
-  if (!info.frame.name.empty()) std::cout << option_row(info.frame);
+/// How a run of the problem may begin.
+void show_starts(const ProblemInfo& info) {
   if (!info.start_key.empty()) {
     std::cout << fmt::format("  {} = 1, ..., {}, each with its keys beside it:\n", info.start_key, info.starts.size());
   } else if (!info.starts.empty()) {
@@ -159,9 +152,33 @@ void show_problem(const ProblemEntry& entry) {
   std::cout << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
                "largest, \"-\" "
                "the smallest root of H = E\n";
+}
+
+void show_problem(const ProblemEntry& entry) {
+  const ProblemInfo& info = entry.info;
+  std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
+                           variant_of(entry).empty() ? "" : " with " + variant_text(entry), info.formula,
+                           degrees_of_freedom(entry), info.reference);
+  if (entry.structure) std::cout << "  found: " << structure_text(*entry.structure) << "\n";
+  if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
+  for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
+  if (!info.frame.name.empty()) std::cout << option_row(info.frame);
+  show_starts(info);
   std::cout << fmt::format("  momenta: {}\n",
                            entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);
+}
+
+void show_typed_central_force() {
+  std::cout << "central-force with potential = \"formula\", coordinates = \"cartesian\" or \"polar\": V as it is typed "
+               "(its language: hamflow show formula)\n";
+  for (const OptionInfo& option : central_formula_options()) std::cout << option_row(option);
+  // It starts like those of which no closed orbit is known.
+  const auto alike = std::find_if(problems().begin(), problems().end(), [](const ProblemEntry& entry) {
+    return entry.info.name == CentralKeys::problem && entry.info.starts.size() == 1 &&
+           entry.info.starts[0].kind.empty();
+  });
+  if (alike != problems().end()) show_starts(alike->info);
 }
 
 void show_method(const MethodSpec& spec) {
@@ -252,6 +269,8 @@ void print_problems() {
     std::cout << fmt::format("{:<26} {}{}\n", entry.info.name, entry.info.formula,
                              variant_of(entry).empty() ? "" : "  (" + variant_text(entry) + ")");
   }
+  std::cout << fmt::format("{:<26} H = |p|^2/(2 mu) + V(r), V(r) as it is typed  (potential = \"formula\")\n",
+                           CentralKeys::problem);
 }
 
 }  // namespace
@@ -286,11 +305,7 @@ int show_command(const std::string& name) {
       entry.structure ? show_formula(entry) : show_problem(entry);
       found = true;
     }
-    if (name == CentralKeys::problem) {
-      std::cout
-          << "central-force with potential = \"formula\": V as it is typed (its language: hamflow show formula)\n";
-      for (const OptionInfo& option : central_formula_options()) std::cout << option_row(option);
-    }
+    if (name == CentralKeys::problem) show_typed_central_force();
     if (found || show_table(name)) return exit_done;
     for (const FigureKindInfo& kind : figure_kinds()) {
       names.push_back(kind.name);

@@ -42,8 +42,8 @@ void add_newton_options(BoundOptions<Options>& all) {
   all.push_back(bind_word(
       {.name = "iteration",
        .default_value = "newton",
-       .meaning = "how the equations of a step are solved: newton with the exact tangent, simplified "
-                  "with one factored once a step, fixed-point with none, from first derivatives; "
+       .meaning = "how the equations of a step are solved, from the last steps continued: newton with the exact "
+                  "tangent, simplified with one factored once a step, fixed-point with none, from first derivatives; "
                   "systems of more than 500 unknowns take fixed-point"},
       &Options::iteration,
       {{"newton", Iteration::newton}, {"simplified", Iteration::simplified}, {"fixed-point", Iteration::fixed_point}}));

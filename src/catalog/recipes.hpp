@@ -1,6 +1,8 @@
 // From a method's name and options to a recipe (methods/recipe.hpp).
 #pragma once
 
+#include <any>
+
 #include "family_list.hpp"  // generated: includes every file of families/, defines families::All
 #include "hamflow/methods/recipe.hpp"
 #include "hamflow/run/catalog.hpp"
@@ -15,13 +17,13 @@ struct List {
 
   /// Calls f with the recipe of a method of the k-th family.
   template <class F>
-  static auto visit(std::size_t k, std::size_t method, const Texts& options, F&& f) {
+  static auto visit(std::size_t k, std::size_t method, const std::any& options, F&& f) {
     return visit_from<0, Families...>(k, method, options, f);
   }
 
  private:
   template <std::size_t at, class Family, class... Rest, class F>
-  static auto visit_from(std::size_t k, std::size_t method, const Texts& options, F&& f) {
+  static auto visit_from(std::size_t k, std::size_t method, const std::any& options, F&& f) {
     if constexpr (sizeof...(Rest) > 0) {
       if (k != at) return visit_from<at + 1, Rest...>(k, method, options, f);
     }
@@ -34,7 +36,8 @@ struct List {
 template <class F>
 auto visit_method(const MethodSpec& spec, F&& f) {
   const MethodEntry& entry = find_method(spec.name);
-  return families::All::visit(family_number(entry), entry.index, spec.options, [&]<class M>(const M& recipe) {
+  const std::any options = entry.family->read ? entry.family->read(spec.options) : std::any();
+  return families::All::visit(family_number(entry), entry.index, options, [&]<class M>(const M& recipe) {
     static_assert(MethodRecipe<M>,
                   "hamflow: what a family of methods visits is a MethodRecipe, see methods/recipe.hpp");
     return f(recipe);

@@ -78,8 +78,20 @@ std::vector<std::string> split_list(const std::string& text) {
   return parts;
 }
 
+namespace {
+/// Without what joins the words of a name: px and p_x.
+std::string without_joints(std::string name) {
+  std::erase_if(name, [](char c) { return c == '_' || c == '-'; });
+  return name;
+}
+}  // namespace
+
 std::string nearest(const std::string& name, std::span<const std::string> candidates) {
   const std::string wanted = lower_case(name);
+  const auto joined_otherwise = std::find_if(candidates.begin(), candidates.end(), [&](const std::string& candidate) {
+    return without_joints(lower_case(candidate)) == without_joints(wanted);
+  });
+  if (!wanted.empty() && joined_otherwise != candidates.end()) return *joined_otherwise;
   std::string best;
   std::size_t least = std::max<std::size_t>((name.size() + 1) / 3, 1) + 1;
   for (const std::string& candidate : candidates) {

@@ -32,11 +32,27 @@ std::string lower(std::string_view word) {
 }
 
 std::string written_here(std::string_view name) {
-  static constexpr std::pair<std::string_view, std::string_view> table[] = {
-      {"ln", "log(x)"},    {"lg", "log(x)/log(10)"}, {"log10", "log(x)/log(10)"},        {"log2", "log(x)/log(2)"},
-      {"pow", "x^y"},      {"power", "x^y"},         {"sqr", "x^2, or sqrt(x)"},         {"tg", "tan(x)"},
-      {"square", "x^2"},   {"cbrt", "x^(1/3)"},      {"hypot", "sqrt(x^2 + y^2)"},       {"sec", "1/cos(x)"},
-      {"csc", "1/sin(x)"}, {"cot", "1/tan(x)"},      {"e", "exp(1), and exp(x) for e^x"}};
+  static constexpr std::pair<std::string_view, std::string_view> table[] = {{"ln", "log(x)"},
+                                                                            {"lg", "log(x)/log(10)"},
+                                                                            {"log10", "log(x)/log(10)"},
+                                                                            {"log2", "log(x)/log(2)"},
+                                                                            {"pow", "x^y"},
+                                                                            {"power", "x^y"},
+                                                                            {"sqr", "x^2, or sqrt(x)"},
+                                                                            {"tg", "tan(x)"},
+                                                                            {"square", "x^2"},
+                                                                            {"cbrt", "x^(1/3)"},
+                                                                            {"hypot", "sqrt(x^2 + y^2)"},
+                                                                            {"sec", "1/cos(x)"},
+                                                                            {"csc", "1/sin(x)"},
+                                                                            {"cot", "1/tan(x)"},
+                                                                            {"e", "exp(1), and exp(x) for e^x"},
+                                                                            {"asinh", "log(x + sqrt(x^2 + 1))"},
+                                                                            {"acosh", "log(x + sqrt(x^2 - 1))"},
+                                                                            {"atanh", "log((1 + x)/(1 - x))/2"},
+                                                                            {"sgn", "x/abs(x)"},
+                                                                            {"sign", "x/abs(x)"},
+                                                                            {"fabs", "abs(x)"}};
   const std::string wanted = lower(name);
   for (const auto& [other, here] : table) {
     if (wanted == other) return std::string(here);

@@ -335,7 +335,7 @@ class Sweep::Worker {
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();
     row.message = outcome == Outcome::not_converged ? simulation->failure() : std::string(message(outcome));
-    if (outcome == Outcome::done && watch) row.observables = watch->row();
+    if (watch && frame.step > 0) row.observables = watch->row();
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/core/number.hpp"
 #include "hamflow/verify/counter_random.hpp"
 #include "structure.hpp"
 
@@ -10,17 +11,34 @@ namespace hamflow {
 
 namespace {
 constexpr std::uint64_t seed = 20100617;  // any number: fixed, so that a measurement can be repeated
+
+/// Bodies around the origin, at rest as a whole. Otherwise they leave it, and their coordinates round by more and more:
+/// the energy of any method then walks like t^1.5.
+State<double> in_barycentre(const Region& region, const State<double>& z) {
+  const ProblemEntry& entry = find_problem(region.problem, region.variant);
+  Request request;
+  request.parameters = complete(entry.info, region.parameters);
+  request.start.barycentric = true;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    (2 * i < z.size() ? request.start.q : request.start.p).push_back(shortest(z[i]));
+  }
+  const Frame start = entry.start(request);
+  State<double> moved = start.q;
+  moved.insert(moved.end(), start.p.begin(), start.p.end());
+  return moved;
+}
 }  // namespace
 
 State<double> random_state(const Region& region, std::uint64_t k) {
   State<double> z = region.centre;
   for (std::size_t i = 0; i < z.size(); ++i) z[i] += region.spread * counter_uniform(seed, k * z.size() + i);
-  return z;
+  return region.of_bodies ? in_barycentre(region, z) : z;
 }
 
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant) {
   const ProblemEntry& entry = usual_problem(problem, variant);
   Region region{entry.info.region, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
+  region.of_bodies = static_cast<bool>(entry.total_mass);
   if (!region.centre.empty()) return region;
   // The default start, or any state when there is none, moved a little: no coordinate at rest.
   const std::size_t dimension = entry.dimension > 0 ? entry.dimension : entry.info.default_q.size();

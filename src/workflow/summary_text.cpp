@@ -56,8 +56,11 @@ std::string readable(const Json& s) {
   text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
   text += row("final q", list(s["final"]["q"]));
   text += row("final p", list(s["final"]["p"]));
-  text += row("energy", fmt::format("{} ({} of its scale)", watched(s["energy"]),
-                                    number_text(s["energy"]["max_relative_error"], "{:.3g}")));
+  const bool has_scale = !s["energy"]["scale"].is_null() && s["energy"]["scale"].get<double>() > 0;
+  text += row("energy",
+              watched(s["energy"]) + (has_scale ? fmt::format(" ({} of its scale)",
+                                                              number_text(s["energy"]["max_relative_error"], "{:.3g}"))
+                                                : " (not relative: H is 0 at the start)"));
   for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
   if (s.contains("exact")) {
     const Json& exact = s["exact"];

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "run_keys.hpp"
+
 namespace hamflow {
 
 namespace {
@@ -71,6 +73,13 @@ Json varied_of(const Sweep& sweep) {
   return varied;
 }
 
+/// What one key says of every member; null where it is varied: the summary's "varied" has it then.
+Json common_to_all(const Sweep& sweep, const std::string& path, const std::string& value) {
+  const std::vector<Vary>& keys = sweep.varied().keys();
+  const bool is_varied = std::any_of(keys.begin(), keys.end(), [&](const Vary& key) { return key.path == path; });
+  return is_varied ? Json(nullptr) : Json(value);
+}
+
 }  // namespace
 
 Json sweep_row(const Sweep& sweep, std::size_t member) {
@@ -123,9 +132,9 @@ Json sweep_summary(const Sweep& sweep, double seconds, bool interrupted) {
   for (const MemberRow& row : sweep.rows()) steps += row.steps;
   Json s;
   s["status"] = interrupted && unfinished > 0 ? "interrupted" : done == 0 ? "failed" : "done";
-  s["problem"] = sweep.common().request.problem;
-  s["arithmetic"] = sweep.common().request.arithmetic;
-  s["kernel"] = sweep.common().request.kernel;
+  s["problem"] = common_to_all(sweep, "problem.name", sweep.common().request.problem);
+  s["arithmetic"] = common_to_all(sweep, run_path(run_keys().arithmetic), sweep.common().request.arithmetic);
+  s["kernel"] = common_to_all(sweep, run_path(run_keys().kernel), sweep.common().request.kernel);
   s["members"] = sweep.members();
   s["done"] = done;
   s["failed"] = failed;

@@ -116,11 +116,14 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation
   Frame end;
   simulation.look(end);
   if (is_energy_nonsense(scenario, energy, scale, end)) {
-    all.push_back(
-        warning("energy_error", fmt::format("the energy was off by {:.3g}, more than its scale, {:.3g}: this is "
-                                            "no motion of {}; try a smaller dt{}",
-                                            energy.max_error, scale, scenario.request.problem,
-                                            describe(scenario.request.method).carries_copy ? ", a larger omega" : "")));
+    all.push_back(warning(
+        "energy_error",
+        fmt::format(
+            "the energy was off by {:.3g}, {}: this is "
+            "no motion of {}; try a smaller dt{}",
+            energy.max_error,
+            scale > 0 ? fmt::format("more than its scale, {:.3g}", scale) : std::string("and is 0 at the start"),
+            scenario.request.problem, describe(scenario.request.method).carries_copy ? ", a larger omega" : "")));
   }
   if (turns != nullptr) add_long_step(scenario, summary, *turns, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&

@@ -263,6 +263,85 @@ TEST(Averages, HalvingAndReversalForgetTheLastStep) {
   EXPECT_GT(halving.effort().halved, 0);
 }
 
+/// An archive that takes one thing of what a method saves: its number of Gauss points.
+struct PointsInUse {
+  static constexpr bool reading = false;
+  int points = 0;
+  template <class... T>
+  void operator()(T&... each) {
+    (take(each), ...);
+  }
+  void take(int& found) { points = found; }
+  template <class T>
+  void take(T& part) {
+    if constexpr (requires { part.mark(); }) part.archive(*this);
+  }
+};
+
+TEST(Averages, PointsOfAutoBelongToStepsOfOneLength) {
+  using A = Compensated<double>;
+  const Plane problem(1.0, Kepler<double>(1.0));
+  const auto check = [&](auto method, int fewest) {
+    const auto points = [&] {
+      PointsInUse found;
+      method.archive(found);
+      return found.points;
+    };
+    PhasePoint<A, 2> z;
+    z.store({1.0, 0.0}, {0.0, 0.2});
+    EXPECT_EQ(points(), fewest);
+    ASSERT_EQ(method.step(problem, 0.1, z), Outcome::done);
+    const int found = points();
+    EXPECT_GT(found, fewest);
+    method.invalidate();  // as a reversal does
+    EXPECT_EQ(points(), fewest);
+    // Through the pericentre with steps that are too long for it: those of the halves are not those of whole steps.
+    int before = points();
+    int steps = 0;
+    while (method.effort().halved == 0 && ++steps < 60) {
+      before = points();
+      ASSERT_EQ(method.step(problem, 0.3, z), Outcome::done);
+    }
+    EXPECT_EQ(method.effort().halved, 1);
+    EXPECT_EQ(points(), before);
+  };
+  const CgOptions one{.halve = true};
+  const CgOptions two{.degree = 2, .halve = true};
+  check(Cg{one}.bind<Plane, A>(problem), 1);
+  check(Averages{two}.bind<Plane, A>(problem), 2);
+  check(AveragesBy<GeneralAverages<Plane, double>>{{two}}.bind<Plane, A>(problem), 2);
+}
+
+/// H = p^2/2 + |q|, whose force jumps.
+struct Kinked {
+  using Real = double;
+  static constexpr std::size_t dimension = 1;
+  static constexpr bool quadratic_kinetic = true;
+  template <class S>
+  S kinetic(const Vector<S, 1>& p) const {
+    return p[0] * p[0] / 2.0;
+  }
+  template <class S>
+  S potential(const Vector<S, 1>& q) const {
+    return abs(q[0]);
+  }
+};
+
+TEST(Averages, AKinkThatNoPointSeesIsNotPassedOver) {
+  // One point and two agree about a force that jumps beyond both: the energy would go step by step, unnoticed.
+  const auto check = [](const auto& recipe) {
+    auto run = simulate(Kinked{}, recipe, {1.0}, {0.3}, 0.1);
+    EXPECT_EQ(run.advance(1000), Outcome::not_converged);
+    EXPECT_LE(run.energy().max_error, 64 * test::epsilon);
+    auto one_step = simulate(Kinked{}, recipe, {0.002}, {-1.0}, 0.1);
+    EXPECT_EQ(one_step.advance(1), Outcome::not_converged);
+    EXPECT_NE(one_step.failure().find("it has a kink or a jump there"), std::string::npos);
+  };
+  check(Cg{});
+  check(CgOfDegree{{.degree = 2}});
+  check(AveragesBy<GeneralAverages<Kinked, double>>{{CgOptions{.degree = 3}}});
+}
+
 TEST(Averages, SixtyFourPointsAreTheMost) {
   const Plane problem(1.0, Kepler<double>(1.0));
   for (const int degree : {1, 2, 10, 30, 63}) {

@@ -34,6 +34,8 @@ std::vector<Request> every_request() {
     for (const std::string& name : names) {
       const MethodSpec method = parse_method(name);
       if (!test::is_bound(method, problem)) continue;
+      // Its equations, of 36 unknowns and more, are those of n-body, of which they are.
+      if (problem.info.name == "solar-system" && !describe(method).explicit_step) continue;
       // Beyond double all is compiled alike: one of them, and without what belongs to MPFR, which allocates.
       for (const char* arithmetic : {"double", "compensated", "double-double", "lattice"}) {
         if (!refusal(method, arithmetic).empty() || !refusal(method, problem).empty()) continue;
@@ -102,18 +104,24 @@ TEST(Problem, EnergyAndInvariantsAreConstantAlongTheExactFlow) {
   }
 }
 
-constexpr int steps = 1000;
+/// Steps are recorded after some hundred, in double; what is not recorded shows what it keeps in fewer.
+int steps_of(const Request& request) {
+  if (digits_beyond_double(request.arithmetic) > 0) return 100;
+  return describe(request.method).explicit_step || request.method.name == "cg" ? 1000 : 200;
+}
 
 TEST(Simulation, OneBlockOfAThousandStepsIsAThousandBlocksOfOne) {
   int pairs = 0;
   for (const Request& request : every_request()) {
+    const int steps = steps_of(request);
     const auto whole = make_simulation(request);
     const auto single = make_simulation(request);
     const auto odd = make_simulation(request);
     const auto before = whole->bits();
     ASSERT_EQ(whole->advance(steps), Outcome::done) << label(request);
     for (int i = 0; i < steps; ++i) ASSERT_EQ(single->advance(1), Outcome::done) << label(request);
-    for (const int part : {1, 0, 2, 7, 490, 500}) ASSERT_EQ(odd->advance(part), Outcome::done) << label(request);
+    for (const int part : {1, 0, 2, 7, steps / 2 - 10, steps / 2})
+      ASSERT_EQ(odd->advance(part), Outcome::done) << label(request);
     EXPECT_NE(whole->bits(), before) << label(request);
     EXPECT_EQ(whole->bits(), single->bits()) << label(request);
     EXPECT_EQ(whole->bits(), odd->bits()) << label(request);
@@ -127,6 +135,7 @@ TEST(Simulation, OneBlockOfAThousandStepsIsAThousandBlocksOfOne) {
 
 TEST(Simulation, WatchingDoesNotChangeABit) {
   for (Request request : every_request()) {
+    const int steps = steps_of(request);
     const auto watched = make_simulation(request);
     request.watch = false;
     const auto alone = make_simulation(request);
@@ -149,6 +158,7 @@ class EveryThird final : public Observer {
 
 TEST(Simulation, ObserversAreWokenWhenDueAndDoNotChangeABit) {
   for (const Request& request : every_request()) {
+    const int steps = steps_of(request);
     const auto observed = make_simulation(request);
     const auto alone = make_simulation(request);
     EveryThird third;
@@ -163,6 +173,7 @@ TEST(Simulation, ObserversAreWokenWhenDueAndDoNotChangeABit) {
 TEST(Simulation, AdvancingAllocatesNothing) {
   if (!test::counts_allocations()) GTEST_SKIP() << "the address sanitizer brings its own operator new";
   for (const Request& request : every_request()) {
+    const int steps = steps_of(request);
     const auto simulation = make_simulation(request);
     // Vectors of any size keep the memory of the first steps, and swap it at the ends of blocks; a step is recorded
     // once after some hundred of them, the programs of an element after 500 runs of each.

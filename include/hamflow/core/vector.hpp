@@ -28,7 +28,7 @@ struct Vector {
   constexpr R* end() { return entry + N; }
   constexpr const R* begin() const { return entry; }
   constexpr const R* end() const { return entry + N; }
-  friend constexpr bool operator==(const Vector&, const Vector&) = default;
+  friend bool operator==(const Vector&, const Vector&) = default;
 };
 
 /// A vector whose length is chosen at run time, a value like the others. Its memory comes from a pool, so that the

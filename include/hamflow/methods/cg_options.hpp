@@ -34,8 +34,11 @@ inline MethodInfo describe(const CgOptions& options) {
                                                                      : "cg(" + degree + "," + points + ")",
           .summary = collocation ? "Petrov-Galerkin element in time with " +
                                        (options.degree == 1 ? "one Gauss point: the implicit midpoint rule"
-                                                            : degree + " Gauss points: Gauss collocation")
-                                 : "energy-conserving Petrov-Galerkin finite element in time",
+                                                            : degree + " Gauss points: Gauss collocation") +
+                                       ", the map of gauss(" + degree + ")"
+                     : options.called == ElementName::avf
+                         ? "averaged vector field method: the energy-conserving element cg(1," + points + ")"
+                         : "energy-conserving Petrov-Galerkin finite element in time",
           .reference = options.degree == 1 ? "Gross1999, (1.43), (1.44), (2.61)-(2.64)"
                                            : "Gross1999, (1.34), (1.35); BrugnanoIavernaroTrigiante2010",
           .order = 2 * options.degree,

@@ -20,8 +20,10 @@ struct GaussOptions {
 };
 
 inline MethodInfo describe(const GaussOptions& options) {
-  return {.name = "gauss(" + std::to_string(options.stages) + ")",
-          .summary = "Gauss collocation in stages, symplectic to the last bit of its coefficients",
+  const std::string stages = std::to_string(options.stages);
+  return {.name = "gauss(" + stages + ")",
+          .summary = "Gauss collocation in stages, symplectic to the last bit of its coefficients: the map of cg(" +
+                     stages + "," + stages + ")",
           .reference = "HLW2006, II.1.3; AntonanaMakazagaMurua2017",
           .order = 2 * options.stages,
           .explicit_step = false,

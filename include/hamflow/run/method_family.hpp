@@ -2,6 +2,7 @@
 // everything else that has to know about methods asks here.
 #pragma once
 
+#include <any>
 #include <functional>
 #include <limits>
 #include <string>
@@ -35,9 +36,12 @@ inline constexpr int unlimited_digits = std::numeric_limits<int>::max();
 
 struct MethodFamily {
   std::string name;
-  std::string meaning{};                     // of the whole family, for the headings of lists
-  std::vector<std::string> methods;          // their names
-  std::vector<OptionInfo> options;           // the keys of [method] beside `name`
+  std::string meaning{};             // of the whole family, for the headings of lists
+  std::vector<std::string> methods;  // their names
+  std::vector<OptionInfo> options;   // the keys of [method] beside `name`
+  /// Them read, as the type that the family's recipe is made of: nothing but this is compiled where recipes are
+  /// visited.
+  std::function<std::any(const Texts& options)> read{};
   int rank = 0;                              // in lists: 0 by order and cost, then 1, 2, ...
   std::string not_on_lattice;                // why it is no bijection of the lattice; empty: it is one
   std::string not_fast;                      // why kernel = "fast" is refused; empty: it is not

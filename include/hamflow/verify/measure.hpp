@@ -35,6 +35,7 @@ constexpr std::string_view name(Finding finding) {
 struct Region : RegionInfo {
   std::string problem;
   std::map<std::string, std::string> variant{};  // e.g. potential = kepler
+  bool of_bodies = false;                        // states are moved into the frame of their centre of mass
 };
 
 struct OrderMeasurement {

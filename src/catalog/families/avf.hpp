@@ -1,6 +1,8 @@
 // The averaged vector field method: another name of cg(1, quadrature).
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/method_family.hpp"
@@ -23,6 +25,7 @@ struct Avf {
             .meaning = "the averaged vector field method, which is cg(1, quadrature)",
             .methods = {"avf"},
             .options = declarations_of(options()),
+            .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 2,
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an energy-conserving element needs the exact force",
@@ -39,8 +42,8 @@ struct Avf {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    const CgOptions chosen = read(given);
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    const auto& chosen = std::any_cast<const CgOptions&>(given);
     if (chosen.iteration == Iteration::newton) return f(hamflow::Cg{chosen});
     return f(Averages{chosen});
   }

@@ -1,6 +1,8 @@
 // The Boris push of a charge in a uniform magnetic field.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/boris.hpp"
 #include "hamflow/run/method_family.hpp"
 
@@ -25,7 +27,7 @@ struct Boris {
                 }};
   }
   template <class F>
-  static auto visit(std::size_t, const Texts&, F&& f) {
+  static auto visit(std::size_t, const std::any&, F&& f) {
     return f(hamflow::Boris{});
   }
 };

@@ -1,6 +1,8 @@
 // Energy-conserving Petrov-Galerkin finite elements in time.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/method_family.hpp"
@@ -29,6 +31,7 @@ struct Cg {
             .meaning = "finite elements in time that conserve the energy, for any twice differentiable H",
             .methods = {"cg"},
             .options = declarations_of(options()),
+            .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 1,
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an energy-conserving element needs the exact force",
@@ -51,8 +54,8 @@ struct Cg {
 
   /// cg(1) by Newton has kernels of its own, compiled with each problem.
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    const CgOptions chosen = read(given);
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    const auto& chosen = std::any_cast<const CgOptions&>(given);
     if (chosen.degree == 1 && chosen.iteration == Iteration::newton) return f(hamflow::Cg{chosen});
     return f(Averages{chosen});
   }

@@ -2,6 +2,8 @@
 // drift first.
 #pragma once
 
+#include <any>
+
 #include "splitting_shapes.hpp"
 
 namespace hamflow::families {
@@ -31,7 +33,7 @@ struct Composition {
   }
 
   template <class F>
-  static auto visit(std::size_t method, const Texts&, F&& f) {
+  static auto visit(std::size_t method, const std::any&, F&& f) {
     return visit_shape(AnySplitting(table_of(method), starts_with(method)), f);
   }
 

@@ -1,6 +1,8 @@
 // The midpoint discrete gradient.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/gonzalez.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "newton_family.hpp"
@@ -23,6 +25,7 @@ struct DiscreteGradient {
         .meaning = "the midpoint discrete gradient of Gonzalez: conserves any H, order 2",
         .methods = {"discrete-gradient"},
         .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
         .not_fast = "an implicit step needs the exact force",
@@ -39,8 +42,8 @@ struct DiscreteGradient {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::DiscreteGradient{read(given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::DiscreteGradient{std::any_cast<const NewtonOptions&>(given)});
   }
 
  private:

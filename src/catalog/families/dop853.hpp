@@ -1,6 +1,8 @@
 // The explicit Runge-Kutta method of Dormand and Prince of order 8 with sub-steps of its own.
 #pragma once
 
+#include <any>
+
 #include "adaptive_family.hpp"
 #include "hamflow/methods/dop853.hpp"
 
@@ -14,6 +16,7 @@ struct Dop853 {
 
   static MethodFamily declared() {
     MethodFamily family = adaptive_family("dop853", 3, options());
+    family.read = [](const Texts& given) { return std::any(read_options(options(), given)); };
     family.describe = [](std::size_t, const Texts& given) {
       MethodInfo info = describe_dop853(read_options(options(), given));
       info.name = canonical_name(info.name, options(), given);
@@ -38,8 +41,8 @@ struct Dop853 {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::Dop853{read_options(options(), given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::Dop853{std::any_cast<const AdaptiveOptions&>(given)});
   }
 };
 

@@ -1,6 +1,8 @@
 // Energy and momentum together.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/eg.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "newton_family.hpp"
@@ -29,6 +31,7 @@ struct Eg {
         .meaning = "enhanced elements that keep energy, linear and angular momentum of bodies in Cartesian coordinates",
         .methods = {"eg"},
         .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
         .not_fast = "an implicit step needs the exact force",
@@ -53,8 +56,8 @@ struct Eg {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::Eg{read(given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::Eg{std::any_cast<const EgOptions&>(given)});
   }
 
  private:

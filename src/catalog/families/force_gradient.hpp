@@ -1,6 +1,8 @@
 // Splittings whose kicks carry the gradient of |V'|^2: every table of methods/force_gradient/.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/force_gradient.hpp"
 #include "splitting_shapes.hpp"
 
@@ -29,7 +31,7 @@ struct ForceGradient {
   }
 
   template <class F>
-  static auto visit(std::size_t method, const Texts&, F&& f) {
+  static auto visit(std::size_t method, const std::any&, F&& f) {
     return f(hamflow::ForceGradient{force_gradient_tables()[method]});
   }
 };

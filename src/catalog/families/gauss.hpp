@@ -1,6 +1,8 @@
 // Gauss collocation, in stages.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/averages.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "newton_family.hpp"
@@ -27,6 +29,7 @@ struct Gauss {
             .meaning = "Gauss collocation: symplectic, of any even order, for any twice differentiable H",
             .methods = {"gauss"},
             .options = declarations_of(options()),
+            .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 2,
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an implicit step needs the exact force",
@@ -44,8 +47,8 @@ struct Gauss {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(Averages{read(given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(Averages{std::any_cast<const GaussOptions&>(given)});
   }
 
  private:

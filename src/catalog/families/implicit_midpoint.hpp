@@ -1,6 +1,8 @@
 // The implicit midpoint rule: another name of cg(1,1).
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/run/method_family.hpp"
@@ -24,6 +26,7 @@ struct ImplicitMidpoint {
         .meaning = "the implicit midpoint rule, which is gauss(1) and cg(1,1)",
         .methods = {"implicit-midpoint"},
         .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
         .rank = 2,
         .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
         .not_fast = "an implicit step needs the exact force",
@@ -40,8 +43,8 @@ struct ImplicitMidpoint {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    const CgOptions chosen = read(given);
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    const auto& chosen = std::any_cast<const CgOptions&>(given);
     if (chosen.iteration == Iteration::newton) return f(hamflow::Cg{chosen});
     return f(Averages{chosen});
   }

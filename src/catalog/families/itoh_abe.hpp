@@ -1,6 +1,8 @@
 // The discrete gradient of coordinate increments.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/itoh_abe.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "newton_family.hpp"
@@ -22,6 +24,7 @@ struct ItohAbe {
             .meaning = "the coordinate increments of Itoh and Abe: conserves any H, without derivatives, order 1",
             .methods = {"itoh-abe"},
             .options = declarations_of(options()),
+            .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 2,
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an implicit step needs the exact force",
@@ -38,8 +41,8 @@ struct ItohAbe {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::ItohAbe{read(given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::ItohAbe{std::any_cast<const NewtonOptions&>(given)});
   }
 
  private:

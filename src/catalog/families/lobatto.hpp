@@ -1,6 +1,8 @@
 // The Lobatto pair IIIA-IIIB.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/lobatto.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "newton_family.hpp"
@@ -29,6 +31,7 @@ struct Lobatto {
                 "differentiable H",
             .methods = {"lobatto-3a-3b"},
             .options = declarations_of(options()),
+            .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 2,
             .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
             .not_fast = "an implicit step needs the exact force",
@@ -48,8 +51,8 @@ struct Lobatto {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::Lobatto{read(given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::Lobatto{std::any_cast<const LobattoOptions&>(given)});
   }
 
  private:

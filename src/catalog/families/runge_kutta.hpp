@@ -1,6 +1,8 @@
 // Explicit Runge-Kutta methods with fixed steps: every tableau of methods/tableaus/.
 #pragma once
 
+#include <any>
+
 #include "catalog_tables.hpp"  // generated from the folders of tables
 #include "hamflow/run/method_family.hpp"
 
@@ -36,7 +38,7 @@ struct RungeKutta {
   }
 
   template <class F>
-  static auto visit(std::size_t method, const Texts&, F&& f) {
+  static auto visit(std::size_t method, const std::any&, F&& f) {
     std::size_t at = 0;
 #define HAMFLOW_VISIT_TABLEAU(table) \
   if (method == at++) return f(RungeKuttaBy<tableaus::table>{});

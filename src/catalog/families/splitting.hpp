@@ -1,6 +1,8 @@
 // Splittings with coefficients of their own: every table of methods/splittings/.
 #pragma once
 
+#include <any>
+
 #include "splitting_shapes.hpp"
 
 namespace hamflow::families {
@@ -23,7 +25,7 @@ struct Splitting {
   }
 
   template <class F>
-  static auto visit(std::size_t method, const Texts&, F&& f) {
+  static auto visit(std::size_t method, const std::any&, F&& f) {
     return visit_shape(AnySplitting(*splitting_tables()[method]), f);
   }
 };

@@ -1,6 +1,8 @@
 // Explicit symplectic steps for any H in a doubled phase space.
 #pragma once
 
+#include <any>
+
 #include "hamflow/methods/tao.hpp"
 #include "hamflow/run/method_family.hpp"
 
@@ -25,6 +27,7 @@ struct Tao {
             .meaning = "explicit symplectic steps for any differentiable H, with two bound copies of the state",
             .methods = {"tao2", "tao4"},
             .options = declarations_of(options()),
+            .read = [](const Texts& given) { return std::any(read_options(options(), given)); },
             .rank = 1,
             .not_on_lattice =
                 "the two copies of its state turn about each other, which is no bijection of the lattice; "
@@ -47,8 +50,8 @@ struct Tao {
   }
 
   template <class F>
-  static auto visit(std::size_t method, const Texts& given, F&& f) {
-    const TaoOptions chosen = read_options(options(), given);
+  static auto visit(std::size_t method, const std::any& given, F&& f) {
+    const auto& chosen = std::any_cast<const TaoOptions&>(given);
     if (method == 0) return f(hamflow::Tao<2>{chosen});
     return f(hamflow::Tao<4>{chosen});
   }

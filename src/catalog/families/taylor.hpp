@@ -1,6 +1,8 @@
 // Taylor series by automatic differentiation with sub-steps of its own.
 #pragma once
 
+#include <any>
+
 #include "adaptive_family.hpp"
 #include "hamflow/methods/taylor.hpp"
 
@@ -24,6 +26,7 @@ struct Taylor {
 
   static MethodFamily declared() {
     MethodFamily family = adaptive_family("taylor", 4, options());
+    family.read = [](const Texts& given) { return std::any(read_options(options(), given)); };
     family.describe = [](std::size_t, const Texts& given) {
       const AdaptiveOptions read = read_options(options(), given);
       MethodInfo info = describe_taylor(read, taylor_order(read));
@@ -53,8 +56,8 @@ struct Taylor {
   }
 
   template <class F>
-  static auto visit(std::size_t, const Texts& given, F&& f) {
-    return f(hamflow::Taylor{read_options(options(), given)});
+  static auto visit(std::size_t, const std::any& given, F&& f) {
+    return f(hamflow::Taylor{std::any_cast<const AdaptiveOptions&>(given)});
   }
 };
 

@@ -22,8 +22,8 @@ std::string worst_error(const FigureData& data) {
     if (std::isfinite(e)) worst = std::max(worst, std::abs(e));
   }
   const std::string divisor = scale_name(data);
-  return fmt::format("max |{} − {}|{}{} = {}", energy_name, energy_start, divisor.empty() ? "" : "/", divisor,
-                     short_number(worst));
+  return fmt::format("max |{} − {}{}|{}{} = {}", energy_name, energy_start, data.has_time ? energy_of_time : "",
+                     divisor.empty() ? "" : "/", divisor, short_number(worst));
 }
 
 Page page(const Figure& figure) {

@@ -57,7 +57,8 @@ std::string label_of(const Figure& figure, bool logarithmic) {
   }
   if (!logarithmic) return energy_error_label(first);
   const std::string divisor = scale_name(first);
-  return "|" + energy_name + " − " + energy_start + "|" + (divisor.empty() ? "" : "/" + divisor);
+  return "|" + energy_name + " − " + energy_start + (first.has_time ? energy_of_time : "") + "|" +
+         (divisor.empty() ? "" : "/" + divisor);
 }
 
 /// A zero between two signs must not decide the axis: below a tenth of what all but a twentieth of the sizes reach, a

@@ -44,9 +44,11 @@ template <class Real>
 class AverageSetup {
  public:
   static constexpr const char* residual_name = "residual";
-  explicit AverageSetup(const AverageOptions& options) : options_(options) {  // NOLINT: use() sets the rest
-    use(options.element.quadrature > 0 ? options.element.quadrature : options.element.degree);
+  explicit AverageSetup(const AverageOptions& options) : options_(options) {  // NOLINT: restart() sets the rest
+    restart();
   }
+  /// The points of a fresh run.
+  void restart() { use(options_.element.quadrature > 0 ? options_.element.quadrature : options_.element.degree); }
 
   MethodInfo info() const { return options_.info(); }
   NewtonOptions newton() const {
@@ -77,7 +79,9 @@ class AverageSetup {
     return "the force varies so much along the step that " + detail() + " do not keep the energy at rounding level";
   }
   int mark() const { return table().points; }
-  void return_to(int points) { use(points); }
+  void return_to(int points) {
+    if (points != table().points) use(points);
+  }
   template <class Archive>
   void archive(Archive& ar) {
     int points = table().points;

@@ -1,6 +1,7 @@
 // What one more Gauss point sees of the energy that a step gains: how quadrature = "auto" judges.
 #pragma once
 
+#include "hamflow/core/derivatives.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
 
 namespace hamflow::detail {
@@ -38,6 +39,35 @@ bool gains_energy(const Gain<Real>& one, bool has_two, const TwoMore& two_more) 
   if (abs(one.gain) <= one.noise) return false;
   if (abs(one.gain) > Real(4096) * one.noise || !has_two) return true;
   return abs(two_more() - one.gain) <= abs(one.gain) / 2;
+}
+
+/// What H rounds by near a state: it has terms that cancel, of which those of the virial tell.
+template <class P, class Real, std::size_t N>
+Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real, N>& p) {
+  Vector<Real, N> dq = zeros_like(q);
+  Vector<Real, N> dp = zeros_like(p);
+  gradient(problem, q, p, dq, dp);
+  Real size = abs(energy(problem, q, p));
+  for (std::size_t i = 0; i < q.size(); ++i) size += abs(q[i] * dq[i]) + abs(p[i] * dp[i]);
+  return size;
+}
+
+/// Whether H has changed by 4096 roundings of its terms along a step that no rule of points sees any gain in. Then H is
+/// not smooth: where it has a kink (abs(x)) beyond the outermost points, two rules agree about what neither has seen.
+template <class P, class Real, std::size_t N>
+bool overlooks_a_kink(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
+                      const Increment<Real, N>& taken) {
+  constexpr auto epsilon = Epsilon<Real>{};
+  Vector<Real, N> q1 = q0;
+  Vector<Real, N> p1 = p0;
+  for (std::size_t i = 0; i < q1.size(); ++i) {
+    q1[i] += taken.q[i];
+    p1[i] += taken.p[i];
+  }
+  const Real before = energy(problem, q0, p0);
+  const Real change = abs(energy(problem, q1, p1) - before);
+  if (change <= epsilon * Real(4096 * abs(before))) return false;  // most steps need to know no more
+  return change > epsilon * Real(4096 * (size_of_terms(problem, q0, p0) + size_of_terms(problem, q1, p1)));
 }
 
 }  // namespace hamflow::detail

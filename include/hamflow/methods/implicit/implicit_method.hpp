@@ -7,6 +7,7 @@
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/implicit/energy_gain.hpp"
 #include "hamflow/methods/implicit/newton.hpp"
 
 namespace hamflow {
@@ -66,7 +67,13 @@ class ImplicitMethod {
     return counted(problem, h, z, &unknowns);
   }
 
-  void invalidate() { newton_.forget(); }
+  /// What is remembered, guesses and the points of "auto", belongs to steps of one length in one direction.
+  void invalidate() {
+    newton_.forget();
+    if constexpr (requires { setup_.restart(); }) {
+      if (setup_.automatic()) setup_.restart();
+    }
+  }
   Effort effort() const { return effort_; }
   template <class Archive>
   void archive(Archive& ar) {
@@ -90,6 +97,13 @@ class ImplicitMethod {
     again.options_.halve = false;
     (void)again.attempt(problem, h, copy, 0, nullptr, &log);
     if constexpr (requires { again.setup_.hopeless(); }) {
+      if (log.kink()) {
+        return "H changes along the step by more than its rounding, although no rule of up to " +
+               again.setup_.detail() +
+               " sees any gain: it has a kink or a jump there, as abs(x) has, where no quadrature keeps the energy, or "
+               "what "
+               "changes is much narrower than the step";
+      }
       if (log.too_coarse()) return again.setup_.hopeless();
     }
     return "Newton did not converge in " + std::to_string(options_.max_iterations) +
@@ -137,17 +151,33 @@ class ImplicitMethod {
     if (solve(problem, h, q0, p0, z, unknowns, log)) return Outcome::done;
     if (!options_.halve || depth == deepest_halving) return Outcome::not_converged;
     const PhasePoint<A, n> start = z;
+    const auto points = mark();
     invalidate();
     for (int half = 0; half < 2; ++half) {
       const Outcome outcome = attempt(problem, h / 2, z, depth + 1, unknowns, log);
       if (outcome != Outcome::done) {
         z = start;
+        return_to(points);
         return outcome;
       }
     }
     if (depth == 0) ++effort_.halved;
-    invalidate();  // what was remembered belongs to another step length
+    newton_.forget();
+    return_to(points);
     return Outcome::done;
+  }
+
+  /// The points of "auto" that whole steps take: half steps find their own.
+  auto mark() const {
+    if constexpr (requires { setup_.mark(); }) {
+      return setup_.mark();
+    } else {
+      return nullptr;
+    }
+  }
+  template <class Mark>
+  void return_to(const Mark& points) {
+    if constexpr (requires { setup_.return_to(points); }) setup_.return_to(points);
   }
 
   using Solution = typename Newton<E>::Solution;
@@ -202,15 +232,20 @@ class ImplicitMethod {
                                                     const Vector<Real, n> p0, Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
     const auto before = setup_.mark();
-    while (E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken)) {
+    for (;;) {
+      const bool coarse = E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken);
+      if (!coarse && !detail::overlooks_a_kink(problem, q0, p0, found.taken)) return found;
       const bool finer = setup_.refine();
-      if (!finer && log != nullptr) log->note_too_coarse();
+      if (log != nullptr) {
+        log->restart();
+        if (!coarse) log->note_kink();
+        if (!finer) log->note_too_coarse();
+      }
       if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {
         if (log == nullptr) setup_.return_to(before);  // a report names the last ones
         return {};
       }
     }
-    return found;
   }
 
   [[gnu::noinline]] void diagnose(const P& problem, const PhasePoint<A, n>& z, long long solves) {

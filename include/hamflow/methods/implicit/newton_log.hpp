@@ -25,17 +25,25 @@ class NewtonLog {
     text_ += (iterations_++ == 0 ? "" : ", ") + shortest(norm);
   }
   [[gnu::cold, gnu::noinline]] void remark(const char* ending) { text_ += std::string(" (") + ending + ")"; }
+  /// The equations are others from here on.
+  [[gnu::cold, gnu::noinline]] void restart() {
+    text_.clear();
+    attempts_ = 0;
+  }
   void note_too_coarse() { too_coarse_ = true; }
+  void note_kink() { kink_ = true; }
 
   const std::string& text() const { return text_; }
   int attempts() const { return attempts_; }
   bool too_coarse() const { return too_coarse_; }
+  bool kink() const { return kink_; }
 
  private:
   std::string text_;
   int attempts_ = 0;
   int iterations_ = 0;
   bool too_coarse_ = false;
+  bool kink_ = false;
 };
 
 }  // namespace hamflow

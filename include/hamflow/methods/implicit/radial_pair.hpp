@@ -8,11 +8,13 @@
 // the projection of g on u', without the cancellation of energies; for k = 1 it is g itself.
 //
 // It has no limit at u' = 0, at rest and on a circle: there it depends on the direction of u', and steps close to it
-// would have no solution. Any u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work. So
-//     chi = exp(-(u', u')/delta^2),   delta = 8 times what u' changes by when g is added to the factor,
-// with the g that is left where u' = 0, phi'' s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of collocation in u,
-// of order k + 1 in h. On a circle the factor is phi[u0, u1], and the step stays on it; where u' is of the size of 9
-// delta or more chi is below any rounding.
+// have no solution. Any u' (u', g)/(u', u') + chi [g - u' (u', g)/(u', u')] does the same work: chi = 1 takes g itself,
+// by which the factor is phi[u0, u1], and a circle stays one. So with
+//     rho = |u'|/(what u' changes by when g is added to the factor),
+// chi is 1 below 2, 0 above 8, and goes from one to the other as a polynomial with two continuous derivatives. For g
+// stands what is left of it where u' = 0, phi'' s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of collocation in
+// u, of order k + 1 in h. Where rho > 8 the step is the definition and nothing else: on an ellipse of e = 0.1 with 63
+// steps to a period rho is 15 000 at its least, of e = 0.6 with 21 steps 12.
 #pragma once
 
 #include <memory>
@@ -124,18 +126,18 @@ struct RadialPair {
     }
     const S mean = recorded.difference(u0, u1);
     for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
-    if (k > 1) project(stages, h, u0, mean, R(R(32) * h * strength));
+    if (k > 1) project(stages, h, u0, mean, R(R(4) * h * strength));
   }
 
  private:
-  /// @param response 8 times what a factor of 1 changes u' by, over u
+  /// @param response what a factor of 1 changes u' by, over u
   template <class R>
   void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const R& response) {
     const std::size_t k = stages.count;
     S gap[most];     // g
     S work(R(0));    // (u', g)
     S square(R(0));  // (u', u')
-    S limit(R(0));   // delta^2
+    S unit(R(0));    // (u', u')/rho^2
     R largest(0);
     R loose(0);
     for (std::size_t l = 0; l < k; ++l) {
@@ -145,22 +147,19 @@ struct RadialPair {
       work = work + stages.b[l] * (rate[l] * gap[l]);
       square = square + stages.b[l] * (rate[l] * rate[l]);
       const S here = response * (u[l] * (law[l].second * error));
-      limit = limit + stages.b[l] * (here * here);
+      unit = unit + stages.b[l] * (here * here);
       largest = larger(largest, R(abs(value_of(gap[l]))));
       loose = larger(loose, reach[l]);
     }
-    S along(R(0));
-    S share(R(0));  // chi
-    const R both = value_of(square) + value_of(limit);
-    if (!(both > R(0))) return;
-    noise = largest * loose / sqrt(both);
-    if (value_of(square) > (R(20) - log(std::numeric_limits<R>::epsilon())) * value_of(limit)) {
-      along = work / square;
-    } else {
-      const S y = square / limit;
-      share = exp(-y);
-      along = work * detail::difference_of_exp(S(R(0)), S(-y)) / limit;  // (1 - chi)/(u', u')
+    S kept(R(1));  // 1 - chi
+    if (!(value_of(square) > R(64) * value_of(unit))) {
+      if (!(value_of(square) > R(4) * value_of(unit))) return;  // the mean
+      const S x = (square - R(4) * unit) / (R(60) * unit);
+      kept = x * x * x * (R(10) - x * (R(15) - R(6) * x));
     }
+    noise = largest * loose / sqrt(value_of(square));
+    const S along = kept * work / square;
+    const S share = R(1) - kept;
     for (std::size_t l = 0; l < k; ++l) factor[l] = law[l].first + along * rate[l] + share * gap[l];
   }
 };

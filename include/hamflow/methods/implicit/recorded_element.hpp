@@ -38,6 +38,10 @@ class RecordedElement : public SegmentEquations<P, double> {
     }
     const ElementPrograms& programs() const { return *programs_; }
     bool refine() { return SegmentSetup<double>::refine() && choose(); }
+    void restart() {
+      SegmentSetup<double>::restart();
+      choose();
+    }
     void return_to(const GaussRule<double>* rule) {
       SegmentSetup<double>::return_to(rule);
       choose();

@@ -63,8 +63,9 @@ class SegmentSetup {
  public:
   static constexpr const char* residual_name = "residual (2.63)";
 
-  explicit SegmentSetup(const CgOptions& options)
-      : options_(options), rule_(&gauss_rule<Real>(options.quadrature > 0 ? options.quadrature : 1)) {}
+  explicit SegmentSetup(const CgOptions& options) : options_(options) { restart(); }  // NOLINT: restart() sets the rule
+  /// The points of a fresh run.
+  void restart() { rule_ = &gauss_rule<Real>(options_.quadrature > 0 ? options_.quadrature : 1); }
 
   MethodInfo info() const { return describe(options_); }
   NewtonOptions newton() const {
@@ -95,7 +96,7 @@ class SegmentSetup {
 
  private:
   CgOptions options_;
-  const GaussRule<Real>* rule_;
+  const GaussRule<Real>* rule_ = nullptr;
 };
 
 /// The equation of cg(1) in u = z1 - z0, for any H:  h int J grad H - u = 0 along the segment.
