@@ -1,6 +1,8 @@
 // What the families share whose steps are solved by iteration. The members are those of NewtonOptions.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "hamflow/methods/averages.hpp"
@@ -8,7 +10,7 @@
 
 namespace hamflow::families {
 
-/// Of elements: the Gauss points. @param least the smallest number @param position among the options
+/// Of elements: the Gauss points. @param position among the options
 template <class Options>
 BoundOption<Options> quadrature_option(int position) {
   return bind_number({.name = "quadrature",
@@ -17,6 +19,22 @@ BoundOption<Options> quadrature_option(int position) {
                       .range = Range::whole_from(1, 64),
                       .position = position},
                      &Options::quadrature, {{"auto", 0}});
+}
+
+/// Of polynomials in time: their degree, by position the first of the options.
+template <class Options>
+BoundOption<Options> degree_option(std::string meaning, Range range) {
+  return bind_number(
+      {.name = "degree", .default_value = "1", .meaning = std::move(meaning), .range = range, .position = 1},
+      &Options::degree);
+}
+
+/// Of methods in stages: how many, by position the first of the options.
+template <class Options>
+BoundOption<Options> stages_option(std::string meaning, Range range) {
+  return bind_number(
+      {.name = "stages", .default_value = "2", .meaning = std::move(meaning), .range = range, .position = 1},
+      &Options::stages);
 }
 
 /// tolerance, criterion, max_iterations, iteration, on_divergence, diagnostics, in this order.

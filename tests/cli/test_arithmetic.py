@@ -30,9 +30,11 @@ class Arithmetic(CommandCase):
 
     def test_energy_of_an_element_in_many_digits(self):
         for arithmetic, bound in (("double-double", 1e-30), ("quad", 1e-32), ("mp(50)", 1e-48)):
-            s = self.run_with("method.quadrature=\"auto\"", "run.steps=20", "run.dt=0.01",
-                             f"run.arithmetic={arithmetic}")
-            self.assertLess(s["energy"]["max_relative_error"], bound, arithmetic)
+            for degree in (1, 2, 3):
+                s = self.run_with("method.quadrature=\"auto\"", f"method.degree={degree}", "run.steps=20",
+                                  "run.dt=0.01", f"run.arithmetic={arithmetic}")
+                self.assertLess(s["energy"]["max_relative_error"], bound, arithmetic)
+                self.assertGreater(s["certificate"]["energy_level"], 0)  # differences are formed in all digits
 
     def test_tables_are_not_used_beyond_their_digits(self):
         result = self.hamflow("run", KEPLER, "--set", "method.name=kahan-li8", "--set", "run.arithmetic=mp(80)",

@@ -263,6 +263,46 @@ TEST(Averages, HalvingAndReversalForgetTheLastStep) {
   EXPECT_GT(halving.effort().halved, 0);
 }
 
+TEST(Averages, TheFirstGuessContinuesThePolynomialOfTheLastStep) {
+  // A polynomial of degree k is continued exactly: the averages of free fall, and of a motion z(t) of degree k - 1.
+  for (const int k : {1, 2, 3, 5}) {
+    const auto n = static_cast<std::size_t>(k);
+    for (const bool stages : {false, true}) {
+      const AverageTable<double>& t = stages ? stage_table<double>(k) : element_table<double>(k, k);
+      const GaussRule<double>& rule = gauss_rule<double>(k);
+      // z' = (1 + c)^(k - 1) at the points of a step and, c + 1, of the one after it.
+      const auto averages = [&](double from) {
+        std::vector<double> u(n);
+        for (std::size_t l = 0; l < n; ++l) {
+          for (std::size_t i = 0; i < n; ++i) u[i] += t.weight[l * n + i] * std::pow(1 + from + rule.c[l], k - 1);
+        }
+        return u;
+      };
+      const std::vector<double> last = averages(0);
+      const std::vector<double> wanted = averages(1);
+      for (std::size_t i = 0; i < n; ++i) {
+        double guess = 0;
+        for (std::size_t j = 0; j < n; ++j) guess += t.next[j * n + i] * last[j];
+        EXPECT_NEAR(guess, wanted[i], 16 * test::epsilon * std::pow(6, k)) << k << (stages ? " stages" : "");
+      }
+    }
+  }
+  // Which spares corrections: each gains the same number of digits.
+  const Plane problem(1.0, Kepler<double>(1.0));
+  const auto solves = [&](bool remembering) {
+    const CgOptions options{.degree = 3, .quadrature = 6, .max_iterations = 100, .iteration = Iteration::fixed_point};
+    auto method = CgOfDegree{options}.bind<Plane, Compensated<double>>(problem);
+    PhasePoint<Compensated<double>, 2> z;
+    z.store({1.0, 0.0}, {0.0, 1.1});
+    for (int i = 0; i < 40; ++i) {
+      if (!remembering) method.invalidate();
+      EXPECT_EQ(method.step(problem, 0.1, z), Outcome::done);
+    }
+    return method.effort().linear_solves;
+  };
+  EXPECT_LT(solves(true), solves(false));
+}
+
 /// An archive that takes one thing of what a method saves: its number of Gauss points.
 struct PointsInUse {
   static constexpr bool reading = false;

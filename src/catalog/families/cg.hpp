@@ -13,12 +13,8 @@ namespace hamflow::families {
 struct Cg {
   static const BoundOptions<CgOptions>& options() {
     static const BoundOptions<CgOptions> all = [] {
-      BoundOptions<CgOptions> list{bind_number({.name = "degree",
-                                                .default_value = "1",
-                                                .meaning = "polynomial degree in time; the order is twice that",
-                                                .range = Range::whole_from(1, most_gauss_points - 1),
-                                                .position = 1},
-                                               &CgOptions::degree),
+      BoundOptions<CgOptions> list{degree_option<CgOptions>("polynomial degree in time; the order is twice that",
+                                                            Range::whole_from(1, most_gauss_points - 1)),
                                    quadrature_option<CgOptions>(2)};
       add_newton_options(list);
       return list;

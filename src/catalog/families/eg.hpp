@@ -12,13 +12,8 @@ namespace hamflow::families {
 struct Eg {
   static const BoundOptions<EgOptions>& options() {
     static const BoundOptions<EgOptions> all = [] {
-      BoundOptions<EgOptions> list{
-          bind_number({.name = "degree",
-                       .default_value = "1",
-                       .meaning = "polynomial degree in time, and Gauss points; the order is twice that",
-                       .range = Range::whole_from(1, 3),
-                       .position = 1},
-                      &EgOptions::degree)};
+      BoundOptions<EgOptions> list{degree_option<EgOptions>(
+          "polynomial degree in time, and Gauss points; the order is twice that", Range::whole_from(1, 3))};
       add_newton_options(list);
       return list;
     }();

@@ -12,12 +12,8 @@ namespace hamflow::families {
 struct Gauss {
   static const BoundOptions<GaussOptions>& options() {
     static const BoundOptions<GaussOptions> all = [] {
-      BoundOptions<GaussOptions> list{bind_number({.name = "stages",
-                                                   .default_value = "2",
-                                                   .meaning = "Gauss points; the order is twice that",
-                                                   .range = Range::whole_from(1, 10),
-                                                   .position = 1},
-                                                  &GaussOptions::stages)};
+      BoundOptions<GaussOptions> list{
+          stages_option<GaussOptions>("Gauss points; the order is twice that", Range::whole_from(1, 10))};
       add_newton_options(list);
       return list;
     }();

@@ -12,12 +12,8 @@ namespace hamflow::families {
 struct Lobatto {
   static const BoundOptions<LobattoOptions>& options() {
     static const BoundOptions<LobattoOptions> all = [] {
-      BoundOptions<LobattoOptions> list{bind_number({.name = "stages",
-                                                     .default_value = "2",
-                                                     .meaning = "of the pair; the order is 2 stages - 2",
-                                                     .range = Range::whole_from(2, 10),
-                                                     .position = 1},
-                                                    &LobattoOptions::stages)};
+      BoundOptions<LobattoOptions> list{
+          stages_option<LobattoOptions>("of the pair; the order is 2 stages - 2", Range::whole_from(2, 10))};
       add_newton_options(list);
       return list;
     }();
