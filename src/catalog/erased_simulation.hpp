@@ -4,8 +4,10 @@
 
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/run/fast_functions.hpp"
+#include "hamflow/run/iterated_simulation.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
+#include "iteration_recorder.hpp"
 #include "visit_erased.hpp"
 
 namespace hamflow {
@@ -78,6 +80,10 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
           return std::make_unique<RecordedSimulation<P, decltype(method), A>>(
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
               request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch);
+        } else if constexpr (std::is_same_v<R, double> && std::is_same_v<M, Averages>) {
+          return std::make_unique<IteratedSimulation<P, decltype(method), A>>(
+              Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
+              iteration_recorder(run.functions, c, recipe.options));
         } else {
           return std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic);
         }
