@@ -4,8 +4,10 @@
 
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/run/fast_functions.hpp"
+#include "hamflow/run/iterated_simulation.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
+#include "iteration_recorder.hpp"
 #include "varying_steps.hpp"
 #include "visit_erased.hpp"
 
@@ -111,6 +113,10 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               : step_control_of(request.method).reversible ? varying_recorder_of<c, A>(run, recipe, request)
                                                            : recorder_of<c, A>(run, recipe, estimated),
               request.watch));
+        } else if constexpr (std::is_same_v<R, double> && std::is_same_v<M, Averages>) {
+          return requested(std::make_unique<IteratedSimulation<P, decltype(method), A>>(
+              Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
+              iteration_recorder(run.functions, c, recipe.options)));
         } else {
           return requested(std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic));
         }
