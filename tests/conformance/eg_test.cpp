@@ -265,6 +265,29 @@ TEST(Eg, FixedPointsAndOldTangentsSolveTheSameEquations) {
   }
 }
 
+TEST(Eg, IsDifferentiatedExactlyWhereTheGuardActs) {
+  // Starts with rho from below 2 to above 8: the Jacobian of the step, from its equations, beside divided differences,
+  // whose truncation d^2 Psi'''/6 is 1e-9: the guard changes over eccentricities of 1e-3, so that Psi''' reaches 1e8.
+  const StepMapOf<KeplerPlane, Eg> map([]<class R>() { return KeplerPlane<R>(R(1), Kepler<R>(R(1))); }, Eg{degree(2)});
+  constexpr double h = 0.3;
+  constexpr long double d = 0x1p-27L;
+  for (const double off : {1e-5, 3e-4, 5e-4, 1e-3, 2e-3, 1e-2}) {
+    const State<double> z{1, 0, 0, 1 + off};
+    const auto exact = map.jacobian(z, h);
+    for (std::size_t j = 0; j < 4; ++j) {
+      State<long double> plus(z.begin(), z.end());
+      State<long double> minus = plus;
+      plus[j] += d;
+      minus[j] -= d;
+      ASSERT_TRUE(map.advance(plus, static_cast<long double>(h), 1));
+      ASSERT_TRUE(map.advance(minus, static_cast<long double>(h), 1));
+      for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(exact[i][j], static_cast<double>((plus[i] - minus[i]) / (2 * d)), 1e-8) << off << i << j;
+      }
+    }
+  }
+}
+
 // That eg(k) is what it claims to be is measured with the catalogue (claims_test.cpp).
 TEST(Eg, WithoutLambdaIsCaught) {
   // eg(2) without lambda is Gauss collocation.

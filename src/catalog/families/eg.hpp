@@ -34,8 +34,9 @@ struct Eg {
         .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
         .needs =
             [](std::size_t) {
-              return "forces along the lines between bodies or to a centre, functions of the distance: n-body, "
-                     "solar-system, central-force in Cartesian coordinates";
+              return "an H of bodies whose forces act along the lines between them or to a centre and depend on the "
+                     "distance alone, one of n-body, solar-system, or central-force with a named potential and "
+                     "Cartesian coordinates";
             },
         .advice =
             [](std::size_t) {

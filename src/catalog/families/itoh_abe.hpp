@@ -20,24 +20,26 @@ struct ItohAbe {
   }
 
   static MethodFamily declared() {
-    return {.name = "itoh-abe",
-            .meaning = "the coordinate increments of Itoh and Abe: conserves any H, without derivatives, order 1",
-            .methods = {"itoh-abe"},
-            .options = declarations_of(options()),
-            .read = [](const Texts& given) { return std::any(read(given)); },
-            .rank = 2,
-            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
-            .not_fast = "an implicit step needs the exact force",
-            .describe = [](std::size_t, const Texts& given) { return hamflow::ItohAbe{read(given)}.info(); },
-            .needs = [](std::size_t) { return "a twice differentiable H whose formula can be recorded"; },
-            .advice =
-                [](std::size_t) {
-                  return MethodAdvice{
-                      .take = "a map that conserves the energy is to be compared that uses values of H alone",
-                      .avoid = "the solution has to be right: cg, of order 2 and more, symmetric"};
-                },
-            .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+    return {
+        .name = "itoh-abe",
+        .meaning = "the coordinate increments of Itoh and Abe: conserves any H, without derivatives, order 1",
+        .methods = {"itoh-abe"},
+        .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
+        .rank = 2,
+        .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+        .not_fast = "an implicit step needs the exact force",
+        .describe = [](std::size_t, const Texts& given) { return hamflow::ItohAbe{read(given)}.info(); },
+        .needs = [](std::size_t) { return "a twice differentiable H whose formula can be recorded"; },
+        .advice =
+            [](std::size_t) {
+              return MethodAdvice{
+                  .take = "a map that conserves the energy and is made of values of H alone is to be compared",
+                  .avoid =
+                      "the solution has to be right or the way back to be found: cg, of order 2 and more, symmetric"};
+            },
+        .refused = [](const Texts& given) { return refused_together(options(), given); },
+        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   template <class F>

@@ -38,8 +38,8 @@ struct Lobatto {
                 [](std::size_t) {
                   return MethodAdvice{
                       .take =
-                          "verlet is to be taken for an H that is not T(p) + V(q), at any even order: two stages are "
-                          "verlet where it is",
+                          "H is not T(p) + V(q), and what verlet is for others is wanted, at any even order: with two "
+                          "stages the step is verlet where H is T(p) + V(q)",
                       .avoid = "the order has to be high for few stages: gauss; the energy has to be exact: cg"};
                 },
             .refused = [](const Texts& given) { return refused_together(options(), given); },

@@ -12,9 +12,9 @@
 // by which the factor is phi[u0, u1], and a circle stays one. So with
 //     rho = |u'|/(what u' changes by when g is added to the factor),
 // chi is 1 below 2, 0 above 8, and goes from one to the other as a polynomial with two continuous derivatives. For g
-// stands what is left of it where u' = 0, phi'' s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of collocation in
-// u, of order k + 1 in h. Where rho > 8 the step is the definition and nothing else: on an ellipse of e = 0.1 with 63
-// steps to a period rho is 15 000 at its least, of e = 0.6 with 21 steps 12.
+// stands what is left of it where u' = 0, phi'[u0, u1] s_l: s_l = u_l - u0 - h sum_j a_lj u'_j is the error of
+// collocation in u, of order k + 1 in h. Where rho > 8 the step is the definition and nothing else: on an ellipse of
+// e = 0.1 with 63 steps to a period rho is 15 000 at its least, of e = 0.6 with 21 steps 12.
 #pragma once
 
 #include <memory>
@@ -25,29 +25,31 @@
 
 namespace hamflow {
 
-/// phi on a tape, for its divided difference.
+/// phi and phi' on a tape, for their divided differences.
 template <class R>
 class RecordedLaw {
  public:
   template <class P>
   explicit RecordedLaw(const P& problem) {
     Recorder<R> recorder(Folding::exact);
-    tape_ = std::make_shared<const Tape<R>>(recorder.finish({problem.radial_law(recorder.input(R(5) / R(7))).value}));
+    const auto law = problem.radial_law(recorder.input(R(5) / R(7)));
+    tape_ = std::make_shared<const Tape<R>>(recorder.finish({law.value, law.first}));
   }
-  /// phi[a, b].
+  /// phi[a, b] and phi'[a, b].
   template <class S>
-  S difference(const S& a, const S& b) const {
+  std::pair<S, S> differences(const S& a, const S& b) const {
     Vector<Slope<S>, dynamic> nodes(tape_->nodes.size());
     nodes[0] = Slope<S>(a, b, S(R(1)));
     (void)replay(*tape_, nodes);  // laws have no branches
-    return nodes[static_cast<std::size_t>(tape_->outputs[0])].slope;
+    const auto slope = [&](std::size_t k) { return nodes[static_cast<std::size_t>(tape_->outputs[k])].slope; };
+    return {slope(0), slope(1)};
   }
 
  private:
   std::shared_ptr<const Tape<R>> tape_;
 };
 
-/// The law at a number, or along a dual number; the derivative of phi'', which decides about delta alone, is left out.
+/// The law at a number, or along a dual number; of phi'' the value alone.
 template <class P, class S>
 RadialLaw<S> law_at(const P& problem, const S& u) {
   if constexpr (IsDual<S>::value) {
@@ -124,15 +126,15 @@ struct RadialPair {
       }
       law[l] = law_at(problem, u[l]);
     }
-    const S mean = recorded.difference(u0, u1);
+    const auto [mean, bend] = recorded.differences(u0, u1);
     for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
-    if (k > 1) project(stages, h, u0, mean, R(R(4) * h * strength));
+    if (k > 1) project(stages, h, u0, mean, bend, R(R(4) * h * strength));
   }
 
  private:
-  /// @param response what a factor of 1 changes u' by, over u
+  /// @param mean, bend phi[u0, u1] and phi'[u0, u1]   @param response what a factor of 1 changes u' by, over u
   template <class R>
-  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const R& response) {
+  void project(const GaussStages<R>& stages, const R& h, const S& u0, const S& mean, const S& bend, const R& response) {
     const std::size_t k = stages.count;
     S gap[most];     // g
     S work(R(0));    // (u', g)
@@ -146,7 +148,7 @@ struct RadialPair {
       for (std::size_t j = 0; j < k; ++j) error = error - (h * stages.a(l, j)) * rate[j];
       work = work + stages.b[l] * (rate[l] * gap[l]);
       square = square + stages.b[l] * (rate[l] * rate[l]);
-      const S here = response * (u[l] * (law[l].second * error));
+      const S here = response * (u[l] * (bend * error));
       unit = unit + stages.b[l] * (here * here);
       largest = larger(largest, R(abs(value_of(gap[l]))));
       loose = larger(loose, reach[l]);
