@@ -20,6 +20,11 @@ class RequestReader {
  public:
   RequestReader(const Scenario& scenario, const CompareOptions& options) : scenario_(scenario) {
     read_methods(options.methods);
+    if (describe(scenario.request.method).varies_steps) {
+      complain("method.step_control",
+               "found \"reversible\"; allowed fixed, e.g. by --set method.step_control=fixed: all "
+               "methods of a comparison end at one time, steps of varying length do not");
+    }
     request.request = scenario.request;
     request.t_end = scenario.dt * static_cast<double>(scenario.steps);
     request.t_end_text = "(" + scenario.request.dt + ")*" + std::to_string(scenario.steps);

@@ -63,8 +63,7 @@ StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, 
     if (control.monitor == default_monitor && !(natural && by_hessian)) return {};
     using Monitored = AnyProblem<Trace<double>, natural_face>;
     return [problem = Traced(run.functions.size, run.functions.trace), recipe,
-            monitor =
-                step_monitor(Monitored(run.functions.size, run.functions.trace), control, weights_of(run, control))](
+            monitor = step_monitor(Monitored(run.functions.size, run.functions.trace), control)](
                const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
                bool watch, RecordedAt at) {
       return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch, at, &monitor);

@@ -18,7 +18,8 @@ const BoundOptions<StepControl>& control_options() {
                  .meaning = "what the length of a step follows: equal lengths of the trajectory in phase space, or the "
                             "distance from the centre or of the nearest two bodies to the power 3/2 (central-force, "
                             "n-body, solar-system)",
-                 .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps + "\""},
+                 .condition = std::string("with ") + step_control_option + " = \"" + reversible_steps +
+                              "\"; equal steps follow none"},
                 &StepControl::monitor,
                 {{default_monitor, default_monitor}, {distance_monitor_name, distance_monitor_name}})};
   return all;
@@ -42,11 +43,7 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
   const MethodEntry& entry = find_method(method.name);
   if (!declares(*entry.family)) return std::nullopt;
   const StepControl control = step_control_of(method);
-  if (!control.reversible) {
-    if (!method.options.contains(monitor_option)) return std::nullopt;
-    return RefusedOption{monitor_option, std::string("found it without ") + step_control_option + " = \"" +
-                                             reversible_steps + "\"; allowed with it: equal steps follow nothing"};
-  }
+  if (!control.reversible) return std::nullopt;  // equal steps follow no monitor
   const MethodInfo info = entry.family->describe(entry.index, method.options);
   if (!info.symmetric) {
     return RefusedOption{step_control_option, std::string("found \"") + reversible_steps + "\" with " + info.name +

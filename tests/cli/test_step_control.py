@@ -148,7 +148,6 @@ class StepControl(CommandCase):
                               ("itoh-abe(step_control=reversible)", ("not symmetric",)),
                               ("dop853(step_control=reversible)", ("allowed adaptive, fixed",)),
                               ("taylor(step_control=reversible)", ("allowed adaptive, fixed",)),
-                              ("verlet(monitor=distance)", ("step_control = \"reversible\"",)),
                               ("cg(1,5,diagnostics=true,step_control=reversible)", ("diagnostics",))):
             with self.subTest(method=method):
                 text = self.refused("--set", f"method.name='{method}'")
@@ -158,7 +157,10 @@ class StepControl(CommandCase):
         self.assertIn("allowed arclength", self.refused(*TYPED, "--set", "method.name='cg(1,5,step_control=reversible,monitor=distance)'"))
         self.assertIn("allowed step_control=fixed", self.refused("--methods", "verlet(step_control=reversible)", command="compare"))
         self.assertIn("allowed step_control=fixed", self.hamflow("verify", "verlet(step_control=reversible)", status=2).stderr)
-        # Any method may be told to take equal steps.
+        self.assertIn("--set method.step_control=fixed", self.refused(*DISTANCE, "--methods", "verlet", command="compare"))
+        # Any method may be told to take equal steps, which follow no monitor.
+        s = self.summary("kepler.toml", *DISTANCE, "--set", "method.step_control='fixed'")
+        self.assertEqual(s["final"], self.summary("kepler.toml", "--set", "method.name='stv4'")["final"])
         for method in ("euler", "rk4", "verlet", "cg(1,5)"):
             name = method.split("(")[0]
             s = self.summary("kepler.toml", "--set", f"method={{name='{name}', step_control='fixed'}}", "--set", "run.steps=3")

@@ -56,15 +56,13 @@ void verlet_step(Plane& z, double h) {
 }
 
 double rate_by_distance(const Plane& z) { return -1.5 * z.radial() / z.square(); }
-/// sigma = 1/S, S^2 = sqrt(5)/r0^3 |v|^2 + sqrt(2)/r^4: |V''| = sqrt(5)/r^3, |M^-1| = sqrt(2), p' = -q/r^3.
-double rate_by_arclength(const Plane& z, double r0) {
+/// sigma = 1/S, S^2 = |v|^2 + 1/r^4, since p' = -q/r^3.
+double rate_by_arclength(const Plane& z) {
   const double r2 = z.square();
   const double r3 = r2 * std::sqrt(r2);
-  const double of_q = std::sqrt(5.0) / (r0 * r0 * r0);
-  const double of_p = std::sqrt(2.0);
-  const double s2 = of_q * (z.u * z.u + z.v * z.v) + of_p / (r2 * r2);
+  const double s2 = z.u * z.u + z.v * z.v + 1 / (r2 * r2);
   // d/dt (|v|^2/2) = -q.v/r^3, d/dt (r^-4)/2 = -2 q.v/r^6
-  return (-of_q * z.radial() / r3 - 2 * of_p * z.radial() / (r3 * r3)) / s2;
+  return (-z.radial() / r3 - 2 * z.radial() / (r3 * r3)) / s2;
 }
 
 TEST(StepDensity, FollowsItsDefinition) {
@@ -82,7 +80,7 @@ TEST(StepDensity, FollowsItsDefinition) {
       longest = std::max(longest, h);
       verlet_step(z, h);
       t += h;
-      rho += 0.001 * (by_distance ? rate_by_distance(z) : rate_by_arclength(z, 1 - e));
+      rho += 0.001 * (by_distance ? rate_by_distance(z) : rate_by_arclength(z));
       ASSERT_EQ(run->advance(1), Outcome::done);
       Frame frame;
       run->look(frame);
@@ -107,7 +105,7 @@ TEST(StepDensity, OfATypedSimulation) {
   auto run = simulate(kepler, Composition<compositions::verlet>{}, {0.4, 0.0}, {0.0, 2.0}, 0.01);
   run.vary_steps(distance_monitor(kepler));
   auto around = simulate(kepler, Composition<compositions::verlet>{}, {0.4, 0.0}, {0.0, 2.0}, 0.01);
-  around.vary_steps(arclength_monitor(kepler, Vector<double, 2>{0.4, 0.0}, Vector<double, 2>{0.0, 2.0}));
+  around.vary_steps(arclength_monitor(kepler));
   for (auto* each : {&run, &around}) {
     const bool by_distance = each == &run;
     const std::string options = by_distance ? ",monitor=distance" : "";

@@ -1,5 +1,5 @@
 // The lengths that steps should have, up to a factor (methods/step_density.hpp).
-//     simulation.vary_steps(arclength_monitor(problem, q, p));
+//     simulation.vary_steps(arclength_monitor(problem));
 #pragma once
 
 #include <limits>
@@ -11,16 +11,6 @@
 namespace hamflow {
 
 namespace detail {
-/// The root of the sum of the squares of all entries.
-template <class M>
-auto norm_of_entries(const M& m) {
-  auto sum = m[0][0] * m[0][0];
-  for (std::size_t i = 0; i < m.size(); ++i) {
-    for (std::size_t j = i == 0 ? 1 : 0; j < m.size(); ++j) sum += m[i][j] * m[i][j];
-  }
-  return sqrt(sum);
-}
-
 /// Of more degrees of freedom the second derivatives are taken along the motion alone, where dual numbers can do that.
 inline constexpr std::size_t most_with_hessian = 12;
 
@@ -78,29 +68,14 @@ void acceleration(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p
 }  // namespace detail
 
 /// **arclength**: every step covers the same length of the trajectory in phase space, sigma = 1/S with
-///     S^2 = |H_qq| |q'|^2 + |H_pp| |p'|^2
-/// and the Frobenius norms of the Hessian's blocks at the start, constants of the run. They bring q and p to a common
-/// unit: each term is an energy over the square of a time, whatever H, and for an oscillator S is constant. For any H
-/// with second derivatives. At rest, where S = 0, every length is right, and G is 0.
-template <class R>
-struct ArclengthWeights {
-  R of_q{};
-  R of_p{};
-};
-/// The two norms at a start.
-template <class P, class R, std::size_t N>
-ArclengthWeights<R> arclength_weights(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
-  Matrix<R, N> qq = zero_matrix(q);
-  Matrix<R, N> qp = qq;
-  Matrix<R, N> pp = qq;
-  hessian(problem, q, p, qq, qp, pp);
-  return {detail::norm_of_entries(qq), detail::norm_of_entries(pp)};
-}
-template <class P, class W>
-StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem, const ArclengthWeights<W>& weights) {
+///     S^2 = |q'|^2 + |p'|^2   [HairerSoederlind2005]
+/// in the units of the problem: which of q and p decides follows from them. For any H with second derivatives. At rest,
+/// where S = 0, every length is right, and G is 0.
+template <class P>
+StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem) {
   using R = RealOf<P>;
   using V = VectorOf<P>;
-  return {default_monitor, [problem, of_q = R(weights.of_q), of_p = R(weights.of_p)](const V& q, const V& p) {
+  return {default_monitor, [problem](const V& q, const V& p) {
             V dq = zeros_like(q);
             V dp = dq;
             V ddq = dq;
@@ -110,16 +85,11 @@ StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem, const A
             R square(0);
             R half_rate(0);
             for (std::size_t i = 0; i < q.size(); ++i) {
-              square += of_q * (dq[i] * dq[i]) + of_p * (dp[i] * dp[i]);
-              half_rate += of_q * (dq[i] * ddq[i]) + of_p * (dp[i] * ddp[i]);
+              square += dq[i] * dq[i] + dp[i] * dp[i];
+              half_rate += dq[i] * ddq[i] + dp[i] * ddp[i];
             }
             return square > R(0) ? R(half_rate / square) : R(0);
           }};
-}
-/// With the weights of the start (q, p).
-template <class P, class R, std::size_t N>
-StepMonitor<R, N> arclength_monitor(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
-  return arclength_monitor(problem, arclength_weights(problem, q, p));
 }
 
 /// **distance**: sigma = d^(3/2), d the distance from the centre or of the nearest two bodies (distance_rate in
