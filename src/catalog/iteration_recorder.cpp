@@ -1,5 +1,7 @@
 #include "iteration_recorder.hpp"
 
+#include <stdexcept>
+
 #include "hamflow/arithmetic/compensated.hpp"
 
 namespace hamflow {
@@ -17,11 +19,27 @@ IterationRecorder recorder_on(const ErasedFunctions<double>& functions, const Av
                                                                    start);
   };
 }
+/// Of a problem for any H they are there as traces where they are written by hand.
+bool has_second_derivatives(const ErasedFunctions<double>& functions) {
+  const Vector<Trace<double>, dynamic> x(functions.size);
+  Matrix<Trace<double>, dynamic> qq(functions.size);
+  auto qp = qq;
+  auto pp = qq;
+  try {
+    functions.trace->hessian(x, x, qq, qp, pp);
+    return true;
+  } catch (const std::logic_error&) {  // as Functions says that it has none
+    return false;
+  }
+}
 }  // namespace
 
 IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, Capability face,
                                      const AverageOptions& options) {
-  if (face == Capability::smooth) return recorder_on<Capability::smooth>(functions, options);
+  if (face == Capability::smooth) {
+    if (options.element.iteration == Iteration::newton && !has_second_derivatives(functions)) return {};
+    return recorder_on<Capability::smooth>(functions, options);
+  }
   if (face != natural) return {};  // the momentum of a cyclic coordinate is a constant of the problem without it
   return recorder_on<natural>(functions, options);
 }
