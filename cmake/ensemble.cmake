@@ -4,6 +4,9 @@ add_library(hamflow_ensemble STATIC
   src/catalog/block_tangents.cpp
   src/catalog/ensemble_catalog.cpp
   src/catalog/family_loop.cpp
+  src/catalog/iterated_block.cpp
+  src/catalog/iterated_family.cpp
+  src/catalog/iterated_pack.cpp
   src/catalog/recorded_block.cpp)
 target_include_directories(hamflow_ensemble PRIVATE "${PROJECT_SOURCE_DIR}/src/catalog" "${generated}")
 target_link_libraries(hamflow_ensemble PUBLIC hamflow PRIVATE $<BUILD_INTERFACE:hamflow_warnings>)

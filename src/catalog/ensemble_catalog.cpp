@@ -1,5 +1,8 @@
 // From a request to a block of lanes.
+#include "iterated_block.hpp"
+#include "recipes.hpp"
 #include "recorded_block.hpp"
+#include "step_control.hpp"
 
 namespace hamflow {
 
@@ -14,7 +17,10 @@ LaneSet widest_lanes() {
 std::unique_ptr<EnsembleBlock> make_ensemble_block(const Request& request, LaneSet lanes) {
   const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
   if (lanes == LaneSet::none || lanes > widest_lanes() || !in_double) return nullptr;
-  return make_recorded_block(find_problem(request.problem, request.variant), request, lanes);
+  if (step_control_of(request.method).reversible) return nullptr;  // lanes share the time of a step
+  const ProblemEntry& problem = find_problem(request.problem, request.variant);
+  const bool is_iterated = visit_method(request.method, []<class M>(const M&) { return std::is_same_v<M, Averages>; });
+  return is_iterated ? make_iterated_block(problem, request, lanes) : make_recorded_block(problem, request, lanes);
 }
 
 }  // namespace hamflow

@@ -4,8 +4,10 @@
 
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/run/fast_functions.hpp"
+#include "hamflow/run/iterated_simulation.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
+#include "iteration_recorder.hpp"
 #include "varying_steps.hpp"
 #include "visit_erased.hpp"
 
@@ -45,6 +47,31 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool est
   };
 }
 
+/// Records steps of varying length of a method whose steps can have any, of natural Hamiltonians; else empty.
+template <Capability c, class A, class M>
+StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, const Request& request) {
+  using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
+  using Traced = AnyProblem<Trace<double>, c>;
+  using Stepper = typename M::template Stepper<Traced, TA>;
+  if constexpr (!requires(Stepper & stepper, const Traced& problem, const Trace<double>& h,
+                          PhasePoint<TA, dynamic>& z) { stepper.step(problem, h, z); }) {
+    return {};
+  } else {
+    const StepControl control = step_control_of(request.method);
+    const bool natural = includes(run.functions.capability, natural_face);
+    const bool by_hessian = run.functions.size <= detail::most_with_hessian;
+    if (control.monitor == default_monitor && !(natural && by_hessian)) return {};
+    using Monitored = AnyProblem<Trace<double>, natural_face>;
+    return [problem = Traced(run.functions.size, run.functions.trace), recipe,
+            monitor =
+                step_monitor(Monitored(run.functions.size, run.functions.trace), control, weights_of(run, control))](
+               const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
+               bool watch, RecordedAt at) {
+      return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch, at, &monitor);
+    };
+  }
+}
+
 /// A run with the functions of kernel = "fast", where a request asks for it and they are others.
 inline std::optional<ErasedRun<double>> with_estimates(const ErasedRun<double>& run, const Request& request) {
   if (request.kernel != "fast" || !fast_kernel_available()) return std::nullopt;
@@ -82,7 +109,14 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
         if constexpr (recorded) {
           return requested(std::make_unique<RecordedSimulation<P, decltype(method), A>>(
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
-              request.record ? recorder_of<c, A>(run, recipe, estimated) : StepRecorder(), request.watch));
+              !request.record                              ? StepRecorder()
+              : step_control_of(request.method).reversible ? varying_recorder_of<c, A>(run, recipe, request)
+                                                           : recorder_of<c, A>(run, recipe, estimated),
+              request.watch));
+        } else if constexpr (std::is_same_v<R, double> && std::is_same_v<M, Averages>) {
+          return requested(std::make_unique<IteratedSimulation<P, decltype(method), A>>(
+              Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
+              iteration_recorder(run.functions, c, recipe.options)));
         } else {
           return requested(std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic));
         }

@@ -42,7 +42,7 @@ bool FamilyLoop::load(const Steps& steps, const Make& make) {
     differs_ = differ;
     if (!make_loop(first.program, make)) return false;
   }
-  fill(steps);
+  constants_ = constants(steps);
   return true;
 }
 
@@ -61,12 +61,12 @@ bool FamilyLoop::make_loop(const Program& program, const Make& make) {
   if (!made) return false;
   const auto flags = std::make_unique<bool[]>(made->constants.size());
   std::copy(differs_.begin(), differs_.end(), flags.get());
-  loop_ = make_lane_loop(*made, {flags.get(), made->constants.size()}, set_);
+  loop_ = make_lane_loop(*made, {flags.get(), made->constants.size()}, set_, registers_);
   lanes_ = loop_->lanes();
   return true;
 }
 
-void FamilyLoop::fill(const Steps& steps) {
+LaneNumbers FamilyLoop::constants(const Steps& steps) const {
   std::vector<double> constants;
   for (std::size_t k = 0; k < differs_.size(); ++k) {
     if (!differs_[k]) continue;
@@ -74,7 +74,7 @@ void FamilyLoop::fill(const Steps& steps) {
       constants.push_back(steps[std::min(lane, steps.size() - 1)]->program.constants[k]);
     }
   }
-  constants_ = loop_->prepared(constants);
+  return loop_->prepared(constants);
 }
 
 }  // namespace hamflow

@@ -19,7 +19,8 @@ class FamilyLoop {
   /// Makes a program of a member's, by appending constants that are the same for all. Nothing: it cannot.
   using Make = std::function<std::optional<Program>(const Program&)>;
 
-  explicit FamilyLoop(LaneSet lanes) : set_(lanes) {}
+  /// @param registers to a number, as make_lane_loop has them
+  explicit FamilyLoop(LaneSet lanes, std::size_t registers = 4) : set_(lanes), registers_(registers) {}
 
   /// @return false where the members' steps differ in more than constants, or the program cannot be made
   bool load(const Steps& steps, const Make& make = {});
@@ -28,13 +29,18 @@ class FamilyLoop {
   void run(LaneNumbers& carried, std::int64_t steps, std::span<bool> failed) const {
     loop_->run(carried, constants_, steps, failed);
   }
+  /// For lanes with other members of those that were loaded.
+  LaneNumbers constants(const Steps& steps) const;
+  void run(LaneNumbers& carried, const LaneNumbers& constants, std::span<bool> failed) const {
+    loop_->run(carried, constants, 1, failed);
+  }
 
  private:
   bool serves(const Program& program, const std::vector<bool>& differ) const;
   bool make_loop(const Program& program, const Make& make);
-  void fill(const Steps& steps);
 
   LaneSet set_;
+  std::size_t registers_;
   std::shared_ptr<const RecordedStep> first_;  // of the loop
   std::vector<bool> differs_;                  // of each of its constants
   std::unique_ptr<const LaneLoop> loop_;

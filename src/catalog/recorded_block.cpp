@@ -6,6 +6,7 @@
 
 #include "block_tangents.hpp"
 #include "family_loop.hpp"
+#include "member_parameters.hpp"
 
 namespace hamflow {
 
@@ -55,6 +56,8 @@ class RecordedBlock final : public EnsembleBlock {
     loop_.run(carried_, steps, {failed_.get(), lanes()});
     taken_ += steps;
   }
+
+  std::int64_t steps_in_lanes() const override { return taken_ * static_cast<std::int64_t>(members_.size()); }
 
   MemberEnd look(std::size_t lane) override {
     Member& member = members_[lane];
@@ -126,17 +129,6 @@ class RecordedBlock final : public EnsembleBlock {
     bool has_step_of_last = false;  // parameters and step length are those of the last member
     bool lost = false;
   };
-
-  static Parameters<double> parameters_of(const ParameterShape& shape, const std::vector<double>& numbers) {
-    Parameters<double> parameters;
-    std::size_t at = 0;
-    for (const auto& [name, size] : shape) {
-      const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(at);
-      parameters.set_list(name, {first, first + static_cast<std::ptrdiff_t>(size)});
-      at += size;
-    }
-    return parameters;
-  }
 
   const RecordedStep& step() const { return *members_[0].step; }
 

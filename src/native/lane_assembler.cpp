@@ -20,13 +20,22 @@ template <std::size_t width>
 void call_of_two(FunctionOfTwo f, double* y, const double* a, const double* b) {
   for (std::size_t i = 0; i < width; ++i) y[i] = f(a[i], b[i]);
 }
+/// The sine into y, the cosine into z.
+template <std::size_t width>
+void call_of_both(FunctionOfOne, double* y, const double* a, double* z) {
+  for (std::size_t i = 0; i < width; ++i) {
+    const SineAndCosine both = sine_and_cosine(a[i]);
+    y[i] = both.sine;
+    z[i] = both.cosine;
+  }
+}
 
 /// @tparam Register Ymm or Zmm
 template <class Register>
 class LaneAssembler final : public LoopAssembler {
   static constexpr bool wide = std::is_same_v<Register, x86::Zmm>;
   static constexpr std::size_t width = wide ? 8 : 4, bytes = 8 * width;
-  static constexpr std::size_t arguments = 3 * bytes;  // of a call: result and operands, at rsp
+  static constexpr std::size_t arguments = 3 * bytes;  // of a call, at rsp: result, operand, second operand or result
 
  public:
   LaneAssembler(const PlacedProgram& program, const std::vector<double>& constants, std::size_t uniform,
@@ -118,6 +127,7 @@ class LaneAssembler final : public LoopAssembler {
 
   void call(Instruction instruction) override {
     const FunctionOfOne one = function_of_one(instruction);
+    const bool both = instruction == Instruction::sine_of_both;
     const auto address = [](auto* f) { return Imm(reinterpret_cast<std::uintptr_t>(f)); };
     a_.vmovupd(x86::ptr(x86::rsp, offset(1)), Register(0));
     if (!one) a_.vmovupd(x86::ptr(x86::rsp, offset(2)), Register(1));
@@ -126,23 +136,30 @@ class LaneAssembler final : public LoopAssembler {
     a_.mov(x86::rsi, x86::rsp);
     a_.lea(x86::rdx, x86::ptr(x86::rsp, offset(1)));
     a_.lea(x86::rcx, x86::ptr(x86::rsp, offset(2)));
-    a_.mov(x86::rax, one ? address(&call_of_one<width>) : address(&call_of_two<width>));
+    a_.mov(x86::rax, both  ? address(&call_of_both<width>)
+                     : one ? address(&call_of_one<width>)
+                           : address(&call_of_two<width>));
     a_.call(x86::rax);
-    gather();
+    gather(0, offset(0));
+    if (both) gather(1, offset(2));
   }
 
-  /// Register 0 from the numbers at rsp, one at a time: a whole register would wait until all stores have left the
-  /// queue.
-  void gather() {
-    const auto number = [](std::size_t i) { return x86::qword_ptr(x86::rsp, static_cast<std::int32_t>(8 * i)); };
+  /// A register from the numbers at rsp + `from`, one at a time: a whole register would wait until all stores have
+  /// left the queue. Registers 2 to 4 are free behind a call.
+  void gather(std::uint32_t to, std::int32_t from) {
+    const std::uint32_t parts[] = {to, 2, 3, 4};
+    const auto number = [&](std::size_t i) {
+      return x86::qword_ptr(x86::rsp, from + static_cast<std::int32_t>(8 * i));
+    };
     for (std::uint32_t pair = 0; pair < width / 2; ++pair) {
-      a_.vmovsd(x86::xmm(pair), number(2 * pair));
-      a_.vmovhpd(x86::xmm(pair), x86::xmm(pair), number(2 * pair + 1));
+      const x86::Xmm part = x86::xmm(parts[pair]);
+      a_.vmovsd(part, number(2 * pair));
+      a_.vmovhpd(part, part, number(2 * pair + 1));
     }
-    a_.vinsertf128(x86::ymm0, x86::ymm0, x86::xmm1, 1);
+    a_.vinsertf128(x86::ymm(to), x86::ymm(to), x86::xmm2, 1);
     if constexpr (wide) {
-      a_.vinsertf128(x86::ymm2, x86::ymm2, x86::xmm3, 1);
-      a_.vinsertf64x4(x86::zmm0, x86::zmm0, x86::ymm2, 1);
+      a_.vinsertf128(x86::ymm3, x86::ymm3, x86::xmm4, 1);
+      a_.vinsertf64x4(x86::zmm(to), x86::zmm(to), x86::ymm3, 1);
     }
   }
 

@@ -4,18 +4,19 @@
 
 #include "is_asked.hpp"
 #include "lanes.hpp"
+#include "passes.hpp"
 
 namespace hamflow {
 namespace native {
 namespace {
 
-constexpr std::size_t per_number = 4;   // to a number: while one waits for its square root, the others work
+constexpr std::size_t most_registers = 4;
 constexpr std::size_t run_of_one = 32;  // 1: 10 % slower for Kepler, 25 % for compensated sums; 12 to 40 differ little
 
 class LaneLoopOf final : public LaneLoop {
  public:
-  LaneLoopOf(LaneProgram program, std::size_t lanes, std::unique_ptr<const Function> function)
-      : program_(std::move(program)), lanes_(lanes), function_(std::move(function)) {}
+  LaneLoopOf(LaneProgram program, std::size_t lanes, std::size_t registers, std::unique_ptr<const Function> function)
+      : program_(std::move(program)), lanes_(lanes), width_(lanes / registers), function_(std::move(function)) {}
 
   std::size_t lanes() const override { return lanes_; }
 
@@ -32,38 +33,42 @@ class LaneLoopOf final : public LaneLoop {
       interpret_lanes(program_.step, program_.uniform, lanes_, carried.data(), constants.data(), steps, failed.data());
       return;
     }
-    std::array<std::uint64_t, per_number> flags{};
+    std::array<std::uint64_t, most_registers> flags{};
     function_->entry()(carried.data(), steps, constants.data(), flags.data());
     if (std::all_of(flags.begin(), flags.end(), [](std::uint64_t lanes) { return lanes == 0; })) return;
-    const std::size_t width = lanes_ / per_number;
-    for (std::size_t i = 0; i < lanes_; ++i) failed[i] |= (flags[i / width] >> (i % width) & 1) != 0;
+    for (std::size_t i = 0; i < lanes_; ++i) failed[i] |= (flags[i / width_] >> (i % width_) & 1) != 0;
   }
 
  private:
   LaneProgram program_;
   std::size_t lanes_;
+  std::size_t width_;                         // of a register
   std::unique_ptr<const Function> function_;  // null: interpreted
 };
 
 }  // namespace
 }  // namespace native
 
-std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span<const bool> differs, LaneSet lanes) {
+std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span<const bool> differs, LaneSet lanes,
+                                               std::size_t registers) {
   if (lanes == LaneSet::none)
     throw std::invalid_argument("make_lane_loop: found no lanes; allowed generic, avx2, avx512");
   if (differs.size() != program.constants.size())
     throw std::invalid_argument("make_lane_loop: found " + std::to_string(differs.size()) + " flags for " +
                                 std::to_string(program.constants.size()) + " constants");
+  if (registers < 1 || registers > native::most_registers)
+    throw std::invalid_argument("make_lane_loop: found " + std::to_string(registers) +
+                                " registers to a number; allowed 1 to 4");
   native::LaneProgram ready = native::lane_program(program, differs);
   std::unique_ptr<const native::Function> function;
   if (const unsigned available = native::lane_registers(lanes);
       available > 0 && native::has_instructions(program) && native::is_asked()) {
-    const Program step = native::interleaved(ready, native::per_number, native::run_of_one);
-    function = native::assembled_lanes(native::placed(step, available), step.constants, ready.uniform,
-                                       native::per_number, lanes);
+    const Program step = native::with_both(native::interleaved(ready, registers, native::run_of_one));
+    function =
+        native::assembled_lanes(native::placed(step, available), step.constants, ready.uniform, registers, lanes);
   }
-  const std::size_t count = native::per_number * (lanes == LaneSet::avx512 ? 8 : 4);
-  return std::make_unique<native::LaneLoopOf>(std::move(ready), count, std::move(function));
+  const std::size_t count = registers * (lanes == LaneSet::avx512 ? 8 : 4);
+  return std::make_unique<native::LaneLoopOf>(std::move(ready), count, registers, std::move(function));
 }
 
 }  // namespace hamflow

@@ -334,6 +334,31 @@ class Studies(CommandCase):
             self.assertGreater(found["auto"][1].count("\n"), 500)
             self.assertGreater(found["auto"][0].count("non_finite"), 5)
 
+    def test_so_it_is_where_steps_are_solved_for(self):
+        """Members of steps that take Newton together, of an H that is not separable."""
+        self.write("dp.toml", """
+[problem]
+name = "double-pendulum"
+initial = { q = [0.4, 0.0], p = ["+", 0.1], energy = -20 }
+[method]
+name = "cg(2,auto)"
+[run]
+dt = 0.05
+steps = 400
+section = { coordinate = "q2", direction = 1 }
+lyapunov = 1
+[output]
+formats = ["csv"]
+observables = { r = "q1^2 + t" }
+""")
+        found = {}
+        for lanes in ("none", "auto"):
+            self.hamflow("sweep", "dp.toml", "--vary", "problem.initial.q[0]=0.0:0.6:9", "--lanes", lanes, "--out",
+                         f"{lanes}.sweep", "--quiet", "--force")
+            found[lanes] = [(self.folder / f"{lanes}.sweep" / name).read_text() for name in ("sweep.csv", "section.csv")]
+        self.assertEqual(found["none"], found["auto"])
+        self.assertGreater(found["auto"][1].count("\n"), 30)
+
     def test_figures_of_sections_that_cannot_be(self):
         # Without a section, and with a column, there is a map of the column as ever.
         self.hamflow("sweep", "hh.toml", *self.SECTION, "--out", "none", "--quiet", "--figure", "map.svg", "--colour",

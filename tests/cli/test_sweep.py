@@ -167,6 +167,13 @@ steps = 200
                                       "[1.0, 0.0]", "[0.0, 1.0]"))
         self.check("p.toml", "problem.a[0]=0.9:1.1:3", members=(0, 2))  # lists are no hindrance
 
+    def test_steps_that_are_solved_for(self):
+        """Members that take steps together by Newton, H not separable; more Gauss points where the motion is wilder."""
+        self.write("d.toml", scenario('name = "double-pendulum"', "[0.4, -0.3]", "[0.5, 0.2]", dt=0.04))
+        for method in ("cg(2,auto)", "gauss(3)"):
+            self.check("d.toml", "problem.initial.q[0]=0.1:2.9:19", "--set", f"method.name={method}",
+                       "--set", "run.steps=150", members=(0, 7, -1))
+
     def test_arithmetic_and_time(self):
         """Compensated sums, and an H that depends on t: lanes like any other."""
         self.write("k.toml", KEPLER)

@@ -16,7 +16,8 @@ namespace {
 bool adds_nothing(const std::string& name) {
   const MethodSpec spec = parse_method(name);
   if (spec.name == "avf" || spec.name == "implicit-midpoint") return true;
-  const std::vector<std::string> between{"gauss(1)", "gauss(3)", "cg(2,2)", "cg(2,3)", "cg(3,4)", "cg(4,auto)"};
+  const std::vector<std::string> between{"gauss(1)", "gauss(2)", "gauss(3)",  "cg(2,2)",
+                                         "cg(2,3)",  "cg(3,4)",  "cg(4,auto)"};
   return std::find(between.begin(), between.end(), name) != between.end();
 }
 
@@ -52,7 +53,7 @@ TEST_P(Claims, AreWhatIsMeasured) {
 bool stands_for_others(const std::string& name) {
   const MethodSpec spec = parse_method(name);
   // Of the elements the ends: five points, and as many as it takes. Those of higher degree have one kernel for all
-  // problems, of which three ways to solve are tested below, and stages are a map of theirs
+  // problems, whose three ways to solve are tested below, and stages are a map of theirs
   // (StagesAreTheMapOfElementsWithAsManyPoints). The adaptive references are tested by themselves.
   if (spec.name == "cg") return name == "cg(1,5)" || name == "cg(1,auto)";
   // The other implicit methods have one kernel for all problems too.
@@ -106,8 +107,8 @@ TEST_P(SharedClaims, HoldOnEveryOtherProblem) {
   }
 }
 
-/// Implicit methods that are compiled once for all problems, beside pendulum and henon-heiles: where a coordinate is
-/// cyclic, where H is not separable, with forces of more bodies than one.
+/// Implicit methods that are compiled once for all problems, beside pendulum and henon-heiles: where H is not
+/// separable, with forces of more bodies than one.
 struct Beside {
   std::string method;
   std::string problem;
@@ -122,9 +123,7 @@ TEST_P(ClaimsBeside, HoldForTheOtherShapesOfH) {
 const std::map<std::string, std::string> polar{{"coordinates", "polar"}};
 const std::map<std::string, std::string> nonlinear{{"model", "nonlinear"}};
 INSTANTIATE_TEST_SUITE_P(Catalogue, ClaimsBeside,
-                         ::testing::Values(Beside{"cg(2,auto)", "central-force", polar},
-                                           Beside{"cg(2,auto)", "double-pendulum", nonlinear},
-                                           Beside{"lobatto-3a-3b(3)", "double-pendulum", nonlinear},
+                         ::testing::Values(Beside{"lobatto-3a-3b(3)", "double-pendulum", nonlinear},
                                            Beside{"discrete-gradient", "double-pendulum", nonlinear},
                                            Beside{"itoh-abe", "central-force", polar}, Beside{"eg(2)", "n-body"}),
                          [](const auto& each) {
@@ -240,37 +239,33 @@ TEST(Expected, AutomaticQuadratureKeepsTheEnergyAtRoundingWhateverTheStep) {
   }
 }
 
-TEST(Expected, AutomaticQuadratureHoldsForBodies) {
-  // Forces of bodies cancel: an estimate of rounding by the sizes of their terms would let 10^-12 of the energy pass.
-  const Region region = region_of("n-body");
-  for (const char* name : {"cg(1,auto)", "cg(2,auto)", "cg(3,auto)"}) {
-    const auto map = step_map_on(region, parse_method(name));
-    for (std::uint64_t k = 0; k < 2; ++k) {
-      const State<double> start = random_state(region, k);
-      double worst = 0;
-      const std::vector<double> energies = map->energies(start, region.step, 64, 64);
-      ASSERT_EQ(energies.size(), 65u);
-      for (const double energy : energies) worst = std::max(worst, std::abs(energy - energies.front()));
-      // 4096 steps, each of which rounds its work, an eighth of the energy at most.
-      EXPECT_LT(worst, 8 * std::numeric_limits<double>::epsilon() * map->energy_scale(start)) << name;
-    }
+/// 4096 steps, each of which rounds the work that it does, an eighth of the energy at most.
+void expect_energy_at_rounding(const char* method, const Region& region) {
+  const auto map = step_map_on(region, parse_method(method));
+  for (std::uint64_t k = 0; k < 2; ++k) {
+    const State<double> start = random_state(region, k);
+    const std::vector<double> energies = map->energies(start, region.step, 64, 64);
+    ASSERT_EQ(energies.size(), 65u);
+    double worst = 0;
+    for (const double energy : energies) worst = std::max(worst, std::abs(energy - energies.front()));
+    EXPECT_LT(worst, 8 * std::numeric_limits<double>::epsilon() * map->energy_scale(start)) << method;
   }
 }
 
-TEST(Expected, AutomaticQuadratureDoesNotTakePointsForNoise) {
-  // Forces of a Lennard-Jones well round by far more than their size where attraction and repulsion cancel.
-  Request request;
-  request.problem = "lennard-jones-oscillator";
-  request.method = parse_method("cg(1,auto)");
-  request.start.q = {"1.25"};
-  request.start.p = {"0.25"};
-  request.dt = "0.025";
-  const auto simulation = make_simulation(request);
-  ASSERT_EQ(simulation->advance(200'000), Outcome::done) << simulation->failure();
-  const Effort effort = simulation->effort();
-  // One Hessian per point and Newton correction, and one per step for the check.
-  const double points = static_cast<double>(effort.hessian) / static_cast<double>(effort.linear_solves);
-  EXPECT_LT(points, 8);
+TEST(Expected, AutomaticQuadratureHoldsForBodies) {
+  // Forces of bodies cancel: an estimate of rounding by the sizes of their terms would let 10^-12 of the energy pass.
+  for (const char* name : {"cg(1,auto)", "cg(2,auto)", "cg(3,auto)"}) {
+    expect_energy_at_rounding(name, region_of("n-body"));
+  }
+}
+
+TEST(Expected, ElementsOfDegreeTwoWhereACoordinateIsCyclicAndWhereHIsNotSeparable) {
+  // Where momenta are eliminated they are measured by Claims; that all ways to solve are one map, by Averages.
+  for (const Region& region : {region_of("central-force", {{"coordinates", "polar"}}),
+                               region_of("double-pendulum", {{"model", "nonlinear"}})}) {
+    expect_energy_at_rounding("cg(2,auto)", region);
+    EXPECT_EQ(measure_order(*step_map_on(region, parse_method("cg(2,auto)")), region).is(4), Finding::yes);
+  }
 }
 
 TEST(Expected, NamesOfOneMapHaveItsBitsAndItsClaims) {

@@ -69,7 +69,7 @@ double of_degree_one() {
 template <class Element>
 double of_degree_two(Iteration iteration) {
   const CgOptions options{.degree = 2, .quadrature = 10, .max_iterations = 100, .iteration = iteration};
-  return mean_square_of_t([&] { return ImplicitMethod<P, A, Element>(P(), AverageOptions(options)); }, 400);
+  return mean_square_of_t([&] { return ImplicitMethod<P, A, Element>(P(), AverageOptions(options)); }, 200);
 }
 
 TEST(ElementDrift, OfAPendulumIsNoneWithMomentaEliminated) {

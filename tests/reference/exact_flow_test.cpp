@@ -107,7 +107,10 @@ TEST_P(ExactFlow, ImplicitMethodsConvergeToIt) {
     int slopes = 0;
     for (const int steps : {4, 8, 16, 32, 64, 128, 256}) {
       State<long double> z = start_;
-      ASSERT_TRUE(map->advance(z, 1.0L / steps, steps)) << name;
+      if (!map->advance(z, 1.0L / steps, steps)) {
+        ASSERT_LT(steps, 8) << name;  // a step of a quarter of the time may be too long
+        continue;
+      }
       const long double error = distance(z, wanted());
       if (error <= rounding) break;
       if (previous > 0) {
@@ -125,8 +128,9 @@ TEST_P(ExactFlow, ImplicitMethodsConvergeToIt) {
 TEST_P(ExactFlow, BackwardsIsTheInverse) {
   const State<long double> end = map_->flow(start_, 2.5L);
   EXPECT_GT(distance(end, start_), 0.01L);
-  // The bound of the flow, once there and once back.
-  EXPECT_LE(distance(map_->flow(end, -2.5L), start_), 2 * 64 * 0x1p-63L * 3.5L * 3.5L);
+  // The bound of the flow, once there and once back, of numbers of the size of the largest.
+  const long double size = std::max(1.0L, distance(end, State<long double>(end.size())));
+  EXPECT_LE(distance(map_->flow(end, -2.5L), start_), 2 * 64 * 0x1p-63L * 3.5L * 3.5L * size);
 }
 
 TEST(ReferenceFlow, ACollisionIsNotANumberAndEnds) {

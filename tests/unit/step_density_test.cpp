@@ -355,6 +355,49 @@ TEST(StepDensity, BodiesComeBackOnTheLattice) {
   }
 }
 
+/// A recorded step carries the density and the time as it carries the state.
+TEST(StepDensity, RecordedStepsHaveTheSameBits) {
+  Request henon;
+  henon.problem = "henon-heiles";
+  henon.start.q = {"0.1", "-0.2"};
+  henon.start.p = {"0.3", "0.25"};
+  henon.dt = "0.05";
+  Request bodies;
+  bodies.problem = "n-body";
+  bodies.parameters = {{"masses", "[1, 0.001, 0.0005]"}};
+  bodies.start.q = {"0", "0", "1", "0", "0", "-1.7"};
+  bodies.start.p = {"0", "-0.001", "0", "0.001", "0.00038", "0"};
+  bodies.dt = "0.05";
+  for (Request request : {ellipse(0.8, "verlet", "0.002"), henon, bodies}) {
+    for (const std::string method : {"verlet", "stv4-dkd", "blanes-moan-s6"}) {
+      for (const std::string monitor : {"arclength", "distance"}) {
+        for (const std::string arithmetic : {"double", "compensated"}) {
+          MethodSpec spec = parse_method(method);
+          spec.options["step_control"] = "reversible";
+          spec.options["monitor"] = monitor;
+          if (!refusal(spec, find_problem(request.problem, request.variant)).empty()) continue;
+          request.method = spec;
+          request.arithmetic = arithmetic;
+          request.record = true;
+          const auto recorded = make_simulation(request);
+          request.record = false;
+          const auto plain = make_simulation(request);
+          SCOPED_TRACE(plain->method().name + " on " + request.problem + " in " + arithmetic);
+          for (const std::int64_t steps : {700, 1, 700}) {
+            for (Simulation* run : {recorded.get(), plain.get()}) {
+              ASSERT_EQ(run->advance(steps), Outcome::done);
+              if (steps == 1) run->negate_momenta();
+            }
+            ASSERT_EQ(recorded->save(), plain->save());
+          }
+          EXPECT_TRUE(recorded->is_recorded());
+          EXPECT_FALSE(plain->is_recorded());
+        }
+      }
+    }
+  }
+}
+
 TEST(StepDensity, TimeRunsBackToWhereItBegan) {
   const auto run = make_simulation(ellipse(0.6, "stv4(step_control=reversible)", "0.01"));
   ASSERT_EQ(run->advance(500), Outcome::done);

@@ -118,6 +118,17 @@ inline MethodInfo describe(const SplittingTable& table) {
 
 inline constexpr int any_length = 0;
 
+/// The type of a step's length: that of a number, but where steps of any length are recorded (A::Length).
+template <class A>
+struct StepLengthOf {
+  using type = base_scalar<typename A::Real>;
+};
+template <class A>
+requires requires { typename A::Length; }
+struct StepLengthOf<A> {
+  using type = typename A::Length;
+};
+
 /// Where an addition has two halves (arithmetic/compensated.hpp), the second half waits until the next force is known:
 /// the same operations, but behind those of the force in the order of the program, in which a processor that has the
 /// choice takes them. Else everything that follows one force would compete with what the next one waits for.
@@ -152,6 +163,7 @@ class Splitting {
   static constexpr std::size_t n = P::dimension;
   using Real = typename A::Real;
   using Base = base_scalar<Real>;
+  using Length = typename StepLengthOf<A>::type;
   static constexpr bool sums_integers = PairwiseForces<P> && IntegerSums<A>;
 
   Splitting(const SplittingSequence<Base>& sequence, MethodInfo (*describe_table)(const void*), const void* table)
@@ -180,14 +192,14 @@ class Splitting {
 
   /// z <- Psi_h(z). Always done: trouble shows in the state. Inlined by force into the loop over steps, so that state
   /// and kick stay in registers from step to step.
-  [[gnu::always_inline]] Outcome step(const P& problem, const Base& h, PhasePoint<A, n>& z) {
+  [[gnu::always_inline]] Outcome step(const P& problem, const Length& h, PhasePoint<A, n>& z) {
     auto&& f = working_copy(kick_);
     [[maybe_unused]] std::conditional_t<defers, Unsettled<A, n>, NothingUnsettled> late;
     if constexpr (n == dynamic) {
       if (f.size() == 0) f = zeros<Increment, n>(z.p.size());
     }
     if (leading()) {
-      const Base factor = h * leading_kick_;
+      const Length factor = h * leading_kick_;
       if (!(trailing() && kick_is_current_ && kept_factor_ == within(factor))) evaluate(problem, factor, z, f);
       kick(factor, f, z, late);
     }
@@ -195,14 +207,14 @@ class Splitting {
 #pragma GCC unroll 4
     for (std::size_t i = 0; i + 1 < count; ++i) {
       drift(problem, h * links_[i].drift, z, late);
-      const Base factor = h * links_[i].kick;
+      const Length factor = h * links_[i].kick;
       evaluate(problem, factor, z, f);
       if constexpr (defers) late.settle(z);
       kick(factor, f, z, late);
     }
     drift(problem, h * links_[count - 1].drift, z, late);
     if (trailing()) {
-      const Base factor = h * links_[count - 1].kick;
+      const Length factor = h * links_[count - 1].kick;
       evaluate(problem, factor, z, f);
       if constexpr (defers) late.settle(z);
       last_kick(factor, f, z);
@@ -217,7 +229,7 @@ class Splitting {
 
   /// Steps of any length follow each other: of a problem that knows it at run time the force is kept without its
   /// factor, which no other step has.
-  void take_any_steps() { force_takes_factor_ = false; }
+  void take_any_steps() { force_takes_factor_ = velocity_takes_factor_ = false; }
 
   /// To be called when the state was changed from outside.
   void invalidate() { kick_is_current_ = false; }
@@ -231,6 +243,8 @@ class Splitting {
 
  private:
   using Increment = typename detail::PairSumsOf<P, A, sums_integers>::Increment;
+  static constexpr bool of_any_length =
+      !std::is_same_v<Length, Base>;  // no function of the problem takes such a factor
   static constexpr bool knows_at_run_time = requires(const P& problem) {
     problem.has_scaled_force();
     problem.has_scaled_velocity();
@@ -252,7 +266,9 @@ class Splitting {
   }
   /// Whether the factor of a kick goes into f: not where f serves two kicks of different strength.
   constexpr bool factor_within() const {
-    if constexpr (sums_integers) {
+    if constexpr (of_any_length) {
+      return false;
+    } else if constexpr (sums_integers) {
       return true;
     } else if constexpr (!HasScaledForce<P, Base, Real>) {
       return false;
@@ -265,13 +281,21 @@ class Splitting {
     }
   }
   constexpr bool drift_takes_factor() const {
-    if constexpr (HasScaledVelocity<P, Base, Real> && knows_at_run_time) {
+    if constexpr (of_any_length) {
+      return false;
+    } else if constexpr (HasScaledVelocity<P, Base, Real> && knows_at_run_time) {
       return velocity_takes_factor_;
     } else {
       return HasScaledVelocity<P, Base, Real>;
     }
   }
-  constexpr Base within(const Base& factor) const { return factor_within() ? factor : Base(1); }
+  constexpr Base within(const Length& factor) const {
+    if constexpr (of_any_length) {
+      return Base(1);
+    } else {
+      return factor_within() ? factor : Base(1);
+    }
+  }
   static constexpr std::size_t capacity = Links == any_length ? SplittingTable::most : static_cast<std::size_t>(Links);
   struct Link {
     Base drift;
@@ -279,10 +303,12 @@ class Splitting {
   };
 
   /// f <- F(q), or factor F(q).
-  [[gnu::always_inline]] void evaluate(const P& problem, const Base& factor, PhasePoint<A, n>& z,
+  [[gnu::always_inline]] void evaluate(const P& problem, [[maybe_unused]] const Length& factor, PhasePoint<A, n>& z,
                                        Vector<Increment, n>& f) {
     if constexpr (sums_integers) {
       if (!sums_.evaluate(problem, factor, z, f)) z.arithmetic.momentum.lost = true;
+    } else if constexpr (of_any_length) {
+      force(problem, z.positions(), f);
     } else if (factor_within()) {
       scaled_force(problem, factor, z.positions(), f);
     } else {
@@ -296,7 +322,7 @@ class Splitting {
                                  (shape == Shape::kick_drift_kick || shape == Shape::kick_drift) && requires {
     typename A::Axis::Pending;
   };
-  [[gnu::always_inline]] void kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z,
+  [[gnu::always_inline]] void kick(const Length& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z,
                                    [[maybe_unused]] auto& late) const {
     if constexpr (sums_integers) {
       z.push(f);
@@ -309,7 +335,8 @@ class Splitting {
     }
   }
   /// Of a step: the first one of the next step follows at once.
-  [[gnu::always_inline]] void last_kick(const Base& factor, const Vector<Increment, n>& f, PhasePoint<A, n>& z) const {
+  [[gnu::always_inline]] void last_kick(const Length& factor, const Vector<Increment, n>& f,
+                                        PhasePoint<A, n>& z) const {
     if constexpr (defers) {
       for (std::size_t i = 0; i < n; ++i) A::Axis::add_sooner(z.p[i], factor_within() ? f[i] : Real(factor * f[i]));
     } else {
@@ -317,11 +344,13 @@ class Splitting {
       kick(factor, f, z, nothing);
     }
   }
-  [[gnu::always_inline]] void drift(const P& problem, const Base& factor, PhasePoint<A, n>& z,
+  [[gnu::always_inline]] void drift(const P& problem, const Length& factor, PhasePoint<A, n>& z,
                                     [[maybe_unused]] auto& late) const {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
     const bool scaled = drift_takes_factor();
-    if (scaled) {
+    if constexpr (of_any_length) {
+      velocity(problem, z.momenta(), v);
+    } else if (scaled) {
       scaled_velocity(problem, factor, z.momenta(), v);
     } else {
       velocity(problem, z.momenta(), v);

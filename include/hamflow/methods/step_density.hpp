@@ -27,6 +27,12 @@ struct StepMonitor {
   std::function<R(const Vector<R, N>& q, const Vector<R, N>& p)> rate;
 };
 
+/// An arithmetic in which steps of any length are recorded: the length is a number like those of the state.
+template <class A>
+struct WithAnyLength : A {
+  using Length = typename A::Real;
+};
+
 /// rho as the state of a run is stored, and the time. On the lattice rho consists of integers, and G is rounded oddly,
 /// so that the way back finds every length again to the last bit.
 /// @tparam A the arithmetic of the run

@@ -11,43 +11,57 @@
 namespace hamflow {
 
 namespace detail {
-/// The sum of the squares of all entries, for the weights of blocks of coordinates.
+/// The root of the sum of the squares of all entries.
 template <class M>
-auto square_of_entries(const M& m) {
+auto norm_of_entries(const M& m) {
   auto sum = m[0][0] * m[0][0];
   for (std::size_t i = 0; i < m.size(); ++i) {
     for (std::size_t j = i == 0 ? 1 : 0; j < m.size(); ++j) sum += m[i][j] * m[i][j];
   }
-  return sum;
+  return sqrt(sum);
 }
 
-/// q'' and p'' of the motion: the gradient of H differentiated along (q', p'), by dual numbers behind virtual calls,
-/// where a Hessian of many bodies would be large, else by the Hessian.
+/// Of more degrees of freedom the second derivatives are taken along the motion alone, where dual numbers can do that.
+inline constexpr std::size_t most_with_hessian = 12;
+
+/// q'' and p'', the gradient of H differentiated along (q', p').
 template <class P, class R, std::size_t N>
 void acceleration(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, const Vector<R, N>& dq,
                   const Vector<R, N>& dp, Vector<R, N>& ddq, Vector<R, N>& ddp) {
   using D = Dual<R, 1>;
-  const auto along = [](const R& x, const R& slope) {
-    D all(x);
-    all.slope[0] = slope;
-    return all;
-  };
   if constexpr (requires { requires P::template knows<D>; }) {
-    Vector<D, N> x = zeros<D, N>(q.size());
-    Vector<D, N> y = x;
-    Vector<D, N> by_q = x;
-    Vector<D, N> by_p = x;
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      x[i] = along(q[i], dq[i]);
-      y[i] = along(p[i], dp[i]);
+    if (q.size() > most_with_hessian) {
+      const auto along = [](const R& x, const R& slope) {
+        D all(x);
+        all.slope[0] = slope;
+        return all;
+      };
+      Vector<D, N> x = zeros<D, N>(q.size());
+      Vector<D, N> y = x;
+      Vector<D, N> by_q = x;
+      Vector<D, N> by_p = x;
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        x[i] = along(q[i], dq[i]);
+        y[i] = along(p[i], dp[i]);
+      }
+      gradient(problem, x, y, by_q, by_p);
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        ddq[i] = by_p[i].slope[0];
+        ddp[i] = -by_q[i].slope[0];
+      }
+      return;
     }
-    gradient(problem, x, y, by_q, by_p);
+  }
+  Matrix<R, N> qq = zero_matrix(q);
+  if constexpr (QuadraticKinetic<P> && TwiceDifferentiable<P>) {
+    Vector<R, N> f = zeros_like(q);
+    force_and_hessian(problem, q, f, qq);
+    velocity(problem, dp, ddq);  // M^-1 p'
     for (std::size_t i = 0; i < q.size(); ++i) {
-      ddq[i] = by_p[i].slope[0];
-      ddp[i] = -by_q[i].slope[0];
+      ddp[i] = -(qq[i][0] * dq[0]);
+      for (std::size_t j = 1; j < q.size(); ++j) ddp[i] -= qq[i][j] * dq[j];
     }
   } else {
-    Matrix<R, N> qq = zero_matrix(q);
     Matrix<R, N> qp = qq;
     Matrix<R, N> pp = qq;
     hessian(problem, q, p, qq, qp, pp);
@@ -68,29 +82,44 @@ void acceleration(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p
 /// and the Frobenius norms of the Hessian's blocks at the start, constants of the run. They bring q and p to a common
 /// unit: each term is an energy over the square of a time, whatever H, and for an oscillator S is constant. For any H
 /// with second derivatives. At rest, where S = 0, every length is right, and G is 0.
+template <class R>
+struct ArclengthWeights {
+  R of_q{};
+  R of_p{};
+};
+/// The two norms at a start.
 template <class P, class R, std::size_t N>
-StepMonitor<R, N> arclength_monitor(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
+ArclengthWeights<R> arclength_weights(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
   Matrix<R, N> qq = zero_matrix(q);
   Matrix<R, N> qp = qq;
   Matrix<R, N> pp = qq;
   hessian(problem, q, p, qq, qp, pp);
-  const R of_q = sqrt(detail::square_of_entries(qq));
-  const R of_p = sqrt(detail::square_of_entries(pp));
-  return {default_monitor, [problem, of_q, of_p](const Vector<R, N>& x, const Vector<R, N>& y) {
-            Vector<R, N> dq = zeros_like(x);
-            Vector<R, N> dp = dq;
-            Vector<R, N> ddq = dq;
-            Vector<R, N> ddp = dq;
-            motion(problem, x, y, dq, dp);
-            detail::acceleration(problem, x, y, dq, dp, ddq, ddp);
+  return {detail::norm_of_entries(qq), detail::norm_of_entries(pp)};
+}
+template <class P, class W>
+StepMonitor<RealOf<P>, P::dimension> arclength_monitor(const P& problem, const ArclengthWeights<W>& weights) {
+  using R = RealOf<P>;
+  using V = VectorOf<P>;
+  return {default_monitor, [problem, of_q = R(weights.of_q), of_p = R(weights.of_p)](const V& q, const V& p) {
+            V dq = zeros_like(q);
+            V dp = dq;
+            V ddq = dq;
+            V ddp = dq;
+            motion(problem, q, p, dq, dp);
+            detail::acceleration(problem, q, p, dq, dp, ddq, ddp);
             R square(0);
             R half_rate(0);
-            for (std::size_t i = 0; i < x.size(); ++i) {
+            for (std::size_t i = 0; i < q.size(); ++i) {
               square += of_q * (dq[i] * dq[i]) + of_p * (dp[i] * dp[i]);
               half_rate += of_q * (dq[i] * ddq[i]) + of_p * (dp[i] * ddp[i]);
             }
             return square > R(0) ? R(half_rate / square) : R(0);
           }};
+}
+/// With the weights of the start (q, p).
+template <class P, class R, std::size_t N>
+StepMonitor<R, N> arclength_monitor(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p) {
+  return arclength_monitor(problem, arclength_weights(problem, q, p));
 }
 
 /// **distance**: sigma = d^(3/2), d the distance from the centre or of the nearest two bodies (distance_rate in
@@ -102,8 +131,12 @@ requires HasDistanceRate<P> StepMonitor<RealOf<P>, P::dimension> distance_monito
   using V = VectorOf<P>;
   return {distance_monitor_name, [problem](const V& q, const V& p) {
             V dq = zeros_like(q);
-            V dp = dq;
-            motion(problem, q, p, dq, dp);
+            if constexpr (Separable<P>) {
+              velocity(problem, p, dq);
+            } else {
+              V by_q = dq;
+              gradient(problem, q, p, by_q, dq);
+            }
             return R(R(-1.5) * problem.distance_rate(q, dq));
           }};
 }

@@ -27,8 +27,11 @@ class LaneLoop {
 
 /// Machine code of 16 (avx2) or 32 lanes (avx512) where `lanes` asks for it, processor and system allow it and
 /// HAMFLOW_NATIVE is not 0; else interpreted, as many lanes. generic: 16 lanes, interpreted.
+/// @param registers to a number: with fewer than four there are so many fewer lanes. Four hide what waits in programs
+/// that are one chain; long programs of many chains are better off with one
 /// @param differs of each constant of the program whether members have their own
 /// @throws std::invalid_argument unless `differs` has a flag for every constant; for LaneSet::none
-std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span<const bool> differs, LaneSet lanes);
+std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span<const bool> differs, LaneSet lanes,
+                                               std::size_t registers = 4);
 
 }  // namespace hamflow

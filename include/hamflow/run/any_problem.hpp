@@ -214,7 +214,8 @@ class FunctionsOf final : public Functions<S> {
     put(by_p, dp);
   }
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
-    if constexpr (Smooth<P> && has_hessian && std::is_same_v<S, RealOf<P>>) {
+    // With traces, for lanes, where it is by hand.
+    if constexpr (Smooth<P> && has_hessian && (std::is_same_v<S, RealOf<P>> || HasHessian<P, S>)) {
       const X x = in(q);
       Matrix<S, n> by_qq = zero_matrix(x);
       Matrix<S, n> by_qp = by_qq;

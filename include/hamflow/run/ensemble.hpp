@@ -56,6 +56,8 @@ class EnsembleBlock {
   virtual bool load(const ParameterShape& shape, std::span<const MemberStart> members) = 0;
   virtual void advance(std::int64_t steps) = 0;
   virtual MemberEnd look(std::size_t lane) = 0;
+  /// Steps of members that were taken in lanes since load(): where steps are solved for, members may take some alone.
+  virtual std::int64_t steps_in_lanes() const = 0;
 
   /// Whether a lane has left its program: nothing that it shows counts.
   virtual bool is_lost(std::size_t lane) const = 0;

@@ -26,6 +26,7 @@ template <class P, class M, Arithmetic A>
 class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMember {
   using Base = SimulationOf<P, M, A>;
   using Base::clock_;
+  using Base::density_;
   using Base::method_;
   using Base::probe_;
   using Base::z_;
@@ -38,7 +39,6 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
         watch_(watch) {}
 
   Outcome advance(std::int64_t steps) override {
-    if (Base::varies_steps()) return ordinary(steps);
     const Loop* const loop = loop_for(clock_.step_length(), steps);
     if (loop == nullptr || steps < 1) return ordinary(steps);
     values_.resize(loop->step->program.values());
@@ -57,27 +57,18 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     const auto z = z_;
     const auto method = method_;
     const auto clock = clock_;
+    const auto density = density_;
     take_values(*loop->step, values_, steps);
     if (Base::is_finite(Base::problem(), z_)) return Outcome::done;
     z_ = z;
     method_ = method;
     clock_ = clock;
+    density_ = density;
     return ordinary(steps);
   }
 
-  std::shared_ptr<const RecordedStep> recorded_step() override {
-    if (!*recorder_ || Base::varies_steps()) return nullptr;
-    const double h = clock_.step_length();
-    if (!step_ || step_of_ != h) {
-      const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
-                              static_cast<double>(clock_.direction())};
-      auto step = (*recorder_)(z_.positions(), z_.momenta(), h, time, watch_, RecordedAt::steady);
-      if (!step) return nullptr;
-      step_ = std::make_shared<const RecordedStep>(*std::move(step));
-      step_of_ = h;
-    }
-    return step_;
-  }
+  /// Lanes take equal steps.
+  std::shared_ptr<const RecordedStep> recorded_step() override { return Base::varies_steps() ? nullptr : record(); }
   /// Tangent vectors follow steps in plain double alone.
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) override {
     if constexpr (std::is_same_v<A, Plain<double>>) {
@@ -91,10 +82,15 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
   double time_after(std::int64_t steps) const override { return static_cast<double>(clock_.time_after(steps)); }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {
     values.back() = static_cast<double>(clock_.position());
-    return gather(step.fields, values, z_, method_, probe_);
+    return density_ ? gather(step.fields, values, z_, method_, probe_, *density_)
+                    : gather(step.fields, values, z_, method_, probe_);
   }
   void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
-    scatter(step.fields, values, steps, z_, method_, probe_);
+    if (density_) {
+      scatter(step.fields, values, steps, z_, method_, probe_, *density_);
+    } else {
+      scatter(step.fields, values, steps, z_, method_, probe_);
+    }
     clock_.advance(steps);
   }
   [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
@@ -118,6 +114,19 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     std::unique_ptr<const StepLoop> steps;  // null: the step cannot be recorded
   };
 
+  std::shared_ptr<const RecordedStep> record() {
+    if (!*recorder_) return nullptr;
+    const double h = clock_.step_length();
+    if (!step_ || step_of_ != h) {
+      const RecordedTime time{clock_.start(), clock_.step(), static_cast<double>(clock_.position()),
+                              static_cast<double>(clock_.direction())};
+      auto step = (*recorder_)(z_.positions(), z_.momenta(), h, time, watch_, RecordedAt::steady);
+      if (!step) return nullptr;
+      step_ = std::make_shared<const RecordedStep>(*std::move(step));
+      step_of_ = h;
+    }
+    return step_;
+  }
   Outcome ordinary(std::int64_t steps) {
     if (watch_) return Base::advance(steps);
     const auto probe = probe_;
@@ -140,7 +149,7 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     if (asked_ < worth_recording || !*recorder_) return nullptr;
     auto made = std::make_shared<Loop>();
     made->h = h;
-    made->step = recorded_step();
+    made->step = record();
     if (made->step) made->steps = make_step_loop(made->step->program);
     loops_[loops_[0] ? 1 : 0] = made;
     return made->steps ? made.get() : nullptr;

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/step_density.hpp"
 #include "hamflow/numerics/program_of_tape.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"
@@ -74,6 +75,9 @@ std::vector<CarriedField> carried_fields(const TracedFields& before, const Trace
                                          const std::vector<bool>& counts);
 }  // namespace detail
 
+using TracedMonitor = StepMonitor<Trace<double>, dynamic>;
+struct NoDensity {};
+
 /// Time as a StepClock counts it, for the recording: t = start + position step.
 struct RecordedTime {
   double start = 0;
@@ -83,20 +87,44 @@ struct RecordedTime {
 };
 
 /// Records the step from (q, p).
+/// @tparam A of traces; where it has any lengths (methods/step_density.hpp) the density of steps is carried, too
 /// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
+/// @param monitor of steps of varying length
 /// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
 template <class A, class P, class M>
 std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, const RecordedTime& time,
-                                        bool watch, RecordedAt at = RecordedAt::steady) {
+                                        bool watch, RecordedAt at = RecordedAt::steady,
+                                        [[maybe_unused]] const TracedMonitor* monitor = nullptr) {
   using Number = Trace<double>;
+  constexpr bool varies = requires { typename A::Length; };
   PhasePoint<A, dynamic> z;
   z.store(cast<Number>(q), cast<Number>(p));
   ConservationProbe<P, Number> probe;
   try {
     probe.start(problem, z.positions(), z.momenta(), Number(time.start));
+    auto density = [&] {
+      if constexpr (varies) {
+        return StepDensity<A>(Number(h), Number(time.start));
+      } else {
+        return NoDensity{};
+      }
+    }();
+    Number end_of_varying(0);
+    const auto step = [&] {
+      if constexpr (varies) {
+        if (!density.is_usable()) return Outcome::not_converged;
+        const Number length = density.length();
+        end_of_varying = density.time() + length;
+        const Outcome outcome = method.step(problem, length, z);
+        density.advance(length, monitor->rate(z.positions(), z.momenta()));
+        return outcome;
+      } else {
+        return method.step(problem, h, z);
+      }
+    };
     // On constants, for what the method keeps of it.
-    if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
+    if (step() != Outcome::done) return std::nullopt;
     if (at == RecordedAt::start) method.invalidate();
     Recorder<double> recorder(Folding::exact, most_recorded_operations);
     std::vector<bool> counts;
@@ -105,16 +133,16 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
           if constexpr (detail::IsTrace<T>::value) x = recorder.input(x.value);
           counts.push_back(std::is_integral_v<T> && !std::is_same_v<T, bool>);
         },
-        z, method, probe);
+        z, method, probe, density);
     RecordedStep recorded;
     for (const Number& x : z.positions()) recorded.state.push_back(static_cast<std::size_t>(x.node));
     for (const Number& x : z.momenta()) recorded.state.push_back(static_cast<std::size_t>(x.node));
     const Number position = recorder.input(time.position + time.direction) + Number(time.direction);
-    const detail::TracedFields before = detail::traced_fields(z, method, probe);
-    if (method.step(problem, h, z) != Outcome::done) return std::nullopt;
-    const Number t = Number(time.start) + position * Number(time.step);
+    const detail::TracedFields before = detail::traced_fields(z, method, probe, density);
+    if (step() != Outcome::done) return std::nullopt;
+    const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
     if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
-    detail::TracedFields after = detail::traced_fields(z, method, probe);
+    detail::TracedFields after = detail::traced_fields(z, method, probe, density);
     if (at == RecordedAt::steady) {
       recorded.fields = detail::carried_fields(before, after, counts);
       if (recorded.fields.empty()) return std::nullopt;

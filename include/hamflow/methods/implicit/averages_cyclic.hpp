@@ -66,6 +66,8 @@ class CyclicAverages : public AverageEquations<P, R> {
     for (std::size_t i = 0; i < k_; ++i) all[half + i] = angles[i];
     return all;
   }
+  /// The energy that finer equations see the step gain.
+  detail::Gain<Real> gain_of_energy(const Variables& x) const { return rest_.gain_of_energy(x); }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const { return rest_.too_coarse(x, {}); }
   bool believable(const Variables& x, const Increment<Real, n>&) const { return rest_.believable(x, {}); }
 

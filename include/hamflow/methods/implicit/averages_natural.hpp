@@ -107,6 +107,8 @@ class NaturalAverages : public AverageEquations<P, R> {
     return all;
   }
 
+  /// The energy that finer equations see the step gain.
+  detail::Gain<Real> gain_of_energy(const Variables& x) const { return gain(x, setup_.finer()); }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
     return detail::gains_energy(gain(x, setup_.finer()), setup_.has_finest(),
                                 [&] { return gain(x, setup_.finest()).gain; });

@@ -54,6 +54,7 @@ class ImplicitMethod {
   using Real = typename A::Real;
   using Base = Real;
   using Unknowns = typename E::Unknowns;
+  using Equations = E;
 
   /// @param options those of E::Setup
   template <class Options>
@@ -80,6 +81,12 @@ class ImplicitMethod {
     ar(effort_, diagnostics_, setup_, newton_);
   }
   const Newton<E>& newton() const { return newton_; }
+  const typename E::Setup& setup() const { return setup_; }
+  /// After steps that were taken in lanes: what the last one left, and the work of all.
+  void go_on(const typename E::Memory& memory, const Effort& effort) {
+    newton_.remember(memory);
+    effort_ = effort;
+  }
   /// Of the last step and over all of them; unset unless asked for.
   StepDiagnostics diagnostics(const P& problem, const PhasePoint<A, n>& z) const {
     StepDiagnostics d;

@@ -148,6 +148,10 @@ class Newton {
   void archive(Archive& ar) {
     ar(memory_, doubt_);
   }
+  /// For lanes: what is remembered, and whether the next step begins with it.
+  const auto& memory() const { return memory_; }
+  bool trusts_memory() const { return doubt_ == 0 && !memory_.empty(); }
+  void remember(const typename E::Memory& memory) { memory_.remember(memory); }
   /// How many steps were solved from there after the first guess had failed or was in doubt. No part of a run's state.
   long long solved_from(Guess start) const { return solved_[static_cast<int>(start)]; }
 

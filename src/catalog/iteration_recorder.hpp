@@ -1,0 +1,14 @@
+// Averages as programs, for lanes.
+#pragma once
+
+#include "erased.hpp"
+#include "hamflow/run/recorded_iteration.hpp"
+
+namespace hamflow {
+
+/// Empty where a step is no program, for every start the same but for constants.
+/// @param face one of Averages::faces, on which the simulation works
+IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, Capability face,
+                                     const AverageOptions& options);
+
+}  // namespace hamflow
