@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What elements of any degree and Gauss collocation do, in tables: element_studies.py HAMFLOW STUDY...
 
-flows:    the error against every flow of tests/data/exact_flow.json over dt, in quad, down to its rounding
+flows:    the error against every flow of tests/data/exact_flow.json over dt, in quad, down to its rounding, of every
+          implicit method that takes it
 orders:   cg(k, s), k = 1..6, s = k, k + 1, 2 k, 3 k: the slopes of the error of a pendulum, in quad
 energy:   16 starts, --steps [1000000] steps of Kepler's ellipse and of a double pendulum, cg(1..3,auto): growth and size
 sextic:   10^4 steps of 0.16 with s = k .. 3 k points: what the energy does, and that 2 s >= 6 k points see all of it
 binomial: springs of 1000 and 10^6, dt = 0.1, 0.01, 0.001: whether a step is solved, or why not
+bodies:   eg(1..3) and cg(1,5) with masses 1, 0.3, 0.2, --steps: energy and momenta; orders; a circle; a fall from rest
 """
 
 import argparse
@@ -59,6 +61,8 @@ class Studies:
         found = []
         for steps in (4, 8, 16, 32, 64, 128, 256, 512):
             end = self.run(problem, q, p, method, {"dt": f"{time}/{steps}", "steps": steps, "arithmetic": "quad"})
+            if end["status"] == "rejected":
+                return []
             if end["status"] != "done":
                 found.append(math.nan)
                 continue
@@ -71,6 +75,8 @@ class Studies:
 
     def flows(self):
         methods = [f"gauss({k})" for k in range(1, 11)] + [f"cg({k},auto)" for k in range(1, 7)]
+        methods += ["eg(1)", "eg(2)", "eg(3)", "discrete-gradient", "itoh-abe"]
+        methods += [f"lobatto-3a-3b({s})" for s in range(2, 11)]
         for flow in json.loads(DATA.read_text())["problems"]:
             start = flow["initial_state_values"]
             half = len(start) // 2
@@ -78,7 +84,8 @@ class Studies:
             print(f"{flow['problem']}, t = 1, errors with 4, 8, 16 .. steps, and the last slope above 1e-27")
             for method in methods:
                 errors = self.errors(FLOWS[flow["problem"]], start[:half], start[half:], method, 1, end["state"])
-                print(f"  {method:10s}", " ".join(f"{e:7.0e}" for e in errors), f"  {slope(errors):6.2f}", flush=True)
+                if errors:
+                    print(f"  {method:17s}", " ".join(f"{e:7.0e}" for e in errors), f"  {slope(errors):6.2f}", flush=True)
 
     def orders(self):
         start = ("2.5",), ("0",)
@@ -134,6 +141,41 @@ class Studies:
                     print(f"  k = {k:7d}, dt = {dt:5}, {method:10s} {what}", flush=True)
 
 
+    def bodies(self):
+        # A pair, and a third one that goes round it: none of them leaves.
+        three = {"name": "n-body", "masses": [1, 0.3, 0.2], "frame": "barycentric"}
+        q, p = [0, 0, 1, 0, 0, -8], [-0.11, -0.25, 0.035, 0.25, 0.075, 0]
+        dt = 0.02
+        print(f"masses 1, 0.3, 0.2, dt = {dt}, {self.steps} steps: largest errors of H, the momenta, and what H does")
+        for method in ("eg(1)", "eg(2)", "eg(3)", "cg(1,5)"):
+            end = self.run(three, q, p, method, {"dt": dt, "steps": self.steps})
+            kept = end["invariants"]
+            print(f"  {method:8s} {end['energy']['max_error']:8.1e} linear {largest(kept['linear_momentum']):8.1e}, angular "
+                  f"{largest(kept['angular_momentum']):8.1e}, {end['certificate']['drift']}, "
+                  f"{end['newton']['mean']:.2f} solves a step", flush=True)
+        print("the same up to t = 1, in quad: log2 of what halving 1/8, 1/16 .. changes, over what it changed before")
+        for method in ("eg(1)", "eg(2)", "eg(3)"):
+            ends = [self.run(three, q, p, method, {"dt": f"1/{n}", "steps": n, "arithmetic": "quad"})["final"]["q"]
+                    for n in (8, 16, 32, 64, 128)]
+            changes = [max(abs(decimal_difference(x, y)) for x, y in zip(a, b)) for a, b in zip(ends, ends[1:])]
+            print(f"  {method:8s}", " ".join(f"{math.log2(a / b):6.3f}" for a, b in zip(changes, changes[1:])), flush=True)
+        kepler = {"name": "central-force", "potential": "kepler"}
+        print("a circle, r = 1, 10^5 steps: largest errors of H and l, |r - 1| in the end; a fall from rest, 20 steps of 0.05")
+        for method in ("eg(1)", "eg(2)", "eg(3)"):
+            for h in (0.01, 0.1, 0.3):
+                end = self.run(kepler, [1, 0], [0, 1], method, {"dt": h, "steps": 100_000})
+                print(f"  {method}, dt = {h:4}  {end['energy']['max_error']:8.1e} "
+                      f"{largest(end['invariants']['angular_momentum']):8.1e} {abs(math.hypot(*end['final']['q']) - 1):8.1e}",
+                      flush=True)
+            end = self.run(kepler, [1, 0.5], [0, 0], method, {"dt": 0.05, "steps": 20})
+            print(f"  {method}, from rest {end['energy']['max_error']:8.1e}", flush=True)
+
+
+def largest(invariant):
+    error = invariant["max_error"]
+    return max(error) if isinstance(error, list) else error
+
+
 def decimal_difference(a, b):
     from decimal import Decimal, getcontext
     getcontext().prec = 60
@@ -164,8 +206,8 @@ def on_ellipse(e, anomaly, turn):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("hamflow", type=pathlib.Path)
-    parser.add_argument("studies", nargs="+", choices=["flows", "orders", "energy", "sextic", "binomial"])
-    parser.add_argument("--steps", type=int, default=1_000_000, help="of study energy, rounded up to a multiple of 512")
+    parser.add_argument("studies", nargs="+", choices=["flows", "orders", "energy", "sextic", "binomial", "bodies"])
+    parser.add_argument("--steps", type=int, default=1_000_000, help="of energy and bodies, rounded up to a multiple of 512")
     given = parser.parse_args()
     studies = Studies(given.hamflow.resolve(), -(-given.steps // 512) * 512)
     for name in given.studies:

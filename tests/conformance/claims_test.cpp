@@ -56,9 +56,9 @@ bool stands_for_others(const std::string& name) {
   // problems, whose three ways to solve are tested below, and stages are a map of theirs
   // (StagesAreTheMapOfElementsWithAsManyPoints). The adaptive references are tested by themselves.
   if (spec.name == "cg") return name == "cg(1,5)" || name == "cg(1,auto)";
-  if (spec.name == "gauss") return false;
-  if (spec.name == "eg") return name == "eg(2)";
-  if (spec.name == "lobatto-3a-3b") return name == "lobatto-3a-3b(3)";
+  // The other implicit methods have one kernel for all problems too.
+  const std::vector<std::string> below{"gauss", "eg", "lobatto-3a-3b", "discrete-gradient", "itoh-abe"};
+  if (std::find(below.begin(), below.end(), spec.name) != below.end()) return false;
   if (spec.name == "tao4") return false;  // three steps of tao2
   if (describe(spec).own_substeps) return false;
   if (!splitting_named(spec.name)) return true;
@@ -106,6 +106,29 @@ TEST_P(SharedClaims, HoldOnEveryOtherProblem) {
     EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
   }
 }
+
+/// Implicit methods that are compiled once for all problems, beside pendulum and henon-heiles: where H is not
+/// separable, with forces of more bodies than one.
+struct Beside {
+  std::string method;
+  std::string problem;
+  std::map<std::string, std::string> variant{};
+};
+class ClaimsBeside : public ::testing::TestWithParam<Beside> {};
+TEST_P(ClaimsBeside, HoldForTheOtherShapesOfH) {
+  const std::vector<Region> regions{region_of(GetParam().problem, GetParam().variant)};
+  const std::vector<PropertyRow> rows{measure_method(parse_method(GetParam().method), regions)};
+  EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
+}
+const std::map<std::string, std::string> polar{{"coordinates", "polar"}};
+const std::map<std::string, std::string> nonlinear{{"model", "nonlinear"}};
+INSTANTIATE_TEST_SUITE_P(Catalogue, ClaimsBeside,
+                         ::testing::Values(Beside{"lobatto-3a-3b(3)", "double-pendulum", nonlinear},
+                                           Beside{"discrete-gradient", "double-pendulum", nonlinear},
+                                           Beside{"itoh-abe", "central-force", polar}, Beside{"eg(2)", "n-body"}),
+                         [](const auto& each) {
+                           return test_name({each.param.method + "_" + each.param.problem, each.index});
+                         });
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, SharedClaims, ::testing::ValuesIn(shares()), share_name);
 INSTANTIATE_TEST_SUITE_P(Catalogue, Claims, ::testing::ValuesIn(method_names()), test_name);
