@@ -169,7 +169,8 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
             "method 'verlett' is unknown; did you mean verlet? (list them with: hamflow list methods)");
   EXPECT_EQ(message("qqqqqqqqqqqq"), "method 'qqqqqqqqqqqq' is unknown (list them with: hamflow list methods)");
   EXPECT_EQ(message("cg(1,5"), "method 'cg(1,5' lacks its closing parenthesis");
-  EXPECT_EQ(message("stv4(2)"), "stv4: found an option without a name; allowed by name: step_control=VALUE, monitor=VALUE");
+  EXPECT_EQ(message("stv4(2)"),
+            "stv4: found an option without a name; allowed by name: step_control=VALUE, monitor=VALUE");
   const std::string points = "; allowed a whole number from 1 to 64, or \"auto\"";
   EXPECT_EQ(message("cg(1.5)"), "cg: degree: found '1.5'; allowed a whole number from 1 to 63");
   EXPECT_EQ(message("cg(1,many)"), "cg: quadrature: found 'many'" + points);
