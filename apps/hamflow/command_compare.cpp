@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "guarded.hpp"
+#include "hamflow/methods/step_control.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "progress.hpp"
@@ -21,9 +22,10 @@ class RequestReader {
   RequestReader(const Scenario& scenario, const CompareOptions& options) : scenario_(scenario) {
     read_methods(options.methods);
     if (describe(scenario.request.method).varies_steps) {
-      complain("method.step_control",
-               "found \"reversible\"; allowed fixed, e.g. by --set method.step_control=fixed: all "
-               "methods of a comparison end at one time, steps of varying length do not");
+      const std::string key = std::string("method.") + step_control_option;
+      complain(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by --set " +
+                        key + "=" + fixed_steps +
+                        ": all methods of a comparison end at one time, steps of varying length do not");
     }
     request.request = scenario.request;
     request.t_end = scenario.dt * static_cast<double>(scenario.steps);

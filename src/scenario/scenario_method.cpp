@@ -59,7 +59,8 @@ bool ScenarioReader::read_method_name(TomlTable& table) {
     return false;
   }
   if (text && !names_method_with_options(*text) && !refused_value(key, *text).empty()) {
-    table.complain(key.name, "found \"" + *text + "\"; allowed " + allowed() + suggestion(*text, key.words));
+    table.complain(key.name, "found \"" + *text + "\"; allowed " + allowed() +
+                                 suggestion(text->substr(0, text->find('(')), key.words));
     return false;
   }
   if (!text || !names_method_with_options(*text)) {

@@ -186,7 +186,7 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
   EXPECT_EQ(message("cg(tolerance=-1)"), "cg: tolerance: found '-1'; allowed a positive number");
   EXPECT_EQ(message("cg(stages=3)"),
             "cg: found an unknown option 'stages'; allowed degree, quadrature, tolerance, criterion, max_iterations, "
-            "iteration, on_divergence, diagnostics");
+            "iteration, on_divergence, diagnostics, step_control, monitor");
   EXPECT_EQ(message("cg(tol=3)").substr(0, 33), "cg: found an unknown option 'tol'");
   EXPECT_EQ(message("cg(0)"), "cg: degree: found '0'; allowed a whole number from 1 to 63");
   EXPECT_EQ(message("cg(3,2)"), "cg: quadrature: found 2; allowed at least the degree, 3, or \"auto\"");

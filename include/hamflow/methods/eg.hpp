@@ -8,6 +8,9 @@
 // Newton runs in L with the exact tangent.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "hamflow/core/capability.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
 #include "hamflow/methods/implicit/large_systems.hpp"
@@ -34,14 +37,14 @@ class RadialCollocation : public TargetEquations<R> {
     EgOptions options;
     GaussStages<Real> stages;
     std::size_t space;
-    std::vector<RadialTerm<Real>> terms;
+    std::shared_ptr<const std::vector<RadialTerm<Real>>> terms;  // a block copies its method, and allocates nothing
     RecordedLaw<Real> law;
     V inverse_mass;
     Setup(const P& problem, const EgOptions& chosen)
         : options(chosen),
           stages(chosen.degree),
           space(problem.radial_space()),
-          terms(problem.radial_terms()),
+          terms(std::make_shared<const std::vector<RadialTerm<Real>>>(problem.radial_terms())),
           law(problem),
           inverse_mass(zeros<Real, n>(degrees_of_freedom(problem))) {
       V ones = inverse_mass;
@@ -92,7 +95,7 @@ class RadialCollocation : public TargetEquations<R> {
     const Variables positions = positions_of(q0_, moved);
     const Reach reach{terms_of(q0_, moved), scaled(terms_of(p0_, x))};
     Base::clear(at, x.size());
-    for (const RadialTerm<Real>& term : setup_.terms) {
+    for (const RadialTerm<Real>& term : *setup_.terms) {
       const RadialPair<Real> pair = pair_of(term, q0_, positions, velocities, &reach);
       add_force(term, pair, reach, at);
       if (at.linearised) add_tangent(term, pair, at.tangent);
@@ -145,7 +148,7 @@ class RadialCollocation : public TargetEquations<R> {
         r[2 * size * l + size + i] = -pushed[l * size + i];
       }
     }
-    for (const RadialTerm<Real>& term : setup_.terms) {
+    for (const RadialTerm<Real>& term : *setup_.terms) {
       const RadialPair<S> pair = pair_of(term, q0, positions, velocities);
       for (std::size_t l = 0; l < k_; ++l) {
         const S factor = (Real(-2) * h_ * setup_.stages.b[l] * term.strength) * pair.factor[l];

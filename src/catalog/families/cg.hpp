@@ -23,29 +23,31 @@ struct Cg {
   }
 
   static MethodFamily declared() {
-    return {.name = "cg",
-            .meaning = "finite elements in time that conserve the energy, for any twice differentiable H",
-            .methods = {"cg"},
-            .options = declarations_of(options()),
-            .read = [](const Texts& given) { return std::any(read(given)); },
-            .rank = 1,
-            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
-            .not_fast = "an energy-conserving element needs the exact force",
-            .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)", "cg(2,2)", "cg(2,3)", "cg(2,auto)",
-                                "cg(3,4)", "cg(3,auto)", "cg(4,auto)"},
-            .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
-            .needs = [](std::size_t) { return "a twice differentiable H"; },
-            .advice =
-                [](std::size_t) {
-                  return MethodAdvice{
-                      .purpose = "any twice differentiable H; keeps the energy to rounding, whatever dt is",
-                      .take = "H is not T(p) + V(q), the energy has to be exact, or the motion is stiff",
-                      .avoid =
-                          "many cheap steps do for H = T(p) + V(q): verlet, kahan-li8; bits have to come back "
-                          "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
-                },
-            .refused = refused,
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+    return {
+        .name = "cg",
+        .meaning = "finite elements in time that conserve the energy, for any twice differentiable H",
+        .methods = {"cg"},
+        .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
+        .rank = 1,
+        .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+        .not_fast = "an energy-conserving element needs the exact force",
+        .representatives = {"cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)", "cg(2,2)", "cg(2,3)", "cg(2,auto)",
+                            "cg(3,4)", "cg(3,auto)", "cg(4,auto)"},
+        .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
+        .needs = [](std::size_t) { return "a twice differentiable H"; },
+        .advice =
+            [](std::size_t) {
+              return MethodAdvice{
+                  .purpose =
+                      "any twice differentiable H; with quadrature auto the energy stays at rounding, whatever dt is",
+                  .take = "H is not T(p) + V(q), the energy has to be exact, or the motion is stiff",
+                  .avoid =
+                      "many cheap steps do for H = T(p) + V(q): verlet, kahan-li8; bits have to come back "
+                      "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
+            },
+        .refused = refused,
+        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
   }
 
   /// cg(1) by Newton has kernels of its own, compiled with each problem.

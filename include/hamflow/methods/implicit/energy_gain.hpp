@@ -52,8 +52,9 @@ Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real
   return size;
 }
 
-/// Whether H has changed by 4096 roundings of its terms along a step that no rule of points sees any gain in. Then H is
-/// not smooth: where it has a kink (abs(x)) beyond the outermost points, two rules agree about what neither has seen.
+/// Whether H has changed by 256 roundings of its terms along a step that no rule of points sees any gain in. Either
+/// both rules are far from converged, so that what they see differs as noise does, or H is not smooth: where it has a
+/// kink (abs(x)) beyond the outermost points, two rules agree about what neither has seen.
 template <class P, class Real, std::size_t N>
 bool overlooks_a_kink(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
                       const Increment<Real, N>& taken) {
@@ -66,8 +67,9 @@ bool overlooks_a_kink(const P& problem, const Vector<Real, N>& q0, const Vector<
   }
   const Real before = energy(problem, q0, p0);
   const Real change = abs(energy(problem, q1, p1) - before);
-  if (change <= epsilon * Real(4096 * abs(before))) return false;  // most steps need to know no more
-  return change > epsilon * Real(4096 * (size_of_terms(problem, q0, p0) + size_of_terms(problem, q1, p1)));
+  constexpr int most_roundings = 256;
+  if (change <= epsilon * Real(most_roundings * abs(before))) return false;  // most steps need to know no more
+  return change > epsilon * Real(most_roundings * (size_of_terms(problem, q0, p0) + size_of_terms(problem, q1, p1)));
 }
 
 }  // namespace hamflow::detail
