@@ -136,7 +136,7 @@ TEST(StepDensity, KeepsTheOrderOnKepler) {
   };
   for (const Case& each : {Case{"verlet", 2, 200},
                            {"stv4", 4, 100},
-                           {"kahan-li6", 6, 60},
+                           {"yoshida6", 6, 60},  // the leading coefficient of kahan-li6 is too small to be seen
                            {"cg(1,auto)", 2, 100},
                            {"cg(2,auto)", 4, 40},
                            {"gauss(3)", 6, 24},
