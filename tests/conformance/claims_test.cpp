@@ -100,6 +100,8 @@ TEST_P(SharedClaims, HoldOnEveryOtherProblem) {
     std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
     if (!problem.accepts(parse_method(method))) continue;
     if (problem.info.name == "solar-system") continue;  // n-body with other numbers, which take long
+    // Polar potentials differ as they do in Cartesian coordinates, where each is measured.
+    if (variant["coordinates"] == "polar" && variant["potential"] != "kepler") continue;
     // Every step of a constant force rounds alike: the 10^7 steps to which its order is followed sum that up.
     if (describe(parse_method(method)).carries_copy && problem.info.name == "free-fall") continue;
     SCOPED_TRACE(problem.info.name + ": " + problem.info.formula);
