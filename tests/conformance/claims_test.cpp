@@ -45,7 +45,8 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
 class Claims : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Claims, AreWhatIsMeasured) {
-  const std::vector<Region> regions = default_regions(parse_method(GetParam()));
+  std::vector<Region> regions = default_regions(parse_method(GetParam()));
+  if (GetParam() == "itoh-abe") regions.resize(1);  // the slowest by far: on the others by verify --all
   const std::vector<PropertyRow> rows{measure_method(parse_method(GetParam()), regions)};
   EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
 }

@@ -63,7 +63,7 @@ void expect_substance(const Tally& tally) {
 }
 
 const std::uint64_t seed = setting("HAMFLOW_RANDOM_SEED", 1);
-const std::uint64_t count = setting("HAMFLOW_RANDOM_PROGRAMS", 10000);
+const std::uint64_t count = setting("HAMFLOW_RANDOM_PROGRAMS", 5000);
 
 TEST(RandomPrograms, PassesKeepTheBits) {
   const auto passed = [](const Program& program) {
