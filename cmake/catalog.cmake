@@ -48,7 +48,6 @@ macro(hamflow_problem_unit header name body)
   set(unit_class ProblemUnit)
   set(unit_entry TypedEntry)
   set(entry entry)
-  set(extern "")
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
   list(APPEND HAMFLOW_UNITS "${unit}")
   set(unit "${generated}/erased_${name}.cpp")
@@ -56,9 +55,14 @@ macro(hamflow_problem_unit header name body)
   set(unit_class ErasedUnit)
   set(unit_entry ErasedEntry)
   set(entry erased)
-  set(extern "extern ")
   file(CONFIGURE OUTPUT "${unit}" CONTENT "${body}" @ONLY)
-  list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
+  # The force of many bodies is worth its optimisation; that of a few coordinates is recorded.
+  file(STRINGS "${PROJECT_SOURCE_DIR}/include/hamflow/problems/${header}.hpp" of_any_size REGEX "dynamic" LIMIT_COUNT 1)
+  if(of_any_size)
+    list(APPEND HAMFLOW_UNITS "${unit}")
+  else()
+    list(APPEND HAMFLOW_ERASED_UNITS "${unit}")
+  endif()
   string(APPEND declarations "TypedEntry entry_${name}();\nErasedEntry erased_${name}();\n")
   string(APPEND problem_calls "joined(entry_${name}(), erased_${name}()), ")
   string(APPEND erased_calls "erased_${name}(), ")
@@ -78,10 +82,6 @@ set(unit_text [[
 // The alias has a name of its own: two units with one name for different problems would be merged by the linker.
 template <class R>
 using @entry@Family_@name@ = @family@;
-// What a step behind virtual calls waits for is compiled with the typed kernels.
-@extern@template std::shared_ptr<const Functions<double>> functions_of(const @entry@Family_@name@<double>&);
-@extern@template std::shared_ptr<const Functions<Dual<double, 1>>> functions_of(const @entry@Family_@name@<double>&);
-@extern@template std::shared_ptr<const Functions<DoubleDouble>> functions_of(const @entry@Family_@name@<DoubleDouble>&);
 @unit_entry@ @entry@_@name@();
 @unit_entry@ @entry@_@name@() { return @unit_class@<@entry@Family_@name@>::entry(); }
 }  // namespace hamflow

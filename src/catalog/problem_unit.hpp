@@ -2,9 +2,7 @@
 // of problems/potentials/, and one of erased_unit.hpp: a new problem is a new file and nothing else.
 #pragma once
 
-#include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
-#include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/simulation_of.hpp"
 #include "problem_start.hpp"
 #include "recipes.hpp"
