@@ -1,8 +1,9 @@
 // A StepMap for a problem template and a method recipe. A recipe has Stepper<P, A> and bind<P, A>(problem).
 #pragma once
 
-#include <optional>
-#include <variant>
+#include <functional>
+#include <memory>
+#include <utility>
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
@@ -67,19 +68,40 @@ void taken_from(const PhasePoint<A, N>& point, [[maybe_unused]] const M& method,
     }
   }
 }
-template <template <class> class Family, bool quad>
-struct QuadProblem {
-  using type = std::optional<Family<Quad>>;
+template <class P, class R>
+State<R> flow_of(const P& problem, const State<R>& z, const R& t) {
+  constexpr std::size_t n = P::dimension;
+  auto point = zeros < R, n == dynamic ? dynamic : 2 * n > (z.size());
+  for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
+  const auto end = reference_flow(problem, point, t);
+  return {end.begin(), end.end()};
+}
+}  // namespace detail
+
+/// What a map has besides steps in double and long double: nothing in quad; steps and flows in quad, compiled with it;
+/// or both, and the flow in long double, from elsewhere, where they are compiled already.
+enum class Beyond { nothing, quad, given };
+/// Beyond::given.
+struct GivenMaps {
+  std::function<std::unique_ptr<Simulation>(const State<double>& z, double h)> simulation;
+  std::function<State<long double>(const State<long double>& z, long double t)> flow;
+  std::function<bool(State<Quad>& z, const Quad& h, std::int64_t steps)> advance_in_quad;
+  std::function<State<Quad>(const State<Quad>& z, const Quad& t)> flow_in_quad;
+};
+
+namespace detail {
+template <template <class> class Family, Beyond beyond>
+struct BeyondDouble {};
+template <template <class> class Family>
+struct BeyondDouble<Family, Beyond::quad> {
+  Family<Quad> problem;
 };
 template <template <class> class Family>
-struct QuadProblem<Family, false> {
-  using type = std::optional<std::monostate>;
-};
+struct BeyondDouble<Family, Beyond::given> : GivenMaps {};
 }  // namespace detail
 
 /// @tparam Family a class template over the number type of its parameters   @tparam Recipe see above
-/// @tparam quad also in quad
-template <template <class> class Family, class Recipe, bool quad = false>
+template <template <class> class Family, class Recipe, Beyond beyond = Beyond::nothing>
 class StepMapOf final : public StepMap {
   using P = Family<double>;
   static constexpr std::size_t n = P::dimension;
@@ -88,12 +110,19 @@ class StepMapOf final : public StepMap {
   using Arithmetic = std::conditional_t<always_compensated<Recipe>(), Compensated<R>, Plain<R>>;
 
  public:
-  /// @param make Family<R> for double and long double: called as make.template operator()<R>()
+  /// @param make Family<R> for double, long double and what is beyond: called as make.template operator()<R>()
   template <class Make>
-  StepMapOf(Make&& make, Recipe recipe)
+  StepMapOf(Make&& make, Recipe recipe) requires(beyond != Beyond::given)
       : problem_(make.template operator()<double>()),
         long_problem_(make.template operator()<long double>()),
-        quad_problem_(in_quad(make)),
+        beyond_(in_quad(make)),
+        recipe_(std::move(recipe)),
+        size_(degrees_of_freedom(problem_)) {}
+  template <class Make>
+  StepMapOf(Make&& make, Recipe recipe, GivenMaps given) requires(beyond == Beyond::given)
+      : problem_(make.template operator()<double>()),
+        long_problem_(make.template operator()<long double>()),
+        beyond_{std::move(given)},
         recipe_(std::move(recipe)),
         size_(degrees_of_freedom(problem_)) {}
 
@@ -117,10 +146,12 @@ class StepMapOf final : public StepMap {
     return go(long_problem_, z, h, steps);
   }
 
-  bool has_quad() const override { return quad; }
+  bool has_quad() const override { return beyond != Beyond::nothing; }
   bool advance(State<Quad>& z, const Quad& h, std::int64_t steps) const override {
-    if constexpr (quad) {
-      return go(*quad_problem_, z, h, steps);
+    if constexpr (beyond == Beyond::quad) {
+      return go(beyond_.problem, z, h, steps);
+    } else if constexpr (beyond == Beyond::given) {
+      return beyond_.advance_in_quad(z, h, steps);
     } else {
       return false;
     }
@@ -164,25 +195,31 @@ class StepMapOf final : public StepMap {
 
   std::vector<double> energies(const State<double>& z, double h, int blocks, std::int64_t steps) const override {
     auto simulation = simulation_from(z, h);
-    std::vector<double> all{simulation.energy().initial};
+    std::vector<double> all{simulation->energy().initial};
     for (int b = 0; b < blocks; ++b) {
-      if (simulation.advance(steps) != Outcome::done) break;
-      all.push_back(simulation.energy().final);
+      if (simulation->advance(steps) != Outcome::done) break;
+      all.push_back(simulation->energy().final);
     }
     return all;
   }
-  double energy_scale(const State<double>& z) const override { return simulation_from(z, 1.0).energy_scale(); }
+  double energy_scale(const State<double>& z) const override { return simulation_from(z, 1.0)->energy_scale(); }
   Effort cost(const State<double>& z, double h, std::int64_t steps) const override {
     auto simulation = simulation_from(z, h);
-    (void)simulation.advance(steps);
-    return simulation.effort();
+    (void)simulation->advance(steps);
+    return simulation->effort();
   }
   State<long double> flow(const State<long double>& z, long double t) const override {
-    return follow(long_problem_, z, t);
+    if constexpr (beyond == Beyond::given) {
+      return beyond_.flow(z, t);
+    } else {
+      return detail::flow_of(long_problem_, z, t);
+    }
   }
   State<Quad> flow(const State<Quad>& z, const Quad& t) const override {
-    if constexpr (quad) {
-      return follow(*quad_problem_, z, t);
+    if constexpr (beyond == Beyond::quad) {
+      return detail::flow_of(beyond_.problem, z, t);
+    } else if constexpr (beyond == Beyond::given) {
+      return beyond_.flow_in_quad(z, t);
     } else {
       return z;
     }
@@ -190,26 +227,23 @@ class StepMapOf final : public StepMap {
 
  private:
   template <class Make>
-  static auto in_quad(Make& make) {
-    if constexpr (quad) {
-      return std::optional(make.template operator()<Quad>());
+  static detail::BeyondDouble<Family, beyond> in_quad(Make& make) {
+    if constexpr (beyond == Beyond::quad) {
+      return {make.template operator()<Quad>()};
     } else {
-      return std::optional<std::monostate>();
+      return {};
     }
   }
-  template <class Q, class R>
-  static State<R> follow(const Q& problem, const State<R>& z, const R& t) {
-    auto point = zeros < R, n == dynamic ? dynamic : 2 * n > (z.size());
-    for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
-    const auto end = reference_flow(problem, point, t);
-    return {end.begin(), end.end()};
-  }
 
-  auto simulation_from(const State<double>& z, double h) const {
-    using A = Arithmetic<double>;
-    auto method = recipe_.template bind<P, A>(problem_);
-    return SimulationOf<P, decltype(method), A, NoProbe>(problem_, method, detail::part_of<double, n>(z, 0),
-                                                         detail::part_of<double, n>(z, size_), h);
+  std::unique_ptr<Simulation> simulation_from(const State<double>& z, double h) const {
+    if constexpr (beyond == Beyond::given) {
+      return beyond_.simulation(z, h);
+    } else {
+      using A = Arithmetic<double>;
+      auto method = recipe_.template bind<P, A>(problem_);
+      return std::make_unique<SimulationOf<P, decltype(method), A, NoProbe>>(
+          problem_, method, detail::part_of<double, n>(z, 0), detail::part_of<double, n>(z, size_), h);
+    }
   }
 
   template <class Q, class R>
@@ -337,7 +371,7 @@ class StepMapOf final : public StepMap {
 
   P problem_;
   Family<long double> long_problem_;
-  typename detail::QuadProblem<Family, quad>::type quad_problem_;
+  detail::BeyondDouble<Family, beyond> beyond_;
   Recipe recipe_;
   std::size_t size_;
   TangentSteps tangent_steps_;

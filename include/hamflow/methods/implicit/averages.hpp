@@ -57,8 +57,8 @@ class AverageSetup {
   }
   const AverageTable<Real>& table() const { return *table_; }
   std::string detail() const {
-    return options_.in_stages ? std::to_string(table().points) + " stages"
-                              : std::to_string(table().points) + " Gauss points";
+    return std::to_string(table().points) + (options_.in_stages ? " stage" : " Gauss point") +
+           (table().points == 1 ? "" : "s");
   }
 
   /// Whether the map keeps the energy as far as its points see it; with as many points as averages it is symplectic.

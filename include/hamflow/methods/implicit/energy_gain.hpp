@@ -56,8 +56,8 @@ Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real
 /// both rules are far from converged, so that what they see differs as noise does, or H is not smooth: where it has a
 /// kink (abs(x)) beyond the outermost points, two rules agree about what neither has seen.
 template <class P, class Real, std::size_t N>
-bool overlooks_a_kink(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
-                      const Increment<Real, N>& taken) {
+bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
+                        const Increment<Real, N>& taken) {
   constexpr auto epsilon = Epsilon<Real>{};
   Vector<Real, N> q1 = q0;
   Vector<Real, N> p1 = p0;

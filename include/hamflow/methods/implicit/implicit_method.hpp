@@ -104,16 +104,15 @@ class ImplicitMethod {
     again.options_.halve = false;
     (void)again.attempt(problem, h, copy, 0, nullptr, &log);
     if constexpr (requires { again.setup_.hopeless(); }) {
-      if (log.kink()) {
+      if (log.change_unseen()) {
         return "H changes along the step by more than its rounding, although no rule of up to " +
                again.setup_.detail() +
-               " sees any gain: it has a kink or a jump there, as abs(x) has, where no quadrature keeps the energy, or "
-               "what "
-               "changes is much narrower than the step";
+               " sees any gain: the step is far too long for them, or H has a kink or a jump there, as abs(x) has, "
+               "where no quadrature keeps the energy";
       }
       if (log.too_coarse()) return again.setup_.hopeless();
     }
-    return "Newton did not converge in " + std::to_string(options_.max_iterations) +
+    return solver_name(options_.iteration) + " did not converge in " + std::to_string(options_.max_iterations) +
            (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + again.setup_.detail() +
            (log.attempts() > 1 ? " from any of " + std::to_string(log.attempts()) + " starts" : "") +
            (options_.halve ? ", nor in ten halvings of the step" : "") + "; " + E::Setup::residual_name +
@@ -241,11 +240,11 @@ class ImplicitMethod {
     const auto before = setup_.mark();
     for (;;) {
       const bool coarse = E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken);
-      if (!coarse && !detail::overlooks_a_kink(problem, q0, p0, found.taken)) return found;
+      if (!coarse && !detail::overlooks_a_change(problem, q0, p0, found.taken)) return found;
       const bool finer = setup_.refine();
       if (log != nullptr) {
         log->restart();
-        if (!coarse) log->note_kink();
+        if (!coarse) log->note_change_unseen();
         if (!finer) log->note_too_coarse();
       }
       if (!finer || !newton_.solve_refined(E(setup_, problem, h, q0, p0, effort_), report, found)) {

@@ -1,6 +1,8 @@
 // What Newton did in a step that failed, in words. Written only when a failed step is repeated for its report.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "hamflow/core/number.hpp"
@@ -17,33 +19,53 @@ class NewtonLog {
     static constexpr const char* names[] = {"from the extrapolated guess", "from the explicit predictor",
                                             "from the last state", "damped from the last state",
                                             "from the solution with fewer points"};
-    text_ += std::string(attempts_ == 0 ? "" : "; ") + names[static_cast<int>(from)] + " ";
+    text_ = text() + (attempts_ == 0 ? "" : "; ") + names[static_cast<int>(from)] + " ";
     ++attempts_;
     iterations_ = 0;
   }
+  /// Of many iterations the first and the last few are told.
   [[gnu::cold, gnu::noinline]] void residual(double norm) {
-    text_ += (iterations_++ == 0 ? "" : ", ") + shortest(norm);
+    const std::string number = (iterations_ == 0 ? "" : ", ") + shortest(norm);
+    if (iterations_ < told) {
+      text_ += number;
+    } else {
+      latest_[static_cast<std::size_t>(iterations_ % told)] = number;
+    }
+    ++iterations_;
   }
-  [[gnu::cold, gnu::noinline]] void remark(const char* ending) { text_ += std::string(" (") + ending + ")"; }
+  [[gnu::cold, gnu::noinline]] void remark(const char* ending) {
+    text_ = text() + " (" + ending + ")";
+    iterations_ = 0;
+  }
   /// The equations are others from here on.
   [[gnu::cold, gnu::noinline]] void restart() {
     text_.clear();
     attempts_ = 0;
+    iterations_ = 0;
   }
   void note_too_coarse() { too_coarse_ = true; }
-  void note_kink() { kink_ = true; }
+  void note_change_unseen() { change_unseen_ = true; }
 
-  const std::string& text() const { return text_; }
+  std::string text() const {
+    std::string all = text_;
+    if (iterations_ > 2 * told) all += ", ... (" + std::to_string(iterations_ - 2 * told) + " more)";
+    for (int i = std::max(told, iterations_ - told); i < iterations_; ++i) {
+      all += latest_[static_cast<std::size_t>(i % told)];
+    }
+    return all;
+  }
   int attempts() const { return attempts_; }
   bool too_coarse() const { return too_coarse_; }
-  bool kink() const { return kink_; }
+  bool change_unseen() const { return change_unseen_; }
 
  private:
+  static constexpr int told = 4;
   std::string text_;
+  std::array<std::string, told> latest_;
   int attempts_ = 0;
   int iterations_ = 0;
   bool too_coarse_ = false;
-  bool kink_ = false;
+  bool change_unseen_ = false;
 };
 
 }  // namespace hamflow

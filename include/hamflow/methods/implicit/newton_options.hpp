@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace hamflow {
 
@@ -12,6 +13,10 @@ enum class Iteration {
   simplified,  // the tangent of the first guess, factored once a step
   fixed_point  // no tangent at all: first derivatives only
 };
+/// As the subject of a sentence.
+inline std::string solver_name(Iteration iteration) {
+  return iteration == Iteration::fixed_point ? "the fixed-point iteration" : "Newton";
+}
 
 struct NewtonOptions {
   std::optional<double> tolerance{};  // on the norm of the residual; unset: its rounding level

@@ -73,7 +73,9 @@ class SegmentSetup {
   }
   const CgOptions& options() const { return options_; }
   const GaussRule<Real>& rule() const { return *rule_; }
-  std::string detail() const { return std::to_string(rule_->points) + " Gauss points"; }
+  std::string detail() const {
+    return std::to_string(rule_->points) + (rule_->points == 1 ? " Gauss point" : " Gauss points");
+  }
 
   bool automatic() const { return options_.quadrature == 0; }
   /// One more point than there are is needed to judge.
