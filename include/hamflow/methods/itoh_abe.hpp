@@ -122,8 +122,16 @@ struct ItohAbe {
   MethodInfo info() const { return described(coordinate_increment_claims(), options); }
   template <class P, class A>
   using Stepper = ImplicitMethod<P, A, DiscreteGradientStep<P, typename A::Real, CoordinateIncrements>>;
+  /// H is evaluated along one coordinate after another: the work of a step goes as the cube of their number.
+  static constexpr std::size_t most_coordinates = 250;
+  /// @throws Error for more coordinates than most_coordinates
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
+    if (degrees_of_freedom(problem) > most_coordinates) {
+      throw Error("found " + std::to_string(degrees_of_freedom(problem)) + " coordinates; allowed at most " +
+                  std::to_string(most_coordinates) +
+                  ": itoh-abe evaluates H once a coordinate, a step of more takes minutes; use discrete-gradient");
+    }
     return Stepper<P, A>(problem, for_unknowns(2 * degrees_of_freedom(problem), options));
   }
 };
