@@ -12,6 +12,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "meant.hpp"
@@ -154,6 +155,21 @@ void show_starts(const ProblemInfo& info) {
                "the smallest root of H = E\n";
 }
 
+/// What may stand between coordinates and walls.
+void show_walls(const ProblemInfo& info) {
+  const WallKeys& keys = wall_keys();
+  const bool fixed = !info.walls.empty();
+  for (const FixedWall& wall : info.walls) {
+    std::cout << fmt::format("  walls: {} from {} to {}\n", info.coordinates.at(wall.coordinate), wall.min, wall.max);
+  }
+  if (!fixed) {
+    std::cout << fmt::format("  {} = [{{ {} = \"{}\", {}, {} }}]: walls, with\n", keys.walls.name, keys.coordinate.name,
+                             info.coordinates.front(), keys.min.name, keys.max.name);
+  }
+  for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) std::cout << option_row(*key);
+  for (const auto& [name, text] : info.observables) std::cout << fmt::format("  observable: {} = {}\n", name, text);
+}
+
 void show_problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
@@ -163,7 +179,9 @@ void show_problem(const ProblemEntry& entry) {
   if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
   for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
   if (!info.frame.name.empty()) std::cout << option_row(info.frame);
+  if (!info.velocities.name.empty()) std::cout << option_row(info.velocities);
   show_starts(info);
+  show_walls(info);
   std::cout << fmt::format("  momenta: {}\n",
                            entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);
