@@ -81,7 +81,13 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
 
 /// The choices that find an entry in lists; those of a typed problem are its texts.
 std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& entry) {
-  return entry.structure ? std::vector<std::pair<std::string, std::string>>() : entry.info.variant;
+  std::vector<std::pair<std::string, std::string>> choices;
+  if (entry.structure) return choices;
+  const std::map<std::string, std::string> all(entry.info.variant.begin(), entry.info.variant.end());
+  const auto kept = without_walls(all);
+  std::copy_if(entry.info.variant.begin(), entry.info.variant.end(), std::back_inserter(choices),
+               [&](const auto& choice) { return kept.contains(choice.first); });
+  return choices;
 }
 
 std::string variant_text(const ProblemEntry& entry) {
@@ -125,6 +131,13 @@ void show_scenario(const Scenario& scenario) {
   for (const auto& [name, value] : scenario.request.parameters) {
     if (!value.empty()) std::cout << fmt::format("  here: {} = {}\n", name, value);
   }
+  if (const auto walls = walls_among(scenario.request.variant)) {
+    for (const Walls::Interval& wall : walls->intervals) {
+      std::cout << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
+                               wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
+                               wall.min.empty() ? "-infinity" : wall.min, wall.max.empty() ? "infinity" : wall.max);
+    }
+  }
   const auto list = [](const std::vector<double>& xs) { return joined(xs, shortest); };
   std::cout << fmt::format(
       "  start: q = [{}], p = [{}], H = {}\n", list(scenario.start_q), list(scenario.start_p),
@@ -145,11 +158,12 @@ void show_starts(const ProblemInfo& info) {
   if (info.two_bodies) {
     std::cout << "  bodies = [{ mass, position = [3], velocity = [3] }, { ... }]: two bodies in space, reduced\n";
   }
-  std::cout << fmt::format(
-      "  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n", fmt::join(info.coordinates, ", "),
-      info.default_q.empty() ? ""
-                             : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
-                                           fmt::join(info.default_p, ", ")));
+  std::cout << fmt::format("  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n",
+                           fmt::join(info.coordinates, ", "),
+                           info.default_q.empty() || info.default_p.empty()
+                               ? ""
+                               : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
+                                             fmt::join(info.default_p, ", ")));
   std::cout << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
                "largest, \"-\" "
                "the smallest root of H = E\n";

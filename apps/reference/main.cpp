@@ -7,9 +7,9 @@
 
 #include "figure_kinds.hpp"
 #include "formula_keys.hpp"
-#include "hamflow/run/walls.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/walls.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
 
@@ -94,9 +94,9 @@ std::string problem(const ProblemEntry& entry) {
     text += "`bodies = [{ mass, position = [3], velocity = [3] }, { ... }]`: two bodies in space, reduced.\n\n";
   }
   text += "`initial = { q, p }` with canonical momenta, or `{ q, v }` with velocities";
-  if (!info.default_q.empty() && info.default_q.size() <= 4) {
+  if (!info.default_q.empty() && !info.default_p.empty() && info.default_q.size() <= 4) {
     text += fmt::format("; default q = [{}], p = [{}]", joined(info.default_q), joined(info.default_p));
-  } else if (!info.default_q.empty()) {
+  } else if (!info.default_q.empty() && info.velocities.name.empty()) {
     text += "; default: the problem's own";
   }
   text += ".\n\n";
@@ -153,9 +153,11 @@ std::string page() {
       CentralKeys::problem, CentralKeys::key, FormulaKeys::problem);
   text += table(central_formula_options());
   const WallKeys& walls = wall_keys();
-  text += "### Walls, of any problem\n\nThose of `t-tube` are fixed; it takes their rule. Behind hard walls invariants that a "
-          "wall breaks, closed forms and\nfacts of the orbit are left out, and `compare` measures against a motion whose "
-          "bounces are located.\n\n";
+  text +=
+      "### Walls, of any problem\n\nThose of `t-tube` are fixed; it takes their rule. Behind hard walls invariants "
+      "that a "
+      "wall breaks, closed forms and\nfacts of the orbit are left out, and `compare` measures against a motion whose "
+      "bounces are located.\n\n";
   text += table(std::vector<OptionInfo>{walls.walls, walls.wall_rule, walls.strength, walls.exponent});
   text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);

@@ -153,16 +153,24 @@ bool WallEvents<R>::reflect(std::size_t i) {
   other[i] = p[i] + unit;
   const R inverse_mass = (velocity(q, other)[i] - v) / unit;
   R change = R(-2) * v / inverse_mass;
-  // Else the other root of H(q, p + lambda e_i) = H(q, p), by Newton from there.
-  for (int n = 0; n < 100; ++n) {
+  // Else the other root of H(q, p + lambda e_i) = H(q, p), by Newton from behind it.
+  const auto gain = [&] {
     other[i] = p[i] + change;
-    const R speed = velocity(q, other)[i];
-    if (!(abs(change) <= std::numeric_limits<R>::max()) || !(speed * v <= R(0))) return false;
-    if (abs(speed + v) <= 64 * epsilon * abs(v) && keeps_energy()) break;
-    const R correction = (functions_.energy(q, other) - energy) / speed;
-    change -= correction;
-    if (abs(correction) <= 8 * epsilon * abs(change) || keeps_energy()) break;
+    return functions_.energy(q, other) - energy;
+  };
+  R rise = gain();
+  for (int n = 0; n < 200 && rise < R(0) && !keeps_energy(); ++n) {
+    change *= R(2);
+    rise = gain();
   }
+  for (int n = 0; n < 100 && !keeps_energy(); ++n) {
+    const R correction = rise / velocity(q, other)[i];
+    change -= correction;
+    rise = gain();
+    if (!(abs(correction) > 4 * epsilon * abs(change))) break;
+  }
+  // The momentum that there was is a root, too.
+  if (!keeps_energy() || !(velocity(q, other)[i] * v <= R(0))) return false;
   parts_.push_momentum(i, change);
   return true;
 }

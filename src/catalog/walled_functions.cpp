@@ -247,7 +247,7 @@ ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, c
   return other;
 }
 
-#define HAMFLOW_BEHIND_WALLS(R)                                                                          \
+#define HAMFLOW_BEHIND_WALLS(R)                                                                                  \
   template ErasedFunctions<R> functions_behind_walls<R>(const ErasedFunctions<R>&, const Request&, const Walls&, \
                                                         const std::vector<WallSide<R>>&);
 HAMFLOW_BEHIND_WALLS(double)

@@ -29,8 +29,8 @@ bool names(const std::string& formula, std::string symbol) {
   return false;
 }
 
-/// A wall turns one momentum round: what does not depend on it is left. Of declared invariants only a single momentum is
-/// known not to, that of the last coordinate, which is the cyclic one; of typed ones the formula tells.
+/// A wall turns one momentum round: what does not depend on it is left. Of declared invariants only a single momentum
+/// is known not to, that of the last coordinate, which is the cyclic one; of typed ones the formula tells.
 bool leaves(const ProblemEntry& problem, const InvariantInfo& invariant, const Walls::Interval& wall) {
   if (problem.structure) {
     const auto momentum =
@@ -74,7 +74,7 @@ std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
     if (!below && !above) continue;
     return wall.coordinate + " = " + shortest(x) + (walls.hard() ? " beyond" : " on or beyond") + " the wall at " +
            (below ? wall.min : wall.max) + "; allowed a start between the walls, " +
-           (wall.min.empty() ? "at most " + wall.max
+           (wall.min.empty()   ? "at most " + wall.max
             : wall.max.empty() ? "at least " + wall.min
                                : "from " + wall.min + " to " + wall.max);
   }

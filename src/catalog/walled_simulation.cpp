@@ -147,7 +147,9 @@ class WalledSimulation final : public Simulation {
     if (outcome == Outcome::done && stays_inside(q0, v0)) return outcome;
     Effort spent;
     add_evaluations(spent, inner_->effort(), before);
-    outcome = walls_->rule == WallRule::reject ? reject() : walls_->rule == WallRule::mirror ? mirror() : bounce(outcome);
+    outcome = walls_->rule == WallRule::reject   ? reject()
+              : walls_->rule == WallRule::mirror ? mirror()
+                                                 : bounce(outcome);
     if (outcome != Outcome::done) return back_with(outcome);
     if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
     tell();
@@ -206,9 +208,8 @@ class WalledSimulation final : public Simulation {
   bool fold() {
     for (int n = 0; n <= most_bounces; ++n) {
       const V q = parts_->present_positions();
-      const auto wall = std::find_if(walls_->sides.begin(), walls_->sides.end(), [&](const WallSide<R>& side) {
-        return side.beyond(q[side.coordinate]) > R(0);
-      });
+      const auto wall = std::find_if(walls_->sides.begin(), walls_->sides.end(),
+                                     [&](const WallSide<R>& side) { return side.beyond(q[side.coordinate]) > R(0); });
       if (wall == walls_->sides.end()) return true;
       parts_->mirror_position(wall->coordinate, R(2) * wall->at);
       parts_->negate_momentum(wall->coordinate);
@@ -371,7 +372,7 @@ std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const
   return std::make_unique<WalledSimulation<R>>(simulate(other, request), std::move(behind));
 }
 
-#define HAMFLOW_BEHIND_WALLS(R)                                                                               \
+#define HAMFLOW_BEHIND_WALLS(R)                                                                                    \
   template std::unique_ptr<Simulation> simulate_behind_walls<R>(const ErasedRun<R>&, const Request&, const Walls&, \
                                                                 Simulate<R>);
 HAMFLOW_BEHIND_WALLS(double)

@@ -45,8 +45,7 @@ struct Checkpoint {
   template <class Archive>
   void archive(Archive& ar) {
     ar(identity, version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, wall_rows,
-       csv_bytes,
-       csv_hash, summary_hash, wall_seconds, simulation, observers);
+       csv_bytes, csv_hash, summary_hash, wall_seconds, simulation, observers);
   }
 };
 

@@ -95,7 +95,9 @@ void put_among(const Walls& walls, std::map<std::string, std::string>& choices) 
 }
 
 std::map<std::string, std::string> without_walls(std::map<std::string, std::string> choices) {
-  for (const std::string& key : {wall_keys().walls.name, wall_keys().wall_rule.name, wall_keys().strength.name, wall_keys().exponent.name}) choices.erase(key);
+  for (const std::string& key :
+       {wall_keys().walls.name, wall_keys().wall_rule.name, wall_keys().strength.name, wall_keys().exponent.name})
+    choices.erase(key);
   return choices;
 }
 

@@ -166,10 +166,11 @@ const std::vector<DeclaredTable>& declared_tables() {
   static const std::vector<DeclaredTable> tables = [] {
     const RunKeys& r = run_keys();
     const OutputKeys& o = output_keys();
-    return std::vector<DeclaredTable>{{run_table,
-                                       {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues,
-                                        r.section, r.record_events, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
-                                      {output_table, {o.folder, o.formats, o.figures, o.observables}}};
+    return std::vector<DeclaredTable>{
+        {run_table,
+         {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.record_events,
+          r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+        {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;
 }

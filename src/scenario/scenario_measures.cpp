@@ -70,8 +70,9 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
     table.complain(key, table.found(key) + " behind hard walls; allowed without walls: bounces are not differentiated");
   }
   if (const auto walls = walls_among(scenario_.request.variant); walls && !walls->hard()) {
-    table.complain(key, table.found(key) + " behind soft walls; allowed without walls: the steps that are "
-                                           "differentiated know none");
+    table.complain(key, table.found(key) +
+                            " behind soft walls; allowed without walls: the steps that are "
+                            "differentiated know none");
   }
   const auto& structure = scenario_.problem != nullptr ? scenario_.problem->structure : std::nullopt;
   if (structure && structure->time) {

@@ -66,8 +66,8 @@ void ScenarioReader::read_walls(TomlTable& table) {
   table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
   const std::size_t before = complaints_.size();
   if (fixed && table.has(keys.walls.name)) {
-    table.complain(keys.walls.name, "found walls, but those of " + info.name + " are fixed; allowed " +
-                                        keys.wall_rule.name + " alone");
+    table.complain(keys.walls.name,
+                   "found walls, but those of " + info.name + " are fixed; allowed " + keys.wall_rule.name + " alone");
   }
   if (!fixed && !table.has(keys.walls.name)) {
     for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) {
@@ -79,10 +79,11 @@ void ScenarioReader::read_walls(TomlTable& table) {
   Walls walls;
   const auto rule = table.text(keys.wall_rule);
   if (rule) {
-    walls.rule = static_cast<WallRule>(std::find(wall_rules().begin(), wall_rules().end(), *rule) -
-                                       wall_rules().begin());
+    walls.rule =
+        static_cast<WallRule>(std::find(wall_rules().begin(), wall_rules().end(), *rule) - wall_rules().begin());
   }
-  for (const auto& [key, to] : {std::pair{&keys.strength, &walls.strength}, std::pair{&keys.exponent, &walls.exponent}}) {
+  for (const auto& [key, to] :
+       {std::pair{&keys.strength, &walls.strength}, std::pair{&keys.exponent, &walls.exponent}}) {
     if (walls.hard() && table.has(key->name) && (rule || !table.has(keys.wall_rule.name))) {
       table.complain(key->name, table.found(key->name) + "; allowed with " + keys.wall_rule.name + " = \"soft\"");
     } else if (const auto text = table.text(*key)) {
@@ -108,15 +109,17 @@ void ScenarioReader::read_walls(TomlTable& table) {
       const bool again = std::any_of(walls.intervals.begin(), walls.intervals.end(),
                                      [&](const auto& other) { return other.index == interval->index; });
       if (again) {
-        entry.complain(keys.coordinate.name, entry.found(keys.coordinate.name) + " a second time; allowed one interval "
-                                                                                 "of each coordinate");
+        entry.complain(keys.coordinate.name, entry.found(keys.coordinate.name) +
+                                                 " a second time; allowed one interval "
+                                                 "of each coordinate");
       }
       walls.intervals.push_back(*interval);
     }
   }
   if (scenario_.bodies) {
-    table.complain(keys.walls.name, "found walls beside bodies; allowed with initial or orbit: bodies are shown where "
-                                    "they are in space");
+    table.complain(keys.walls.name,
+                   "found walls beside bodies; allowed with initial or orbit: bodies are shown where "
+                   "they are in space");
   }
   if (complaints_.size() != before) return;
   put_among(walls, scenario_.request.variant);
@@ -134,14 +137,16 @@ void ScenarioReader::check_walls() {
   const bool on_lattice = scenario_.request.arithmetic == "lattice";
   const std::string& rule = wall_rules()[static_cast<std::size_t>(walls->rule)];
   const auto refuse = [&](const std::string& why) {
-    table.complain(table.has(keys.wall_rule.name) || !table.has(keys.walls.name) ? keys.wall_rule.name : keys.walls.name,
-                   "found \"" + rule + "\" " + why);
+    table.complain(
+        table.has(keys.wall_rule.name) || !table.has(keys.walls.name) ? keys.wall_rule.name : keys.walls.name,
+        "found \"" + rule + "\" " + why);
   };
   if (walls->hard() && info.varies_steps) {
     refuse("with steps of varying length, which walls would cut; allowed \"soft\", or step_control = \"fixed\"");
   }
   if (info.carries_copy && walls->hard()) {
-    refuse("with " + info.name + ", which carries a second copy of the state that meets walls elsewhere; allowed "
+    refuse("with " + info.name +
+           ", which carries a second copy of the state that meets walls elsewhere; allowed "
            "\"soft\", or another method");
   }
   if (walls->rule == WallRule::event && on_lattice) {
@@ -150,7 +155,8 @@ void ScenarioReader::check_walls() {
   if (walls->rule != WallRule::mirror) return;
   const bool drifts = find_method(method.name).family->not_on_lattice.empty();
   if (!drifts) {
-    refuse("with " + info.name + ", which has no drifts to be reflected; allowed \"event\", \"reject\", or a splitting "
+    refuse("with " + info.name +
+           ", which has no drifts to be reflected; allowed \"event\", \"reject\", or a splitting "
            "method, e.g. stv4");
     return;
   }
@@ -163,8 +169,11 @@ void ScenarioReader::check_walls() {
     const std::vector<double> v = problem.rates(parameters, scenario_.start_q, p);
     for (std::size_t k = 0; k < v.size(); ++k) {
       if (quadratic && (k == wall.index || v[k] == 0)) continue;
-      refuse("where the velocity of " + wall.coordinate + (quadratic ? " depends on other momenta too" : " is not a "
-             "constant times its momentum") + ": a reflected drift would not be one of H; allowed \"event\", \"reject\"");
+      refuse("where the velocity of " + wall.coordinate +
+             (quadratic ? " depends on other momenta too"
+                        : " is not a "
+                          "constant times its momentum") +
+             ": a reflected drift would not be one of H; allowed \"event\", \"reject\"");
       return;
     }
   }

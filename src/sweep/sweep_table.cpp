@@ -76,8 +76,8 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
 /// How often each hard wall was met.
 void add_walls(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   const Scenario& common = sweep.common();
-  const auto any = std::find_if(sweep.rows().begin(), sweep.rows().end(),
-                                [](const MemberRow& row) { return !row.walls.empty(); });
+  const auto any =
+      std::find_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return !row.walls.empty(); });
   if (any == sweep.rows().end()) return;
   const StateNames names = state_names(*common.problem, common.request.parameters, common.start_q.size());
   for (std::size_t k = 0; k < any->walls.size(); ++k) {

@@ -26,9 +26,9 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
     RunDescription description = description_of(scenario, static_cast<std::size_t>(sample_count(scenario)));
     description.identity = identity;
     const std::filesystem::path file = folder / "run.h5";
-    h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
-                          : std::make_unique<RunFile>(file, description, from->rows, from->section_rows,
-                                                      from->wall_rows);
+    h5_ = from == nullptr
+              ? std::make_unique<RunFile>(file, description)
+              : std::make_unique<RunFile>(file, description, from->rows, from->section_rows, from->wall_rows);
   }
   if (wants("csv")) {
     const std::filesystem::path file = folder / "trajectory.csv";

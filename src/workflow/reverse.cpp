@@ -125,8 +125,9 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   report.note =
       note_of(describe(scenario.request.method), scenario.request.arithmetic, timed, even, report.expected_bit_exact);
   if (rejects_steps(scenario)) {
-    report.note += (report.note.empty() ? "" : "; ") +
-                   std::string("steps that leave the walls are rejected, which is not one-to-one: no return is promised");
+    report.note +=
+        (report.note.empty() ? "" : "; ") +
+        std::string("steps that leave the walls are rejected, which is not one-to-one: no return is promised");
   }
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);

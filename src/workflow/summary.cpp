@@ -186,8 +186,8 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
             {"message", result.file_trouble},
             {"hint", "make room, or write elsewhere with --out; the samples up to the last flush are kept"}};
   }
-  const bool says_more = result.outcome == Outcome::not_converged || result.outcome == Outcome::wall ||
-                         result.outcome == Outcome::outside;
+  const bool says_more =
+      result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
   const bool own_words = says_more && !result.failure.empty();
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
   const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),

@@ -1,6 +1,6 @@
-// Two masses on crossed rails, H = P1^2/(2 m1) + P2^2/(2 m2) - eps/sqrt(Q1^2 + Q2^2): one moves along x, the other along
-// y, between walls.   [Sonnleitner2010, ch. 1.9, 3b]
-// eps > 0 attracts, eps < 0 repels. The walls are those of the listing: Q1 in [-1, 1], Q2 in [0.1, 2.1].
+// Two masses on crossed rails, H = P1^2/(2 m1) + P2^2/(2 m2) - eps/sqrt(Q1^2 + Q2^2): one moves along x, the other
+// along y, between walls.   [Sonnleitner2010, ch. 1.9, 3b] eps > 0 attracts, eps < 0 repels. The walls are those of the
+// listing: Q1 in [-1, 1], Q2 in [0.1, 2.1].
 #pragma once
 
 #include "hamflow/core/derivatives.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
-#include "hamflow/run/steps_in_parts.hpp"
 
 namespace hamflow {
 

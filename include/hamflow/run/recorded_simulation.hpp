@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/recorded_step.hpp"
-#include "hamflow/run/steps_in_parts.hpp"
 
 namespace hamflow {
 

@@ -141,7 +141,6 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     return outcome;
   }
 
-
  protected:
   /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. Trouble is found
   /// cheaply, after the fact; the way to the last good step is then walked again from the unchanged originals.
