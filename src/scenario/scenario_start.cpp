@@ -128,6 +128,12 @@ void ScenarioReader::read_initial(TomlTable& table) {
   const std::string numbers = problem.dimension == 0   ? "as many numbers as there are coordinates"
                               : problem.dimension == 1 ? "1 number each"
                                                        : std::to_string(problem.dimension) + " numbers each";
+  const OptionInfo& velocities = problem.info.velocities;
+  const auto given = velocities.name.empty() ? std::nullopt : table.text(velocities);
+  if (given && table.has(velocities.name) && table.has("initial")) {
+    table.complain(velocities.name, table.found(velocities.name) + " beside initial; allowed one of them");
+    return;
+  }
   if (!table.has("initial")) {
     table.know("initial");
     if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
@@ -135,6 +141,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
     if (!problem.info.default_q.empty()) {
       spec.q = problem.info.default_q;
       spec.p = problem.info.default_p;
+      if (!velocities.name.empty()) spec.v = list_parts(given.value_or(velocities.default_value));
       return;
     }
     table.missing("initial", std::string(problem.info.starts.empty()      ? ""
