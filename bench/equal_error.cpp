@@ -15,7 +15,8 @@ std::int64_t even(double steps) { return 2 * static_cast<std::int64_t>(std::ceil
 
 /// The fewest steps, to a hundredth, even in number: the error goes as steps^-order once it is small, by which they are
 /// enclosed, and halved from there on. 0 steps: rounding is more than the target.
-Placed place(const Racer& racer, double target, std::int64_t steps) {
+Placed place(const Racer& racer, double target, const Course& course) {
+  std::int64_t steps = course.first_steps;
   Placed placed{racer.name, 0, 0, 0, {}, {}};
   std::int64_t too_few = 0;
   for (int attempt = 0; attempt < 60; ++attempt) {
@@ -40,7 +41,7 @@ Placed place(const Racer& racer, double target, std::int64_t steps) {
       const double factor = std::clamp(std::pow(lap.error / target, 1.0 / racer.order), 0.25, 4.0);
       steps = placed.steps > 0 ? std::min(steps - 2, even(static_cast<double>(steps) * factor))
                                : std::max(steps + 2, even(static_cast<double>(steps) * factor * 1.01));
-      if (steps < 2 || (placed.steps == 0 && steps > 200'000'000)) break;
+      if (steps < 2 || (placed.steps == 0 && steps > course.most_steps)) break;
     }
   }
   return placed;
@@ -55,7 +56,7 @@ std::vector<Race> race(const Plan& plan, const Course& course) {
     std::vector<Racer> all;
     for (const Racer& racer : course.racers) {
       if (racer.order < 4 && target < 1e-9) continue;  // 10^8 steps
-      const Placed placed = place(racer, target, course.first_steps);
+      const Placed placed = place(racer, target, course);
       if (placed.steps == 0) continue;
       race.placed.push_back(placed);
       all.push_back(racer);

@@ -23,6 +23,7 @@ struct Course {
   std::string name;
   std::vector<Racer> racers;  // ratios are to the first
   std::int64_t first_steps = 400;
+  std::int64_t most_steps = 200'000'000;
 };
 /// One period of the ellipse e = 0.6.
 Course ellipse();
@@ -44,7 +45,7 @@ struct Race {
   std::vector<Placed> placed;
 };
 
-/// For errors of 1e-6, 1e-9, 1e-12. Who cannot reach one, or needs 10^8 steps for it, does not take part.
+/// For errors of 1e-6, 1e-9, 1e-12. Who cannot reach one within the most steps does not take part.
 std::vector<Race> race(const Plan& plan, const Course& course);
 
 }  // namespace bench

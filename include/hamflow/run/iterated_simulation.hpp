@@ -1,11 +1,13 @@
 // A simulation by name in double whose steps are solved by iteration, and which can hand them over to lanes
-// (recorded_iteration.hpp). By itself it is the one behind virtual calls.
+// (recorded_iteration.hpp). It is the one behind virtual calls, and where many steps are asked for, their programs take
+// them (iteration_runner.hpp), with the same bits.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "hamflow/run/recorded_iteration.hpp"
+#include "hamflow/run/iteration_runner.hpp"
 #include "hamflow/run/simulation_of.hpp"
 
 namespace hamflow {
@@ -16,17 +18,48 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
   using Base::clock_;
   using Base::method_;
   using Base::probe_;
+  using Base::varies_steps;
   using Base::z_;
   using Equations = typename M::Equations;
 
  public:
-  IteratedSimulation(Base simulation, IterationRecorder recorder)
-      : Base(std::move(simulation)), recorder_(std::make_shared<const IterationRecorder>(std::move(recorder))) {
+  /// @param stages empty: they are not iterated in lanes   @param record false: every step takes the ordinary road
+  IteratedSimulation(Base simulation, IterationRecorder recorder, StageRecorder stages, bool record)
+      : Base(std::move(simulation)),
+        recorder_(std::make_shared<const IterationRecorder>(std::move(recorder))),
+        stages_(std::make_shared<const StageRecorder>(std::move(stages))),
+        record_(record) {
     frame_.n = z_.q.size();
     frame_.m = Equations(method_.setup(), Base::problem(), clock_.step(), z_.positions(), z_.momenta(), unused())
                    .last_state()
                    .size();
     for_each_carried([&](double&) { ++frame_.recorded; }, z_, probe_);
+  }
+
+  Outcome advance(std::int64_t steps) override {
+    std::int64_t alone = 1;
+    while (steps > 0) {
+      if (!is_worth_running(steps)) return Base::advance(steps);
+      if (read(values_)) {
+        if (!runner_) make_runner();
+        if (!runner_) return Base::advance(steps);
+        Effort effort = method_.effort();
+        const std::int64_t taken = runner_->run(values_, steps, effort);
+        if (taken > 0) take(values_, taken, effort);
+        steps -= taken;
+        alone = taken < alone ? std::min(2 * alone, most_alone) : 1;
+        if (steps == 0) break;
+      }
+      const std::int64_t now = std::min(alone, steps);
+      if (const Outcome outcome = Base::advance(now); outcome != Outcome::done) return outcome;
+      steps -= now;
+    }
+    return Outcome::done;
+  }
+  bool is_recorded() const override { return runner_.has_value(); }
+  [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
+    Base::restore(saved);
+    runner_.reset();  // where time begins is a constant of it
   }
 
   const IterationFrame& frame() const override { return frame_; }
@@ -37,7 +70,7 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
   std::optional<RecordedIteration> recorded_iteration() const override {
     std::vector<double> values(frame_.size());
     if (!read(values)) return std::nullopt;
-    return (*recorder_)(frame_, values, points(), clock_.start());
+    return (*recorder_)(frame_, values, points(), clock_.start(), IterationParts::all);
   }
 
   bool read(std::span<double> values) const override {
@@ -73,6 +106,42 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
   }
 
  private:
+  /// Recording and compiling cost about as much as so many steps.
+  static constexpr std::int64_t worth_recording = 200;
+  /// A frame costs about as much as a step.
+  static constexpr std::int64_t few_steps = 4;
+  /// Steps in a row that the programs did not take.
+  static constexpr std::int64_t most_alone = 64;
+
+  /// What is asked of every residual, diagnostics, a tangent that is kept and points that change are not in the
+  /// programs; neither are steps that vary.
+  bool is_worth_running(std::int64_t steps) {
+    if (!record_ || steps < few_steps || varies_steps() || automatic() || !can_be_recorded()) return false;
+    const NewtonOptions options = newton();
+    if (options.tolerance || options.diagnostics || options.iteration == Iteration::simplified) return false;
+    values_.resize(frame_.size());
+    return runner_ || (asked_ += steps) >= worth_recording;
+  }
+  [[gnu::cold]] void make_runner() {
+    std::optional<StagesInLanes> stages;
+    if (*stages_) {
+      std::vector<double> q(frame_.n);
+      std::vector<double> p(frame_.n);
+      for (std::size_t a = 0; a < frame_.n; ++a) {
+        q[a] = values_[IterationFrame::state(a)];
+        p[a] = values_[IterationFrame::state(frame_.n + a)];
+      }
+      stages = (*stages_)(q, p);
+    }
+    auto recorded =
+        (*recorder_)(frame_, values_, points(), clock_.start(), stages ? IterationParts::finish : IterationParts::all);
+    if (!recorded) {
+      record_ = false;
+      return;
+    }
+    runner_.emplace(*std::move(recorded), newton(), std::move(stages));
+  }
+
   static Effort& unused() {
     static thread_local Effort effort;
     return effort;
@@ -80,6 +149,11 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
 
   IterationFrame frame_;
   std::shared_ptr<const IterationRecorder> recorder_;
+  std::shared_ptr<const StageRecorder> stages_;
+  bool record_;
+  std::optional<IterationRunner> runner_;
+  std::vector<double> values_;
+  std::int64_t asked_ = 0;
 };
 
 }  // namespace hamflow

@@ -1,0 +1,106 @@
+#include "hamflow/run/iteration_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hamflow {
+
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+}
+
+IterationRunner::IterationRunner(RecordedIteration recorded, const NewtonOptions& options,
+                                 std::optional<StagesInLanes> stages)
+    : recorded_(std::move(recorded)),
+      options_(options),
+      stages_(std::move(stages)),
+      finish_(make_step_loop(recorded_.finish.program)),
+      q_(recorded_.frame.n),
+      p_(recorded_.frame.n) {
+  if (!stages_) correct_ = make_step_loop(recorded_.correct.program);
+}
+
+std::int64_t IterationRunner::run(std::span<double> frame, std::int64_t steps, Effort& effort) {
+  std::int64_t taken = 0;
+  while (taken < steps && take_step(frame, effort)) ++taken;
+  return taken;
+}
+
+/// @return whether it was taken; if not, the frame is as it was
+bool IterationRunner::take_step(std::span<double> frame, Effort& effort) {
+  before_.assign(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(recorded_.frame.correction()));
+  const int solves = solved(frame);
+  if (solves == 0 || !finish_->run(frame, 1)) {
+    std::copy(before_.begin(), before_.end(), frame.begin());
+    return false;
+  }
+  effort.force += solves * recorded_.of_correct.force + recorded_.of_finish.force;
+  effort.gradient += solves * recorded_.of_correct.gradient + recorded_.of_finish.gradient;
+  effort.hessian += solves * recorded_.of_correct.hessian + recorded_.of_finish.hessian;
+  effort.linear_solves += solves;
+  effort.solves_min = effort.steps == 0 || solves < effort.solves_min ? solves : effort.solves_min;
+  effort.solves_max = solves > effort.solves_max ? solves : effort.solves_max;
+  ++effort.steps;
+  return true;
+}
+
+/// Newton<E>::iterate() from the first guess, without a tolerance. @return corrections; 0: it has not converged to a
+/// root near the guess
+int IterationRunner::solved(std::span<double> frame) {
+  const IterationFrame& at = recorded_.frame;
+  if (stages_) {
+    for (std::size_t a = 0; a < at.n; ++a) {
+      q_[a] = frame[IterationFrame::state(a)];
+      p_[a] = frame[IterationFrame::state(at.n + a)];
+    }
+    stages_->begin(frame[IterationFrame::h], q_, p_, frame.subspan(at.x(), at.m));
+  }
+  double previous = 0;
+  double first = 0;
+  double least = 0;
+  int stalls = 0;
+  for (int k = 0; k < options_.max_iterations; ++k) {
+    if (!correct(frame)) return 0;
+    const double size = size_of_correction(frame);
+    if (!(size <= std::numeric_limits<double>::max())) return 0;
+    if (k == 0) first = size;
+    const bool settled = options_.iteration == Iteration::newton
+                             ? newton_at_rounding(size, previous, k == 0, 1.0, stalls)
+                             : linear_at_rounding(size, previous, k == 0, 1.0, least, stalls);
+    previous = size;
+    if (!settled) continue;
+    if (epsilon * first > 1) return 0;  // the guess was far away
+    return end(frame) ? k + 1 : 0;
+  }
+  return 0;
+}
+
+bool IterationRunner::correct(std::span<double> frame) {
+  return stages_ ? stages_->correct() : correct_->run(frame, 1);
+}
+
+bool IterationRunner::end(std::span<double> frame) {
+  if (!stages_) return true;
+  const IterationFrame& at = recorded_.frame;
+  const auto increment = frame.subspan(at.increment(), 2 * at.n);
+  return stages_->end(frame.subspan(at.end(), at.m), increment.first(at.n), increment.last(at.n));
+}
+
+double IterationRunner::size_of_correction(std::span<const double> frame) const {
+  if (stages_) return stages_->is_finite() ? stages_->size() : std::numeric_limits<double>::infinity();
+  const IterationFrame& at = recorded_.frame;
+  double size = 0;
+  double total = 0;
+  for (std::size_t i = 0; i < at.m; ++i) {  // detail::in_units_of_noise
+    const double length = std::abs(frame[at.correction() + i]);
+    const double own = epsilon * length;
+    const double unit = !(frame[at.unit() + i] > epsilon * own) ? own : frame[at.unit() + i];
+    const double here = length / larger(unit, std::numeric_limits<double>::min());
+    size = here <= size ? size : here;
+    total += length;
+  }
+  return size + total <= std::numeric_limits<double>::max() ? size : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace hamflow

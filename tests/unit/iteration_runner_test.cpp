@@ -1,0 +1,80 @@
+// Steps that are solved by iteration, taken by their programs and with stages in lanes: the bits of the ordinary road.
+#include <gtest/gtest.h>
+
+#include "hamflow/run/catalog.hpp"
+#include "hamflow/run/simulation.hpp"
+
+namespace hamflow {
+namespace {
+
+struct Case {
+  std::string problem;
+  std::map<std::string, std::string> variant;
+  Texts parameters;
+  std::vector<std::string> q, p;
+  std::string dt;
+};
+
+const Case ellipse{"central-force", {{"potential", "kepler"}}, {}, {"0.4", "0"}, {"0", "2"}, "0.25"};
+const Case bodies{"n-body",
+                  {},
+                  {{"masses", "[1, 0.3, 0.2]"}},
+                  {"0", "0", "1", "0", "0", "-1.5"},
+                  {"0", "-0.1", "0", "0.3", "0.16", "0"},
+                  "0.05"};
+const Case pendulum{"pendulum", {}, {}, {"1.5"}, {"0.3"}, "0.2"};
+const Case rods{"double-pendulum",
+                {{"model", "nonlinear"}, {"angles", "absolute"}},
+                {},
+                {"0.5", "-0.4"},
+                {"0", "0.1"},
+                "0.05"};
+
+std::unique_ptr<Simulation> simulated(const Case& of, const std::string& method, bool record) {
+  Request request;
+  request.problem = of.problem;
+  request.variant = of.variant;
+  request.parameters = of.parameters;
+  request.start.q = of.q;
+  request.start.p = of.p;
+  request.dt = of.dt;
+  request.method = parse_method(method);
+  request.record = record;
+  return make_simulation(request);
+}
+
+/// Both in blocks of some lengths, with a turn of time and a stretch of single steps.
+void expect_same_bits(const Case& of, const std::string& method) {
+  SCOPED_TRACE(of.problem + ", " + method);
+  const auto ordinary = simulated(of, method, false);
+  const auto quick = simulated(of, method, true);
+  for (const int steps : {3, 250, 1, 97, -1, 64, 5}) {
+    if (steps < 0) {
+      ordinary->reverse_time();
+      quick->reverse_time();
+      continue;
+    }
+    ASSERT_EQ(ordinary->advance(steps), Outcome::done);
+    ASSERT_EQ(quick->advance(steps), Outcome::done);
+    ASSERT_EQ(ordinary->bits(), quick->bits()) << steps;
+    ASSERT_EQ(ordinary->save(), quick->save()) << steps;
+  }
+  EXPECT_TRUE(quick->is_recorded());
+  EXPECT_FALSE(ordinary->is_recorded());
+}
+
+TEST(IterationRunner, StagesInLanesHaveTheBitsOfStagesOneByOne) {
+  for (const int stages : {2, 3, 4, 5, 8, 10}) {
+    const std::string method = "gauss(stages=" + std::to_string(stages) + ",iteration=fixed-point)";
+    for (const Case* of : {&ellipse, &bodies, &pendulum}) expect_same_bits(*of, method);
+  }
+}
+
+TEST(IterationRunner, RecordedCorrectionsHaveTheBitsOfCallsForEach) {
+  for (const char* method : {"gauss(4)", "cg(2,4)", "cg(3,6)", "cg(degree=2,quadrature=4,iteration=fixed-point)"}) {
+    for (const Case* of : {&ellipse, &bodies, &pendulum, &rods}) expect_same_bits(*of, method);
+  }
+}
+
+}  // namespace
+}  // namespace hamflow
