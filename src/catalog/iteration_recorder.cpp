@@ -13,10 +13,11 @@ template <Capability c>
 IterationRecorder recorder_on(const ErasedFunctions<double>& functions, const AverageOptions& options) {
   using Traced = AnyProblem<Trace<double>, c>;
   using Equations = typename decltype(detail::averages_for<Traced, Trace<double>>())::type;
-  return [problem = Traced(functions.size, functions.trace), options](
-             const IterationFrame& frame, std::vector<double> values, int points, double start, IterationParts parts) {
+  return [problem = Traced(functions.size, functions.trace), options](const IterationFrame& frame,
+                                                                      std::vector<double> values, int points,
+                                                                      const IterationTime& time, IterationParts parts) {
     return record_iteration<Equations, Compensated<Trace<double>>>(problem, options, frame, std::move(values), points,
-                                                                   start, parts);
+                                                                   time, parts);
   };
 }
 /// Of a problem for any H they are there as traces where they are written by hand.

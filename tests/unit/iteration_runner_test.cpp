@@ -23,12 +23,8 @@ const Case bodies{"n-body",
                   {"0", "-0.1", "0", "0.3", "0.16", "0"},
                   "0.05"};
 const Case pendulum{"pendulum", {}, {}, {"1.5"}, {"0.3"}, "0.2"};
-const Case rods{"double-pendulum",
-                {{"model", "nonlinear"}, {"angles", "absolute"}},
-                {},
-                {"0.5", "-0.4"},
-                {"0", "0.1"},
-                "0.05"};
+const Case rods{
+    "double-pendulum", {{"model", "nonlinear"}, {"angles", "absolute"}}, {}, {"0.5", "-0.4"}, {"0", "0.1"}, "0.05"};
 
 std::unique_ptr<Simulation> simulated(const Case& of, const std::string& method, bool record) {
   Request request;
@@ -44,7 +40,7 @@ std::unique_ptr<Simulation> simulated(const Case& of, const std::string& method,
 }
 
 /// Both in blocks of some lengths, with a turn of time and a stretch of single steps.
-void expect_same_bits(const Case& of, const std::string& method) {
+void expect_same_bits(const Case& of, const std::string& method, bool recorded = true) {
   SCOPED_TRACE(of.problem + ", " + method);
   const auto ordinary = simulated(of, method, false);
   const auto quick = simulated(of, method, true);
@@ -56,10 +52,10 @@ void expect_same_bits(const Case& of, const std::string& method) {
     }
     ASSERT_EQ(ordinary->advance(steps), Outcome::done);
     ASSERT_EQ(quick->advance(steps), Outcome::done);
-    ASSERT_EQ(ordinary->bits(), quick->bits()) << steps;
-    ASSERT_EQ(ordinary->save(), quick->save()) << steps;
+    ASSERT_TRUE(ordinary->bits() == quick->bits()) << steps;
+    ASSERT_TRUE(ordinary->save() == quick->save()) << steps;
   }
-  EXPECT_TRUE(quick->is_recorded());
+  EXPECT_EQ(quick->is_recorded(), recorded);
   EXPECT_FALSE(ordinary->is_recorded());
 }
 
@@ -72,7 +68,11 @@ TEST(IterationRunner, StagesInLanesHaveTheBitsOfStagesOneByOne) {
 
 TEST(IterationRunner, RecordedCorrectionsHaveTheBitsOfCallsForEach) {
   for (const char* method : {"gauss(4)", "cg(2,4)", "cg(3,6)", "cg(degree=2,quadrature=4,iteration=fixed-point)"}) {
-    for (const Case* of : {&ellipse, &bodies, &pendulum, &rods}) expect_same_bits(*of, method);
+    // Newton's matrix of three bodies with four stages is too long a program.
+    const bool is_long = std::string(method) == "gauss(4)";
+    for (const Case* of : {&ellipse, &bodies, &pendulum, &rods}) {
+      expect_same_bits(*of, method, !(is_long && of == &bodies));
+    }
   }
 }
 

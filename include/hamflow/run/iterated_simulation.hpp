@@ -56,6 +56,10 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
     }
     return Outcome::done;
   }
+  void reverse_time() override {
+    Base::reverse_time();
+    runner_.reset();
+  }
   bool is_recorded() const override { return runner_.has_value(); }
   [[gnu::cold]] void restore(std::span<const std::byte> saved) override {
     Base::restore(saved);
@@ -70,7 +74,7 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
   std::optional<RecordedIteration> recorded_iteration() const override {
     std::vector<double> values(frame_.size());
     if (!read(values)) return std::nullopt;
-    return (*recorder_)(frame_, values, points(), clock_.start(), IterationParts::all);
+    return (*recorder_)(frame_, values, points(), time_of_clock(), IterationParts::all);
   }
 
   bool read(std::span<double> values) const override {
@@ -122,6 +126,7 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
     values_.resize(frame_.size());
     return runner_ || (asked_ += steps) >= worth_recording;
   }
+  IterationTime time_of_clock() const { return {clock_.start(), static_cast<double>(clock_.direction())}; }
   [[gnu::cold]] void make_runner() {
     std::optional<StagesInLanes> stages;
     if (*stages_) {
@@ -134,7 +139,7 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
       stages = (*stages_)(q, p);
     }
     auto recorded =
-        (*recorder_)(frame_, values_, points(), clock_.start(), stages ? IterationParts::finish : IterationParts::all);
+        (*recorder_)(frame_, values_, points(), time_of_clock(), stages ? IterationParts::finish : IterationParts::all);
     if (!recorded) {
       record_ = false;
       return;

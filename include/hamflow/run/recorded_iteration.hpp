@@ -73,10 +73,16 @@ struct RecordedIteration {
 /// Which of the programs are recorded: without a correction where that is done otherwise (stages_in_lanes.hpp).
 enum class IterationParts { all, finish };
 
+/// When a step is taken: time is `start` and a whole number of steps, which grows or shrinks.
+struct IterationTime {
+  double start = 0;
+  double direction = 1;  // or -1, with h < 0
+};
+
 /// Records them at a frame whose unknowns are a first guess. Nothing: they are no straight lines, or too long.
-/// @param points the setting: Gauss points   @param start of time
+/// @param points the setting: Gauss points
 using IterationRecorder = std::function<std::optional<RecordedIteration>(
-    const IterationFrame&, std::vector<double> values, int points, double start, IterationParts parts)>;
+    const IterationFrame&, std::vector<double> values, int points, const IterationTime& time, IterationParts parts)>;
 
 /// What a simulation offers to lanes (run/iterated_simulation.hpp).
 class IteratedMember {
@@ -144,10 +150,10 @@ namespace detail {
 /// One correction. @param values of the frame, afterwards those behind it
 template <class E, class TA>
 void record_correction(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
-                       std::vector<double>& values, double start, RecordedIteration& made) {
+                       std::vector<double>& values, const IterationTime& time, RecordedIteration& made) {
   using Number = Trace<double>;
   using V = Vector<Number, dynamic>;
-  TracedFrame<typename E::Problem, TA> f(problem, frame, values, start);
+  TracedFrame<typename E::Problem, TA> f(problem, frame, values, time.start);
   const V q0 = f.z.positions();
   const V p0 = f.z.momenta();
   const E step(setup, problem, f.numbers[IterationFrame::h], q0, p0, made.of_correct);
@@ -177,10 +183,10 @@ void record_correction(const typename E::Setup& setup, const typename E::Problem
 /// What a step leaves behind. @return false where it leaves the finite numbers
 template <class E, class TA>
 bool record_finish(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
-                   const std::vector<double>& values, double start, RecordedIteration& made) {
+                   const std::vector<double>& values, const IterationTime& time, RecordedIteration& made) {
   using Number = Trace<double>;
   using V = Vector<Number, dynamic>;
-  TracedFrame<typename E::Problem, TA> f(problem, frame, values, start);
+  TracedFrame<typename E::Problem, TA> f(problem, frame, values, time.start);
   const V q0 = f.z.positions();
   const V p0 = f.z.momenta();
   const V end = f.read(frame.end(), frame.m);
@@ -196,8 +202,8 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
     f.z.arithmetic.momentum.add_keeping(f.z.p[i], dp[i]);
   }
   Number& position = f.numbers[IterationFrame::position];
-  position += Number(1);
-  const Number t = Number(start) + position * f.numbers[IterationFrame::h];
+  position += Number(time.direction);
+  const Number t = Number(time.start) + position * (Number(time.direction) * f.numbers[IterationFrame::h]);
   const V q = f.z.positions();
   const V p = f.z.momenta();
   if (!f.probe.look(problem, q, p, t)) return false;
@@ -218,17 +224,17 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
 template <class E, class TA>
 std::optional<RecordedIteration> record_iteration(const typename E::Problem& problem, const AverageOptions& options,
                                                   const IterationFrame& frame, std::vector<double> values, int points,
-                                                  double start, IterationParts parts) {
+                                                  const IterationTime& time, IterationParts parts) {
   RecordedIteration made{.frame = frame};
   typename E::Setup setup(problem, options);
   if (setup.mark() != points) setup.return_to(points);
   try {
     if (parts == IterationParts::all) {
-      detail::record_correction<E, TA>(setup, problem, frame, values, start, made);
+      detail::record_correction<E, TA>(setup, problem, frame, values, time, made);
     } else {
       made.of_correct.force = setup.table().points;
     }
-    if (!detail::record_finish<E, TA>(setup, problem, frame, values, start, made)) return std::nullopt;
+    if (!detail::record_finish<E, TA>(setup, problem, frame, values, time, made)) return std::nullopt;
     return made;
   } catch (const CannotRecord&) {
     return std::nullopt;
