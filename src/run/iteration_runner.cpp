@@ -8,7 +8,8 @@ namespace hamflow {
 
 namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-}
+constexpr int good_guesses_wanted = 3;  // Newton<E>
+}  // namespace
 
 IterationRunner::IterationRunner(RecordedIteration recorded, const NewtonOptions& options,
                                  std::optional<StagesInLanes> stages)
@@ -21,20 +22,22 @@ IterationRunner::IterationRunner(RecordedIteration recorded, const NewtonOptions
   if (!stages_) correct_ = make_step_loop(recorded_.correct.program);
 }
 
-std::int64_t IterationRunner::run(std::span<double> frame, std::int64_t steps, Effort& effort) {
+std::int64_t IterationRunner::run(std::span<double> frame, std::int64_t steps, Effort& effort, int& doubt) {
   std::int64_t taken = 0;
-  while (taken < steps && take_step(frame, effort)) ++taken;
+  while (taken < steps && take_step(frame, effort, doubt)) ++taken;
   return taken;
 }
 
 /// @return whether it was taken; if not, the frame is as it was
-bool IterationRunner::take_step(std::span<double> frame, Effort& effort) {
+bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& doubt) {
   before_.assign(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(recorded_.frame.correction()));
-  const int solves = solved(frame);
+  int doubt_behind = doubt;
+  const int solves = solved(frame, doubt_behind);
   if (solves == 0 || !finish_->run(frame, 1)) {
     std::copy(before_.begin(), before_.end(), frame.begin());
     return false;
   }
+  doubt = doubt_behind;
   effort.force += solves * recorded_.of_correct.force + recorded_.of_finish.force;
   effort.gradient += solves * recorded_.of_correct.gradient + recorded_.of_finish.gradient;
   effort.hessian += solves * recorded_.of_correct.hessian + recorded_.of_finish.hessian;
@@ -45,16 +48,18 @@ bool IterationRunner::take_step(std::span<double> frame, Effort& effort) {
   return true;
 }
 
-/// Newton<E>::iterate() from the first guess, without a tolerance. @return corrections; 0: it has not converged to a
-/// root near the guess
-int IterationRunner::solved(std::span<double> frame) {
+/// Newton<E>::iterate() without a tolerance, from the first guess, or, where that is in doubt, from the last state.
+/// @return corrections; 0: it has not converged, or not to where it is believed without a further look
+int IterationRunner::solved(std::span<double> frame, int& doubt) {
   const IterationFrame& at = recorded_.frame;
   if (stages_) {
     for (std::size_t a = 0; a < at.n; ++a) {
       q_[a] = frame[IterationFrame::state(a)];
       p_[a] = frame[IterationFrame::state(at.n + a)];
     }
-    stages_->begin(frame[IterationFrame::h], q_, p_, frame.subspan(at.x(), at.m));
+    start_.assign(at.m, 0.0);
+    if (doubt == 0) std::copy_n(frame.begin() + static_cast<std::ptrdiff_t>(at.x()), at.m, start_.begin());
+    stages_->begin(frame[IterationFrame::h], q_, p_, start_);
   }
   double previous = 0;
   double first = 0;
@@ -70,8 +75,15 @@ int IterationRunner::solved(std::span<double> frame) {
                              : linear_at_rounding(size, previous, k == 0, 1.0, least, stalls);
     previous = size;
     if (!settled) continue;
-    if (epsilon * first > 1) return 0;  // the guess was far away
-    return end(frame) ? k + 1 : 0;
+    const bool missed = doubt == 0 && epsilon * first > 1;  // the guess was far away
+    if ((missed && !stages_) || !end(frame)) return 0;
+    if (missed) {
+      doubt = good_guesses_wanted;
+    } else if (doubt > 0) {  // whether the guess would have been better
+      const bool good = epsilon * stages_->distance_of(frame.subspan(at.x(), at.m)) <= 1;
+      doubt = good ? doubt - 1 : good_guesses_wanted;
+    }
+    return k + 1;
   }
   return 0;
 }
@@ -88,7 +100,7 @@ bool IterationRunner::end(std::span<double> frame) {
 }
 
 double IterationRunner::size_of_correction(std::span<const double> frame) const {
-  if (stages_) return stages_->is_finite() ? stages_->size() : std::numeric_limits<double>::infinity();
+  if (stages_) return stages_->size();
   const IterationFrame& at = recorded_.frame;
   double size = 0;
   double total = 0;

@@ -19,12 +19,21 @@ using Numbers = Vector<Number, dynamic>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr std::size_t most_lanes = 32;
+/// Below it a size is a quotient by a unit that is neither tiny nor 0.
+constexpr double most_plain_size = 0x1p51;
 
 /// A value of one lane.
 struct OfLane {
   std::size_t value;
   std::size_t lane;
 };
+
+/// detail::in_units_of_noise of one number.
+double in_units(double size, double unit) {
+  const double own = epsilon * size;
+  const double known = !(unit > epsilon * own) ? own : unit;
+  return size / larger(known, std::numeric_limits<double>::min());
+}
 
 /// The program in which the values behind the first `values` are those of one lane.
 Program with_lanes(const Program& program, std::size_t values, std::span<const OfLane> from) {
@@ -158,6 +167,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
       force(problem, point, f);
       const Number& unit = r.of(Layout::unit);
       const Number& length = r.of(Layout::length);
+      Number largest(0);
       for (std::size_t a = 0; a < n; ++a) {
         Number& x = r.numbers[at.x() + a];
         const Number sum = r.numbers[at.unit_weight()] * f[a];
@@ -166,10 +176,15 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
         const Number error = product_error(unit, sum, target);
         const Number correction = (target - x) + error;
         r.numbers[at.correction() + a] = correction;
-        r.numbers[at.noise() + a] = Number(epsilon) * (noise + abs(x));
+        const Number unit_of_correction = Number(epsilon) * (noise + abs(x));
+        r.numbers[at.noise() + a] = noise;
+        r.numbers[at.unit_of() + a] = unit_of_correction;
+        const Number size = abs(correction) / larger(unit_of_correction, Number(std::numeric_limits<double>::min()));
+        largest = a == 0 ? size : larger(largest, size);
         r.numbers[at.at_end() + a] = target + (error + Number(0));
         x = x + correction;
       }
+      r.numbers[at.sizes()] = largest;
       all.evaluate_ = r.loop(lanes, registers);
     }
     {  // NaturalAverages::increment_of, but for the sums over the stages
@@ -202,7 +217,6 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
   all.width_ = all.evaluate_->lanes();
   if (all.width_ > most_lanes) return std::nullopt;
   all.numbers_.assign(at.size() * all.width_, 0);
-  all.sizes_.assign(all.width_, 0);
   all.no_constants_ = all.evaluate_->prepared({});
   for (std::size_t l = 0; l < k; ++l) {  // lanes without a stage have coefficients 0: they stay in the middle
     all.row(at.weight())[l] = table.weight[l * k + l];
@@ -236,34 +250,37 @@ bool StagesInLanes::run(const LaneLoop& program) {
 
 bool StagesInLanes::correct() {
   if (!run(*displace_) || !run(*evaluate_)) return false;
-  measure();
+  size_ = 0;
+  for (std::size_t l = 0; l < at_.k; ++l) size_ = larger(size_, row(at_.sizes())[l]);
+  if (!(size_ < most_plain_size)) size_ = measured();
   return true;
 }
 
-void StagesInLanes::measure() {
-  double* const sizes = sizes_.data();
-  std::fill_n(sizes, width_, 0.0);
+double StagesInLanes::measured() const {
+  double largest = 0;
+  double total = 0;
   for (std::size_t a = 0; a < at_.n; ++a) {
-    const double* const correction = row(at_.correction() + a);
-    const double* const units = row(at_.noise() + a);
-    for (std::size_t l = 0; l < width_; ++l) {
-      const double size = std::abs(correction[l]);
-      const double own = epsilon * size;
-      const double unit = !(units[l] > epsilon * own) ? own : units[l];
-      const double here = size / larger(unit, std::numeric_limits<double>::min());
-      sizes[l] = here <= sizes[l] ? sizes[l] : here;
+    for (std::size_t l = 0; l < at_.k; ++l) {
+      const double size = std::abs(row(at_.correction() + a)[l]);
+      const double here = in_units(size, row(at_.unit_of() + a)[l]);
+      largest = here <= largest ? largest : here;
+      total += size;
     }
   }
-  size_ = 0;
-  for (std::size_t l = 0; l < at_.k; ++l) size_ = sizes[l] <= size_ ? size_ : sizes[l];
+  return largest + total <= std::numeric_limits<double>::max() ? largest : std::numeric_limits<double>::infinity();
 }
 
-bool StagesInLanes::is_finite() const {
-  double total = size_;
+double StagesInLanes::distance_of(std::span<const double> other) const {
+  double largest = 0;
   for (std::size_t a = 0; a < at_.n; ++a) {
-    for (std::size_t l = 0; l < at_.k; ++l) total += std::abs(row(at_.correction() + a)[l]);
+    for (std::size_t l = 0; l < at_.k; ++l) {
+      const double x = row(at_.at_end() + a)[l];
+      const double unit = epsilon * (row(at_.noise() + a)[l] + std::abs(x));
+      const double here = in_units(std::abs(other[a * at_.k + l] - x), unit);
+      largest = here <= largest ? largest : here;
+    }
   }
-  return total <= std::numeric_limits<double>::max();
+  return largest;
 }
 
 bool StagesInLanes::end(std::span<double> x, std::span<double> dq, std::span<double> dp) {

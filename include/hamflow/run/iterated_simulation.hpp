@@ -12,6 +12,25 @@
 
 namespace hamflow {
 
+namespace detail {
+/// Finds among what an implicit method archives how much Newton doubts its guesses: the count behind what it remembers.
+struct DoubtFinder {
+  static constexpr bool reading = false;
+  int* found = nullptr;
+  template <class N>
+  void operator()(Effort&, StepDiagnostics&, auto&, N& newton) {
+    newton.archive(*this);
+  }
+  void operator()(auto&, int& doubt) { found = &doubt; }
+};
+template <class M>
+int& doubt_of(M& method) {
+  DoubtFinder finder;
+  method.archive(finder);
+  return *finder.found;
+}
+}  // namespace detail
+
 template <class P, class M, Arithmetic A>
 class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMember {
   using Base = SimulationOf<P, M, A>;
@@ -40,12 +59,17 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
     std::int64_t alone = 1;
     while (steps > 0) {
       if (!is_worth_running(steps)) return Base::advance(steps);
-      if (read(values_)) {
+      if (fill(values_)) {
         if (!runner_) make_runner();
         if (!runner_) return Base::advance(steps);
         Effort effort = method_.effort();
-        const std::int64_t taken = runner_->run(values_, steps, effort);
-        if (taken > 0) take(values_, taken, effort);
+        int doubt = detail::doubt_of(method_);
+        std::int64_t taken = 0;
+        if (doubt == 0 || runner_->settles_doubts()) taken = runner_->run(values_, steps, effort, doubt);
+        if (taken > 0) {
+          take(values_, taken, effort);
+          detail::doubt_of(method_) = doubt;
+        }
         steps -= taken;
         alone = taken < alone ? std::min(2 * alone, most_alone) : 1;
         if (steps == 0) break;
@@ -77,25 +101,7 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
     return (*recorder_)(frame_, values, points(), time_of_clock(), IterationParts::all);
   }
 
-  bool read(std::span<double> values) const override {
-    values[IterationFrame::h] = clock_.step_length();
-    values[IterationFrame::position] = static_cast<double>(clock_.position());
-    auto z = z_;
-    auto probe = probe_;
-    std::size_t k = IterationFrame::carried;
-    for_each_carried([&](double& x) { values[k++] = x; }, z, probe);
-    if (!method_.newton().trusts_memory()) return false;
-    const Vector<double, dynamic> q0 = z_.positions();
-    const Vector<double, dynamic> p0 = z_.momenta();
-    const auto& last = method_.newton().memory().predicted();
-    const auto x = Equations(method_.setup(), Base::problem(), clock_.step_length(), q0, p0, unused()).started(last);
-    if (last.size() != frame_.m) return false;
-    for (std::size_t i = 0; i < frame_.m; ++i) {
-      values[frame_.memory() + i] = last[i];
-      values[frame_.x() + i] = x[i];
-    }
-    return true;
-  }
+  bool read(std::span<double> values) const override { return fill(values) && method_.newton().trusts_memory(); }
   void take(std::span<const double> values, std::int64_t steps, const Effort& effort) override {
     std::size_t k = IterationFrame::carried;
     for_each_carried([&](double& x) { x = values[k++]; }, z_, probe_);
@@ -110,6 +116,27 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
   }
 
  private:
+  /// The numbers of a frame. @return whether there is a first guess from the last step, doubtful or not
+  bool fill(std::span<double> values) const {
+    values[IterationFrame::h] = clock_.step_length();
+    values[IterationFrame::position] = static_cast<double>(clock_.position());
+    auto z = z_;
+    auto probe = probe_;
+    std::size_t k = IterationFrame::carried;
+    for_each_carried([&](double& x) { values[k++] = x; }, z, probe);
+    if (method_.newton().memory().empty()) return false;
+    const Vector<double, dynamic> q0 = z_.positions();
+    const Vector<double, dynamic> p0 = z_.momenta();
+    const auto& last = method_.newton().memory().predicted();
+    const auto x = Equations(method_.setup(), Base::problem(), clock_.step_length(), q0, p0, unused()).started(last);
+    if (last.size() != frame_.m) return false;
+    for (std::size_t i = 0; i < frame_.m; ++i) {
+      values[frame_.memory() + i] = last[i];
+      values[frame_.x() + i] = x[i];
+    }
+    return true;
+  }
+
   /// Recording and compiling cost about as much as so many steps.
   static constexpr std::int64_t worth_recording = 200;
   /// A frame costs about as much as a step.

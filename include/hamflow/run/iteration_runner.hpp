@@ -23,12 +23,15 @@ class IterationRunner {
   IterationRunner(RecordedIteration recorded, const NewtonOptions& options, std::optional<StagesInLanes> stages);
 
   /// Takes steps from a frame with a first guess, until a step is for the simulation.
-  /// @return how many were taken; the frame is behind them   @param effort to which their work is added
-  std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort);
+  /// @return how many were taken; the frame is behind them   @param effort to which their work is added   @param doubt
+  /// of Newton: good guesses still wanted, 0 unless settles_doubts()
+  std::int64_t run(std::span<double> frame, std::int64_t steps, Effort& effort, int& doubt);
+  /// Steps that begin from the last state, and whether such an end is believed, which is asked of no stages.
+  bool settles_doubts() const { return stages_.has_value(); }
 
  private:
-  bool take_step(std::span<double> frame, Effort& effort);
-  int solved(std::span<double> frame);
+  bool take_step(std::span<double> frame, Effort& effort, int& doubt);
+  int solved(std::span<double> frame, int& doubt);
   bool correct(std::span<double> frame);
   bool end(std::span<double> frame);
   /// Of the last correction. Not finite: it is none.
@@ -42,6 +45,7 @@ class IterationRunner {
   std::vector<double> before_;
   std::vector<double> q_;
   std::vector<double> p_;
+  std::vector<double> start_;
 };
 
 }  // namespace hamflow

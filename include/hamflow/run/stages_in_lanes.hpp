@@ -29,11 +29,13 @@ class StagesInLanes {
   void begin(double h, std::span<const double> q, std::span<const double> p, std::span<const double> x);
   /// Corrects the impulses once. @return whether the recorded force is that of every stage
   bool correct();
-  /// The largest of the corrections in units of what rounding makes of them (detail::in_units_of_noise).
+  /// The largest of the corrections in units of what rounding makes of them (detail::in_units_of_noise); infinite where
+  /// one is not finite.
   double size() const { return size_; }
-  bool is_finite() const;
   /// Ends the step with the last correction. @param x, dq, dp the impulses and the increments of the state
   bool end(std::span<double> x, std::span<double> dq, std::span<double> dp);
+  /// After the end: the size, in the same units, of the distance of other impulses from those at the end.
+  double distance_of(std::span<const double> other) const;
 
  private:
   /// Where values begin, in the order of their programs.
@@ -47,8 +49,10 @@ class StagesInLanes {
     std::size_t x() const { return p0() + n; }
     std::size_t u() const { return x() + n; }  // displacements
     std::size_t correction() const { return u() + n; }
-    std::size_t noise() const { return correction() + n; }  // units of the corrections
-    std::size_t at_end() const { return noise() + n; }      // impulses at the end of the step
+    std::size_t noise() const { return correction() + n; }  // what targets round by, in units of epsilon
+    std::size_t unit_of() const { return noise() + n; }     // of the corrections
+    std::size_t sizes() const { return unit_of() + n; }     // the largest correction in such units
+    std::size_t at_end() const { return sizes() + 1; }      // impulses at the end of the step
     std::size_t d() const { return at_end() + n; }          // increments of q that they make, stage by stage
     std::size_t lost() const { return d() + n; }            // and what those have lost
     std::size_t reach() const { return lost() + n; }        // h beta_j
@@ -64,7 +68,7 @@ class StagesInLanes {
   double* row(std::size_t value) { return numbers_.data() + value * width_; }
   const double* row(std::size_t value) const { return numbers_.data() + value * width_; }
   bool run(const LaneLoop& program);
-  void measure();
+  double measured() const;
 
   Layout at_;
   std::size_t width_ = 0;  // lanes
@@ -73,7 +77,6 @@ class StagesInLanes {
   std::shared_ptr<const LaneLoop> finish_;
   std::vector<double> scale_;
   LaneNumbers numbers_;
-  LaneNumbers sizes_;
   LaneNumbers no_constants_;
   double size_ = 0;
 };
