@@ -38,6 +38,7 @@ bool IterationRunner::take_step(std::span<double> frame, Effort& effort, int& do
     return false;
   }
   doubt = doubt_behind;
+  if (stages_) std::copy(next_.begin(), next_.end(), frame.begin() + static_cast<std::ptrdiff_t>(recorded_.frame.x()));
   effort.force += solves * recorded_.of_correct.force + recorded_.of_finish.force;
   effort.gradient += solves * recorded_.of_correct.gradient + recorded_.of_finish.gradient;
   effort.hessian += solves * recorded_.of_correct.hessian + recorded_.of_finish.hessian;
@@ -96,7 +97,8 @@ bool IterationRunner::end(std::span<double> frame) {
   if (!stages_) return true;
   const IterationFrame& at = recorded_.frame;
   const auto increment = frame.subspan(at.increment(), 2 * at.n);
-  return stages_->end(frame.subspan(at.end(), at.m), increment.first(at.n), increment.last(at.n));
+  next_.resize(at.m);
+  return stages_->end(frame.subspan(at.end(), at.m), increment.first(at.n), increment.last(at.n), next_);
 }
 
 double IterationRunner::size_of_correction(std::span<const double> frame) const {

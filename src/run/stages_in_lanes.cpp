@@ -187,7 +187,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
       r.numbers[at.sizes()] = largest;
       all.evaluate_ = r.loop(lanes, registers);
     }
-    {  // NaturalAverages::increment_of, but for the sums over the stages
+    {  // NaturalAverages::increment_of, but for the sums over the stages, and detail::continued
       auto wanted = stages_of(at.at_end());
       first_lane_of(wanted, at.p0(), n);
       Recording r(values, wanted);
@@ -195,7 +195,12 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
       Numbers low(n);
       for (std::size_t a = 0; a < n; ++a) {
         detail::KeptSum<Number> sum{r.of(at.p0() + a), Number(0)};
-        for (std::size_t i = 0; i < k; ++i) sum.add(r.numbers[at.factor() + i] * r.of(at.at_end() + a, i));
+        Number next(0);
+        for (std::size_t i = 0; i < k; ++i) {
+          sum.add(r.numbers[at.factor() + i] * r.of(at.at_end() + a, i));
+          if (i < detail::most_continued) next += r.numbers[at.continuing() + i] * r.of(at.at_end() + a, i);
+        }
+        r.numbers[at.next() + a] = next;
         high[a] = sum.high;
         low[a] = sum.low;
       }
@@ -224,6 +229,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
     for (std::size_t j = 0; j < k; ++j) {
       all.row(at.coupling() + j)[l] = table.coupling[j * k + l];
       all.row(at.inner() + j)[l] = table.inner[j * k + l];
+      all.row(at.continuing() + j)[l] = table.next[j * k + l];
       all.row(at.factor() + j)[l] = table.increment[j] / 2 + table.coupling[l * k + j];
     }
   }
@@ -283,20 +289,28 @@ double StagesInLanes::distance_of(std::span<const double> other) const {
   return largest;
 }
 
-bool StagesInLanes::end(std::span<double> x, std::span<double> dq, std::span<double> dp) {
+bool StagesInLanes::end(std::span<double> x, std::span<double> dq, std::span<double> dp, std::span<double> next) {
   if (!run(*finish_)) return false;
+  // Two sums side by side, of q and of p, each as detail::KeptSum.
+  using Two = double __attribute__((vector_size(16)));
   for (std::size_t a = 0; a < at_.n; ++a) {
-    detail::KeptSum<double> q;
-    detail::KeptSum<double> p;
+    const double* const impulse = row(at_.at_end() + a);
+    const double* const d = row(at_.d() + a);
+    const double* const lost = row(at_.lost() + a);
+    Two high{};
+    Two low{};
     for (std::size_t j = 0; j < at_.k; ++j) {
-      const double impulse = row(at_.at_end() + a)[j];
-      x[a * at_.k + j] = impulse;
-      q.add(row(at_.d() + a)[j]);
-      q.low += row(at_.lost() + a)[j];
-      p.add(impulse);
+      const Two increment{d[j], impulse[j]};
+      const Two sum = high + increment;
+      const Two part = sum - high;
+      low += (high - (sum - part)) + (increment - part);
+      high = sum;
+      low[0] += lost[j];
     }
-    dq[a] = q.high + q.low;
-    dp[a] = p.high + p.low;
+    dq[a] = high[0] + low[0];
+    dp[a] = high[1] + low[1];
+    std::copy_n(impulse, at_.k, &x[a * at_.k]);
+    std::copy_n(row(at_.next() + a), at_.k, &next[a * at_.k]);
   }
   return true;
 }

@@ -46,6 +46,7 @@ class IterationRunner {
   std::vector<double> q_;
   std::vector<double> p_;
   std::vector<double> start_;
+  std::vector<double> next_;  // of stages: the first guess of the next step
 };
 
 }  // namespace hamflow

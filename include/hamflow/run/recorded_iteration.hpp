@@ -180,10 +180,12 @@ void record_correction(const typename E::Setup& setup, const typename E::Problem
   made.correct.program = program_of(f.recorder.finish(f.numbers));
 }
 
-/// What a step leaves behind. @return false where it leaves the finite numbers
+/// What a step leaves behind. @param continues with the first guess of the next one   @return false where it leaves the
+/// finite numbers
 template <class E, class TA>
 bool record_finish(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
-                   const std::vector<double>& values, const IterationTime& time, RecordedIteration& made) {
+                   const std::vector<double>& values, const IterationTime& time, bool continues,
+                   RecordedIteration& made) {
   using Number = Trace<double>;
   using V = Vector<Number, dynamic>;
   TracedFrame<typename E::Problem, TA> f(problem, frame, values, time.start);
@@ -210,7 +212,7 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
   f.put_carried();
   f.put(end, frame.memory());
   Effort unused;
-  f.put(E(setup, problem, f.numbers[IterationFrame::h], q, p, unused).started(end), frame.x());
+  if (continues) f.put(E(setup, problem, f.numbers[IterationFrame::h], q, p, unused).started(end), frame.x());
   made.finish.program = program_of(f.recorder.finish(f.numbers));
   return true;
 }
@@ -234,7 +236,8 @@ std::optional<RecordedIteration> record_iteration(const typename E::Problem& pro
     } else {
       made.of_correct.force = setup.table().points;
     }
-    if (!detail::record_finish<E, TA>(setup, problem, frame, values, time, made)) return std::nullopt;
+    if (!detail::record_finish<E, TA>(setup, problem, frame, values, time, parts == IterationParts::all, made))
+      return std::nullopt;
     return made;
   } catch (const CannotRecord&) {
     return std::nullopt;

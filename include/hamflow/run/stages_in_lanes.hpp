@@ -32,8 +32,9 @@ class StagesInLanes {
   /// The largest of the corrections in units of what rounding makes of them (detail::in_units_of_noise); infinite where
   /// one is not finite.
   double size() const { return size_; }
-  /// Ends the step with the last correction. @param x, dq, dp the impulses and the increments of the state
-  bool end(std::span<double> x, std::span<double> dq, std::span<double> dp);
+  /// Ends the step with the last correction. @param x, dq, dp the impulses and the increments of the state   @param
+  /// next impulses of the motion that continues it, the first guess of the next step
+  bool end(std::span<double> x, std::span<double> dq, std::span<double> dp, std::span<double> next);
   /// After the end: the size, in the same units, of the distance of other impulses from those at the end.
   double distance_of(std::span<const double> other) const;
 
@@ -55,13 +56,15 @@ class StagesInLanes {
     std::size_t at_end() const { return sizes() + 1; }      // impulses at the end of the step
     std::size_t d() const { return at_end() + n; }          // increments of q that they make, stage by stage
     std::size_t lost() const { return d() + n; }            // and what those have lost
-    std::size_t reach() const { return lost() + n; }        // h beta_j
+    std::size_t next() const { return lost() + n; }         // impulses of the motion that continues the step
+    std::size_t reach() const { return next() + n; }        // h beta_j
     std::size_t weight() const { return reach() + 1; }
     std::size_t unit_weight() const { return weight() + 1; }
     std::size_t coupling() const { return unit_weight() + 1; }  // k columns
     std::size_t inner() const { return coupling() + k; }
     std::size_t factor() const { return inner() + k; }
-    std::size_t size() const { return factor() + k; }
+    std::size_t continuing() const { return factor() + k; }
+    std::size_t size() const { return continuing() + k; }
   };
   class Recording;
 
