@@ -1,8 +1,10 @@
 // Steps that are solved by iteration, taken by their programs and with stages in lanes: the bits of the ordinary road.
 #include <gtest/gtest.h>
 
+#include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation.hpp"
+#include "hamflow/run/stages_in_lanes.hpp"
 
 namespace hamflow {
 namespace {
@@ -63,6 +65,35 @@ TEST(IterationRunner, StagesInLanesHaveTheBitsOfStagesOneByOne) {
   for (const int stages : {2, 3, 4, 5, 8, 10}) {
     const std::string method = "gauss(stages=" + std::to_string(stages) + ",iteration=fixed-point)";
     for (const Case* of : {&ellipse, &bodies, &pendulum}) expect_same_bits(*of, method);
+  }
+}
+
+/// Impulses and increments after some corrections, and the sizes of these.
+std::vector<double> in_lanes(LaneSet set, int stages) {
+  const CentralForce<double, Kepler> kepler{1.0, Kepler<double>(1.0)};
+  const auto problem = StagesInLanes::Traced::of(kepler);
+  const std::vector<double> q{0.4, 0.1};
+  const std::vector<double> p{-0.2, 1.9};
+  auto lanes = StagesInLanes::recorded(problem, stage_table<double>(stages), q, p, set);
+  const auto m = 2 * static_cast<std::size_t>(stages);
+  std::vector<double> all(2 * m + 4);
+  lanes->begin(0.05, q, p, std::span(all).first(m));
+  for (int k = 0; k < 9; ++k) {
+    EXPECT_TRUE(lanes->correct());
+    all.push_back(lanes->size());
+  }
+  const std::span numbers = std::span(all);
+  EXPECT_TRUE(
+      lanes->end(numbers.first(m), numbers.subspan(m, 2), numbers.subspan(m + 2, 2), numbers.subspan(m + 4, m)));
+  return all;
+}
+
+TEST(IterationRunner, LanesOfEveryWidthHaveTheSameBits) {
+  for (const int stages : {2, 4, 5, 8, 9, 10}) {
+    const std::vector<double> interpreted = in_lanes(LaneSet::generic, stages);
+    EXPECT_LT(interpreted.back(), 2.0);  // it converges
+    EXPECT_EQ(in_lanes(LaneSet::avx2, stages), interpreted) << stages;
+    EXPECT_EQ(in_lanes(LaneSet::avx512, stages), interpreted) << stages;
   }
 }
 
