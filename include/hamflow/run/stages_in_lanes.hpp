@@ -1,7 +1,7 @@
 // Gauss collocation by fixed-point iteration with the stages side by side in vector registers, one in each lane, for
 // H = p^T M^-1 p/2 + V(q): one evaluation of all forces is one of the recorded force on registers, and so is
 // everything else of a correction. What a stage needs of the others is read from where they left it
-// (Instruction::of_lane). The bits are those of NaturalAverages, operation by operation.   [AntonanaMakazagaMurua2017]
+// (Instruction::of_lane). The bits are those of NaturalAverages, operation by operation.   [AntonanaMakazagaMurua2025]
 #pragma once
 
 #include <memory>
