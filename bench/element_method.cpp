@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "library.hpp"
 #include "peers.hpp"
@@ -77,6 +78,7 @@ template <class T>
     }
     Pair d{h_by_mass * (p.x + half * f.x), h_by_mass * (p.y + half * f.y)};
     double previous = 0;
+    int stalls = 0;
     for (int pass = 0;; ++pass) {
       if (pass == 15) return -1;
       ++iterations;
@@ -109,9 +111,11 @@ template <class T>
       const double noise =
           epsilon * (std::max(std::fabs(target.x), std::fabs(target.y)) + std::max(std::fabs(d.x), std::fabs(d.y)));
       if (!(size <= std::numeric_limits<double>::max())) return -1;
-      // The rate of decrease is size/previous, and rate^2 size what the next correction will come to.
-      if (size <= noise || (pass > 0 && size * size * size <= noise / 1024 * (previous * previous)) ||
-          (pass > 0 && size > previous / 2 && size <= 64 * noise)) {
+      // newton_at_rounding of hamflow: the rate of decrease is size/previous, and rate^2 size what the next correction
+      // will come to.
+      stalls = pass > 0 && size > 0.9 * previous ? stalls + 1 : 0;
+      if (size <= noise || (pass > 0 && size * size * size <= noise / 16384 * (previous * previous)) ||
+          (size > previous / 2 && size <= 64 * noise) || (stalls >= 2 && size <= (1 << 26) * noise)) {
         break;
       }
       previous = size;
@@ -148,6 +152,21 @@ Run run_hand(const Task& task, std::int64_t steps) {
 
 }  // namespace
 
+namespace {
+
+/// One problem behind virtual calls, as by name, beside the template instantiated for it.
+template <class Recipe>
+Workload averages_workload(const std::string& method, const Task& task, const Recipe& recipe) {
+  Workload w{method, task.h_text, {}, {}, [h = task.h](std::int64_t steps) { return parting(h, 4, steps); }};
+  add_typed(w, task, recipe, 0, true);
+  w.contenders.front().against.clear();
+  w.contenders.push_back(
+      {"named", [=](std::int64_t steps) { return run_named(task, method, false, steps); }, "typed", 1.2});
+  return w;
+}
+
+}  // namespace
+
 std::vector<Workload> element_workloads(const Task& task) {
   Workload w{"cg(1,5)", task.h_text, chain, {}, {}};
   w.contenders.push_back({"hand", [=](std::int64_t steps) { return run_hand<double>(task, steps); }, {}});
@@ -161,8 +180,15 @@ std::vector<Workload> element_workloads(const Task& task) {
   add_typed(midpoint, task, hamflow::Cg{{.quadrature = 1}}, 0, true);
   midpoint.contenders.front().against.clear();
   add_peers(midpoint, task);
-  if (midpoint.contenders.size() == 1) return {w};
-  return {w, midpoint};
+  std::vector<Workload> all{w};
+  if (midpoint.contenders.size() > 1) all.push_back(midpoint);
+  using hamflow::CgOfDegree;
+  using hamflow::Gauss;
+  all.push_back(averages_workload("cg(2,4)", task, CgOfDegree{{.degree = 2, .quadrature = 4}}));
+  all.push_back(averages_workload("cg(3,6)", task, CgOfDegree{{.degree = 3, .quadrature = 6}}));
+  all.push_back(averages_workload("gauss(4)", task, Gauss{{.stages = 4}}));
+  all.push_back(averages_workload("gauss(8)", task, Gauss{{.stages = 8}}));
+  return all;
 }
 
 }  // namespace bench

@@ -35,7 +35,8 @@ std::vector<Comparison> comparisons() {
                               {"stv4", "typed", "sb3a_m4", "odeint", true},
                               {"stv4", "typed", "verlet", "odeint", true},
                               {"cg(1,1)", "typed", "cg(1,1)", "gsl"},
-                              {"cg(1,5)", "typed", "cg(1,1)", "gsl"}};
+                              {"cg(1,5)", "typed", "cg(1,1)", "gsl"},
+                              {"cg(1,5)", "typed", "cg(1,1)", "arkode", false, 0.2}};
   if (hamflow::fast_kernel_available()) {
     for (const char* method : {"verlet", "stv4"}) {
       for (const char* peer_method : {"verlet", "sb3a_m4"}) {
@@ -58,7 +59,7 @@ int main(int argc, char** argv) try {
   CLI::App app("Times hamflow beside hand-written loops; ratios of medians of interleaved rounds.", "hamflow_bench");
   app.add_flag("--json", json, "write JSON instead of a table");
   app.add_flag("--quick", quick, "few and short rounds: a first look, not a measurement");
-  app.add_option("--only", only, "only this method, e.g. stv4, or bodies, or equal-error");
+  app.add_option("--only", only, "only this method, e.g. stv4, or bodies, equal-error, ellipse, planets");
   const auto* rounds = app.add_option("--rounds", plan.rounds, "rounds")->check(CLI::Range(1, 10000));
   CLI11_PARSE(app, argc, argv);
   if (quick) {
@@ -79,10 +80,15 @@ int main(int argc, char** argv) try {
   for (const bench::Workload& workload : bench::body_workloads()) {
     if (only.empty() || only == "bodies") workloads.push_back(workload);
   }
-  const bool racing = only.empty() || only == "equal-error";
-  if (workloads.empty() && !racing) throw std::runtime_error("no workload of the method '" + only + "'");
+  std::vector<bench::Course> courses;
+  if (only.empty() || only == "equal-error" || only == "ellipse") courses.push_back(bench::ellipse());
+  if (only.empty() || only == "equal-error" || only == "planets") courses.push_back(bench::outer_planets());
+  if (workloads.empty() && courses.empty()) throw std::runtime_error("no workload of the method '" + only + "'");
   const auto measured = bench::measure(workloads, bench::comparisons(), plan);
-  const auto races = racing ? bench::race(plan) : std::vector<bench::Race>{};
+  std::vector<bench::Race> races;
+  for (const bench::Course& course : courses) {
+    for (const bench::Race& one : bench::race(plan, course)) races.push_back(one);
+  }
   fmt::print("{}\n", json ? bench::as_json(measured, races, plan) : bench::as_text(measured, races, plan));
   return 0;
 } catch (const std::exception& error) {

@@ -3,7 +3,7 @@
 namespace bench {
 
 void add_peers(Workload& workload, const Task& task) {
-  for (const auto& peers : {odeint_peers(), gsl_peers()}) {
+  for (const auto& peers : {odeint_peers(), gsl_peers(), arkode_peers()}) {
     for (const Peer& peer : peers) {
       if (peer.method != workload.method) continue;
       workload.contenders.push_back({peer.library,

@@ -69,12 +69,14 @@ Json json_of(const Race& race) {
   Json racers = Json::array();
   for (const Placed& r : race.placed) {
     racers.push_back({{"contender", r.name},
-                      {"steps_per_period", r.steps},
+                      {"steps", r.steps},
                       {"error", r.error},
-                      {"us_per_period", json_of(r.us_per_period)},
+                      {"us", json_of(r.us)},
+                      {"us_per_step", r.us.median / static_cast<double>(r.steps)},
+                      {"forces_per_step", r.forces_per_step},
                       {"ratio_to_first", json_of(r.ratio)}});
   }
-  return {{"target", race.target}, {"contenders", racers}};
+  return {{"course", race.course}, {"target", race.target}, {"contenders", racers}};
 }
 
 std::string text_of(const Compared& c) {
@@ -86,12 +88,11 @@ std::string text_of(const Compared& c) {
 }
 
 std::string text_of(const Race& race) {
-  std::string out =
-      fmt::format("\nOne period of the ellipse e = 0.6 with an error of the position of at most {:.0e}\n", race.target);
-  out += fmt::format("  {:24} {:>12} {:>9} {:>30}   {}\n", "", "steps/period", "error", "us/period", "ratio");
+  std::string out = fmt::format("\n{} with an error of the position of at most {:.0e}\n", race.course, race.target);
+  out += fmt::format("  {:24} {:>9} {:>9} {:>11} {:>30}   {}\n", "", "steps", "error", "forces/step", "us", "ratio");
   for (const Placed& r : race.placed) {
-    out += fmt::format("  {:24} {:12} {:9.1e} {:12.2f} [{:.2f}, {:.2f}]   {:.2f} [{:.2f}, {:.2f}]\n", r.name, r.steps,
-                       r.error, r.us_per_period.median, r.us_per_period.low, r.us_per_period.high, r.ratio.median,
+    out += fmt::format("  {:24} {:9} {:9.1e} {:11.1f} {:12.2f} [{:.2f}, {:.2f}]   {:.2f} [{:.2f}, {:.2f}]\n", r.name,
+                       r.steps, r.error, r.forces_per_step, r.us.median, r.us.low, r.us.high, r.ratio.median,
                        r.ratio.low, r.ratio.high);
   }
   return out;
@@ -106,7 +107,7 @@ std::string as_json(const Measured& measured, const std::vector<Race>& races, co
                 {"build", HAMFLOW_BENCH_BUILD},
                 {"flags", HAMFLOW_BENCH_FLAGS},
                 {"fast_kernel", hamflow::name(hamflow::fast_kernel_instruction_set())},
-                {"peers", {odeint_version(), gsl_version()}},
+                {"peers", {odeint_version(), gsl_version(), arkode_version()}},
                 {"rounds", plan.rounds},
                 {"block_ms", plan.block_nanoseconds / 1e6},
                 {"results", Json::array()},
@@ -122,8 +123,8 @@ std::string as_json(const Measured& measured, const std::vector<Race>& races, co
 
 std::string as_text(const Measured& measured, const std::vector<Race>& races, const Plan& plan) {
   std::string out = fmt::format("{}, {}, {} ({})\n", cpu_model(), compiler, HAMFLOW_BENCH_BUILD, HAMFLOW_BENCH_FLAGS);
-  out += fmt::format("fast kernel: {}; {}; {}\n", hamflow::name(hamflow::fast_kernel_instruction_set()),
-                     odeint_version(), gsl_version());
+  out += fmt::format("fast kernel: {}; {}; {}; {}\n", hamflow::name(hamflow::fast_kernel_instruction_set()),
+                     odeint_version(), gsl_version(), arkode_version());
   out += fmt::format("{} interleaved rounds; median [quartiles]\n", plan.rounds);
   for (const Table& table : measured.tables) {
     out += fmt::format("\n{}, dt = {}, {} steps a round\n", table.method, table.h_text, table.steps);

@@ -118,7 +118,8 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
         } else if constexpr (std::is_same_v<R, double> && std::is_same_v<M, Averages>) {
           return requested(std::make_unique<IteratedSimulation<P, decltype(method), A>>(
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
-              iteration_recorder(run.functions, c, recipe.options)));
+              iteration_recorder(run.functions, c, recipe.options), stage_recorder(run.functions, c, recipe.options),
+              request.record));
         } else {
           return requested(std::make_unique<Parted>(problem, method, run.q, run.p, run.h, arithmetic));
         }

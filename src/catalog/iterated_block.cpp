@@ -17,7 +17,9 @@ namespace {
 class IteratedBlock final : public EnsembleBlock {
  public:
   IteratedBlock(const ProblemEntry& problem, Request request, LaneSet lanes)
-      : problem_(problem), request_(std::move(request)), set_(lanes) {}
+      : problem_(problem), request_(std::move(request)), set_(lanes) {
+    request_.record = false;  // members go in lanes
+  }
 
   /// Several packs, or those of members with other points would be half empty.
   std::size_t lanes() const override { return 8 * (set_ == LaneSet::avx512 ? 8 : 4); }

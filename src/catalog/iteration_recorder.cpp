@@ -13,10 +13,11 @@ template <Capability c>
 IterationRecorder recorder_on(const ErasedFunctions<double>& functions, const AverageOptions& options) {
   using Traced = AnyProblem<Trace<double>, c>;
   using Equations = typename decltype(detail::averages_for<Traced, Trace<double>>())::type;
-  return [problem = Traced(functions.size, functions.trace), options](
-             const IterationFrame& frame, std::vector<double> values, int points, double start) {
+  return [problem = Traced(functions.size, functions.trace), options](const IterationFrame& frame,
+                                                                      std::vector<double> values, int points,
+                                                                      const IterationTime& time, IterationParts parts) {
     return record_iteration<Equations, Compensated<Trace<double>>>(problem, options, frame, std::move(values), points,
-                                                                   start);
+                                                                   time, parts);
   };
 }
 /// Of a problem for any H they are there as traces where they are written by hand.
@@ -42,6 +43,18 @@ IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, C
   }
   if (face != natural) return {};  // the momentum of a cyclic coordinate is a constant of the problem without it
   return recorder_on<natural>(functions, options);
+}
+
+StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capability face, const AverageOptions& options) {
+  if (face != natural || !options.in_stages || options.element.iteration != Iteration::fixed_point ||
+      widest_native_lanes() == LaneSet::generic) {
+    return {};
+  }
+  return [problem = StagesInLanes::Traced(functions.size, functions.trace), stages = options.element.degree](
+             std::span<const double> q, std::span<const double> p) {
+    const LaneSet lanes = stages <= 4 ? LaneSet::avx2 : widest_native_lanes();  // four fill a shorter register
+    return StagesInLanes::recorded(problem, stage_table<double>(stages), q, p, lanes);
+  };
 }
 
 }  // namespace hamflow

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "erased.hpp"
-#include "hamflow/run/recorded_iteration.hpp"
+#include "hamflow/run/iteration_runner.hpp"
 
 namespace hamflow {
 
@@ -10,5 +10,8 @@ namespace hamflow {
 /// @param face one of Averages::faces, on which the simulation works
 IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, Capability face,
                                      const AverageOptions& options);
+
+/// Empty where stages are not iterated by fixed point, or there is no machine code for lanes here.
+StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capability face, const AverageOptions& options);
 
 }  // namespace hamflow

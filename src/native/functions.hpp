@@ -11,7 +11,9 @@
 namespace hamflow::native {
 
 /// Whether it is a function of the system's library.
-constexpr bool is_call(Instruction instruction) { return instruction >= Instruction::exponential; }
+constexpr bool is_call(Instruction instruction) {
+  return instruction >= Instruction::exponential && instruction != Instruction::of_lane;
+}
 
 constexpr bool is_commutative(Instruction instruction) {
   return instruction == Instruction::add || instruction == Instruction::multiply;
@@ -80,6 +82,8 @@ inline double applied(Instruction instruction, double a, double b, double c = 0)
       return std::fma(a, b, c);
     case Instruction::fused_subtract:
       return std::fma(-a, b, c);
+    case Instruction::of_lane:
+      return a;  // the only one
     default:
       return called(instruction, a, b);
   }

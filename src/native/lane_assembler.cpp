@@ -94,6 +94,12 @@ class LaneAssembler final : public LoopAssembler {
   void operation(const Line& line) override {
     const Register to = reg(line.to), a = reg(line.a);
     switch (line.instruction) {
+      case Instruction::of_lane: {
+        const std::size_t value = line.a.index / registers_ * registers_;  // its first register
+        const auto lane = static_cast<std::int32_t>(constants_[line.b.index]);
+        a_.vbroadcastsd(to, x86::qword_ptr(x86::rbx, offset(value) + 8 * lane));
+        return;
+      }
       case Instruction::add:
         return with(line.b, [&](const auto& b) { a_.vaddpd(to, a, b); });
       case Instruction::subtract:

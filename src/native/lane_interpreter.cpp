@@ -17,6 +17,9 @@ void each(std::size_t lanes, double* __restrict y, const double* a, const double
 
 void apply(Instruction instruction, std::size_t lanes, double* y, const double* a, const double* b, const double* c) {
   switch (instruction) {
+    case Instruction::of_lane:
+      std::fill_n(y, lanes, a[static_cast<std::size_t>(b[0])]);
+      return;
     case Instruction::add:
       return each(lanes, y, a, b, [](double x, double z) { return x + z; });
     case Instruction::subtract:

@@ -50,7 +50,7 @@ class LaneLoopOf final : public LaneLoop {
 }  // namespace native
 
 std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span<const bool> differs, LaneSet lanes,
-                                               std::size_t registers) {
+                                               std::size_t registers, StepsOfLoop steps) {
   if (lanes == LaneSet::none)
     throw std::invalid_argument("make_lane_loop: found no lanes; allowed generic, avx2, avx512");
   if (differs.size() != program.constants.size())
@@ -64,11 +64,19 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
   if (const unsigned available = native::lane_registers(lanes);
       available > 0 && native::has_instructions(program) && native::is_asked()) {
     const Program step = native::with_both(native::interleaved(ready, registers, native::run_of_one));
-    function =
-        native::assembled_lanes(native::placed(step, available), step.constants, ready.uniform, registers, lanes);
+    function = native::assembled_lanes(native::placed(step, available, steps), step.constants, ready.uniform, registers,
+                                       lanes);
   }
   const std::size_t count = registers * (lanes == LaneSet::avx512 ? 8 : 4);
   return std::make_unique<native::LaneLoopOf>(std::move(ready), count, registers, std::move(function));
+}
+
+LaneSet widest_native_lanes() {
+  if (!native::is_asked()) return LaneSet::generic;
+  for (const LaneSet set : {LaneSet::avx512, LaneSet::avx2}) {
+    if (native::lane_registers(set) > 0) return set;
+  }
+  return LaneSet::generic;
 }
 
 }  // namespace hamflow

@@ -18,8 +18,9 @@ constexpr Place home(std::uint32_t k) { return {Place::Kind::home, k}; }
 
 class Allocator {
  public:
-  Allocator(const Program& program, unsigned registers)
+  Allocator(const Program& program, unsigned registers, StepsOfLoop steps)
       : program_(program),
+        once_(steps == StepsOfLoop::one),
         events_(events_of(program)),
         end_(static_cast<std::uint32_t>(events_.size())),
         uses_(program, events_),
@@ -42,7 +43,7 @@ class Allocator {
       if (r == never) {
         memory_[k] = home(k);
       } else {
-        result_.entry.push_back({Line::Kind::move, {}, {}, reg(r), home(k), {}});
+        if (!once_ || uses_.next(k) != never) result_.entry.push_back({Line::Kind::move, {}, {}, reg(r), home(k), {}});
         result_.exit.push_back({Line::Kind::move, {}, {}, home(k), reg(r), {}});
         if (uses_.next(k) != never) bind(k, r);
       }
@@ -71,12 +72,14 @@ class Allocator {
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < values_; ++k) order.push_back(k);
     const auto is_kept = [&](std::uint32_t k) { return program_.outputs[k] == Operand{Operand::Kind::carried, k}; };
+    if (once_) std::erase_if(order, is_kept);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
       if (is_kept(x) != is_kept(y)) return is_kept(y);  // what never changes is as good in memory
       return uses_.next(x) < uses_.next(y);
     });
     const auto most = static_cast<std::uint32_t>(in_register_.size()) - 2;
-    for (std::uint32_t r = 0; r < std::min(most, values_); ++r) register_home_[order[r]] = r;
+    const auto count = static_cast<std::uint32_t>(order.size());
+    for (std::uint32_t r = 0; r < std::min(most, count); ++r) register_home_[order[r]] = r;
   }
 
   void bind(std::uint32_t number, std::uint32_t r) {
@@ -208,6 +211,7 @@ class Allocator {
   }
 
   void place_operation(const Program::Operation& operation, std::uint32_t number) {
+    if (operation.instruction == Instruction::of_lane) return place_of_lane(operation, number);
     Operand a = operation.a, b = operation.b;
     const bool has_two = b.kind != Operand::Kind::none;
     if (operation.instruction == Instruction::larger) std::swap(a, b);
@@ -222,6 +226,20 @@ class Allocator {
     result_.body.push_back(
         {Line::Kind::operation, operation.instruction, {}, reg(to), first, has_two ? second : nowhere});
     after_line(a, b);
+    if (uses_.next(number) != never) bind(number, to);
+  }
+
+  /// Read where the caller has it.
+  void place_of_lane(const Program::Operation& operation, std::uint32_t number) {
+    pass(operation.a, {});
+    const std::uint32_t to = take_register(wanted_for(number));
+    result_.body.push_back({Line::Kind::operation,
+                            operation.instruction,
+                            {},
+                            reg(to),
+                            home(operation.a.index),
+                            {Place::Kind::constant, operation.b.index}});
+    after_line(operation.a, {});
     if (uses_.next(number) != never) bind(number, to);
   }
 
@@ -284,6 +302,7 @@ class Allocator {
   }
 
   const Program& program_;
+  const bool once_;
   const std::vector<Event> events_;
   const std::uint32_t end_;
   Uses uses_;
@@ -301,6 +320,8 @@ class Allocator {
 
 }  // namespace
 
-PlacedProgram placed(const Program& program, unsigned registers) { return Allocator(program, registers).run(); }
+PlacedProgram placed(const Program& program, unsigned registers, StepsOfLoop steps) {
+  return Allocator(program, registers, steps).run();
+}
 
 }  // namespace hamflow::native

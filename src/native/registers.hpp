@@ -2,7 +2,7 @@
 // here depends on the processor but how many registers there are.
 #pragma once
 
-#include "hamflow/numerics/program.hpp"
+#include "hamflow/numerics/program_lanes.hpp"
 
 namespace hamflow::native {
 
@@ -24,7 +24,7 @@ struct Line {
   enum class Kind : std::uint8_t {
     move,       // to <- a; one of the two is a register
     operation,  // to <- instruction(a, b): registers, but that b may be anywhere. larger(a, b) is a > b ? a : b; of
-                // fused operations c is what `to` was
+                // fused operations c is what `to` was; of of_lane a is a home, b the constant
     call,       // register 0 <- instruction(register 0, register 1); no register keeps its number. Of sine_of_both
                 // register 1 <- the cosine
     check,      // of the register a, with b anywhere; `to` is a register that it may use
@@ -45,6 +45,7 @@ struct PlacedProgram {
 /// Places every number of the program, at most `registers` (at least 4) of them in registers at a time. Program order
 /// is kept. Carried values have fixed registers in which a step finds and leaves them, as long as there are registers;
 /// where one is wanted, the number that is used last is stored.
-PlacedProgram placed(const Program& program, unsigned registers);
+/// @param steps one: what the step does not change stays in memory, and is not stored again
+PlacedProgram placed(const Program& program, unsigned registers, StepsOfLoop steps = StepsOfLoop::many);
 
 }  // namespace hamflow::native

@@ -148,7 +148,8 @@ unsigned scalar_registers() {
 bool has_instructions(const Program& program) {
   return scalar_registers() == 32 ||
          std::none_of(program.operations.begin(), program.operations.end(), [](const Program::Operation& operation) {
-           return operation.instruction >= Instruction::inverse_root_estimate && !is_call(operation.instruction);
+           return operation.instruction >= Instruction::inverse_root_estimate &&
+                  operation.instruction < Instruction::exponential;
          });
 }
 

@@ -157,6 +157,7 @@ class Differentiation {
       case I::fused_subtract:
       case I::sine_of_both:
       case I::cosine_of_both:
+      case I::of_lane:
         return false;
     }
     return false;

@@ -45,11 +45,12 @@ struct Tally {
   std::uint64_t failed = 0, lanes = 0, values = 0, finite = 0;
 };
 
-/// Runs the family in lanes and one after the other.
-void compare(const Family& family, LaneSet set, Tally& tally) {
+/// Runs the family in lanes and one after the other. @param steps one: asked for step by step, one register to a number
+void compare(const Family& family, LaneSet set, StepsOfLoop steps, Tally& tally) {
   const Program& program = family.base.program;
   const std::size_t values = program.values(), constants = program.constants.size();
-  const auto loop = make_lane_loop(program, {family.differs.get(), constants}, set);
+  const bool one = steps == StepsOfLoop::one;
+  const auto loop = make_lane_loop(program, {family.differs.get(), constants}, set, one ? 1 : 4, steps);
   const std::size_t lanes = loop->lanes();
   ASSERT_LE(lanes, family.programs.size());
   LaneNumbers carried(values * lanes);
@@ -61,7 +62,10 @@ void compare(const Family& family, LaneSet set, Tally& tally) {
     for (std::size_t i = 0; family.differs[c] && i < lanes; ++i) given.push_back(family.programs[i].constants[c]);
   }
   const auto failed = std::make_unique<bool[]>(lanes);
-  loop->run(carried, loop->prepared(given), family.base.steps, {failed.get(), lanes});
+  const LaneNumbers prepared = loop->prepared(given);
+  for (std::int64_t k = 0; k < (one ? family.base.steps : 1); ++k) {
+    loop->run(carried, prepared, one ? 1 : family.base.steps, {failed.get(), lanes});
+  }
   for (std::size_t i = 0; i < lanes; ++i) {
     std::vector<double> expected = family.starts[i];
     const bool held = make_interpreter(family.programs[i])->run(expected, family.base.steps);
@@ -85,7 +89,7 @@ void compare_random(std::uint64_t seed, std::uint64_t count, std::size_t most_op
       SCOPED_TRACE("family " + std::to_string(i) + " of seed " + std::to_string(seed));
       Draw draw(counter_bits(seed, i));
       RandomForm form = i % 8 == 0 ? special_form(draw) : random_form(draw, most_operations);
-      compare(random_family(draw, form, 32), set, tally);
+      compare(random_family(draw, form, 32), set, i % 3 == 0 ? StepsOfLoop::one : StepsOfLoop::many, tally);
       if (testing::Test::HasFailure()) return;
     }
     std::printf("%s: %lu lanes, %lu stopped by a check, %lu values, %lu finite\n", std::string(name(set)).c_str(),
@@ -147,6 +151,36 @@ TEST(LaneLoop, WhatFollowsFromConstantsAloneIsComputedOnce) {
   EXPECT_EQ(parts.step.operations.size(), 1u);
   EXPECT_EQ(parts.before.operations.size(), 3u);
   EXPECT_EQ(parts.given, 1u);
+}
+
+TEST(LaneLoop, ALaneReadsTheNumbersOfOthers) {
+  using Kind = Operand::Kind;
+  for (const LaneSet set : all_sets) {
+    for (const std::size_t registers : {1, 2, 3, 4}) {
+      const std::size_t lanes = registers * (set == LaneSet::avx512 ? 8 : 4);
+      for (std::size_t of = 0; of < lanes; ++of) {
+        Program p;  // y <- y + x of one lane
+        p.constants = {static_cast<double>(of)};
+        p.operations = {{Instruction::of_lane, {Kind::carried, 0}, {Kind::constant, 0}},
+                        {Instruction::add, {Kind::carried, 1}, {Kind::result, 0}}};
+        p.outputs = {{Kind::carried, 0}, {Kind::result, 1}};
+        const bool differs[] = {false};
+        for (const StepsOfLoop steps : {StepsOfLoop::one, StepsOfLoop::many}) {
+          const auto loop = make_lane_loop(p, differs, set, registers, steps);
+          ASSERT_EQ(loop->lanes(), lanes);
+          LaneNumbers numbers(2 * lanes);
+          for (std::size_t i = 0; i < 2 * lanes; ++i) numbers[i] = static_cast<double>(i);
+          const auto failed = std::make_unique<bool[]>(lanes);
+          const int count = steps == StepsOfLoop::one ? 1 : 3;
+          loop->run(numbers, loop->prepared({}), count, {failed.get(), lanes});
+          for (std::size_t i = 0; i < lanes; ++i) {
+            EXPECT_EQ(numbers[i], static_cast<double>(i));
+            EXPECT_EQ(numbers[lanes + i], static_cast<double>(lanes + i + of * static_cast<std::size_t>(count)));
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(LaneLoop, RefusesWhatHasNoMeaning) {

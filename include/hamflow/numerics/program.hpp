@@ -40,7 +40,10 @@ enum class Instruction : std::uint8_t {
   power,        // pow(a, b)
   // Of machine code alone: the sine of a number and, directly behind it, its cosine, by one call.
   sine_of_both,
-  cosine_of_both
+  cosine_of_both,
+  // Of lanes that are one step together (numerics/program_lanes.hpp): a of lane number b, in every lane. a is carried
+  // and stays as it is, b a constant.
+  of_lane
 };
 
 /// The value of an earlier operation, of what is carried, or of a constant.

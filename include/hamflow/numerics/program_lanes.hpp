@@ -8,6 +8,9 @@
 
 namespace hamflow {
 
+/// How many steps are asked for at a time.
+enum class StepsOfLoop { many, one };
+
 /// A program made runnable for lanes() members. One object may be run by several threads at once.
 class LaneLoop {
  public:
@@ -30,8 +33,11 @@ class LaneLoop {
 /// @param registers to a number: with fewer than four there are so many fewer lanes. Four hide what waits in programs
 /// that are one chain; long programs of many chains are better off with one
 /// @param differs of each constant of the program whether members have their own
+/// @param steps one: run() is called with one step only
 /// @throws std::invalid_argument unless `differs` has a flag for every constant; for LaneSet::none
 std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span<const bool> differs, LaneSet lanes,
-                                               std::size_t registers = 4);
+                                               std::size_t registers = 4, StepsOfLoop steps = StepsOfLoop::many);
+/// The widest lanes that machine code can have here; generic: none.
+LaneSet widest_native_lanes();
 
 }  // namespace hamflow

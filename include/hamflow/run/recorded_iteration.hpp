@@ -70,10 +70,19 @@ struct RecordedIteration {
   Effort of_finish;
 };
 
+/// Which of the programs are recorded: without a correction where that is done otherwise (stages_in_lanes.hpp).
+enum class IterationParts { all, finish };
+
+/// When a step is taken: time is `start` and a whole number of steps, which grows or shrinks.
+struct IterationTime {
+  double start = 0;
+  double direction = 1;  // or -1, with h < 0
+};
+
 /// Records them at a frame whose unknowns are a first guess. Nothing: they are no straight lines, or too long.
-/// @param points the setting: Gauss points   @param start of time
+/// @param points the setting: Gauss points
 using IterationRecorder = std::function<std::optional<RecordedIteration>(
-    const IterationFrame&, std::vector<double> values, int points, double start)>;
+    const IterationFrame&, std::vector<double> values, int points, const IterationTime& time, IterationParts parts)>;
 
 /// What a simulation offers to lanes (run/iterated_simulation.hpp).
 class IteratedMember {
@@ -136,6 +145,80 @@ struct TracedFrame {
 
 }  // namespace detail
 
+namespace detail {
+
+/// One correction. @param values of the frame, afterwards those behind it
+template <class E, class TA>
+void record_correction(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
+                       std::vector<double>& values, const IterationTime& time, RecordedIteration& made) {
+  using Number = Trace<double>;
+  using V = Vector<Number, dynamic>;
+  TracedFrame<typename E::Problem, TA> f(problem, frame, values, time.start);
+  const V q0 = f.z.positions();
+  const V p0 = f.z.momenta();
+  const E step(setup, problem, f.numbers[IterationFrame::h], q0, p0, made.of_correct);
+  V x = f.read(frame.x(), frame.m);
+  typename E::Point at;
+  at.linearised = setup.newton().iteration == Iteration::newton;
+  step.evaluate(x, at);
+  V correction = at.residual;
+  if (at.linearised) {
+    LuFactors<Number> factors;
+    factors.factor(step.tangent(at));
+    correction = factors.solve(at.residual);
+  }
+  f.put(correction, frame.correction());
+  for (std::size_t i = 0; i < frame.m; ++i) {
+    f.numbers[frame.unit() + i] = Epsilon<Number>{} * Number(at.noise[i] + abs(x[i]));
+    f.numbers[frame.x() + i] = x[i] + correction[i];
+  }
+  const Increment<Number, dynamic> taken = step.taken(x, at, correction);
+  f.put(x, frame.end());
+  f.put(taken.q, frame.increment());
+  f.put(taken.p, frame.increment() + frame.n);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = f.numbers[i].value;
+  made.correct.program = program_of(f.recorder.finish(f.numbers));
+}
+
+/// What a step leaves behind. @param continues with the first guess of the next one   @return false where it leaves the
+/// finite numbers
+template <class E, class TA>
+bool record_finish(const typename E::Setup& setup, const typename E::Problem& problem, const IterationFrame& frame,
+                   const std::vector<double>& values, const IterationTime& time, bool continues,
+                   RecordedIteration& made) {
+  using Number = Trace<double>;
+  using V = Vector<Number, dynamic>;
+  TracedFrame<typename E::Problem, TA> f(problem, frame, values, time.start);
+  const V q0 = f.z.positions();
+  const V p0 = f.z.momenta();
+  const V end = f.read(frame.end(), frame.m);
+  if (setup.automatic()) {
+    const auto seen = E(setup, problem, f.numbers[IterationFrame::h], q0, p0, made.of_finish).gain_of_energy(end);
+    f.numbers[frame.gain()] = seen.gain;
+    f.numbers[frame.gain() + 1] = seen.noise;
+  }
+  const V dq = f.read(frame.increment(), frame.n);
+  const V dp = f.read(frame.increment() + frame.n, frame.n);
+  for (std::size_t i = 0; i < frame.n; ++i) {
+    f.z.arithmetic.position.add_keeping(f.z.q[i], dq[i]);
+    f.z.arithmetic.momentum.add_keeping(f.z.p[i], dp[i]);
+  }
+  Number& position = f.numbers[IterationFrame::position];
+  position += Number(time.direction);
+  const Number t = Number(time.start) + position * (Number(time.direction) * f.numbers[IterationFrame::h]);
+  const V q = f.z.positions();
+  const V p = f.z.momenta();
+  if (!f.probe.look(problem, q, p, t)) return false;
+  f.put_carried();
+  f.put(end, frame.memory());
+  Effort unused;
+  if (continues) f.put(E(setup, problem, f.numbers[IterationFrame::h], q, p, unused).started(end), frame.x());
+  made.finish.program = program_of(f.recorder.finish(f.numbers));
+  return true;
+}
+
+}  // namespace detail
+
 /// Records a step of averages from a frame.
 /// @tparam E the equations on traces   @tparam TA the arithmetic, traced   @param values of the frame
 /// @return nothing where a step leaves the finite numbers, branches on the state or is longer than
@@ -143,67 +226,18 @@ struct TracedFrame {
 template <class E, class TA>
 std::optional<RecordedIteration> record_iteration(const typename E::Problem& problem, const AverageOptions& options,
                                                   const IterationFrame& frame, std::vector<double> values, int points,
-                                                  double start) {
-  using Number = Trace<double>;
-  using V = Vector<Number, dynamic>;
-  using Traced = detail::TracedFrame<typename E::Problem, TA>;
+                                                  const IterationTime& time, IterationParts parts) {
   RecordedIteration made{.frame = frame};
   typename E::Setup setup(problem, options);
   if (setup.mark() != points) setup.return_to(points);
   try {
-    {
-      Traced f(problem, frame, values, start);
-      const V q0 = f.z.positions();
-      const V p0 = f.z.momenta();
-      const E step(setup, problem, f.numbers[IterationFrame::h], q0, p0, made.of_correct);
-      V x = f.read(frame.x(), frame.m);
-      typename E::Point at;
-      at.linearised = setup.newton().iteration == Iteration::newton;
-      step.evaluate(x, at);
-      V correction = at.residual;
-      if (at.linearised) {
-        LuFactors<Number> factors;
-        factors.factor(step.tangent(at));
-        correction = factors.solve(at.residual);
-      }
-      f.put(correction, frame.correction());
-      for (std::size_t i = 0; i < frame.m; ++i) {
-        f.numbers[frame.unit() + i] = Epsilon<Number>{} * Number(at.noise[i] + abs(x[i]));
-        f.numbers[frame.x() + i] = x[i] + correction[i];
-      }
-      const Increment<Number, dynamic> taken = step.taken(x, at, correction);
-      f.put(x, frame.end());
-      f.put(taken.q, frame.increment());
-      f.put(taken.p, frame.increment() + frame.n);
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = f.numbers[i].value;
-      made.correct.program = program_of(f.recorder.finish(f.numbers));
+    if (parts == IterationParts::all) {
+      detail::record_correction<E, TA>(setup, problem, frame, values, time, made);
+    } else {
+      made.of_correct.force = setup.table().points;
     }
-    Traced f(problem, frame, values, start);
-    const V q0 = f.z.positions();
-    const V p0 = f.z.momenta();
-    const V end = f.read(frame.end(), frame.m);
-    if (setup.automatic()) {
-      const auto seen = E(setup, problem, f.numbers[IterationFrame::h], q0, p0, made.of_finish).gain_of_energy(end);
-      f.numbers[frame.gain()] = seen.gain;
-      f.numbers[frame.gain() + 1] = seen.noise;
-    }
-    const V dq = f.read(frame.increment(), frame.n);
-    const V dp = f.read(frame.increment() + frame.n, frame.n);
-    for (std::size_t i = 0; i < frame.n; ++i) {
-      f.z.arithmetic.position.add_keeping(f.z.q[i], dq[i]);
-      f.z.arithmetic.momentum.add_keeping(f.z.p[i], dp[i]);
-    }
-    Number& position = f.numbers[IterationFrame::position];
-    position += Number(1);
-    const Number t = Number(start) + position * f.numbers[IterationFrame::h];
-    const V q = f.z.positions();
-    const V p = f.z.momenta();
-    if (!f.probe.look(problem, q, p, t)) return std::nullopt;
-    f.put_carried();
-    f.put(end, frame.memory());
-    Effort unused;
-    f.put(E(setup, problem, f.numbers[IterationFrame::h], q, p, unused).started(end), frame.x());
-    made.finish.program = program_of(f.recorder.finish(f.numbers));
+    if (!detail::record_finish<E, TA>(setup, problem, frame, values, time, parts == IterationParts::all, made))
+      return std::nullopt;
     return made;
   } catch (const CannotRecord&) {
     return std::nullopt;

@@ -1,0 +1,160 @@
+// Who races at equal error: methods by type and by name, and other libraries.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "equal_error.hpp"
+#include "hamflow/methods/averages.hpp"
+#include "hamflow/methods/cg.hpp"
+#include "hamflow/methods/compositions/kahan_li8.hpp"
+#include "hamflow/methods/compositions/stv4.hpp"
+#include "hamflow/methods/compositions/suzuki4.hpp"
+#include "hamflow/methods/compositions/verlet.hpp"
+#include "hamflow/methods/compositions/yoshida6.hpp"
+#include "hamflow/methods/dop853.hpp"
+#include "hamflow/methods/splitting.hpp"
+#include "hamflow/methods/splittings/rkn8_s19.hpp"
+#include "hamflow/methods/tableaus/rk4.hpp"
+#include "hamflow/problems/support/fast_kernel.hpp"
+#include "library.hpp"
+#include "mclachlan.hpp"
+#include "peers.hpp"
+
+namespace bench {
+
+namespace {
+
+constexpr double period = 2 * std::numbers::pi;  // a = k = mass = 1
+
+Task task_of(std::int64_t steps) {
+  Task task = unit_task(period / static_cast<double>(steps));
+  task.h_text = hamflow::shortest(task.h);
+  return task;
+}
+
+/// On the ellipse, which ends where it begins.
+Racer on_ellipse(const std::string& name, int order, const Runner& run) {
+  return {name, order, [run](std::int64_t steps, std::int64_t laps) {
+            const Task task = task_of(steps);
+            const Run all = run(task, steps * laps);
+            return Racer::Lap{all.nanoseconds,
+                              std::hypot(all.end.q[0] - task.start.q[0], all.end.q[1] - task.start.q[1]), all.forces};
+          }};
+}
+template <class Recipe>
+Racer typed(const std::string& name, int order, const Recipe& recipe) {
+  return on_ellipse(name, order, [=](const Task& task, std::int64_t steps) { return run_typed(task, recipe, steps); });
+}
+template <class Recipe>
+Racer typed_fast(const std::string& name, int order, const Recipe& recipe) {
+  return on_ellipse(name, order,
+                    [=](const Task& task, std::int64_t steps) { return run_typed_fast(task, recipe, steps); });
+}
+
+std::string by_fixed_point(int stages) { return "gauss(stages=" + std::to_string(stages) + ",iteration=fixed-point)"; }
+std::string gauss_name(int stages) { return "gauss(" + std::to_string(stages) + ")"; }
+
+/// Sun and planets, by name. The first lap is run alone, so that its end can be looked at.
+class OuterPlanets {
+ public:
+  OuterPlanets() {
+    request_.problem = "solar-system";
+    const hamflow::ProblemInfo& info = hamflow::usual_problem(request_.problem).info;
+    request_.start.q = info.default_q;
+    request_.start.p = info.default_p;
+    request_.start.barycentric = true;
+    request_.watch = false;
+    hamflow::Request exact = request_;
+    exact.method = hamflow::parse_method("gauss(stages=10,iteration=fixed-point)");
+    exact.arithmetic = "double-double";
+    end_ = end_of(*simulated(exact, 600), 600);
+  }
+  Racer::Lap run(const std::string& method, std::int64_t steps, std::int64_t laps) const {
+    hamflow::Request request = request_;
+    request.method = hamflow::parse_method(method);
+    const auto simulation = simulated(request, steps);
+    // Recording and compiling, once in a run, is not timed.
+    const auto again = simulated(request, steps);
+    if (laps > 1) (void)again->advance(400);
+    Racer::Lap lap;
+    const std::vector<double> end = end_of(*simulation, steps);
+    for (std::size_t i = 0; i < end.size(); ++i) lap.error = std::max(lap.error, std::abs(end[i] - end_[i]));
+    hamflow::Frame frame;
+    simulation->look(frame);
+    lap.forces = static_cast<double>(frame.effort.force);
+    lap.nanoseconds = timed([&] { (void)again->advance(steps * laps); });
+    return lap;
+  }
+
+ private:
+  static constexpr double days = 60000;
+
+  static std::unique_ptr<hamflow::Simulation> simulated(hamflow::Request request, std::int64_t steps) {
+    request.dt = "60000/" + std::to_string(steps);
+    return hamflow::make_simulation(request);
+  }
+  static std::vector<double> end_of(hamflow::Simulation& simulation, std::int64_t steps) {
+    hamflow::Frame frame;
+    if (simulation.advance(steps) != hamflow::Outcome::done) return std::vector<double>(18, INFINITY);
+    simulation.look(frame);
+    return frame.q;
+  }
+
+  hamflow::Request request_;
+  std::vector<double> end_;
+};
+
+}  // namespace
+
+Course ellipse() {
+  using namespace hamflow;
+  std::vector<Racer> all{typed("stv4", 4, Composition<compositions::stv4>{}),
+                         typed("suzuki4", 4, Composition<compositions::suzuki4>{}),
+                         typed("yoshida6", 6, Composition<compositions::yoshida6>{}),
+                         typed("kahan-li8", 8, Composition<compositions::kahan_li8>{}),
+                         typed("sb3a_m4", 4, SplittingBy<sb3a_m4>{}),
+                         typed("rk4", 4, RungeKuttaBy<tableaus::rk4>{}),
+                         typed("verlet", 2, Composition<compositions::verlet>{}),
+                         typed("rkn8-s19", 8, SplittingBy<splittings::rkn8_s19>{}),
+                         typed("dop853", 8, Dop853{{.fixed = true}}),
+                         typed("cg(1,5)", 2, Cg{{.quadrature = 5}}),
+                         typed("cg(2,4)", 4, CgOfDegree{{.degree = 2, .quadrature = 4}}),
+                         typed("cg(3,6)", 6, CgOfDegree{{.degree = 3, .quadrature = 6}})};
+  for (const int stages : {4, 8}) {
+    all.push_back(typed(gauss_name(stages), 2 * stages, Gauss{{.stages = stages}}));
+    all.push_back(on_ellipse(gauss_name(stages) + ", fixed-point", 2 * stages,
+                             [method = by_fixed_point(stages)](const Task& task, std::int64_t steps) {
+                               return run_named(task, method, false, steps);
+                             }));
+  }
+  if (fast_kernel_available()) {
+    all.push_back(typed_fast("stv4, fast", 4, Composition<compositions::stv4>{}));
+    all.push_back(typed_fast("suzuki4, fast", 4, Composition<compositions::suzuki4>{}));
+    all.push_back(typed_fast("yoshida6, fast", 6, Composition<compositions::yoshida6>{}));
+    all.push_back(typed_fast("kahan-li8, fast", 8, Composition<compositions::kahan_li8>{}));
+    all.push_back(typed_fast("rkn8-s19, fast", 8, SplittingBy<splittings::rkn8_s19>{}));
+  }
+  for (const auto& peers : {odeint_peers(), gsl_peers()}) {
+    // At these accuracies a first-order method takes 10^8 steps and more.
+    for (const Peer& peer : peers) {
+      if (peer.order > 1) all.push_back(on_ellipse(peer.library + " " + peer.stepper, peer.order, peer.run));
+    }
+  }
+  return {"One period of the ellipse e = 0.6", all};
+}
+
+Course outer_planets() {
+  const auto planets = std::make_shared<const OuterPlanets>();
+  std::vector<Racer> all;
+  const auto put = [&](const std::string& name, int order, const std::string& method) {
+    all.push_back(
+        {name, order, [=](std::int64_t steps, std::int64_t laps) { return planets->run(method, steps, laps); }});
+  };
+  for (const char* method : {"stv4", "suzuki4"}) put(method, 4, method);
+  for (const char* method : {"yoshida6", "srkn14a"}) put(method, 6, method);
+  for (const char* method : {"kahan-li8", "rkn8-s19"}) put(method, 8, method);
+  for (const int stages : {4, 8}) put(gauss_name(stages) + ", fixed-point", 2 * stages, by_fixed_point(stages));
+  return {"Sun and outer planets over 60 000 days", all, 200, 1'000'000};
+}
+
+}  // namespace bench
