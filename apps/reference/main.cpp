@@ -65,6 +65,7 @@ std::string starts(const ProblemInfo& info) {
 /// A start of its own has as many as every other.
 std::string degrees_of_freedom(const ProblemEntry& entry) {
   const std::size_t n = entry.dimension > 0 ? static_cast<std::size_t>(entry.dimension) : entry.info.default_q.size();
+  if (!entry.constraint_form.empty()) return std::to_string(n) + ", less one for each constraint";
   return n > 0 ? std::to_string(n) : "as many as the start has";
 }
 

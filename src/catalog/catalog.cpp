@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
+#include "constrained_problems.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/recorded_step.hpp"
@@ -17,6 +18,7 @@ namespace hamflow {
 std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> all = [] {
     std::vector<ProblemEntry> entries = generated_problems();
+    for (ProblemEntry& entry : constrained_problems()) entries.push_back(std::move(entry));
     entries.push_back(formula_example());
     return entries;
   }();
@@ -78,8 +80,29 @@ Texts complete(const ProblemInfo& info, const Texts& given) {
   return all;
 }
 
+/// Methods and problems meet with constraints on both sides, or on neither.
+static std::string refusal_of_constraints(const std::string& method, const ProblemEntry& problem) {
+  const std::string form = FormulaKeys::constraint_form;
+  if (problem.constraint_form.empty()) {
+    return method + " needs constraints g(q) = 0, and " + problem.info.name +
+           " has none in these coordinates; allowed with coordinates = \"cartesian\" of pendulum and double-pendulum, "
+           "or "
+           "constraints of formula; any other method takes coordinates without constraints";
+  }
+  if (problem.constraint_form == FormulaKeys::manifold) {
+    return method + " knows no constraints; allowed here: rattle, rattle4, or, with " + form + " = \"" +
+           FormulaKeys::multiplier + "\", rk4, dop853, taylor";
+  }
+  return method +
+         " needs the gradient of an H, and the field with multipliers is none; allowed here: rk4, dop853, "
+         "taylor, or, with " +
+         form + " = \"" + FormulaKeys::manifold + "\", rattle, rattle4";
+}
+
 std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
   if (problem.accepts(spec)) return refused_monitor(spec, problem);
+  const bool for_constraints = !problem.constraint_form.empty() || spec.name.starts_with("rattle");
+  if (for_constraints) return refusal_of_constraints(spec.name, problem);
   // All of them, or, of the many, those with which to begin.
   std::vector<std::string> accepted;
   std::vector<std::string> first;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "catalog_lists.hpp"  // generated from the folder of problems
+#include "constrained_problems.hpp"
 
 namespace hamflow {
 
@@ -18,17 +19,20 @@ std::size_t longest_digits(const std::string& arithmetic) {
 }
 
 namespace {
-const ErasedEntry& erased_of(const ProblemEntry& problem) {
+/// Both ways between an entry's chart and the reference; empty in that chart itself.
+DigitCharts charts_of(const ProblemEntry& problem, const Texts& parameters) {
   static const std::vector<ErasedEntry> all = generated_erased();
-  return all.at(static_cast<std::size_t>(&problem - problems().data()));
+  const auto number = static_cast<std::size_t>(&problem - problems().data());
+  if (number >= all.size()) return constrained_digit_charts(problem, parameters);
+  return {all[number].to_reference, all[number].from_reference};
 }
 }  // namespace
 
-DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const std::string& arithmetic,
-                       const DigitState& state) {
+DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const Texts& parameters,
+                       const std::string& arithmetic, const DigitState& state) {
   if (&to == &from) return state;
-  const ErasedEntry& before = erased_of(from);
-  const ErasedEntry& behind = erased_of(to);
+  const DigitCharts before = charts_of(from, parameters);
+  const DigitCharts behind = charts_of(to, parameters);
   DigitState now = before.to_reference ? before.to_reference(arithmetic, state) : state;
   return behind.from_reference ? behind.from_reference(arithmetic, now) : now;
 }

@@ -26,11 +26,20 @@ TangentSteps tangents_of(const ErasedFunctions<double>& functions, const Recipe&
   });
 }
 
-template <class R>
+/// As few faces as there are kinds of flows, whatever the methods take.
+template <Capability c>
+constexpr Capability flow_face = includes(c, Capability::constrained) ? c : Capability::smooth;
+
+template <Capability c, class R>
 auto flow_of(const ErasedFunctions<R>& functions) {
-  return [problem = functions.template as<Capability::smooth>()](const State<R>& z, const R& t) {
+  return [problem = functions.template as<flow_face<c>>()](const State<R>& z, const R& t) {
     return detail::flow_of(problem, z, t);
   };
+}
+
+template <Capability c>
+auto settle_of(const ErasedFunctions<Quad>& functions) {
+  return [problem = functions.as<flow_face<c>>()](const State<Quad>& z) { return detail::settled_on(problem, z); };
 }
 
 auto simulations(const ErasedFunctions<double>& functions, const MethodSpec& method) {
@@ -61,8 +70,9 @@ std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Met
                         const auto make = [&]<class R>() { return problem.in<R>().template as<c>(); };
                         auto map = std::make_unique<StepMapOf<Faces<c>::template Of, Recipe, Beyond::given>>(
                             make, recipe,
-                            GivenMaps{simulations(problem.in_double, method), flow_of(problem.in_long),
-                                      steps_in_quad(problem.in_quad, method), flow_of(problem.in_quad)});
+                            GivenMaps{simulations(problem.in_double, method), flow_of<c>(problem.in_long),
+                                      steps_in_quad(problem.in_quad, method), flow_of<c>(problem.in_quad),
+                                      settle_of<c>(problem.in_quad)});
                         if constexpr (is_recorded<Recipe>()) {
                           map->take_tangents_by(tangents_of<c>(problem.in_double, recipe));
                         }

@@ -1,5 +1,6 @@
 // What the catalogue offers of a typed Hamiltonian: as ProblemUnit and ErasedUnit do of a problem that is a type.
 #include "erased.hpp"
+#include "hamflow/core/constrained_motion.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/formula_functions.hpp"
@@ -139,12 +140,19 @@ std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& reque
   return without_time(model, simulate_erased<R>(run, request));
 }
 
+/// Methods for any field, which need no gradient.
+bool takes_any_field(const MethodSpec& method) {
+  return method.name == "rk4" || method.name == "dop853" || method.name == "taylor";
+}
+
 /// Conditions of order for T quadratic in p hold with an explicit t as well: they follow from the degrees in p of
 /// commutators, which T + E and V(q, t) do not exceed; E stands for a momentum whose mass goes to infinity, and of such
 /// T the linear term is a shift of p.
 bool accepts(const FormulaStructure& structure, const MethodSpec& method) {
   constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
-  return visit_method(method, [&](const auto& recipe) {
+  if (structure.multiplier) return takes_any_field(method);
+  return visit_method(method, [&]<class M>(const M& recipe) {
+    if (structure.constraints > 0) return std::is_same_v<M, Rattle>;
     if (structure.quadratic_kinetic) return is_accepted<Erased<double, natural>>(recipe);
     if (structure.separable) return is_accepted<Erased<double, Capability::separable>>(recipe);
     return is_accepted<Erased<double, Capability::smooth>>(recipe);
@@ -239,6 +247,28 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
   e.start = [typed, face](const Request& request) {
     return frame_of(start_of<double>(typed, face(request.parameters), request), typed.model->size());
   };
+  if (model->structure().constraints > 0) {
+    const auto bound = [model](const Texts& parameters) {
+      return functions_of<double>(model, parameters)
+          .as<Capability::constrained | Capability::separable | Capability::quadratic_kinetic>();
+    };
+    e.constraint_form = model->structure().multiplier ? FormulaKeys::multiplier : FormulaKeys::manifold;
+    e.residuals = [bound, degrees](const Texts& parameters, const std::vector<double>& q,
+                                   const std::vector<double>& p) {
+      const auto problem = bound(parameters);
+      const auto length = [](const Vector<double, dynamic>& x) { return std::sqrt(dot(x, x)); };
+      const auto x = vector_of(q, degrees);
+      return ConstraintResiduals{
+          length(constraints(problem, x)),
+          length(products(constraint_gradients(problem, x), inverse_mass_times(problem, vector_of(p, degrees))))};
+    };
+    e.onto_constraints = [bound, model, degrees](const Texts& parameters, const std::vector<double>& q,
+                                                 const std::vector<double>& p) {
+      StateOf<double> s{vector_of(q, degrees), vector_of(p, degrees)};
+      move_onto_constraints(bound(parameters), s.q, s.p);
+      return frame_of(s, model->size());
+    };
+  }
   if (field) {
     e.describe_orbit = [field](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
       Start<double, 2> s{{q.at(0), q.at(1)}, {p.at(0), p.at(1)}};

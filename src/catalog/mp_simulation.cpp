@@ -37,6 +37,9 @@ class MpSimulation final : public Simulation {
   std::vector<InvariantExcursion> invariants() const override {
     return in_scope([&] { return inner_->invariants(); });
   }
+  std::optional<ConstraintResiduals> constraints() const override {
+    return in_scope([&] { return inner_->constraints(); });
+  }
   Effort effort() const override { return inner_->effort(); }
   StepDiagnostics diagnostics() const override {
     return in_scope([&] { return inner_->diagnostics(); });

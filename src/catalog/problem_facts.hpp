@@ -72,10 +72,10 @@ class ProblemFacts : ProblemStart<Family> {
       };
     }
     if constexpr (HasChart<P>) {
-      e.to_reference = [](const std::vector<double>& q, const std::vector<double>& p) {
+      e.to_reference = [](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
         return frame_of(P::to_reference({vector_of(q), vector_of(p)}));
       };
-      e.from_reference = [](const std::vector<double>& q, const std::vector<double>& p) {
+      e.from_reference = [](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
         return frame_of(P::from_reference({vector_of(q), vector_of(p)}));
       };
     }

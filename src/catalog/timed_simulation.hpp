@@ -24,6 +24,7 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   Excursion energy() const override { return extended_->energy(); }
   double energy_scale() const override { return extended_->energy_scale(); }
   std::vector<InvariantExcursion> invariants() const override { return extended_->invariants(); }
+  std::optional<ConstraintResiduals> constraints() const override { return extended_->constraints(); }
   Effort effort() const override { return extended_->effort(); }
   StepDiagnostics diagnostics() const override { return extended_->diagnostics(); }
   MethodInfo method() const override { return extended_->method(); }

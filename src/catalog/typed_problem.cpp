@@ -70,7 +70,7 @@ ProblemEntry central_entry(const Choices& choices) {
   info.example = {.q = {1, 0}, .p = {0, 1}, .dt = 0.05};
   if (polar) {
     const auto changed = [](const auto& change) {
-      return [change](const std::vector<double>& q, const std::vector<double>& p) {
+      return [change](const Texts&, const std::vector<double>& q, const std::vector<double>& p) {
         const Start<double, 2> s = change(Start<double, 2>{{q.at(0), q.at(1)}, {p.at(0), p.at(1)}});
         Frame frame;
         frame.q = {s.q[0], s.q[1]};

@@ -71,7 +71,9 @@ Choices choices_of(const FormulaTexts& texts) {
   put(Keys::potential, texts.potential);
   put(Keys::parameters, named(texts.parameters));
   put(Keys::invariants, named(texts.invariants));
+  if (texts.constraints.empty()) return all;
   put(Keys::constraints, joined(texts.constraints, "; "));
+  put(Keys::constraint_form, texts.constraint_form.empty() ? Keys::manifold : texts.constraint_form);
   return all;
 }
 
@@ -82,6 +84,11 @@ Choices formula_choices(const FormulaTexts& texts) {
     if (text.find(';') == std::string::npos && name.find_first_of(";=") == std::string::npos) continue;
     throw FormulaError(std::string(FormulaKeys::invariants) + "." + name,
                        "found ';' or '=' in it; allowed a name and a formula");
+  }
+  for (std::size_t k = 0; k < texts.constraints.size(); ++k) {
+    if (texts.constraints[k].find(';') == std::string::npos) continue;
+    throw FormulaError(std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]",
+                       "found ';' in it; allowed a formula that is to be 0");
   }
   const formula::Model model(texts);  // says what is wrong
   FormulaTexts kept = texts;
@@ -164,6 +171,13 @@ FormulaTexts formula_texts(const Choices& choices) {
   texts.potential = of(FormulaKeys::potential);
   for (const auto& [name, text] : formula::pairs_of(of(FormulaKeys::parameters))) texts.parameters[name] = text;
   texts.invariants = formula::pairs_of(of(FormulaKeys::invariants));
+  const std::string constraints = of(FormulaKeys::constraints);
+  for (std::size_t begin = 0; begin < constraints.size();) {
+    const std::size_t end = std::min(constraints.find("; ", begin), constraints.size());
+    texts.constraints.push_back(constraints.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  texts.constraint_form = of(FormulaKeys::constraint_form);
   return texts;
 }
 

@@ -201,6 +201,12 @@ Model::Model(const FormulaTexts& texts) {
     roots.push_back(read(key, text));
     invariant_names_.push_back(name);
   }
+  const std::size_t first_constraint = roots.size();
+  for (std::size_t k = 0; k < texts.constraints.size(); ++k) {
+    roots.push_back(read(std::string(Keys::constraints) + "[" + std::to_string(k) + "]", texts.constraints[k]));
+  }
+  structure_.constraints = texts.constraints.size();
+  structure_.multiplier = texts.constraint_form == Keys::multiplier;
   std::erase_if(symbols_.known, [&](const auto& entry) { return !needed.contains(entry.first); });
 
   std::vector<bool> fixed(symbols_.names.size(), true);
@@ -287,8 +293,56 @@ Model::Model(const FormulaTexts& texts) {
     throw FormulaError(key, error.what());
   }
   std::vector<int> values;
-  for (std::size_t k = first_invariant; k < roots.size(); ++k) values.push_back(roots[k]);
+  for (std::size_t k = first_invariant; k < first_constraint; ++k) values.push_back(roots[k]);
   invariant_values = std::make_shared<const Code>(code_of(graph, values, fixed));
+  if (structure_.constraints > 0) {
+    derive_constraints({roots.begin() + static_cast<std::ptrdiff_t>(first_constraint), roots.end()});
+  }
+}
+
+void Model::derive_constraints(const std::vector<int>& values) {
+  using Keys = FormulaKeys;
+  Derivation& d = *derivation_;
+  const std::size_t n = size();
+  if (!structure_.quadratic_kinetic) {
+    throw FormulaError(Keys::constraints,
+                       "found constraints beside an H that is not p^T M^-1 p/2 + V(q) with constant M; allowed such "
+                       "an H, or none");
+  }
+  std::vector<Derivation::Output> of_gradients;
+  std::vector<Derivation::Output> of_bends;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::string key = std::string(Keys::constraints) + "[" + std::to_string(k) + "]";
+    try {
+      const int g = d.forms.of_node(values[k]);
+      for (std::size_t i = n; i <= 2 * n; ++i) {
+        if (!d.forms.depends(g, static_cast<int>(i))) continue;
+        throw FormulaError(key, "found " + symbols_.names[i] + " in it; allowed coordinates and parameters");
+      }
+      std::vector<int> bend;
+      bool any = false;
+      for (std::size_t i = 0; i < n; ++i) {
+        const int by = d.derivative(g, position_symbol(i));
+        any = any || !d.forms.is_zero(by);
+        of_gradients.push_back({by});
+        for (std::size_t j = 0; j < n; ++j) {
+          const int second = d.derivative(by, position_symbol(j));
+          if (d.forms.is_zero(second)) continue;
+          bend.push_back(d.forms.product(second, d.forms.product(d.symbol(n + i), d.symbol(n + j))));
+        }
+      }
+      if (structure_.time) of_gradients.push_back({d.forms.sum({})});
+      if (!any) throw FormulaError(key, "found no coordinate in it; allowed a function of coordinates that is to be 0");
+      of_bends.push_back({d.forms.sum(bend)});
+    } catch (const FormulaError&) {
+      throw;
+    } catch (const Error& error) {
+      throw FormulaError(key, error.what());
+    }
+  }
+  constraints = std::make_shared<const Code>(code_of(d.graph, values, d.fixed));
+  constraint_gradients = d.code(of_gradients);
+  constraint_bends = d.code(of_bends);
 }
 
 const HessianCode& Model::hessian() const {

@@ -82,12 +82,23 @@ const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::strin
         problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
     throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
   }
+  // Entries in charts under keys of their own may lack each other's choices.
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name != problem.info.name || coordinates_of(entry) != to) continue;
+    const bool same = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {
+      const std::string other = choice_of(problem.info, choice.first);
+      const bool is_chart = choice.first == entry.info.chart_key || choice.first == problem.info.chart_key;
+      return is_chart || other.empty() || other == choice.second;
+    });
+    if (same) return entry;
+  }
   std::map<std::string, std::string> variant(problem.info.variant.begin(), problem.info.variant.end());
   variant[problem.info.chart_key] = to;
-  return find_problem(problem.info.name, variant);
+  return find_problem(problem.info.name, variant);  // of a typed field, or none
 }
 
-StateConverter::StateConverter(const ProblemEntry& from, const ProblemEntry& to) : from_(&from), to_(&to) {
+StateConverter::StateConverter(const ProblemEntry& from, const ProblemEntry& to, const Texts& parameters)
+    : from_(&from), to_(&to), parameters_(complete(to.info, parameters)) {
   if (!from.info.angles.empty()) return;
   for (std::size_t i = 0; i < to.info.coordinates.size(); ++i) {
     const auto& angles = to.info.angles;
@@ -112,8 +123,8 @@ CanonicalState StateConverter::operator()(const CanonicalState& state) {
   Frame now;
   now.q = state.q;
   now.p = state.p;
-  if (from_->to_reference) now = from_->to_reference(now.q, now.p);
-  if (to_->from_reference) now = to_->from_reference(now.q, now.p);
+  if (from_->to_reference) now = from_->to_reference(parameters_, now.q, now.p);
+  if (to_->from_reference) now = to_->from_reference(parameters_, now.q, now.p);
   if (!is_finite(now.q) || !is_finite(now.p)) {
     throw Error("found a state whose " + coordinates_of(*to_) +
                 " coordinates double cannot hold; allowed numbers whose squares and products are finite");

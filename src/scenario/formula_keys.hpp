@@ -12,6 +12,8 @@ namespace hamflow {
 
 /// The keys of the problem `formula`, in the order in which they are shown.
 const std::vector<OptionInfo>& formula_options();
+/// How constraints are kept.
+const OptionInfo& constraint_form_option();
 /// Those of `central-force` with a typed potential, beside the others that it has.
 const std::vector<OptionInfo>& central_formula_options();
 /// The choices of the example that stands with them.

@@ -55,7 +55,8 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   Frame start;
   start.q.assign(plane.q.begin(), plane.q.end());
   start.p.assign(plane.p.begin(), plane.p.end());
-  if (const auto& from_plane = scenario_.problem->from_reference) start = from_plane(start.q, start.p);
+  if (const auto& from_plane = scenario_.problem->from_reference)
+    start = from_plane(scenario_.request.parameters, start.q, start.p);
   request.start.q = {shortest(start.q[0]), shortest(start.q[1])};
   request.start.p = {shortest(start.p[0]), shortest(start.p[1])};
 }

@@ -35,6 +35,7 @@ bool have_same_choices(const FormulaTexts& one, const Choices& choices, const Fo
   };
   return one.coordinates == other.coordinates && one.momenta == other.momenta && one.hamiltonian == other.hamiltonian &&
          one.kinetic == other.kinetic && one.potential == other.potential && one.invariants == other.invariants &&
+         one.constraints == other.constraints && one.constraint_form == other.constraint_form &&
          one.parameters.size() == other.parameters.size() &&
          std::all_of(one.parameters.begin(), one.parameters.end(),
                      [&](const auto& parameter) { return same_parameter(parameter.first, parameter.second); });
@@ -71,6 +72,19 @@ const std::vector<OptionInfo>& central_formula_options() {
 
 Choices central_formula_example(const std::string& coordinates) {
   return central_formula_choices(central_formula_options().front().example, {{"k", "1"}, {"a", "0.01"}}, coordinates);
+}
+
+const OptionInfo& constraint_form_option() {
+  static const OptionInfo option{
+      .name = FormulaKeys::constraint_form,
+      .default_value = FormulaKeys::manifold,
+      .meaning =
+          "manifold: steps that end on g(q) = 0, by rattle and rattle4; multiplier: the field whose multipliers "
+          "are functions of the state, by rk4, dop853 and taylor, which drift off",
+      .type = OptionType::word,
+      .words = {FormulaKeys::manifold, FormulaKeys::multiplier},
+      .condition = "with constraints"};
+  return option;
 }
 
 const std::vector<OptionInfo>& formula_options() {
@@ -112,7 +126,14 @@ const std::vector<OptionInfo>& formula_options() {
        .meaning = "what is watched beside H, formulas by name",
        .type = OptionType::table,
        .unset = "none",
-       .example = "{ angular_momentum = \"x*p_y - y*p_x\" }"}};
+       .example = "{ angular_momentum = \"x*p_y - y*p_x\" }"},
+      {.name = Keys::constraints,
+       .meaning = "functions g of the coordinates and parameters that the motion keeps at 0; for H = p^T M^-1 p/2 + "
+                  "V(q)",
+       .type = OptionType::word_list,
+       .unset = "none",
+       .example = "[\"x^2 + y^2 - 1\"]"},
+      constraint_form_option()};
   return options;
 }
 
@@ -176,6 +197,7 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
   std::string all = texts.hamiltonian + " " + texts.kinetic + " " + texts.potential;
   for (const std::string& coordinate : texts.coordinates) all += " " + coordinate;
   for (const auto& [name, text] : texts.invariants) all += " " + text;
+  for (const std::string& text : texts.constraints) all += " " + text;
   for (const char* const part : {"run", "output"}) {  // sections and observables
     if (const toml::node* const node = document_.get(part)) collect_texts(*node, all);
   }
@@ -190,7 +212,7 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
     table.complain_in(std::string(FormulaKeys::parameters) + "." + name,
                       "found a parameter that stands in no formula" +
                           suggestion(name, used.empty() ? candidates : used) +
-                          "; allowed those that H, an invariant, a section or an observable names");
+                          "; allowed those that H, an invariant, a constraint, a section or an observable names");
   }
 }
 
@@ -227,8 +249,12 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   }
   table.know_all({Keys::invariants, Keys::constraints});
   if (table.has(Keys::invariants)) texts.invariants = named_texts(table.table(Keys::invariants));
-  if (table.has(Keys::constraints)) {
-    table.complain(Keys::constraints, "found constraints, which no method takes here; allowed coordinates without any");
+  texts.constraints = table.texts(Keys::constraints).value_or(texts.constraints);
+  const auto form = table.text(constraint_form_option());
+  if (!texts.constraints.empty()) {
+    texts.constraint_form = form.value_or("");
+  } else if (table.has(Keys::constraint_form)) {
+    table.complain(Keys::constraint_form, table.found(Keys::constraint_form) + "; allowed with " + Keys::constraints);
   }
   if (complaints_.size() != before) return std::nullopt;
   return texts;

@@ -74,6 +74,11 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
                             " behind soft walls; allowed without walls: the steps that are "
                             "differentiated know none");
   }
+  if (scenario_.problem != nullptr && !scenario_.problem->constraint_form.empty()) {
+    table.complain(key, table.found(key) +
+                            " with constraints; allowed in coordinates without any: on a manifold steps "
+                            "have derivatives along it only, and tangent vectors of all of space are no motion");
+  }
   const auto& structure = scenario_.problem != nullptr ? scenario_.problem->structure : std::nullopt;
   if (structure && structure->time) {
     table.complain(key, table.found(key) + " with an H that depends on t; allowed with H(q, p): steps of H(q, p, t) " +

@@ -126,6 +126,18 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
   table.finish();
 }
 
+namespace {
+/// With which other choice a selecting key can be given: "with coordinates = cartesian".
+std::string where_allowed(const std::string& name, const std::string& key) {
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name != name || choice_of(entry.info, key).empty()) continue;
+    const std::string chart = choice_of(entry.info, FormulaKeys::coordinates);
+    if (!chart.empty()) return std::string("with ") + FormulaKeys::coordinates + " = \"" + chart + "\"";
+  }
+  return "nothing";
+}
+}  // namespace
+
 /// The values of a selecting key.
 std::vector<std::string> ScenarioReader::choices_of_key(const std::string& name, const std::string& key) {
   std::vector<std::string> all;
@@ -176,7 +188,19 @@ void ScenarioReader::read_variant(TomlTable& table, const std::string& name) {
     scenario_.problem = &find_problem(name, scenario_.request.variant);
   } catch (const Error& error) {
     table.complain("name", error.what());
+    return;
   }
+  // Not every entry has every key: what was given and would change nothing is refused.
+  Choices chosen;
+  for (const std::string& key : keys) {
+    const std::string value = choice_of(scenario_.problem->info, key);
+    if (!value.empty()) {
+      chosen[key] = value;
+    } else if (table.has(key)) {
+      table.complain(key, table.found(key) + "; allowed " + where_allowed(name, key));
+    }
+  }
+  scenario_.request.variant = chosen;
 }
 
 }  // namespace hamflow

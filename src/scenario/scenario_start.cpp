@@ -293,6 +293,21 @@ void ScenarioReader::check_start(TomlTable& table) {
     table.complain(
         geometric ? "orbit" : "initial",
         "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
+    return;
+  }
+  if (problem.residuals) check_constraints(table, start);
+}
+
+/// The motion begins on the constraints and along them.
+void ScenarioReader::check_constraints(TomlTable& table, const Frame& start) {
+  const auto [position, velocity] = scenario_.problem->residuals(scenario_.request.parameters, start.q, start.p);
+  const std::string allowed = "; allowed at most " + shortest(most_residual_at_start) + ": ";
+  if (!(position <= most_residual_at_start)) {
+    table.complain("initial", "found a start off the constraints, |g(q)| = " + shortest(position) + allowed +
+                                  scenario_.problem->info.formula);
+  } else if (!(velocity <= most_residual_at_start)) {
+    table.complain("initial", "found a start that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) +
+                                  allowed + "a velocity along them");
   }
 }
 

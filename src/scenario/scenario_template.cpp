@@ -6,6 +6,7 @@
 #include "formula_keys.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/text_place.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "option_text.hpp"
@@ -192,7 +193,9 @@ class TemplateWriter {
         }
       }
       std::string code = key;
-      code.append(" = \"").append(value).append("\"");
+      const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
+      const char* const mark = is_number ? "" : "\"";
+      code.append(" = ").append(mark).append(value).append(mark);
       page_.line(code, joined(all));
     }
     for (const ParameterInfo& parameter : info_.parameters) {

@@ -261,6 +261,10 @@ std::optional<std::string> TomlTable::word_text(const toml::node& node, const Op
     complain(option.name, "found " + shown(node) + allowed());
     return std::nullopt;
   }
+  if (const auto* whole = node.as_integer()) {  // dimension = 3
+    const std::string digits = std::to_string(whole->get());
+    if (std::find(option.words.begin(), option.words.end(), digits) != option.words.end()) return digits;
+  }
   const auto* word = node.as_string();
   if (word == nullptr) {
     complain(option.name, "found " + shown(node) + allowed());

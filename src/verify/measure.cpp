@@ -29,9 +29,22 @@ State<double> in_barycentre(const Region& region, const State<double>& z) {
 }
 }  // namespace
 
+/// Where there are constraints, on them.
+static State<double> onto_constraints(const Region& region, const State<double>& z) {
+  const ProblemEntry& entry = find_problem(region.problem, region.variant);
+  if (!entry.onto_constraints) return z;
+  const auto half = z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2);
+  const Frame there =
+      entry.onto_constraints(complete(entry.info, region.parameters), {z.begin(), half}, {half, z.end()});
+  State<double> moved = there.q;
+  moved.insert(moved.end(), there.p.begin(), there.p.end());
+  return moved;
+}
+
 State<double> random_state(const Region& region, std::uint64_t k) {
   State<double> z = region.centre;
   for (std::size_t i = 0; i < z.size(); ++i) z[i] += region.spread * counter_uniform(seed, k * z.size() + i);
+  if (region.constrained) return onto_constraints(region, z);
   return region.of_bodies ? in_barycentre(region, z) : z;
 }
 
@@ -39,7 +52,11 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
   const ProblemEntry& entry = usual_problem(problem, variant);
   Region region{entry.info.region, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
   region.of_bodies = static_cast<bool>(entry.total_mass);
-  if (!region.centre.empty()) return region;
+  region.constrained = static_cast<bool>(entry.onto_constraints);
+  if (!region.centre.empty()) {
+    if (region.constrained) region.centre = onto_constraints(region, region.centre);
+    return region;
+  }
   // The default start, or any state when there is none, moved a little: no coordinate at rest.
   const std::size_t dimension = entry.dimension > 0 ? entry.dimension : entry.info.default_q.size();
   if (dimension == 0) throw Error(problem + " is of any size and declares neither a region nor a default start");
@@ -82,10 +99,14 @@ std::vector<Region> default_regions(const MethodSpec& method) {
   // Kepler's ellipse has the forces that bodies have, for a tenth of the time.
   const Region ellipse = region_of("central-force", {{"potential", "kepler"}, {"coordinates", "cartesian"}});
   if (!refused(ellipse)) return {ellipse};
+  // With constraints on two: a property that is not claimed has to be missing on one of several.
+  std::vector<Region> found;
   for (const ProblemEntry& entry : problems()) {
     if (!entry.accepts(method)) continue;
-    return {region_of(entry.info.name, {entry.info.variant.begin(), entry.info.variant.end()})};
+    if (!found.empty() && (entry.constraint_form.empty() || found.back().problem == entry.info.name)) continue;
+    found.push_back(region_of(entry.info.name, {entry.info.variant.begin(), entry.info.variant.end()}));
   }
+  if (!found.empty()) return found;
   throw Error("no problem of the catalogue has what " + method.name + " needs");
 }
 

@@ -51,7 +51,7 @@ OrderMeasurement measure_order(const StepMap& map, const Region& region) {
 namespace {
 template <class Long>
 OrderMeasurement slope_in(const StepMap& map, const Region& region) {
-  const State<Long> start(region.centre.begin(), region.centre.end());
+  const State<Long> start = map.settled(State<Long>(region.centre.begin(), region.centre.end()));
   const Long time(region.time);
   const Long long_epsilon = std::numeric_limits<Long>::epsilon();
   const State<Long> exact = map.flow(start, time);

@@ -127,13 +127,14 @@ class ReferenceRun::Impl {
     full.dt = "(" + end + ")/" + std::to_string(pieces_);
     const int digits = std::min(digits_of(request.arithmetic), 290);  // tolerances are doubles
     const MethodSpec taylor{"taylor", {{tolerance_option, fmt::format("1e-{}", digits + 3)}}};
-    const bool recordable = problem.accepts(taylor);
+    // Of constraints the field with multipliers, whatever the form of the run.
+    const bool recordable = problem.accepts(taylor) || !problem.constraint_form.empty();
     first_tolerance_ = std::pow(10.0, -digits - 3);
     second_tolerance_ = std::pow(10.0, recordable ? -digits - 2 : -digits);
     full.method = recordable ? taylor : extrapolated(first_tolerance_);
     first_name_ = recordable ? "Taylor series of order " + std::to_string(describe(taylor).order)
                              : extrapolation_name(first_tolerance_);
-    first_ = recordable ? make_simulation(full) : problem.simulate_erased(full);
+    first_ = problem.accepts(taylor) ? make_simulation(full) : problem.simulate_erased(full);
     full.method = extrapolated(second_tolerance_);
     second_ = problem.simulate_erased(full);
     arithmetic_ = full.arithmetic;

@@ -104,7 +104,9 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
     const double uneven = map.energies(reversed(start), h, 0, 0).front() - map.energies(start, h, 0, 0).front();
     if (abs(uneven) > 64 * epsilon * map.energy_scale(start)) found.even_in_momenta = false;
     add_jacobian_mismatch(map, z, h, m, jacobian);
-    for_each_symplectic_defect(m, [&](double defect, double terms) { symplectic.add(defect, terms); });
+    const auto directions = map.directions(start);
+    const auto add = [&](double defect, double terms) { symplectic.add(defect, terms); };
+    directions.empty() ? for_each_symplectic_defect(m, add) : for_each_symplectic_defect_along(m, directions, add);
 
     // What the second step makes of the rounding of the first is at most the norm of its Jacobian.
     const double size = size_of(z) * norm(m);

@@ -27,4 +27,35 @@ void for_each_symplectic_defect(const std::vector<std::vector<double>>& m, Take 
   }
 }
 
+/// The same along some directions: b_a^T (M^T J M - J) b_b. A map of a manifold is symplectic on its tangent spaces.
+template <class Take>
+void for_each_symplectic_defect_along(const std::vector<std::vector<double>>& m,
+                                      const std::vector<std::vector<double>>& directions, Take take) {
+  const std::size_t n = m.size() / 2;
+  std::vector<std::vector<double>> moved;
+  for (const auto& b : directions) {
+    moved.emplace_back(2 * n);
+    for (std::size_t i = 0; i < 2 * n; ++i) {
+      for (std::size_t j = 0; j < 2 * n; ++j) moved.back()[i] += m[i][j] * b[j];
+    }
+  }
+  for (std::size_t a = 0; a < directions.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      double value = 0;
+      double terms = 1;
+      const auto form = [&](const std::vector<double>& x, const std::vector<double>& y, int sign) {
+        for (std::size_t i = 0; i < n; ++i) {
+          const double left = x[i] * y[n + i];
+          const double right = x[n + i] * y[i];
+          value += sign * (left - right);
+          terms += std::abs(left) + std::abs(right);
+        }
+      };
+      form(moved[a], moved[b], 1);
+      form(directions[a], directions[b], -1);
+      take(std::abs(value), terms);
+    }
+  }
+}
+
 }  // namespace hamflow

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -33,7 +34,7 @@ DigitState start_digits(const Scenario& scenario, const std::string& to) {
   Frame frame;
   make_simulation(scenario.request)->look(frame);
   const ProblemEntry& problem = *scenario.problem;
-  return in_chart_of(in_coordinates(problem, to), problem, scenario.request.arithmetic,
+  return in_chart_of(in_coordinates(problem, to), problem, scenario.request.parameters, scenario.request.arithmetic,
                      {frame.digits.q, frame.digits.p});
 }
 
@@ -57,7 +58,21 @@ std::string state_json(const std::string& system, const CanonicalState& state) {
 }
 
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
-  std::vector<ScenarioEdit> edits{{"problem." + scenario.problem->info.chart_key, "\"" + to + "\""}};
+  std::vector<ScenarioEdit> edits;
+  const ProblemInfo& before = scenario.problem->info;
+  const ProblemInfo& behind = in_coordinates(*scenario.problem, to).info;
+  const auto is_given = [&](const std::string& key) { return scenario.settings.contains("problem." + key); };
+  for (const auto& [key, value] : behind.variant) {
+    const bool usual =
+        std::find(behind.default_choices.begin(), behind.default_choices.end(), key) != behind.default_choices.end();
+    const bool is_chart = key == behind.chart_key;
+    if (choice_of(before, key) != value && (is_chart || is_given(key) || !usual)) {
+      edits.push_back({"problem." + key, "\"" + value + "\""});
+    }
+  }
+  for (const auto& [key, value] : before.variant) {
+    if (choice_of(behind, key).empty() && is_given(key)) edits.push_back({"problem." + key, {}});
+  }
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", start_table(scenario, to, start)});
   }
@@ -74,7 +89,8 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
 }
 
 CanonicalState converted_start(const Scenario& scenario, const std::string& to) {
-  return StateConverter(*scenario.problem, in_coordinates(*scenario.problem, to))({scenario.start_q, scenario.start_p});
+  return StateConverter(*scenario.problem, in_coordinates(*scenario.problem, to),
+                        scenario.request.parameters)({scenario.start_q, scenario.start_p});
 }
 
 std::string converted_start_json(const Scenario& scenario, const std::string& to) {

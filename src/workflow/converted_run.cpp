@@ -32,15 +32,23 @@ class ConvertedRun::Impl {
     from_ = coordinates_of(*scenario().problem);
     digits_ = read_run_digits(file);
     if (!digits_.t.empty()) cut_to_equal_length();
-    StateConverter convert(*scenario().problem, *target_);
+    const std::vector<std::vector<double>> given_q = samples_.q;
+    const std::vector<std::vector<double>> given_p = samples_.p;
+    const RunDigits given_digits = digits_;
+    const std::size_t size = target_->info.coordinates.size();
+    for (auto* columns : {&samples_.q, &samples_.p}) columns->assign(size, std::vector<double>(samples_.t.size()));
+    for (auto* columns : {&digits_.q, &digits_.p}) {
+      if (!digits_.t.empty()) columns->assign(size, std::vector<std::string>(digits_.t.size()));
+    }
+    StateConverter convert(*scenario().problem, *target_, scenario().request.parameters);
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       try {
-        const CanonicalState state = convert(state_at(k));
+        const CanonicalState state = convert({row_of(given_q, k), row_of(given_p, k)});
         for (std::size_t i = 0; i < state.q.size(); ++i) {
           samples_.q[i][k] = state.q[i];
           samples_.p[i][k] = state.p[i];
         }
-        if (k < digits_.t.size()) convert_digits(k, state);
+        if (k < digits_.t.size()) convert_digits(k, state, {row_of(given_digits.q, k), row_of(given_digits.p, k)});
       } catch (const Error& error) {
         throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
       }
@@ -88,8 +96,8 @@ class ConvertedRun::Impl {
     return json_text(all);
   }
   std::string write_h5(const fs::path& target) const {
-    const CanonicalState start =
-        StateConverter(*scenario().problem, *target_)({scenario().start_q, scenario().start_p});
+    const CanonicalState start = StateConverter(
+        *scenario().problem, *target_, scenario().request.parameters)({scenario().start_q, scenario().start_p});
     std::string note;
     std::string text =
         "# Samples of a run in " + from_ + " coordinates, converted by hamflow convert to " + to_ + ".\n";
@@ -99,10 +107,11 @@ class ConvertedRun::Impl {
     } else {
       const std::string method = samples_.description.method;
       text += "# They were computed by " + method + ", with settings that these coordinates do not allow.\n";
+      const std::string other = target_->constraint_form.empty() ? "cg" : "rattle";
       note = "the samples were computed by " + method + " with settings that " + to_ +
-             " coordinates do not allow; the scenario in " + target.string() + " names cg in double instead";
+             " coordinates do not allow; the scenario in " + target.string() + " names " + other + " in double instead";
       Scenario changed = scenario();
-      changed.text = edited_scenario(changed.text, {{"method", "{ name = \"cg\" }"},
+      changed.text = edited_scenario(changed.text, {{"method", "{ name = \"" + other + "\" }"},
                                                     {run_path(run_keys().arithmetic), {}},
                                                     {run_path(run_keys().lattice), {}},
                                                     {run_path(run_keys().kernel), {}}});
@@ -128,8 +137,8 @@ class ConvertedRun::Impl {
   const Scenario& scenario() const { return *reading_.scenario; }
   const std::string& arithmetic() const { return scenario().request.arithmetic; }
   /// In the run's arithmetic, with the whole turns that the doubles have been given.
-  void convert_digits(std::size_t k, const CanonicalState& in_double) {
-    DigitState state = in_chart_of(*target_, *scenario().problem, arithmetic(), digits_at(k));
+  void convert_digits(std::size_t k, const CanonicalState& in_double, const DigitState& given) {
+    DigitState state = in_chart_of(*target_, *scenario().problem, scenario().request.parameters, arithmetic(), given);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
       const auto& angles = target_->info.angles;
       if (std::find(angles.begin(), angles.end(), target_->info.coordinates[i]) != angles.end()) {
@@ -149,14 +158,13 @@ class ConvertedRun::Impl {
     cut(samples_.t, samples_.energy, digits_.t, digits_.energy);
     for (std::size_t i = 0; i < samples_.q.size(); ++i) cut(samples_.q[i], samples_.p[i], digits_.q[i], digits_.p[i]);
   }
-  DigitState digits_at(std::size_t k) const {
-    DigitState state;
-    for (std::size_t i = 0; i < digits_.q.size(); ++i) {
-      state.q.push_back(digits_.q[i][k]);
-      state.p.push_back(digits_.p[i][k]);
-    }
-    return state;
+  template <class T>
+  static std::vector<T> row_of(const std::vector<std::vector<T>>& columns, std::size_t k) {
+    std::vector<T> row;
+    for (const std::vector<T>& column : columns) row.push_back(column[k]);
+    return row;
   }
+  DigitState digits_at(std::size_t k) const { return {row_of(digits_.q, k), row_of(digits_.p, k)}; }
   /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
   double fastest_turn(const std::vector<std::size_t>& angles) const {
     double most = 0;
@@ -169,14 +177,7 @@ class ConvertedRun::Impl {
     }
     return most;
   }
-  CanonicalState state_at(std::size_t k) const {
-    CanonicalState state;
-    for (std::size_t i = 0; i < samples_.q.size(); ++i) {
-      state.q.push_back(samples_.q[i][k]);
-      state.p.push_back(samples_.p[i][k]);
-    }
-    return state;
-  }
+  CanonicalState state_at(std::size_t k) const { return {row_of(samples_.q, k), row_of(samples_.p, k)}; }
 
   fs::path file_;
   std::string to_;

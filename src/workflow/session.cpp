@@ -75,6 +75,7 @@ void Session::restart() {
   initial_energy_ = simulation_->energy().initial;
   scale_ = simulation_->energy_scale();
   worst_energy_ = 0;
+  worst_residuals_.reset();
   Frame start;
   simulation_->look(start);
   sizes_ = scenario_.problem->invariant_sizes(request_.parameters, start.q.size());
@@ -175,6 +176,7 @@ void Session::change(const Request& next, const std::string& what) {
   bounces_before_ = wall_counts();
   step_before_ += now.step;
   time_before_ += now.time;
+  worst_residuals_ = constraints();
   simulation_ = std::move(other);
   request_ = from_here;
   changes_.push_back({step_before_, time_before_, what});
@@ -267,6 +269,13 @@ void Session::negate_momenta() {
 Excursion Session::energy() const {
   const Excursion part = simulation_->energy();
   return {initial_energy_, part.final, one_part_ ? part.max_error : worst_energy_};
+}
+
+std::optional<ConstraintResiduals> Session::constraints() const {
+  auto worst = simulation_->constraints();
+  if (!worst || !worst_residuals_) return worst;
+  return ConstraintResiduals{std::max(worst->position, worst_residuals_->position),
+                             std::max(worst->velocity, worst_residuals_->velocity)};
 }
 
 std::vector<InvariantExcursion> Session::invariants() const {

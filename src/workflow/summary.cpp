@@ -11,6 +11,7 @@
 #include "certificate_json.hpp"
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
@@ -46,7 +47,8 @@ Json parameters_of(const Scenario& scenario) {
       parameters[key] = walls_of(*walls_among(scenario.request.variant));
       continue;
     }
-    if (!structure || !is_text) parameters[key] = value;
+    const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
+    if (!structure || !is_text) parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
   }
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
@@ -87,7 +89,7 @@ Json diagnostics_of(const StepDiagnostics& d, double dt) {
 /// The two bodies in space, from the planar state.
 Json bodies_of(const Scenario& scenario, const Frame& frame) {
   const auto& to_plane = scenario.problem->to_reference;
-  const Frame planar = to_plane ? to_plane(frame.q, frame.p) : frame;
+  const Frame planar = to_plane ? to_plane(scenario.request.parameters, frame.q, frame.p) : frame;
   const auto [first, second] = scenario.bodies->at(frame.time, {planar.q[0], planar.q[1]}, {planar.p[0], planar.p[1]});
   Json all = Json::array();
   for (const Body& body : {first, second}) {
@@ -243,6 +245,9 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   for (std::size_t i = 0; i < invariants.size(); ++i) {
     const InvariantInfo& info = scenario.problem->info.invariants[i];
     s["invariants"][info.name] = invariant_json(info, invariants[i]);
+  }
+  if (const auto residuals = simulation.constraints()) {
+    s["constraints"] = {{"position", residuals->position}, {"velocity", residuals->velocity}};
   }
   if (describe(scenario.request.method).diagnostics) {
     s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);

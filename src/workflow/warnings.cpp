@@ -69,11 +69,12 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
 }
 
 /// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.
-double radial(const ProblemEntry& problem, const std::vector<double>& q, const std::vector<double>& p) {
+double radial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+              const std::vector<double>& p) {
   Frame at;
   at.q = q;
   at.p = p;
-  if (problem.to_reference) at = problem.to_reference(q, p);
+  if (problem.to_reference) at = problem.to_reference(parameters, q, p);
   double sum = 0;
   for (std::size_t i = 0; i < at.q.size(); ++i) sum += at.q[i] * at.p[i];
   return sum;
@@ -90,10 +91,11 @@ bool has_fallen(const Scenario& scenario, double period, double t) {
   const auto end = exact(t);
   if (!end) return exact(0).has_value();  // where it is not known at the start either nobody can say
   const double sense = t < 0 ? -1 : 1;
-  const bool goes_out = sense * radial(problem, scenario.start_q, scenario.start_p) > 0;
+  const bool goes_out = sense * radial(problem, scenario.request.parameters, scenario.start_q, scenario.start_p) > 0;
   const double least = goes_out ? period / 2 : 0;  // no earlier
   const double most = goes_out ? period : period / 2;
-  return std::abs(t) >= most || (std::abs(t) > least && sense * radial(problem, end->q, end->p) > 0);
+  return std::abs(t) >= most ||
+         (std::abs(t) > least && sense * radial(problem, scenario.request.parameters, end->q, end->p) > 0);
 }
 
 }  // namespace

@@ -144,8 +144,8 @@ TEST(Declarations, ChartsAreOneMotion) {
       const auto half = static_cast<std::ptrdiff_t>(z.size() / 2);
       const std::vector<double> q(z.begin(), z.begin() + half);
       const std::vector<double> p(z.begin() + half, z.end());
-      const Frame there = entry.to_reference(q, p);
-      const Frame back = entry.from_reference(there.q, there.p);
+      const Frame there = entry.to_reference(parameters, q, p);
+      const Frame back = entry.from_reference(parameters, there.q, there.p);
       // A handful of roundings of terms up to the largest coordinate.
       double size = 1;
       for (const double x : z) size = std::max(size, std::fabs(x));
@@ -168,8 +168,8 @@ TEST(Declarations, ChartsAreOneMotion) {
         ahead[i] += h * rates[i];
         behind[i] -= h * rates[i];
       }
-      const Frame after = entry.to_reference(ahead, p);
-      const Frame before = entry.to_reference(behind, p);
+      const Frame after = entry.to_reference(parameters, ahead, p);
+      const Frame before = entry.to_reference(parameters, behind, p);
       for (std::size_t i = 0; i < q.size(); ++i) {
         EXPECT_TRUE(test::within((after.q[i] - before.q[i]) / (2 * h), reference_rates[i], 1e-8));
       }

@@ -1,6 +1,7 @@
 // What a problem offers to methods: the concepts of core/concepts.hpp as flags.
 #pragma once
 
+#include "hamflow/core/constraints.hpp"
 #include "hamflow/core/radial_forces.hpp"
 
 namespace hamflow {
@@ -11,7 +12,8 @@ enum class Capability : unsigned {
   quadratic_kinetic = 2,  // T quadratic with constant mass matrix
   cyclic = 4,             // the last coordinate is cyclic
   charge = 8,             // a charge in a uniform magnetic field
-  radial = 16             // forces along the lines between bodies or to a centre
+  radial = 16,            // forces along the lines between bodies or to a centre
+  constrained = 32        // constraints g(q) = 0
 };
 constexpr Capability operator|(Capability a, Capability b) {
   return static_cast<Capability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
@@ -27,6 +29,7 @@ constexpr Capability capabilities_of() {
   if constexpr (Cyclic<P>) all = all | Capability::cyclic;
   if constexpr (ChargeInField<P>) all = all | Capability::charge;
   if constexpr (RadialForces<P>) all = all | Capability::radial;
+  if constexpr (Constrained<P>) all = all | Capability::constrained;
   return all;
 }
 

@@ -74,6 +74,19 @@ concept HasHessian = requires(const P& problem, const VectorOf<P, S>& x, MatrixO
   problem.hessian(x, x, out, out, out);
 };
 
+// Constraints. Defaults: there are none.
+
+/// constraints(q): g, as a Vector; the motion has g(q) = 0.
+template <class P, class S = RealOf<P>>
+concept HasConstraints = requires(const P& problem, const VectorOf<P, S>& q) {
+  problem.constraints(q);
+};
+/// constraint_gradients(q): the rows of g', as Gradients (core/constraints.hpp). Default: by dual numbers.
+template <class P, class S = RealOf<P>>
+concept HasConstraintGradients = requires(const P& problem, const VectorOf<P, S>& q) {
+  problem.constraint_gradients(q);
+};
+
 // What is conserved besides H.
 
 /// invariants(q, p, t): all numbers of all invariants of info() in a row, as a Vector. Default: none.

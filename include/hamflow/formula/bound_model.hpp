@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "hamflow/core/constraints.hpp"
 #include "hamflow/core/vector.hpp"
 #include "hamflow/formula/model.hpp"
 
@@ -26,6 +27,11 @@ class BoundModel {
       potential_ = bound(model_->potential);
       velocity_ = bound(model_->velocity);
       force_ = bound(model_->force);
+    }
+    if (model_->constraints) {
+      constraints_ = bound(model_->constraints);
+      constraint_gradients_ = bound(model_->constraint_gradients);
+      constraint_bends_ = bound(model_->constraint_bends);
     }
     if (model_->scaled_force) {
       scaled_force_ = bound(model_->scaled_force);
@@ -111,6 +117,26 @@ class BoundModel {
     return all;
   }
 
+  template <class S>
+  V<S> constraints(const V<S>& q) const {
+    V<S> all = zeros<S, dynamic>(model_->structure().constraints);
+    run(constraints_, q, q, S(R(0)), [&](std::size_t k, const S& x) { all[k] = x; });
+    return all;
+  }
+  template <class S>
+  Gradients<S, dynamic> constraint_gradients(const V<S>& q) const {
+    Gradients<S, dynamic> all(model_->structure().constraints, zeros_like(q));
+    run(constraint_gradients_, q, q, S(R(0)), [&](std::size_t k, const S& x) { all[k / size()][k % size()] = x; });
+    return all;
+  }
+  /// g''(v, v).
+  template <class S>
+  V<S> constraint_bends(const V<S>& q, const V<S>& v) const {
+    V<S> all = zeros<S, dynamic>(model_->structure().constraints);
+    run(constraint_bends_, q, v, S(R(0)), [&](std::size_t k, const S& x) { all[k] = x; });
+    return all;
+  }
+
  private:
   BoundCode<R> bound(const std::shared_ptr<const Code>& code) const { return BoundCode<R>(code, value_of_); }
 
@@ -170,6 +196,7 @@ class BoundModel {
   std::function<R(int)> value_of_;
   BoundCode<R> energy_, kinetic_, potential_, velocity_, force_, gradient_, invariants_;
   BoundCode<R> scaled_force_, scaled_velocity_;
+  BoundCode<R> constraints_, constraint_gradients_, constraint_bends_;
   std::shared_ptr<Second> second_ = std::make_shared<Second>();
 };
 

@@ -29,6 +29,9 @@ struct FormulaKeys {
   static constexpr const char* parameters = "parameters";
   static constexpr const char* invariants = "invariants";
   static constexpr const char* constraints = "constraints";
+  static constexpr const char* constraint_form = "constraint_form";
+  static constexpr const char* manifold = "manifold";
+  static constexpr const char* multiplier = "multiplier";
   static constexpr const char* central_potential = "V";  // of central-force
   static constexpr const char* unknown = "?";            // a parameter's value that choices do not keep
 };
@@ -52,6 +55,7 @@ struct FormulaTexts {
   std::vector<std::pair<std::string, std::string>>
       invariants{};                        // name, formula of coordinates, momenta, parameters, t
   std::vector<std::string> constraints{};  // g(q) = 0
+  std::string constraint_form{};           // with constraints "manifold", which empty stands for, or "multiplier"
 };
 
 /// What is wrong with typed texts, and in which of them: "hamiltonian", "coordinates[1]", "invariants.L",

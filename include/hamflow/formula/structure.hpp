@@ -1,6 +1,8 @@
 // What is known of a typed Hamiltonian once it is read.
 #pragma once
 
+#include <cstddef>
+
 namespace hamflow {
 
 /// What is found from the expression of a Hamiltonian.
@@ -8,6 +10,8 @@ struct FormulaStructure {
   bool separable = false;          // H = T(p) + V(q)
   bool quadratic_kinetic = false;  // T = p^T M^-1 p/2 with constant M, of the momenta that have names
   bool time = false;               // H depends on t
+  std::size_t constraints = 0;     // how many g(q) = 0 there are
+  bool multiplier = false;         // their multipliers are functions of the state
 };
 
 }  // namespace hamflow

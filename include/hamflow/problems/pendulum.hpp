@@ -22,6 +22,9 @@ class Pendulum : public OneDimensional<R> {
 
   static ProblemInfo info() {
     return {.name = "pendulum",
+            .variant = {{"coordinates", "generalised"}},
+            .default_choices = {"coordinates"},
+            .chart_key = "coordinates",
             .formula = "H = p^2/(2 m l^2) - m g l cos q",
             .reference = "HLW2006, Sect. I.1.3",
             .coordinates = {"q"},

@@ -104,6 +104,10 @@ class Functions {
   virtual V invariants(const V& q, const V& p, const S& t) const = 0;
   virtual std::vector<std::size_t> invariant_sizes() const = 0;
   virtual std::string label() const = 0;  // of the problem and its choices, for saved states
+  // Of constraints. The last groups of invariants are then their residuals, g and g' M^-1 p, which ought to be 0.
+  virtual std::size_t residual_groups() const { return 0; }
+  virtual V constraints(const V&) const { no_constraints(); }
+  virtual Gradients<S, dynamic> constraint_gradients(const V&) const { no_constraints(); }
   // Of a cyclic problem.
   virtual std::shared_ptr<const Functions> reduced(const S& momentum) const = 0;
   virtual S cyclic_rate(const V& q, const S& momentum) const = 0;
@@ -117,6 +121,9 @@ class Functions {
   virtual std::size_t radial_space() const = 0;
   virtual std::vector<RadialTerm<base_scalar<S>>> radial_terms() const = 0;
   virtual RadialLaw<S> radial_law(const S& u) const = 0;
+
+ private:
+  [[noreturn]] static void no_constraints() { throw std::logic_error("hamflow: the problem has no constraints"); }
 };
 
 /// Shared by their base, or the library's counting of references would be compiled for each problem.
@@ -396,6 +403,7 @@ class AnyProblem {
   static constexpr bool cyclic = includes(capability, Capability::cyclic);
   static constexpr bool charge = includes(capability, Capability::charge);
   static constexpr bool radial = includes(capability, Capability::radial);
+  static constexpr bool constrained = includes(capability, Capability::constrained);
 
   AnyProblem(std::size_t size, std::shared_ptr<const Functions<R>> own,
              std::shared_ptr<const Functions<Others>>... others)
@@ -493,6 +501,16 @@ class AnyProblem {
   }
   const std::vector<std::size_t>& invariant_sizes() const { return *invariant_sizes_; }
   std::string label() const { return on<R>().label(); }
+  /// How many of the last invariants are residuals of constraints: 2 or none, which is known at run time only.
+  std::size_t residual_groups() const { return on<R>().residual_groups(); }
+  template <class S>
+  Vector<S, dynamic> constraints(const Vector<S, dynamic>& q) const requires constrained {
+    return on<S>().constraints(q);
+  }
+  template <class S>
+  Gradients<S, dynamic> constraint_gradients(const Vector<S, dynamic>& q) const requires constrained {
+    return on<S>().constraint_gradients(q);
+  }
 
   using Reduced = AnyProblem<R, Capability::separable | Capability::quadratic_kinetic>;
   Reduced reduced(const R& momentum) const requires cyclic { return {size_ - 1, on<R>().reduced(momentum)}; }

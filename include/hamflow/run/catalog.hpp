@@ -107,8 +107,20 @@ struct ProblemEntry {
   std::function<double(const Texts& parameters, std::size_t size)> total_mass;
   /// The canonical change of coordinates to the reference chart of the problem and back; empty in that chart itself.
   /// They throw an Error where a chart does not reach.
-  std::function<Frame(const std::vector<double>& q, const std::vector<double>& p)> to_reference;
-  std::function<Frame(const std::vector<double>& q, const std::vector<double>& p)> from_reference;
+  std::function<Frame(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)>
+      to_reference;
+  std::function<Frame(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)>
+      from_reference;
+  /// How the motion is kept on constraints g(q) = 0, FormulaKeys::manifold or multiplier
+  /// (formula/problem_texts.hpp); empty: there are none.
+  std::string constraint_form{};
+  /// |g| and |g' M^-1 p| of a state; empty without constraints.
+  std::function<ConstraintResiduals(const Texts& parameters, const std::vector<double>& q,
+                                    const std::vector<double>& p)>
+      residuals{};
+  /// The state moved onto the constraints and along them, to rounding; empty without constraints.
+  std::function<Frame(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)>
+      onto_constraints{};
   /// r(phi) of the exact orbit through (q, p); empty where there is no closed form.
   std::function<std::function<double(double)>(const Texts&, const std::vector<double>& q, const std::vector<double>& p)>
       exact_radius;
@@ -119,6 +131,9 @@ struct ProblemEntry {
   /// What follows from the effective potential for the orbit through (q, p); empty where there is none.
   std::function<OrbitFacts(const Texts&, const std::vector<double>& q, const std::vector<double>& p)> describe_orbit;
 };
+
+/// |g| and |g' M^-1 p| that a start may have.
+inline constexpr double most_residual_at_start = 1e-12;
 
 std::span<const ProblemEntry> problems();
 std::span<const MethodEntry> methods();

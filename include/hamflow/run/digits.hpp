@@ -20,8 +20,9 @@ struct DigitState {
 
 /// The state in the coordinates of another entry of the same problem, computed in the arithmetic; an angle lies within
 /// half a turn of 0 where the coordinates before know no angles.   @throws Error where a chart does not reach
-DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const std::string& arithmetic,
-                       const DigitState& state);
+/// @param parameters complete
+DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const Texts& parameters,
+                       const std::string& arithmetic, const DigitState& state);
 /// An angle and some whole turns.
 std::string turned(const std::string& angle, std::int64_t turns, const std::string& arithmetic);
 

@@ -37,14 +37,36 @@ class FormulaFunctions final : public Functions<S> {
   void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
     model_->template scaled_force<S>(S(factor), q, f);
   }
-  void gradient(const V& q, const V& p, V& dq, V& dp) const override { model_->template gradient<S>(q, p, dq, dp); }
+  /// With constraints that of the motion on them, and no gradient: dH/dq + g'^T lambda(q, p), dH/dp.
+  void gradient(const V& q, const V& p, V& dq, V& dp) const override {
+    model_->template gradient<S>(q, p, dq, dp);
+    if (residual_groups() > 0) add_constraint_forces(q, dq, dp);
+  }
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
     model_->template hessian<S>(q, p, qq, qp, pp);
   }
   void force_and_hessian(const V& q, V& f, M& h) const override { model_->template force_and_hessian<S>(q, f, h); }
-  V invariants(const V& q, const V& p, const S& t) const override { return model_->template invariants<S>(q, p, t); }
+  V invariants(const V& q, const V& p, const S& t) const override {
+    const V own = model_->template invariants<S>(q, p, t);
+    if (residual_groups() == 0) return own;
+    V v = zeros_like(p);
+    velocity(p, v);
+    V all(own.size() + 2 * count());
+    std::size_t i = 0;
+    for (const V& part : {own, constraints(q), products(constraint_gradients(q), v)}) {
+      for (const S& x : part) all[i++] = x;
+    }
+    return all;
+  }
   std::vector<std::size_t> invariant_sizes() const override {
-    return std::vector<std::size_t>(model_->model().invariants().size(), 1);
+    std::vector<std::size_t> all(model_->model().invariants().size(), 1);
+    all.insert(all.end(), residual_groups(), count());
+    return all;
+  }
+  std::size_t residual_groups() const override { return count() > 0 ? 2 : 0; }
+  V constraints(const V& q) const override { return model_->template constraints<S>(q); }
+  Gradients<S, dynamic> constraint_gradients(const V& q) const override {
+    return model_->template constraint_gradients<S>(q);
   }
   std::string label() const override { return model_->model().label(); }
   std::shared_ptr<const Functions<S>> reduced(const S&) const override { absent(); }
@@ -68,6 +90,23 @@ class FormulaFunctions final : public Functions<S> {
   RadialLaw<S> radial_law(const S&) const override { absent(); }
 
  private:
+  std::size_t count() const { return model_->model().structure().constraints; }
+  /// From d^2 g/dt^2 = 0, without a derivative of H of second order.   [Sonnleitner2010, p. 22]
+  /// @param dq dV/dq, then with the constraints' part   @param v the velocity
+  void add_constraint_forces(const V& q, V& dq, const V& v) const {
+    const Gradients<S, dynamic> rows = constraint_gradients(q);
+    Gradients<S, dynamic> with_mass;
+    for (const V& row : rows) {
+      with_mass.push_back(zeros_like(q));
+      inverse_mass_times(row, with_mass.back());
+    }
+    V right = model_->template constraint_bends<S>(q, v);
+    for (std::size_t k = 0; k < right.size(); ++k) right[k] = right[k] - dot(with_mass[k], dq);
+    const V lambda = multipliers(rows, with_mass, right);
+    for (std::size_t k = 0; k < lambda.size(); ++k) {
+      for (std::size_t i = 0; i < dq.size(); ++i) dq[i] = dq[i] + rows[k][i] * lambda[k];
+    }
+  }
   [[noreturn]] static void absent() { throw std::logic_error("hamflow: a typed problem does not have this function"); }
 
   std::shared_ptr<const formula::BoundModel<R>> model_;
@@ -77,6 +116,7 @@ class FormulaFunctions final : public Functions<S> {
 /// What a typed Hamiltonian offers to methods.
 inline Capability capabilities_of(const FormulaStructure& structure) {
   Capability all = Capability::smooth;
+  if (structure.constraints > 0) return all | Capability::constrained;  // its field is not that of T + V
   if (structure.separable) all = all | Capability::separable;
   // With the time and its momentum among the coordinates T has a linear term: velocities are not M^-1 p.
   if (structure.quadratic_kinetic && !structure.time) all = all | Capability::quadratic_kinetic;

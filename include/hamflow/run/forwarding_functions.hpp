@@ -38,6 +38,9 @@ class ForwardingFunctions : public Functions<S> {
   V invariants(const V& q, const V& p, const S& t) const override { return exact_->invariants(q, p, t); }
   std::vector<std::size_t> invariant_sizes() const override { return exact_->invariant_sizes(); }
   std::string label() const override { return exact_->label(); }
+  std::size_t residual_groups() const override { return exact_->residual_groups(); }
+  V constraints(const V& q) const override { return exact_->constraints(q); }
+  Gradients<S, dynamic> constraint_gradients(const V& q) const override { return exact_->constraint_gradients(q); }
   Pointer reduced(const S& momentum) const override { return exact_->reduced(momentum); }
   S cyclic_rate(const V& q, const S& momentum) const override { return exact_->cyclic_rate(q, momentum); }
   void velocity_of(const V& q, const V& p, V& v) const override { exact_->velocity_of(q, p, v); }

@@ -95,6 +95,7 @@ class ConservationProbe {
     if constexpr (watches_invariants) {
       initial_ = problem.invariants(q, p, t);
       worst_ = zeros_like(initial_);
+      if constexpr (requires { problem.residual_groups(); }) start_residuals(problem);
     }
   }
   /// False where the energy is not finite. It is inlined with all that it calls into the loop over steps, where its
@@ -128,6 +129,25 @@ class ConservationProbe {
   }
 
  private:
+  /// Residuals of constraints are watched for their size, at the start, too, and not for their change.
+  void start_residuals(const P& problem) {
+    const auto& sizes = problem.invariant_sizes();
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      const std::size_t end = i + sizes[k];
+      if (k + problem.residual_groups() < sizes.size()) {
+        i = end;
+        continue;
+      }
+      R square(0);
+      for (; i < end; ++i) {
+        square += initial_[i] * initial_[i];
+        initial_[i] = R(0);
+      }
+      worst_[k] = sqrt(square);
+    }
+  }
+
   template <class Sizes>
   void look_at_groups(const Sizes& sizes, const Invariants& values) {
     std::size_t i = 0;

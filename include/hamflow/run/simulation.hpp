@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +67,12 @@ struct WallCount {
   std::int64_t bounces = 0;
 };
 
+/// Of constraints g(q) = 0: the largest |g| and |g' M^-1 p| over every step, the start included.
+struct ConstraintResiduals {
+  double position = 0;
+  double velocity = 0;
+};
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -86,6 +93,8 @@ class Simulation {
   virtual double energy_scale() const = 0;
   /// In the order of the problem's invariants.
   virtual std::vector<InvariantExcursion> invariants() const = 0;
+  /// Without value where there are no constraints.
+  virtual std::optional<ConstraintResiduals> constraints() const { return {}; }
   virtual Effort effort() const = 0;
   /// Of implicit steps, on request; else unset.
   virtual StepDiagnostics diagnostics() const = 0;

@@ -106,7 +106,9 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
       const auto now = problem_.invariants(z_.positions(), z_.momenta(), time());
       std::size_t i = 0;
+      std::size_t left = detail::invariant_sizes(problem_).size() - residual_groups();
       for (const std::size_t size : detail::invariant_sizes(problem_)) {
+        if (left-- == 0) break;
         InvariantExcursion e{{}, {}, static_cast<double>(probe_.worst(all.size()))};
         for (const std::size_t end = i + size; i < end; ++i) {
           e.initial.push_back(static_cast<double>(probe_.initial()[i]));
@@ -116,6 +118,15 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       }
     }
     return all;
+  }
+  std::optional<ConstraintResiduals> constraints() const final {
+    if constexpr (requires { probe_.worst(0); }) {
+      if (residual_groups() == 2) {
+        const std::size_t k = detail::invariant_sizes(problem_).size();
+        return ConstraintResiduals{static_cast<double>(probe_.worst(k - 2)), static_cast<double>(probe_.worst(k - 1))};
+      }
+    }
+    return {};
   }
 
  protected:
@@ -135,6 +146,22 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     }
   }
 
+  std::size_t residual_groups() const {
+    if constexpr (requires { problem_.residual_groups(); }) {
+      return problem_.residual_groups();
+    } else {
+      return 0;
+    }
+  }
+  /// Of constraints, which are behind the invariants.
+  void drop_residuals([[maybe_unused]] std::vector<double>& invariants) const {
+    if constexpr (requires { problem_.residual_groups(); }) {
+      const std::vector<std::size_t>& sizes = problem_.invariant_sizes();
+      for (std::size_t k = 0; k < problem_.residual_groups(); ++k) {
+        invariants.resize(invariants.size() - sizes[sizes.size() - 1 - k]);
+      }
+    }
+  }
   bool varies_steps() const { return density_.has_value(); }
   const Monitor& monitor() const { return *monitor_; }
   /// Equal steps are counted, others are added up.
@@ -179,6 +206,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     frame.invariants.clear();
     if constexpr (HasInvariants<P, Real>) {
       for (const Real& value : problem_.invariants(q, p, time)) frame.invariants.push_back(static_cast<double>(value));
+      drop_residuals(frame.invariants);
     }
     frame.effort = effort();
     frame.diagnostics = diagnostics();

@@ -30,6 +30,11 @@ class StepMap {
   /// Where a run that begins at z = (q, p) has its first step. A method that carries a second copy (x, y) of the state
   /// is a map of (q, x, p, y): advance() and jacobian() take such states, too, and give them back.
   virtual State<double> begun(const State<double>& z) const { return z; }
+  /// With constraints a step is a map of the states on them: z moved there, to the rounding of its number type, and the
+  /// directions in which z can move there, an orthonormal basis. Without constraints z itself, and no directions.
+  virtual State<long double> settled(const State<long double>& z) const { return z; }
+  virtual State<Quad> settled(const State<Quad>& z) const { return z; }
+  virtual std::vector<State<double>> directions(const State<double>&) const { return {}; }
   /// `steps` steps of length h from a fresh start, in double. False when a step fails.
   virtual bool advance(State<double>& z, double h, std::int64_t steps) const = 0;
   /// The same in long double: measured orders are not limited by the rounding of double.

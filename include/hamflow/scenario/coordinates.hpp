@@ -31,7 +31,8 @@ std::string coordinates_of(const ProblemEntry& problem);
 class StateConverter {
  public:
   /// Two entries of one problem that differ in their chart alone.
-  StateConverter(const ProblemEntry& from, const ProblemEntry& to);
+  /// @param parameters of the problem; missing ones take their defaults
+  StateConverter(const ProblemEntry& from, const ProblemEntry& to, const Texts& parameters = {});
   /// By name, for any problem that has both. @throws Error when there is none
   StateConverter(const std::string& from, const std::string& to);
   /// @throws Error where a chart does not reach, for polar coordinates at r = 0, and for a state of another size
@@ -48,6 +49,7 @@ class StateConverter {
 
   const ProblemEntry* from_;
   const ProblemEntry* to_;
+  Texts parameters_;
   std::vector<std::size_t> turning_;
   std::vector<double> last_;  // q of the state before
   double largest_turn_ = 0;

@@ -36,6 +36,7 @@ struct Region : RegionInfo {
   std::string problem;
   std::map<std::string, std::string> variant{};  // e.g. potential = kepler
   bool of_bodies = false;                        // states are moved into the frame of their centre of mass
+  bool constrained = false;                      // states are moved onto the constraints
 };
 
 struct OrderMeasurement {

@@ -7,6 +7,7 @@
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/constrained_motion.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/run/simulation_of.hpp"
@@ -27,6 +28,38 @@ State<R> joined(const Vector<R, N>& q, const Vector<R, N>& p) {
   State<R> z(q.begin(), q.end());
   z.insert(z.end(), p.begin(), p.end());
   return z;
+}
+/// An orthonormal basis of what is orthogonal to all of these, by Gram and Schmidt, twice.
+inline std::vector<State<double>> orthogonal_to(std::vector<State<double>> rows) {
+  const std::size_t size = rows.at(0).size();
+  const std::size_t given = rows.size();
+  for (std::size_t k = 0; k < size; ++k) {
+    rows.emplace_back(size);
+    rows.back()[k] = 1;
+  }
+  std::vector<State<double>> all;
+  for (std::size_t k = 0; k < rows.size() && all.size() < size; ++k) {
+    State<double>& x = rows[k];
+    const auto length = [&] {
+      double square = 0;
+      for (const double part : x) square += part * part;
+      return sqrt(square);
+    };
+    const double before = length();
+    for (int pass = 0; pass < 2; ++pass) {
+      for (const State<double>& other : all) {
+        double along = 0;
+        for (std::size_t i = 0; i < size; ++i) along += other[i] * x[i];
+        for (std::size_t i = 0; i < size; ++i) x[i] -= along * other[i];
+      }
+    }
+    const double rest = length();
+    if (!(rest > 1e-6 * before)) continue;  // in the span of the others
+    for (double& part : x) part /= rest;
+    all.push_back(x);
+  }
+  all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(given));
+  return all;
 }
 /// A second copy of the state that the method carries.
 template <class M>
@@ -73,8 +106,26 @@ State<R> flow_of(const P& problem, const State<R>& z, const R& t) {
   constexpr std::size_t n = P::dimension;
   auto point = zeros < R, n == dynamic ? dynamic : 2 * n > (z.size());
   for (std::size_t i = 0; i < z.size(); ++i) point[i] = z[i];
-  const auto end = reference_flow(problem, point, t);
+  const auto end = [&] {
+    if constexpr (Constrained<P>) {
+      return reference_flow(ConstrainedField<P>(problem), point, t);
+    } else {
+      return reference_flow(problem, point, t);
+    }
+  }();
   return {end.begin(), end.end()};
+}
+/// The nearest state that meets the constraints of a problem.
+template <class P, class R>
+State<R> settled_on([[maybe_unused]] const P& problem, const State<R>& z) {
+  if constexpr (Constrained<P>) {
+    auto q = part_of<R, P::dimension>(z, 0);
+    auto p = part_of<R, P::dimension>(z, z.size() / 2);
+    move_onto_constraints(problem, q, p);
+    return joined<R, P::dimension>(q, p);
+  } else {
+    return z;
+  }
 }
 }  // namespace detail
 
@@ -87,6 +138,7 @@ struct GivenMaps {
   std::function<State<long double>(const State<long double>& z, long double t)> flow;
   std::function<bool(State<Quad>& z, const Quad& h, std::int64_t steps)> advance_in_quad;
   std::function<State<Quad>(const State<Quad>& z, const Quad& t)> flow_in_quad;
+  std::function<State<Quad>(const State<Quad>& z)> settle_in_quad;
 };
 
 namespace detail {
@@ -139,6 +191,25 @@ class StepMapOf final : public StepMap {
         for (int copy = 0; copy < 2; ++copy) both.insert(both.end(), &z[first], &z[first] + size_);
       }
       return both;
+    }
+  }
+  State<long double> settled(const State<long double>& z) const override {
+    return detail::settled_on(long_problem_, z);
+  }
+  State<Quad> settled(const State<Quad>& z) const override {
+    if constexpr (beyond == Beyond::quad) {
+      return detail::settled_on(beyond_.problem, z);
+    } else if constexpr (beyond == Beyond::given) {
+      return beyond_.settle_in_quad(z);
+    } else {
+      return z;
+    }
+  }
+  std::vector<State<double>> directions(const State<double>& z) const override {
+    if constexpr (Constrained<P>) {
+      return detail::orthogonal_to(residual_gradients(z));
+    } else {
+      return {};
     }
   }
   bool advance(State<double>& z, double h, std::int64_t steps) const override { return go(problem_, z, h, steps); }
@@ -233,6 +304,22 @@ class StepMapOf final : public StepMap {
     } else {
       return {};
     }
+  }
+  /// The gradients of g and of g' M^-1 p as functions of (q, p).
+  std::vector<State<double>> residual_gradients(const State<double>& z) const {
+    std::vector<State<double>> all;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      const auto q = seeded(detail::part_of<double, n>(z, 0), k);
+      const auto p = seeded(detail::part_of<double, n>(z, size_), k, size_);
+      const auto position = constraints(problem_, q);
+      const auto rates = products(constraint_gradients(problem_, q), inverse_mass_times(problem_, p));
+      all.resize(2 * position.size(), State<double>(z.size()));
+      for (std::size_t j = 0; j < position.size(); ++j) {
+        all[j][k] = position[j].slope[0];
+        all[position.size() + j][k] = rates[j].slope[0];
+      }
+    }
+    return all;
   }
 
   std::unique_ptr<Simulation> simulation_from(const State<double>& z, double h) const {

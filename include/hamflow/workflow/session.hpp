@@ -54,6 +54,7 @@ class Session final : public Simulation {
   void negate_momenta() override;
   std::vector<std::byte> bits() const override { return simulation_->bits(); }
   Excursion energy() const override;
+  std::optional<ConstraintResiduals> constraints() const override;
   double energy_scale() const override { return scale_; }
   std::vector<InvariantExcursion> invariants() const override;
   Effort effort() const override;
@@ -94,11 +95,12 @@ class Session final : public Simulation {
   double initial_energy_ = 0;
   double scale_ = 0;
   double worst_energy_ = 0;
-  std::vector<std::size_t> sizes_;          // of the invariants
-  std::vector<double> initial_invariants_;  // at the start
-  std::vector<double> reference_;           // from which deviations count
-  std::vector<double> offset_;              // of invariants with time in them, whose parts begin at time 0
-  std::vector<double> worst_invariants_;    // one for each invariant
+  std::optional<ConstraintResiduals> worst_residuals_;  // before the present part
+  std::vector<std::size_t> sizes_;                      // of the invariants
+  std::vector<double> initial_invariants_;              // at the start
+  std::vector<double> reference_;                       // from which deviations count
+  std::vector<double> offset_;                          // of invariants with time in them, whose parts begin at time 0
+  std::vector<double> worst_invariants_;                // one for each invariant
   Frame scratch_;
   TurnWatch turns_{0, false};
 };

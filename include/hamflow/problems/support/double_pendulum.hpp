@@ -38,8 +38,9 @@ inline ProblemInfo double_pendulum_info(const char* model, Angles angles, const 
                                         std::vector<ParameterInfo> parameters) {
   const bool absolute = angles == Angles::absolute;
   return {.name = "double-pendulum",
-          .variant = {{"model", model}, {"angles", absolute ? "absolute" : "relative"}},
-          .default_choices = absolute ? std::vector<std::string>{"angles"} : std::vector<std::string>{},
+          .variant = {{"model", model}, {"coordinates", "generalised"}, {"angles", absolute ? "absolute" : "relative"}},
+          .default_choices =
+              absolute ? std::vector<std::string>{"coordinates", "angles"} : std::vector<std::string>{"coordinates"},
           .chart_key = "angles",
           .formula = formula,
           .reference = "Gross1999, ch. 3",
