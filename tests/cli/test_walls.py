@@ -25,8 +25,9 @@ record_every = 100
 
 BOX = """
 [problem]
-name = "{}"
-{}
+name = "formula"
+coordinates = ["q1", "q2"]
+hamiltonian = "(p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3"
 initial = {{ q = [0.1, -0.2], p = [1, 0.7] }}
 walls = {}
 {}
@@ -43,8 +44,8 @@ class Walls(CommandCase):
     def tube(self, method="stv4", rule=""):
         return self.write("tube.toml", TUBE.format(rule, method))
 
-    def box(self, walls, method="stv4", rule="", problem="henon-heiles", keys="", run=""):
-        return self.write("box.toml", BOX.format(problem, keys, walls, rule, method, run))
+    def box(self, walls, method="stv4", rule="", run=""):
+        return self.write("box.toml", BOX.format(walls, rule, method, run))
 
     def test_counts_and_observables(self):
         found = self.summary(self.tube())
