@@ -21,7 +21,7 @@ READERS = ("src/scenario", "src/catalog", "src/core", "src/sweep/sweep.cpp", "sr
            "include/hamflow/core", "include/hamflow/run", "include/hamflow/scenario",
            "include/hamflow/methods")
 # Words that are also the names of something else, which has a declaration of its own.
-ALSO = {"lattice": "an arithmetic"}
+ALSO = {"lattice": "an arithmetic", "record": "what an event does"}
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 

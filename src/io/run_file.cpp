@@ -49,17 +49,20 @@ struct RunFile::Impl {
                                 // many rows are complete
   std::vector<Column> section;  // q, p, t of its points: rows of their own
   std::vector<Column> walls;    // of the bounces, likewise
+  std::vector<std::vector<Column>> events;  // of the user
   std::vector<std::size_t> invariant_sizes;
   bool diagnostics = false;
   bool digits = false;
   std::size_t section_waiting = 0;
   std::size_t walls_waiting = 0;
+  std::vector<std::size_t> events_waiting;
   std::size_t waiting = 0;
   bool failed = false;
   std::size_t most_waiting = batch_rows;
   std::uint64_t rows = 0;
   std::uint64_t section_rows = 0;
   std::uint64_t wall_rows = 0;
+  std::vector<std::uint64_t> event_rows;
   Clock::time_point flushed = Clock::now();
 };
 
@@ -137,6 +140,20 @@ std::vector<Column> section_columns(hid_t file, const RunDescription& run) {
   return all;
 }
 
+std::vector<Column> event_columns(hid_t file, const RunDescription& run, const std::string& event) {
+  const std::size_t n = run.dimension;
+  const std::string group = "events/user/" + event + "/";
+  std::vector<Column> all;
+  const auto add = [&](const char* name, hid_t type, std::size_t width, const ColumnText& text) {
+    all.emplace_back(file, group + name, type, width, batch_rows, text);
+  };
+  add("q", H5T_IEEE_F64LE, n, {run.coordinates, "coordinates at the event", run.units.q});
+  add("p", H5T_IEEE_F64LE, n, {run.momenta, "canonical momenta at the event", run.units.p});
+  add("step", H5T_STD_I64LE, 0, {{"step"}, "at the end of which the event is behind", {}});
+  add("t", H5T_IEEE_F64LE, 0, {{"t"}, "times of the event", run.units.t});
+  return all;
+}
+
 std::vector<Column> wall_columns(hid_t file, const RunDescription& run) {
   const std::size_t n = run.dimension;
   std::vector<Column> all;
@@ -175,6 +192,13 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
     (void)make_group(id, "events/wall");
     impl->walls = wall_columns(id, description);
   }
+  if (!description.events.empty()) (void)make_group(id, "events/user");
+  for (const std::string& event : description.events) {
+    (void)make_group(id, ("events/user/" + event).c_str());
+    impl->events.push_back(event_columns(id, description, event));
+  }
+  impl->events_waiting.resize(impl->events.size());
+  impl->event_rows.resize(impl->events.size());
   impl->columns = sample_columns(id, description);
   std::size_t bytes = 0;
   for (const Column& column : impl->columns) bytes += column.bytes_a_row();
@@ -196,7 +220,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
 }
 
 RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
-                 std::uint64_t section_rows, std::uint64_t wall_rows) {
+                 std::uint64_t section_rows, std::uint64_t wall_rows, std::span<const std::uint64_t> event_rows) {
   silence_hdf5();
   const std::filesystem::path fresh = next_name(file);
   try {
@@ -210,6 +234,10 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     for (Column& column : copy->walls) column.copy_from(old, wall_rows, copy->most_waiting);
     copy->section_rows = section_rows;
     copy->wall_rows = wall_rows;
+    for (std::size_t k = 0; k < copy->events.size() && k < event_rows.size(); ++k) {
+      for (Column& column : copy->events[k]) column.copy_from(old, event_rows[k], copy->most_waiting);
+      copy->event_rows[k] = event_rows[k];
+    }
     force_to_disk(fresh);
     std::filesystem::rename(fresh, file);  // the open file keeps its identity
     impl_ = std::move(copy);
@@ -223,6 +251,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
 std::uint64_t RunFile::rows() const { return impl_->rows; }
 std::uint64_t RunFile::section_rows() const { return impl_->section_rows; }
 std::uint64_t RunFile::wall_rows() const { return impl_->wall_rows; }
+const std::vector<std::uint64_t>& RunFile::event_rows() const { return impl_->event_rows; }
 
 RunFile::~RunFile() {
   if (!impl_) return;
@@ -292,6 +321,16 @@ void RunFile::append(const Bounce& bounce) {
   if (++impl_->walls_waiting == impl_->most_waiting) flush();
 }
 
+void RunFile::append(std::size_t event, std::int64_t step, const SectionPoint& point) {
+  std::vector<Column>& columns = impl_->events.at(event);
+  for (const double x : point.q) columns.at(0).add(x);
+  for (const double x : point.p) columns[1].add(x);
+  columns[2].add(step);
+  columns[3].add(point.time);
+  ++impl_->event_rows[event];
+  if (++impl_->events_waiting[event] == impl_->most_waiting) flush();
+}
+
 void RunFile::flush() {
   if (impl_->failed) throw FileError("HDF5: a write has failed before");
   const std::size_t points = std::exchange(impl_->section_waiting, 0);
@@ -307,8 +346,16 @@ void RunFile::flush() {
   for (Column& column : impl_->columns) {
     if (rows > 0) column.write(rows);
   }
+  bool any_event = false;
+  for (std::size_t k = 0; k < impl_->events.size(); ++k) {
+    const std::size_t found = std::exchange(impl_->events_waiting[k], 0);
+    any_event = any_event || found > 0;
+    for (Column& column : impl_->events[k]) {
+      if (found > 0) column.write(found);
+    }
+  }
   impl_->failed = false;
-  if (rows == 0 && bounces == 0) return;
+  if (rows == 0 && bounces == 0 && !any_event) return;
   impl_->flushed = Clock::now();
 }
 

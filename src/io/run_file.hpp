@@ -47,6 +47,7 @@ struct RunDescription {
   bool diagnostics = false;                    // of implicit steps
   bool section = false;                        // points of one are written
   bool walls = false;                          // bounces are
+  std::vector<std::string> events{};           // those of the user, by name
   std::size_t samples = 0;                     // expected, so that a short run leaves a small file; 0: unknown
   std::string created;                         // empty: now
   double dt = 0;
@@ -67,16 +68,19 @@ class RunFile {
   /// Goes on after the first `rows` rows, `section_rows` points of the section and `wall_rows` bounces of a file that
   /// is there, however it was left. @throws FileError; the file is then as it was
   RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
-          std::uint64_t section_rows = 0, std::uint64_t wall_rows = 0);
+          std::uint64_t section_rows = 0, std::uint64_t wall_rows = 0, std::span<const std::uint64_t> event_rows = {});
   ~RunFile();
   /// @param observables a value for each
   void append(const Frame& frame, std::span<const double> observables = {});
   void append(const SectionPoint& point);
   void append(const Bounce& bounce);
+  /// @param event its number in the description   @param step with which it is behind
+  void append(std::size_t event, std::int64_t step, const SectionPoint& point);
   /// Appended so far, written or not.
   std::uint64_t rows() const;
   std::uint64_t section_rows() const;
   std::uint64_t wall_rows() const;
+  const std::vector<std::uint64_t>& event_rows() const;
   /// Writes and flushes what has gathered. @throws FileError, e.g. when the disk is full
   void flush();
   /// Flushes if some time has passed since the last flush: bounds what a crash can lose.

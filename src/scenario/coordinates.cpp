@@ -6,6 +6,7 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -75,6 +76,10 @@ void check_coordinates(const std::string& name) {
 
 const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to) {
   check_coordinates(to);
+  if (walls_among({problem.info.variant.begin(), problem.info.variant.end()})) {
+    throw Error("found " + problem.info.name + " behind walls; allowed without: a wall on one coordinate is none on those "
+                "of another chart");
+  }
   const auto charts = charted_problems().find(problem.info.name);
   const bool has_charts = charts != charted_problems().end() && !problem.info.chart_key.empty();
   if (!has_charts || with_coordinates(charts->second, to) == nullptr) {

@@ -43,6 +43,26 @@ const SectionKeys& section_keys() {
   return keys;
 }
 
+const EventKeys& event_keys() {
+  static const EventKeys keys{
+      .name = {.name = "name", .meaning = "of the event", .type = OptionType::text, .unset = "event1, event2, ..."},
+      .expression = {.name = "expression",
+                     .meaning = "of coordinates, momenta, parameters and t, whose zeros are located",
+                     .type = OptionType::text,
+                     .required = true,
+                     .example = "q1 - q2"},
+      .direction = {.name = "direction",
+                    .default_value = "1",
+                    .meaning = "1 upwards, -1 downwards, 0 both",
+                    .range = Range::whole_from(-1, 1)},
+      .action = {.name = "action",
+                 .default_value = "record",
+                 .meaning = "stop: the run ends with that step",
+                 .type = OptionType::word,
+                 .words = {"record", "stop"}}};
+  return keys;
+}
+
 const RunKeys& run_keys() {
   static const RunKeys keys{
       .dt = {.name = "dt",
@@ -124,6 +144,12 @@ const RunKeys& run_keys() {
                   .unset = "none",
                   .keys = {section_keys().coordinate, section_keys().expression, section_keys().value,
                            section_keys().direction}},
+      .events = {.name = "events",
+                 .meaning =
+                     "zeros of expressions that are located and counted, [{ name, expression, direction, action }]",
+                 .type = OptionType::table,
+                 .unset = "none",
+                 .keys = {event_keys().name, event_keys().expression, event_keys().direction, event_keys().action}},
       .record_events = {.name = "record_events",
                         .default_value = "100000",
                         .meaning = "rows of each table of events, at most; counts go on",
@@ -168,8 +194,8 @@ const std::vector<DeclaredTable>& declared_tables() {
     const OutputKeys& o = output_keys();
     return std::vector<DeclaredTable>{
         {run_table,
-         {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.record_events,
-          r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+         {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
+          r.record_events, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
         {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;

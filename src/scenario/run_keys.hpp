@@ -19,9 +19,13 @@ struct LatticeKeys {
 struct SectionKeys {
   OptionInfo coordinate, expression, value, direction;
 };
+/// Those of each entry of `run.events`.
+struct EventKeys {
+  OptionInfo name, expression, direction, action;
+};
 struct RunKeys {
   OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, kernel, threads, lyapunov,
-      eigenvalues, section, record_events;
+      eigenvalues, section, events, record_events;
 };
 struct OutputKeys {
   OptionInfo folder, formats, figures, observables;
@@ -29,6 +33,7 @@ struct OutputKeys {
 
 const LatticeKeys& lattice_keys();
 const SectionKeys& section_keys();
+const EventKeys& event_keys();
 const RunKeys& run_keys();
 const OutputKeys& output_keys();
 

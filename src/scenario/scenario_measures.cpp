@@ -40,6 +40,7 @@ void ScenarioReader::read_measures(TomlTable& table) {
   if (scenario_.lyapunov > 0) refuse_derivative(table, keys.lyapunov.name);
   if (scenario_.eigenvalues) refuse_derivative(table, keys.eigenvalues.name);
   read_section(table);
+  read_events(table);
   if (const auto most = table.whole(keys.record_events)) scenario_.record_events = *most;
 }
 
@@ -83,6 +84,33 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
   if (structure && structure->time) {
     table.complain(key, table.found(key) + " with an H that depends on t; allowed with H(q, p): steps of H(q, p, t) " +
                             "are not differentiated");
+  }
+}
+
+void ScenarioReader::read_events(TomlTable& table) {
+  const std::string& list = run_keys().events.name;
+  if (!table.has(list)) {
+    table.know(list);
+    return;
+  }
+  auto entries = table.tables(list, 0);
+  if (!entries) return;
+  const EventKeys& keys = event_keys();
+  for (TomlTable& entry : *entries) {
+    UserEvent event;
+    event.name = entry.text(keys.name).value_or("event" + std::to_string(scenario_.events.size() + 1));
+    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
+    if (event.name.find_first_not_of(letters) != std::string::npos) {
+      entry.complain(keys.name.name, "found the name \"" + event.name + "\"; allowed letters, digits and _");
+    }
+    const bool again = std::any_of(scenario_.events.begin(), scenario_.events.end(),
+                                   [&](const UserEvent& other) { return other.name == event.name; });
+    if (again) entry.complain(keys.name.name, "found the name " + event.name + " a second time; allowed another");
+    if (const auto direction = entry.whole(keys.direction)) event.zero.direction = static_cast<int>(*direction);
+    event.stops = entry.text(keys.action).value_or("") == keys.action.words.back();
+    event.zero.expression = read_expression(entry, keys.expression);
+    entry.finish();
+    scenario_.events.push_back(std::move(event));
   }
 }
 

@@ -81,6 +81,7 @@ class ScenarioReader {
   void read_measures(TomlTable& table);
   void refuse_derivative(TomlTable& table, const std::string& key);
   void read_section(TomlTable& table);
+  void read_events(TomlTable& table);
   void read_section_coordinate(TomlTable& section, Section wanted);
   void read_section_expression(TomlTable& section, Section wanted);
   std::optional<StateExpression> read_expression(TomlTable& table, const OptionInfo& key);

@@ -132,6 +132,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
   const auto given = velocities.name.empty() ? std::nullopt : table.text(velocities);
   if (given && table.has(velocities.name) && table.has("initial")) {
     table.complain(velocities.name, table.found(velocities.name) + " beside initial; allowed one of them");
+    table.know("initial");
     return;
   }
   if (!table.has("initial")) {

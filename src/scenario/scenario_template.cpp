@@ -259,8 +259,8 @@ class TemplateWriter {
         page_.off(code, (changes.empty() ? "" : changes + "; ") + start.info->meaning);
       }
     }
-    if (!info_.velocities.name.empty()) write_option(info_.velocities, true);
     write_state();
+    if (!info_.velocities.name.empty()) write_option(info_.velocities, false);
     if (!info_.frame.name.empty()) write_option(info_.frame, false);
     write_walls();
     if (info_.two_bodies) {
@@ -288,7 +288,7 @@ class TemplateWriter {
       comment += "; default: " + std::string(info_.default_q.size() <= longest ? "this" : "the problem's own");
     if (q.empty()) {
       page_.off("initial = { q = [...], p = [...] }", comment);
-    } else if (active_ != nullptr || !info_.velocities.name.empty()) {
+    } else if (active_ != nullptr) {
       page_.off("initial = { q = " + q + ", p = " + p + " }", comment);
     } else {
       page_.line("initial = { q = " + q + ", p = " + p + " }", comment);

@@ -65,6 +65,9 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
   threads_ = std::max(threads_, 1);
   read_members(name);
+  if (complaints_.empty() && !common_.events.empty()) {
+    complaints_.push_back("run.events: error: found events; allowed in single runs: a sweep keeps none of its members");
+  }
   if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
 }
 

@@ -171,6 +171,7 @@ class ScenarioRun {
         }
         return !settings_.pulse || settings_.pulse(step);
       });
+      if (result.outcome == Outcome::stopped && measures_->stopped()) result.outcome = Outcome::done;
       if (recorder_) {
         if (const auto time = recorder_->failed_at(simulation_->step());
             time && status_of(result.outcome) == "failed") {

@@ -4,6 +4,7 @@
 
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -16,6 +17,12 @@ std::vector<double> masses_of(const Scenario& scenario) {
     if (parameters.has(name)) return parameters.list(name);
   }
   return {};
+}
+
+std::vector<std::string> event_names(const Scenario& scenario) {
+  std::vector<std::string> all;
+  for (const UserEvent& event : scenario.events) all.push_back(event.name);
+  return all;
 }
 
 }  // namespace
@@ -66,6 +73,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .diagnostics = method.diagnostics,
           .section = scenario.section.has_value(),
           .walls = has_hard_walls(request),
+          .events = event_names(scenario),
           .samples = samples,
           .dt = scenario.dt,
           .dt_text = request.dt,

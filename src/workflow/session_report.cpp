@@ -58,6 +58,8 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   const Scenario present = session.present();
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
+  description.walls = false;
+  description.events.clear();
   description.section = false;                                    // a session looks for none
   if (!session.changes().empty()) description.digits_length = 0;  // a change of course goes on from doubles
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));

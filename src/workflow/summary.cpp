@@ -26,30 +26,36 @@ using Json = nlohmann::ordered_json;
 
 Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e.final}, {"max_error", e.max_error}}; }
 
-Json walls_of(const Walls& walls) {
+void add_walls(const Walls& walls, Json& parameters) {
+  const WallKeys& keys = wall_keys();
   Json all = Json::array();
   for (const Walls::Interval& wall : walls.intervals) {
-    Json interval{{wall_keys().coordinate.name, wall.coordinate}};
-    if (!wall.min.empty()) interval[wall_keys().min.name] = number_value(wall.min);
-    if (!wall.max.empty()) interval[wall_keys().max.name] = number_value(wall.max);
+    Json interval{{keys.coordinate.name, wall.coordinate}};
+    if (!wall.min.empty()) interval[keys.min.name] = number_value(wall.min);
+    if (!wall.max.empty()) interval[keys.max.name] = number_value(wall.max);
     all.push_back(interval);
   }
-  return all;
+  parameters[keys.walls.name] = all;
+  parameters[keys.wall_rule.name] = wall_rules()[static_cast<std::size_t>(walls.rule)];
+  if (walls.hard()) return;
+  parameters[keys.strength.name] = number_value(walls.strength);
+  parameters[keys.exponent.name] = number_value(walls.exponent);
 }
 
 Json parameters_of(const Scenario& scenario) {
   Json parameters = Json::object();
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
+  const std::map<std::string, std::string> choices(scenario.problem->info.variant.begin(),
+                                                   scenario.problem->info.variant.end());
+  const auto without = without_walls(choices);
   for (const auto& [key, value] : scenario.problem->info.variant) {
+    if (!without.contains(key)) continue;
     // Those of the problem `formula` are its texts, which the scenario has.
     const bool is_text = scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters;
-    if (key == wall_keys().walls.name) {
-      parameters[key] = walls_of(*walls_among(scenario.request.variant));
-      continue;
-    }
     const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
     if (!structure || !is_text) parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
   }
+  if (const auto walls = walls_among(scenario.request.variant)) add_walls(*walls, parameters);
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
     if (!values.has(parameter.name)) continue;

@@ -25,8 +25,9 @@ record_every = 100
 
 BOX = """
 [problem]
-name = "{}"
-{}
+name = "formula"
+coordinates = ["q1", "q2"]
+hamiltonian = "(p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3"
 initial = {{ q = [0.1, -0.2], p = [1, 0.7] }}
 walls = {}
 {}
@@ -43,8 +44,8 @@ class Walls(CommandCase):
     def tube(self, method="stv4", rule=""):
         return self.write("tube.toml", TUBE.format(rule, method))
 
-    def box(self, walls, method="stv4", rule="", problem="henon-heiles", keys="", run=""):
-        return self.write("box.toml", BOX.format(problem, keys, walls, rule, method, run))
+    def box(self, walls, method="stv4", rule="", run=""):
+        return self.write("box.toml", BOX.format(walls, rule, method, run))
 
     def test_counts_and_observables(self):
         found = self.summary(self.tube())
@@ -77,8 +78,8 @@ class Walls(CommandCase):
         self.hamflow("run", "tube.toml", "--out", "few", "--set", "run.record_events=5")
         self.assertEqual(len(self.column("few", "t")), 5)
 
-    def column(self, folder, name):
-        done = subprocess.run([COMPARE, f"--numbers=/events/wall/{name}", f"{folder}/run.h5"], cwd=self.folder,
+    def column(self, folder, name, group="wall"):
+        done = subprocess.run([COMPARE, f"--numbers=/events/{group}/{name}", f"{folder}/run.h5"], cwd=self.folder,
                               capture_output=True, text=True, check=True)
         return [float(x) for x in done.stdout.split()]
 
@@ -103,6 +104,23 @@ class Walls(CommandCase):
         for name, mean in (("kinetic1", 18.857958545985127), ("kinetic2", 49.066220503030145)):
             seen = found["observables"][name]  # the listing's mean has the start in it, and not the end
             self.assertAlmostEqual(seen["mean"] + (seen["initial"] - seen["final"]) / 20000, mean, delta=1e-9)
+
+    def test_events_of_the_user(self):
+        """Counted and recorded where they are located; the run ends with the step of one that stops it."""
+        self.tube("cg")
+        events = "run.events=[{name='cross', expression='q1', direction=0}, {expression='q2 - 2', action='stop'}]"
+        found = json.loads(self.hamflow("run", "tube.toml", "--out", "e", "--json", "--set", events).stdout)
+        self.assertEqual(found["status"], "done")
+        self.assertEqual(found["stopped_by"]["event"], "event2")
+        self.assertAlmostEqual(found["stopped_by"]["q"][1], 2, delta=1e-14)
+        self.assertEqual(found["steps"] * 0.01, found["final"]["t"])
+        self.assertLess(found["final"]["t"] - found["stopped_by"]["t"], 0.01)
+        self.assertEqual(found["events"]["user:cross"], len(self.column("e", "t", "user/cross")))
+        self.assertEqual(found["events"]["user:event2"], 1)
+        again = json.loads(self.hamflow("run", "tube.toml", "--out", "e", "--resume", "--json", "--set", events).stdout)
+        self.assertEqual(again["steps"], found["steps"])
+        self.assertIn("found events", self.hamflow("sweep", "tube.toml", "--vary", "problem.eps=1,2", "--set", events,
+                                                   "--out", "none", status=2).stderr)
 
     def test_failures(self):
         soft = self.summary(self.box('[{ coordinate = "q1", min = -0.5, max = 0.5 }]', "stv4", 'wall_rule = "soft"',

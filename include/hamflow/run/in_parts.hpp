@@ -2,8 +2,7 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <tuple>
+#include <memory>
 
 #include "hamflow/run/simulation_of.hpp"
 
@@ -24,8 +23,12 @@ class InParts : public Base {
   using typename StepsInParts<Real>::Place;
   explicit InParts(Base simulation) : Base(std::move(simulation)) {}
 
-  void mark(Place place) override { marks_[static_cast<std::size_t>(place)].emplace(z_, method_, probe_, clock_); }
-  void back(Place place) override { std::tie(z_, method_, probe_, clock_) = *marks_[static_cast<std::size_t>(place)]; }
+  void mark(Place place) override {
+    std::unique_ptr<InParts>& kept = marks_.kept[static_cast<std::size_t>(place)];
+    if (!kept) kept = std::make_unique<InParts>(*this);
+    kept->take(*this);
+  }
+  void back(Place place) override { take(*marks_.kept[static_cast<std::size_t>(place)]); }
   Outcome take_part(const Real& h) override {
     InParts::forget();
     auto probe = probe_;
@@ -47,9 +50,20 @@ class InParts : public Base {
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<InParts>(*this); }
 
  private:
-  using Mark = std::tuple<std::remove_cvref_t<decltype(std::declval<Base&>().state())>, typename Base::Stepper,
-                          typename Base::Watch, StepClock<Real>>;
-  std::array<std::optional<Mark>, 2> marks_;
+  void take(const InParts& other) {
+    z_ = other.z_;
+    method_ = other.method_;
+    probe_ = other.probe_;
+    clock_ = other.clock_;
+  }
+  /// A copy has none.
+  struct Marks {
+    std::array<std::unique_ptr<InParts>, 2> kept;
+    Marks() = default;
+    Marks(const Marks&) {}
+    Marks& operator=(const Marks&) { return *this; }
+  };
+  Marks marks_;
   Effort effort_of_parts_;
 };
 

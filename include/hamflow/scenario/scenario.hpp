@@ -33,6 +33,13 @@ struct Setting {
   int column = 0;
 };
 
+/// A zero of an expression that a run locates, counts and records.
+struct UserEvent {
+  std::string name;
+  Section zero;        // by expression, with value 0
+  bool stops = false;  // the run ends with that step
+};
+
 struct Scenario {
   std::string file;  // as named by the user
   std::string text;  // as it is carried out: the file's, or with each --set merged in; a scenario by itself
@@ -51,6 +58,7 @@ struct Scenario {
   std::size_t lyapunov = 0;                  // exponents to be measured
   bool eigenvalues = false;                  // of the derivative of all steps
   std::optional<Section> section{};          // whose points are recorded
+  std::vector<UserEvent> events;             // declared by the user
   std::int64_t record_events = 100000;       // rows of each table of events, at most
   std::vector<std::string> notes;            // worth saying, but no errors
   std::optional<TwoBodies> bodies;           // of a start by two bodies in space

@@ -26,8 +26,12 @@ class Measure {
   virtual Observer& observer() = 0;
   /// The same where it follows tangent vectors, which many members carry together.
   virtual TangentWatch* tangents() { return nullptr; }
-  /// Its entry in the summary, from what was seen so far.
+  /// Its entry in the summary, from what was seen so far; null: none.
   virtual nlohmann::ordered_json summary() const = 0;
+  /// What it counts among the events.
+  virtual void add_events(nlohmann::ordered_json& /*events*/) const {}
+  /// Whether the run ends here by its own will.
+  virtual bool stops() const { return false; }
   /// Its numbers in a sweep, from what was seen of a member that is done, one for each of the columns.
   virtual std::vector<double> row() const { return {}; }
 };

@@ -1,5 +1,6 @@
 #include "measures.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "measure_list.hpp"
@@ -33,7 +34,14 @@ std::vector<NamedObserver> Measures::observers() const {
 }
 
 void Measures::add_to(nlohmann::ordered_json& summary) const {
-  for (const auto& [kind, measure] : requested_) summary[kind->key] = measure->summary();
+  for (const auto& [kind, measure] : requested_) {
+    measure->add_events(summary["events"]);
+    if (const auto entry = measure->summary(); !entry.is_null()) summary[kind->key] = entry;
+  }
+}
+
+bool Measures::stopped() const {
+  return std::any_of(requested_.begin(), requested_.end(), [](const auto& each) { return each.second->stops(); });
 }
 
 namespace {

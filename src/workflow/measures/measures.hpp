@@ -20,6 +20,8 @@ class Measures {
   std::vector<NamedObserver> observers() const;
   /// Adds an entry for each to the summary.
   void add_to(nlohmann::ordered_json& summary) const;
+  /// Whether one of them has ended the run.
+  bool stopped() const;
 
  private:
   std::vector<std::pair<const MeasureKind*, std::unique_ptr<Measure>>> requested_;

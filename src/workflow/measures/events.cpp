@@ -1,0 +1,78 @@
+// run.events: zeros of expressions, located as the points of a section are, counted, recorded, and able to end a run.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "measure.hpp"
+#include "measure_list.hpp"
+#include "number_text.hpp"
+#include "recorder.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class EventsMeasure final : public Measure, public Observer {
+ public:
+  EventsMeasure(const Scenario& scenario, const Simulation& simulation, Recorder* recorder) : events_(scenario.events) {
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      finders_.push_back(std::make_unique<SectionFinder>(
+          simulation, events_[i].zero, [this, recorder, i](const SectionPoint& point) { found(i, point, recorder); }));
+    }
+  }
+  Observer& observer() override { return *this; }
+  std::int64_t next_due(std::int64_t step) const override { return step; }
+  Verdict observe(const Frame& frame) override {
+    step_ = frame.step;
+    for (const auto& finder : finders_) (void)finder->observe(frame);
+    return by_ ? Verdict::stop : Verdict::go_on;
+  }
+  void archive(Writer& ar) override { fields(ar); }
+  void archive(Reader& ar) override { fields(ar); }
+  bool stops() const override { return by_.has_value(); }
+  void add_events(Json& events) const override {
+    for (std::size_t i = 0; i < events_.size(); ++i) events["user:" + events_[i].name] = finders_[i]->points();
+  }
+  Json summary() const override {
+    if (!by_) return nullptr;
+    return {{"event", events_[*by_].name}, {"t", where_.time}, {"q", where_.q}, {"p", where_.p}};
+  }
+
+ private:
+  void found(std::size_t event, const SectionPoint& point, Recorder* recorder) {
+    if (recorder != nullptr) recorder->append(event, step_, point);
+    if (!events_[event].stops || (by_ && where_.time <= point.time)) return;
+    by_ = event;
+    where_ = point;
+  }
+  template <class Archive>
+  void fields(Archive& ar) {
+    ar(step_, by_, where_.time, where_.q, where_.p);
+    for (const auto& finder : finders_) finder->archive(ar);
+  }
+
+  const std::vector<UserEvent>& events_;
+  std::vector<std::unique_ptr<SectionFinder>> finders_;
+  std::int64_t step_ = 0;
+  std::optional<std::size_t> by_;  // the event that ends the run, the first within its step
+  SectionPoint where_;
+};
+
+}  // namespace
+
+MeasureKind measure_events() {
+  return {.key = "stopped_by",
+          .label = "stopped by",
+          .requested = [](const Scenario& scenario) { return !scenario.events.empty(); },
+          .make_of_run = [](const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
+              -> std::unique_ptr<Measure> { return std::make_unique<EventsMeasure>(scenario, simulation, recorder); },
+          .text =
+              [](const Json& found) {
+                return fmt::format("{} at t = {}", found["event"].get<std::string>(),
+                                   number_text(found["t"], "{:.17g}"));
+              }};
+}
+
+}  // namespace hamflow
