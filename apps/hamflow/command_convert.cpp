@@ -47,12 +47,20 @@ void convert_given_state(const ConvertOptions& options) {
 }
 
 void convert_scenario(const ConvertOptions& options) {
-  const Scenario scenario = accepted(read_scenario(options.input, options.sets));
+  // The method set is that of the converted scenario: with constraints none is allowed in both coordinates.
+  std::vector<std::string> of_problem = options.sets;
+  std::vector<std::string> of_method;
+  std::erase_if(of_problem, [&](const std::string& set) {
+    const bool is_method = set.starts_with("method.") || set.starts_with("method=");
+    if (is_method) of_method.push_back(set);
+    return is_method;
+  });
+  const Scenario scenario = accepted(read_scenario(options.input, of_problem));
   if (options.json) {
     print(converted_start_json(scenario, options.to), options.output);
     return;
   }
-  print(converted_scenario(scenario, options.to), options.output);
+  print(converted_scenario(scenario, options.to, of_method), options.output);
   if (scenario.text.find('#') != std::string::npos) {
     print_notes({"comments of " + options.input + " are not in the converted text"}, false);
   }

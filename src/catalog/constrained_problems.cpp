@@ -179,9 +179,11 @@ ProblemEntry pendulum(int dimension, const std::string& form) {
     ChartOfAngles<Circle>::add_to(entry);
     entry.exact = exact_pendulum;
     info.region = {.centre = {0.9, 0.4, -0.2, 0.5}, .spread = 0.15, .time = 2.5};
+    info.example = {.q = {0.6, -0.8}, .p = {0.8, 0.6}, .dt = 0.05};
   } else {
     info.invariants = {{"angular_momentum", "x p_y - y p_x, about the vertical", Components::one, Terms::moments}};
     info.region = {.centre = {0.8, 0.1, -0.6, -0.2, 0.7, 0.3}, .spread = 0.15, .time = 2.5};
+    info.example = {.q = {0.6, 0, -0.8}, .p = {0.4, 0.9, 0.3}, .dt = 0.05};
   }
   return entry;
 }
@@ -209,8 +211,8 @@ ProblemEntry double_pendulum(const std::string& form) {
     return {};
   };
   ChartOfAngles<TwoRods>::add_to(entry);
-  info.region = {.centre = {0.4, -0.9, 0.5, -2.75, 0.3, 0.1, 0.5, 0.1}, .spread = 0.05, .step = 0.008, .time = 0.7};
-  info.example = {.dt = 0.01};
+  info.region = {.centre = {0.4, -0.9, 0.5, -2.75, 0.3, 0.1, 0.5, 0.1}, .spread = 0.05, .step = 0.02, .time = 0.7};
+  info.example = {.q = {0.6, -0.8, 1.2, -2.6}, .p = {0.4, 0.3, 0.8, 0.6}, .dt = 0.005};
   return entry;
 }
 

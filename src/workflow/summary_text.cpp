@@ -62,6 +62,11 @@ std::string readable(const Json& s) {
                                                               number_text(s["energy"]["max_relative_error"], "{:.3g}"))
                                                 : " (not relative: H is 0 at the start)"));
   for (const auto& [key, watch] : s["invariants"].items()) text += row(key, watched(watch));
+  if (s.contains("constraints")) {
+    const Json& residuals = s["constraints"];
+    text += row("constraints", "|g| at most " + number_text(residuals["position"], "{:.3g}") +
+                                   ", |g' M^-1 p| at most " + number_text(residuals["velocity"], "{:.3g}"));
+  }
   if (s.contains("exact")) {
     const Json& exact = s["exact"];
     const std::string off = number_text(exact["max_difference"], "{:.3g}");

@@ -193,11 +193,11 @@ class Convert(CommandCase):
         self.write("bad.toml", "[problem]\nname = 1\n")
         for arguments, words in (
             (["pendulum.toml", "--to", "polar"], "central-force has cartesian and polar"),
-            (["kepler.toml", "--to", "relative"], "double-pendulum has absolute and relative"),
+            (["kepler.toml", "--to", "relative"], "double-pendulum has absolute, relative and cartesian"),
             (["kepler.toml", "--to", "polr"], "did you mean polar?"),
             (["kepler.toml"], "--to"),
             (["--to", "polar"], "INPUT"),
-            (["--from", "cartesian", "--to", "relative", "--q", "1,0", "--p", "0,1"], "no way from"),
+            (["--from", "polar", "--to", "relative", "--q", "1,0", "--p", "0,1"], "no way from"),
             (["--from", "cartesian", "--to", "polar", "--q", "0,0", "--p", "0,1"], "r = 0"),
             (["--from", "polar", "--to", "cartesian", "--q", "0,1", "--p", "0,1"], "r = 0"),
             (["--from", "cartesian", "--to", "polar", "--q", "1", "--p", "0,1"], "1 coordinates and 2 momenta"),

@@ -561,7 +561,7 @@ class Wrong(FormulaCase):
             ("{ k = 1 }", "{ k = 1, pi = 3 }", "problem.parameters.pi", "pi"),
             ("{ k = 1 }", "{ k = 1, x = 3 }", "problem.coordinates", "found the name x a second time"),
             ("{ k = 1 }", "{ k = 1 }\ninvariants = { L = \"x*p_z\" }", "problem.invariants.L", "p_z"),
-            ("{ k = 1 }", "{ k = 1 }\nconstraints = [\"x^2 - 1\"]", "problem.constraints", "allowed"),
+            ("{ k = 1 }", "{ k = 1 }\nconstraints = [\"x^2 - z\"]", "problem.constraints[0]", "allowed"),
             ("q = [0.1, 0.2]", "q = [0.1, 0.2, 0.3]", "problem.initial.q", "2 numbers"),
         ):
             found, text = self.errors(HENON.replace(old, new, 1))

@@ -26,7 +26,7 @@ class New(CommandCase):
                 self.assertEqual((s["status"], s["problem"]), ("done", name))
                 self.assertGreaterEqual(s["steps"], 1000)
                 for key, value in variant.items():
-                    self.assertIn(f'{key} = "{value}"', text)
+                    self.assertIn(f'{key} = {value}' if value.isdigit() else f'{key} = "{value}"', text)
                 # Sensible: the orbit is bounded and resolved, so that the energy stays near its start.
                 self.assertLess(s["energy"]["max_relative_error"], 0.02)
                 self.assertEqual(s["method"], {"magnetic": "boris"}.get(name, s["method"]))
@@ -100,7 +100,7 @@ class New(CommandCase):
             (["pendulun"], "did you mean pendulum?"),
             (["central-force", "--potential", "keplr"], "did you mean kepler?"),
             (["pendulum", "--potential", "kepler"], "no choice of potential"),
-            (["double-pendulum", "--coordinates", "polar"], "allowed --angles, --model"),
+            (["double-pendulum", "--potential", "kepler"], "allowed --angles, --constraint_form, --coordinates, --model"),
             ([], "problem"),
         ):
             done = self.hamflow("new", *arguments, status=2)

@@ -46,7 +46,8 @@ class Claims : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Claims, AreWhatIsMeasured) {
   std::vector<Region> regions = default_regions(parse_method(GetParam()));
-  if (GetParam() == "itoh-abe") regions.resize(1);  // the slowest by far: on the others by verify --all
+  // The slowest by far: on the others by verify --all.
+  if (GetParam() == "itoh-abe" || GetParam().starts_with("rattle")) regions.resize(1);
   const std::vector<PropertyRow> rows{measure_method(parse_method(GetParam()), regions)};
   EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
 }
@@ -60,7 +61,8 @@ bool stands_for_others(const std::string& name) {
   // (StagesAreTheMapOfElementsWithAsManyPoints). The adaptive references are tested by themselves.
   if (spec.name == "cg") return name == "cg(1,auto)";
   // The other implicit methods have one kernel for all problems too.
-  const std::vector<std::string> below{"gauss", "eg", "lobatto-3a-3b", "discrete-gradient", "itoh-abe"};
+  const std::vector<std::string> below{"gauss",    "eg",     "lobatto-3a-3b", "discrete-gradient",
+                                       "itoh-abe", "rattle", "rattle4"};
   if (std::find(below.begin(), below.end(), spec.name) != below.end()) return false;
   if (spec.name == "tao4") return false;  // three steps of tao2
   if (describe(spec).own_substeps) return false;
@@ -129,7 +131,8 @@ const std::map<std::string, std::string> nonlinear{{"model", "nonlinear"}};
 INSTANTIATE_TEST_SUITE_P(Catalogue, ClaimsBeside,
                          ::testing::Values(Beside{"lobatto-3a-3b(3)", "double-pendulum", nonlinear},
                                            Beside{"discrete-gradient", "double-pendulum", nonlinear},
-                                           Beside{"eg(2)", "n-body"}),
+                                           Beside{"eg(2)", "n-body"},
+                                           Beside{"rattle", "double-pendulum", {{"coordinates", "cartesian"}}}),
                          [](const auto& each) {
                            return test_name({each.param.method + "_" + each.param.problem, each.index});
                          });

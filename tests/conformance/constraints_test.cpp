@@ -111,11 +111,22 @@ TEST(ConstraintMutant, WithoutTheVelocityStep) {
   EXPECT_LE(position, 16 * epsilon);  // the position's multipliers are there
   EXPECT_GT(velocity, 1e-3);
 
-  const auto row = [](const StepMap& map) { return judge(map.claims(), {measure(map, region_on_circle())}); };
-  mutants::expect_sound(row(on_circle(Rattle{})));
-  const PropertyRow broken = row(on_circle(MutantRattle{}));
-  mutants::expect_caught(broken, "symplectic");
-  EXPECT_NE(broken["symmetric"].agrees, Finding::yes);
+  const auto order = [](const StepMap& map) { return measure_order(map, region_on_circle()).slope; };
+  EXPECT_NEAR(order(on_circle(Rattle{})), 2, 0.15);
+  EXPECT_NEAR(order(on_circle(MutantRattle{})), 1, 0.15);
+  // Nor is it symmetric. It does stay symplectic: what is missing in p1 is a multiple of g', which the form on the
+  // manifold does not see.
+  const auto way_back = [](const StepMap& map) {
+    const State<double> start = random_state(region_on_circle(), 0);
+    State<double> z = start;
+    EXPECT_TRUE(map.advance(z, 0.1, 1));
+    EXPECT_TRUE(map.advance(z, -0.1, 1));
+    double most = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) most = std::max(most, std::abs(z[i] - start[i]));
+    return most;
+  };
+  EXPECT_LE(way_back(on_circle(Rattle{})), 16 * epsilon);
+  EXPECT_GT(way_back(on_circle(MutantRattle{})), 1e-3);
 }
 
 TEST(Constraints, SymplecticAlongTheManifoldOnly) {
@@ -147,15 +158,6 @@ TEST(Constraints, SymplecticAlongTheManifoldOnly) {
   }
   along = std::abs(product(moved[0], moved[1]) - product(directions[0], directions[1]));
   EXPECT_LE(along, 64 * std::numeric_limits<double>::epsilon());
-}
-
-TEST(Constraints, MethodsOfTheCatalogueHoldTheirClaims) {
-  for (const char* const name : {"rattle", "rattle4"}) {
-    const MethodSpec method{.name = name};
-    const std::vector<Region> regions = default_regions(method);
-    EXPECT_EQ(regions.size(), 2u);
-    mutants::expect_sound(measure_method(method, regions));
-  }
 }
 
 }  // namespace

@@ -19,8 +19,10 @@ CanonicalState converted_start(const Scenario& scenario, const std::string& to);
 /// The same as JSON, in arithmetic beyond double as texts with all digits.
 std::string converted_start_json(const Scenario& scenario, const std::string& to);
 /// The text of the scenario in the coordinates `to`; comments are lost.
+/// @param sets PATH=VALUE texts for the converted one: its method, say, which may not be allowed in both coordinates
 /// @throws Error when its problem or its method cannot be used in them   @throws Rejection
-std::string converted_scenario(const Scenario& scenario, const std::string& to);
+std::string converted_scenario(const Scenario& scenario, const std::string& to,
+                               const std::vector<std::string>& sets = {});
 
 /// Whether a path names the folder of a run or an HDF5 file, whatever it is called.
 bool is_run(const std::filesystem::path& path);

@@ -35,7 +35,9 @@ struct Rattle {
             [](std::size_t method) {
               return MethodAdvice{.take = std::string("coordinates are bound by constraints, and ") +
                                           (method == 0 ? "order 2 does" : "order 4 is wanted"),
-                                  .avoid = "there are coordinates without constraints, angles say: any method"};
+                                  .avoid =
+                                      "there are coordinates without constraints, angles say: cg, gauss, or verlet "
+                                      "where H is T(p) + V(q)"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
         .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
