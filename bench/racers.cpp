@@ -106,8 +106,11 @@ class OuterPlanets {
     simulation->look(frame);
     end_ = frame.q;
   }
-  Racer::Lap run(const std::string& method, std::int64_t steps, std::int64_t laps) const {
-    return run_by_name(of_steps(steps), method, steps, laps, [&](const std::vector<double>& q) {
+  Racer::Lap run(const std::string& method, const std::string& arithmetic, std::int64_t steps,
+                 std::int64_t laps) const {
+    hamflow::Request request = of_steps(steps);
+    request.arithmetic = arithmetic;
+    return run_by_name(request, method, steps, laps, [&](const std::vector<double>& q) {
       double error = 0;
       for (std::size_t i = 0; i < q.size(); ++i) error = std::max(error, std::abs(q[i] - end_[i]));
       return error;
@@ -164,13 +167,18 @@ Course ellipse() {
 Course outer_planets() {
   const auto planets = std::make_shared<const OuterPlanets>();
   std::vector<Racer> all;
-  const auto put = [&](const std::string& name, int order, const std::string& method) {
-    all.push_back(
-        {name, order, [=](std::int64_t steps, std::int64_t laps) { return planets->run(method, steps, laps); }});
+  const auto put = [&](const std::string& name, int order, const std::string& method,
+                       const std::string& arithmetic = "double") {
+    all.push_back({name, order, [=](std::int64_t steps, std::int64_t laps) {
+                     return planets->run(method, arithmetic, steps, laps);
+                   }});
   };
   for (const char* method : {"stv4", "suzuki4"}) put(method, 4, method);
   for (const char* method : {"yoshida6", "srkn14a"}) put(method, 6, method);
   for (const char* method : {"kahan-li8", "rkn8-s19"}) put(method, 8, method);
+  // Gauss has compensated sums anyway.
+  for (const char* method : {"kahan-li8", "rkn8-s19"})
+    put(std::string(method) + ", compensated", 8, method, "compensated");
   for (const int stages : {4, 8}) put(gauss_name(stages) + ", fixed-point", 2 * stages, by_fixed_point(stages));
   return {"Sun and outer planets over 60 000 days", all, 200, 1'000'000};
 }
