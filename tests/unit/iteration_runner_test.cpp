@@ -1,11 +1,11 @@
 // Steps that are solved by iteration, taken by their programs and with stages in lanes: the bits of the ordinary road.
 #include <gtest/gtest.h>
 
+#include "../support/measured_request.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/run/stages_in_lanes.hpp"
-#include "../support/measured_request.hpp"
 
 namespace hamflow {
 namespace {
