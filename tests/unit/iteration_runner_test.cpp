@@ -1,6 +1,7 @@
 // Steps that are solved by iteration, taken by their programs and with stages in lanes: the bits of the ordinary road.
 #include <gtest/gtest.h>
 
+#include "../support/measured_request.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation.hpp"
@@ -59,6 +60,30 @@ void expect_same_bits(const Case& of, const std::string& method, bool recorded =
   }
   EXPECT_EQ(quick->is_recorded(), recorded);
   EXPECT_FALSE(ordinary->is_recorded());
+}
+
+TEST(IterationRunner, EveryProblemHasTheBitsOfTheOrdinaryRoad) {
+  int recorded = 0;
+  for (const ProblemEntry& problem : problems()) {
+    for (const char* method : {"gauss(stages=3,iteration=fixed-point)", "cg(2,3)"}) {
+      Request request = test::measured_request(problem);
+      request.method = parse_method(method);
+      if (!refusal(request.method, problem).empty()) continue;
+      SCOPED_TRACE(request.problem + ", " + method);
+      request.record = false;
+      const auto ordinary = make_simulation(request);
+      request.record = true;
+      const auto quick = make_simulation(request);
+      for (const int steps : {200, 150}) {
+        const Outcome outcome = ordinary->advance(steps);
+        ASSERT_EQ(quick->advance(steps), outcome);
+        ASSERT_TRUE(quick->save() == ordinary->save());
+        if (outcome != Outcome::done) break;
+      }
+      recorded += quick->is_recorded() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(recorded, 20);
 }
 
 TEST(IterationRunner, StagesInLanesHaveTheBitsOfStagesOneByOne) {
