@@ -36,6 +36,7 @@ std::vector<Comparison> comparisons() {
                               {"stv4", "typed", "verlet", "odeint", true},
                               {"cg(1,1)", "typed", "cg(1,1)", "gsl"},
                               {"cg(1,5)", "typed", "cg(1,1)", "gsl"},
+                              {"cg(1,5)", "typed", "cg(1,5)", "hand, two lanes", false, 1.15},
                               {"cg(1,5)", "typed", "cg(1,1)", "arkode", false, 0.2}};
   if (hamflow::fast_kernel_available()) {
     for (const char* method : {"verlet", "stv4"}) {
