@@ -12,6 +12,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "meant.hpp"
@@ -80,7 +81,13 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
 
 /// The choices that find an entry in lists; those of a typed problem are its texts.
 std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& entry) {
-  return entry.structure ? std::vector<std::pair<std::string, std::string>>() : entry.info.variant;
+  std::vector<std::pair<std::string, std::string>> choices;
+  if (entry.structure) return choices;
+  const std::map<std::string, std::string> all(entry.info.variant.begin(), entry.info.variant.end());
+  const auto kept = without_walls(all);
+  std::copy_if(entry.info.variant.begin(), entry.info.variant.end(), std::back_inserter(choices),
+               [&](const auto& choice) { return kept.contains(choice.first); });
+  return choices;
 }
 
 std::string variant_text(const ProblemEntry& entry) {
@@ -125,6 +132,13 @@ void show_scenario(const Scenario& scenario) {
   for (const auto& [name, value] : scenario.request.parameters) {
     if (!value.empty()) std::cout << fmt::format("  here: {} = {}\n", name, value);
   }
+  if (const auto walls = walls_among(scenario.request.variant)) {
+    for (const Walls::Interval& wall : walls->intervals) {
+      std::cout << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
+                               wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
+                               wall.min.empty() ? "-infinity" : wall.min, wall.max.empty() ? "infinity" : wall.max);
+    }
+  }
   const auto list = [](const std::vector<double>& xs) { return joined(xs, shortest); };
   std::cout << fmt::format(
       "  start: q = [{}], p = [{}], H = {}\n", list(scenario.start_q), list(scenario.start_p),
@@ -145,14 +159,30 @@ void show_starts(const ProblemInfo& info) {
   if (info.two_bodies) {
     std::cout << "  bodies = [{ mass, position = [3], velocity = [3] }, { ... }]: two bodies in space, reduced\n";
   }
-  std::cout << fmt::format(
-      "  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n", fmt::join(info.coordinates, ", "),
-      info.default_q.empty() ? ""
-                             : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
-                                           fmt::join(info.default_p, ", ")));
+  std::cout << fmt::format("  initial = {{ q = [{0}], p = [...] }} or {{ q, v }}{1}\n",
+                           fmt::join(info.coordinates, ", "),
+                           info.default_q.empty() || info.default_p.empty()
+                               ? ""
+                               : fmt::format("; default q = [{}], p = [{}]", fmt::join(info.default_q, ", "),
+                                             fmt::join(info.default_p, ", ")));
   std::cout << "    one component of p or v left to the energy: { q, p = [\"+\", ...], energy = E }, \"+\" the "
                "largest, \"-\" "
                "the smallest root of H = E\n";
+}
+
+/// What may stand between coordinates and walls.
+void show_walls(const ProblemInfo& info) {
+  const WallKeys& keys = wall_keys();
+  const bool fixed = !info.walls.empty();
+  for (const FixedWall& wall : info.walls) {
+    std::cout << fmt::format("  walls: {} from {} to {}\n", info.coordinates.at(wall.coordinate), wall.min, wall.max);
+  }
+  if (!fixed) {
+    std::cout << fmt::format("  {} = [{{ {} = \"{}\", {}, {} }}]: walls, with\n", keys.walls.name, keys.coordinate.name,
+                             info.coordinates.front(), keys.min.name, keys.max.name);
+  }
+  for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) std::cout << option_row(*key);
+  for (const auto& [name, text] : info.observables) std::cout << fmt::format("  observable: {} = {}\n", name, text);
 }
 
 void show_problem(const ProblemEntry& entry) {
@@ -164,7 +194,9 @@ void show_problem(const ProblemEntry& entry) {
   if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
   for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
   if (!info.frame.name.empty()) std::cout << option_row(info.frame);
+  if (!info.velocities.name.empty()) std::cout << option_row(info.velocities);
   show_starts(info);
+  show_walls(info);
   std::cout << fmt::format("  momenta: {}\n",
                            entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);

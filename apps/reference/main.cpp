@@ -9,6 +9,7 @@
 #include "formula_keys.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/walls.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
 
@@ -87,18 +88,25 @@ std::string problem(const ProblemEntry& entry) {
                       joined(info.coordinates), info.reference);
   std::vector<OptionInfo> keys = info.parameters;
   if (!info.frame.name.empty()) keys.push_back(info.frame);
+  if (!info.velocities.name.empty()) keys.push_back(info.velocities);
   if (!keys.empty()) text += table(keys);
   text += starts(info);
   if (info.two_bodies) {
     text += "`bodies = [{ mass, position = [3], velocity = [3] }, { ... }]`: two bodies in space, reduced.\n\n";
   }
   text += "`initial = { q, p }` with canonical momenta, or `{ q, v }` with velocities";
-  if (!info.default_q.empty() && info.default_q.size() <= 4) {
+  if (!info.default_q.empty() && !info.default_p.empty() && info.default_q.size() <= 4) {
     text += fmt::format("; default q = [{}], p = [{}]", joined(info.default_q), joined(info.default_p));
-  } else if (!info.default_q.empty()) {
+  } else if (!info.default_q.empty() && info.velocities.name.empty()) {
     text += "; default: the problem's own";
   }
   text += ".\n\n";
+  for (const FixedWall& wall : info.walls) {
+    text += fmt::format("Walls: {} from {} to {}.\n\n", info.coordinates.at(wall.coordinate), wall.min, wall.max);
+  }
+  for (const auto& [name, expression] : info.observables) {
+    text += fmt::format("Observable, averaged over every step: {} = {}.\n\n", name, expression);
+  }
   for (const InvariantInfo& invariant : info.invariants) {
     text += fmt::format("Conserved: {} = {}.\n\n", invariant.name, invariant.meaning);
   }
@@ -145,6 +153,13 @@ std::string page() {
       "### {}, {} = \"{}\"\n\nH = |p|^2/(2 mu) + V(r), in both coordinates, with `mass`, `initial` and `bodies`.\n\n",
       CentralKeys::problem, CentralKeys::key, FormulaKeys::problem);
   text += table(central_formula_options());
+  const WallKeys& walls = wall_keys();
+  text +=
+      "### Walls, of any problem\n\nThose of `t-tube` are fixed; it takes their rule. Behind hard walls invariants "
+      "that a "
+      "wall breaks, closed forms and\nfacts of the orbit are left out, and `compare` measures against a motion whose "
+      "bounces are located.\n\n";
+  text += table(std::vector<OptionInfo>{walls.walls, walls.wall_rule, walls.strength, walls.exponent});
   text += "## [method]\n\n`name` is one of the methods below; options may stand behind it, as in \"cg(1,5)\".\n\n";
   for (const MethodFamily& family : method_families()) text += methods_of(family);
   for (const DeclaredTable& declared : declared_tables())

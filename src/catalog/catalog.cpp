@@ -11,6 +11,7 @@
 #include "hamflow/run/recorded_step.hpp"
 #include "step_control.hpp"
 #include "typed_problem.hpp"
+#include "walled_problem.hpp"
 
 namespace hamflow {
 
@@ -25,6 +26,7 @@ std::span<const ProblemEntry> problems() {
 }
 
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   std::vector<std::string> names;
   const ProblemEntry* same_name = nullptr;
@@ -47,6 +49,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
 }
 
 const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
+  if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
   const ProblemEntry& any = find_problem(name, variant);
   const auto usual = [](const ProblemInfo& info, const std::string& key) {

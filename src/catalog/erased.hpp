@@ -13,6 +13,8 @@
 
 namespace hamflow {
 
+struct StepWalls;
+
 // Recordings are compiled once for each number type, in traces.cpp.
 #define HAMFLOW_FOR_EACH_TRACED(X) X(double) X(long double) X(DoubleDouble) X(Quad) X(Mp)
 #define HAMFLOW_TRACED(R)          \
@@ -50,6 +52,7 @@ struct ErasedRun {
   Vector<R, dynamic> q;
   Vector<R, dynamic> p;
   R h;
+  std::shared_ptr<const StepWalls> walls{};  // that a recorded step has to stay within
 };
 /// Of the request the method and the arithmetic count. Defined for each number type in a file of its own.
 template <class R>

@@ -10,6 +10,7 @@
 #include "iteration_recorder.hpp"
 #include "varying_steps.hpp"
 #include "visit_erased.hpp"
+#include "walled_simulation.hpp"
 
 namespace hamflow {
 
@@ -31,11 +32,12 @@ template <Capability c, class A, class M>
 StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool estimated) {
   using Traced = AnyProblem<Trace<double>, c>;
   using TA = typename TracedArithmetic<A>::type;
-  return [problem = Traced(run.functions.size, run.functions.trace), recipe, estimated](
+  return [problem = Traced(run.functions.size, run.functions.trace), recipe, estimated, walls = run.walls](
              const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
              bool watch, RecordedAt at) {
     const auto recorded = [&](double length) {
-      return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, length, time, watch, at);
+      return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, length, time, watch, at, nullptr,
+                             walls.get());
     };
     auto step = recorded(h);
     // A step that leaves the finite numbers is recorded as little as one that is too long.
@@ -101,6 +103,7 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
         using P = std::remove_const_t<decltype(problem)>;
         auto method = recipe.template bind<P, A>(problem);
         using Ordinary = SimulationOf<P, decltype(method), A>;
+        using Parted = InParts<Ordinary>;
         const auto requested = [&](auto simulation) {
           vary_steps_as_requested(*simulation, run, request);
           return simulation;
@@ -117,7 +120,7 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               Ordinary(problem, method, run.q, run.p, run.h, arithmetic),
               iteration_recorder(run.functions, c, recipe.options)));
         } else {
-          return requested(std::make_unique<Ordinary>(problem, method, run.q, run.p, run.h, arithmetic));
+          return requested(std::make_unique<Parted>(problem, method, run.q, run.p, run.h, arithmetic));
         }
       }
     };
@@ -149,11 +152,18 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
 }
 
 template <class R>
-std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+std::unique_ptr<Simulation> simulate_without_walls(const ErasedRun<R>& run, const Request& request) {
   if constexpr (std::is_same_v<R, double>) {
     if (const auto fast = with_estimates(run, request)) return simulate_half<double, false>(*fast, request, true);
   }
   return simulate_half<R, false>(run, request, false);
+}
+
+template <class R>
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+  const auto walls = walls_among(request.variant);
+  if (!walls) return simulate_without_walls(run, request);
+  return simulate_behind_walls<R>(run, request, *walls, simulate_without_walls<R>);
 }
 
 }  // namespace hamflow

@@ -48,6 +48,8 @@ class MpSimulation final : public Simulation {
   std::string failure() const override {
     return in_scope([&] { return inner_->failure(); });
   }
+  std::vector<WallCount> wall_counts() const override { return inner_->wall_counts(); }
+  void tell_bounces(std::function<void(const Bounce&)> told) override { inner_->tell_bounces(std::move(told)); }
   std::vector<std::byte> save() const override {
     return in_scope([&] { return inner_->save(); });
   }

@@ -30,6 +30,15 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   MethodInfo method() const override { return extended_->method(); }
   std::string failure() const override { return extended_->failure(); }
   bool is_recorded() const override { return extended_->is_recorded(); }
+  std::vector<WallCount> wall_counts() const override { return extended_->wall_counts(); }
+  void tell_bounces(std::function<void(const Bounce&)> told) override {
+    extended_->tell_bounces([told = std::move(told)](const Bounce& extended) {
+      Bounce bounce = extended;
+      bounce.q.pop_back();
+      bounce.p.pop_back();
+      told(bounce);
+    });
+  }
   std::vector<std::byte> save() const override { return extended_->save(); }
   void restore(std::span<const std::byte> saved) override { extended_->restore(saved); }
   std::unique_ptr<Simulation> clone() const override { return std::make_unique<TimedSimulation>(extended_->clone()); }

@@ -34,6 +34,7 @@ struct Checkpoint {
   std::int64_t record_every = 0;
   std::uint64_t rows = 0;          // of run.h5
   std::uint64_t section_rows = 0;  // of its section
+  std::uint64_t wall_rows = 0;     // of its bounces
   std::uint64_t csv_bytes = 0;     // of trajectory.csv
   std::uint64_t csv_hash = 0;      // of these bytes
   std::uint64_t summary_hash = 0;  // of summary.json; 0 while there is none
@@ -43,8 +44,8 @@ struct Checkpoint {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(identity, version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, csv_bytes,
-       csv_hash, summary_hash, wall_seconds, simulation, observers);
+    ar(identity, version, instruction_set, keys, values, steps, step, record_every, rows, section_rows, wall_rows,
+       csv_bytes, csv_hash, summary_hash, wall_seconds, simulation, observers);
   }
 };
 

@@ -48,15 +48,18 @@ struct RunFile::Impl {
   std::vector<Column> columns;  // in the order in which append() fills them; time is the last: its length tells how
                                 // many rows are complete
   std::vector<Column> section;  // q, p, t of its points: rows of their own
+  std::vector<Column> walls;    // of the bounces, likewise
   std::vector<std::size_t> invariant_sizes;
   bool diagnostics = false;
   bool digits = false;
   std::size_t section_waiting = 0;
+  std::size_t walls_waiting = 0;
   std::size_t waiting = 0;
   bool failed = false;
   std::size_t most_waiting = batch_rows;
   std::uint64_t rows = 0;
   std::uint64_t section_rows = 0;
+  std::uint64_t wall_rows = 0;
   Clock::time_point flushed = Clock::now();
 };
 
@@ -134,6 +137,21 @@ std::vector<Column> section_columns(hid_t file, const RunDescription& run) {
   return all;
 }
 
+std::vector<Column> wall_columns(hid_t file, const RunDescription& run) {
+  const std::size_t n = run.dimension;
+  std::vector<Column> all;
+  const auto add = [&](const char* name, hid_t type, std::size_t width, const ColumnText& text) {
+    all.emplace_back(file, name, type, width, batch_rows, text);
+  };
+  add("events/wall/q", H5T_IEEE_F64LE, n, {run.coordinates, "coordinates at the bounces", run.units.q});
+  add("events/wall/p", H5T_IEEE_F64LE, n, {run.momenta, "canonical momenta behind the bounces", run.units.p});
+  add("events/wall/step", H5T_STD_I64LE, 0, {{"step"}, "at the end of which the bounce is behind", {}});
+  add("events/wall/coordinate", H5T_STD_I64LE, 0, {{"coordinate"}, "column of q, from 0", {}});
+  add("events/wall/side", H5T_STD_I64LE, 0, {{"side"}, "-1 the wall below, 1 that above", {}});
+  add("events/wall/t", H5T_IEEE_F64LE, 0, {{"t"}, "times of the bounces", run.units.t});
+  return all;
+}
+
 }  // namespace
 
 std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file, const RunDescription& description) {
@@ -152,6 +170,10 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   if (description.section) {
     (void)make_group(id, "section");
     impl->section = section_columns(id, description);
+  }
+  if (description.walls) {
+    (void)make_group(id, "events/wall");
+    impl->walls = wall_columns(id, description);
   }
   impl->columns = sample_columns(id, description);
   std::size_t bytes = 0;
@@ -174,7 +196,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
 }
 
 RunFile::RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
-                 std::uint64_t section_rows) {
+                 std::uint64_t section_rows, std::uint64_t wall_rows) {
   silence_hdf5();
   const std::filesystem::path fresh = next_name(file);
   try {
@@ -185,7 +207,9 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
     for (Column& column : copy->columns) column.copy_from(old, rows, copy->most_waiting);
     for (Column& column : copy->section) column.copy_from(old, section_rows, copy->most_waiting);
     copy->rows = rows;
+    for (Column& column : copy->walls) column.copy_from(old, wall_rows, copy->most_waiting);
     copy->section_rows = section_rows;
+    copy->wall_rows = wall_rows;
     force_to_disk(fresh);
     std::filesystem::rename(fresh, file);  // the open file keeps its identity
     impl_ = std::move(copy);
@@ -198,6 +222,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
 
 std::uint64_t RunFile::rows() const { return impl_->rows; }
 std::uint64_t RunFile::section_rows() const { return impl_->section_rows; }
+std::uint64_t RunFile::wall_rows() const { return impl_->wall_rows; }
 
 RunFile::~RunFile() {
   if (!impl_) return;
@@ -256,11 +281,26 @@ void RunFile::append(const SectionPoint& point) {
   if (++impl_->section_waiting == impl_->most_waiting) flush();
 }
 
+void RunFile::append(const Bounce& bounce) {
+  for (const double x : bounce.q) impl_->walls.at(0).add(x);
+  for (const double x : bounce.p) impl_->walls[1].add(x);
+  impl_->walls[2].add(bounce.step);
+  impl_->walls[3].add(static_cast<std::int64_t>(bounce.coordinate));
+  impl_->walls[4].add(static_cast<std::int64_t>(bounce.side));
+  impl_->walls[5].add(bounce.time);
+  ++impl_->wall_rows;
+  if (++impl_->walls_waiting == impl_->most_waiting) flush();
+}
+
 void RunFile::flush() {
   if (impl_->failed) throw FileError("HDF5: a write has failed before");
   const std::size_t points = std::exchange(impl_->section_waiting, 0);
   const std::size_t rows = std::exchange(impl_->waiting, 0);
+  const std::size_t bounces = std::exchange(impl_->walls_waiting, 0);
   impl_->failed = true;  // until all is written
+  for (Column& column : impl_->walls) {
+    if (bounces > 0) column.write(bounces);
+  }
   for (Column& column : impl_->section) {
     if (points > 0) column.write(points);
   }
@@ -268,7 +308,7 @@ void RunFile::flush() {
     if (rows > 0) column.write(rows);
   }
   impl_->failed = false;
-  if (rows == 0) return;
+  if (rows == 0 && bounces == 0) return;
   impl_->flushed = Clock::now();
 }
 

@@ -46,6 +46,7 @@ struct RunDescription {
   std::vector<InvariantColumn> observables{};  // expressions of the user, whose text is the meaning
   bool diagnostics = false;                    // of implicit steps
   bool section = false;                        // points of one are written
+  bool walls = false;                          // bounces are
   std::size_t samples = 0;                     // expected, so that a short run leaves a small file; 0: unknown
   std::string created;                         // empty: now
   double dt = 0;
@@ -63,17 +64,19 @@ class RunFile {
  public:
   /// @throws FileError
   RunFile(const std::filesystem::path& file, const RunDescription& description);
-  /// Goes on after the first `rows` rows, and `section_rows` points of the section, of a file that is there, however it
-  /// was left. @throws FileError; the file is then as it was
+  /// Goes on after the first `rows` rows, `section_rows` points of the section and `wall_rows` bounces of a file that
+  /// is there, however it was left. @throws FileError; the file is then as it was
   RunFile(const std::filesystem::path& file, const RunDescription& description, std::uint64_t rows,
-          std::uint64_t section_rows = 0);
+          std::uint64_t section_rows = 0, std::uint64_t wall_rows = 0);
   ~RunFile();
   /// @param observables a value for each
   void append(const Frame& frame, std::span<const double> observables = {});
   void append(const SectionPoint& point);
+  void append(const Bounce& bounce);
   /// Appended so far, written or not.
   std::uint64_t rows() const;
   std::uint64_t section_rows() const;
+  std::uint64_t wall_rows() const;
   /// Writes and flushes what has gathered. @throws FileError, e.g. when the disk is full
   void flush();
   /// Flushes if some time has passed since the last flush: bounds what a crash can lose.

@@ -1,45 +1,13 @@
 #include "hamflow/run/fast_functions.hpp"
 
+#include "hamflow/run/forwarding_functions.hpp"
+
 namespace hamflow {
 
 namespace {
 
-/// What does not move the state, and all that nothing asks for.
 template <class S>
-class Forwarding : public Functions<S> {
- public:
-  using typename Functions<S>::V;
-  using typename Functions<S>::M;
-  using Pointer = std::shared_ptr<const Functions<S>>;
-  explicit Forwarding(Pointer exact) : exact_(std::move(exact)) {}
-
-  S energy(const V& q, const V& p) const override { return exact_->energy(q, p); }
-  S kinetic(const V& p) const override { return exact_->kinetic(p); }
-  S potential(const V& q) const override { return exact_->potential(q); }
-  bool has_parts() const override { return exact_->has_parts(); }
-  void inverse_mass_times(const V& f, V& out) const override { exact_->inverse_mass_times(f, out); }
-  bool has_scaled_velocity() const override { return exact_->has_scaled_velocity(); }
-  bool has_scaled_force() const override { return exact_->has_scaled_force(); }
-  void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override { exact_->hessian(q, p, qq, qp, pp); }
-  V invariants(const V& q, const V& p, const S& t) const override { return exact_->invariants(q, p, t); }
-  std::vector<std::size_t> invariant_sizes() const override { return exact_->invariant_sizes(); }
-  std::string label() const override { return exact_->label(); }
-  std::size_t residual_groups() const override { return exact_->residual_groups(); }
-  V constraints(const V& q) const override { return exact_->constraints(q); }
-  Gradients<S, dynamic> constraint_gradients(const V& q) const override { return exact_->constraint_gradients(q); }
-  Pointer reduced(const S& momentum) const override { return exact_->reduced(momentum); }
-  S cyclic_rate(const V& q, const S& momentum) const override { return exact_->cyclic_rate(q, momentum); }
-  void velocity_of(const V& q, const V& p, V& v) const override { exact_->velocity_of(q, p, v); }
-  void momentum_of(const V& q, const V& v, V& p) const override { exact_->momentum_of(q, v, p); }
-  V rotation() const override { return exact_->rotation(); }
-  S distance_rate(const V& q, const V& v) const override { return exact_->distance_rate(q, v); }
-  std::size_t radial_space() const override { return exact_->radial_space(); }
-  std::vector<RadialTerm<base_scalar<S>>> radial_terms() const override { return exact_->radial_terms(); }
-  RadialLaw<S> radial_law(const S& u) const override { return exact_->radial_law(u); }
-
- protected:
-  Pointer exact_;
-};
+using Forwarding = ForwardingFunctions<S>;
 
 /// While it lives, quotients are estimated in the recording of these numbers.
 class Estimates {
@@ -62,7 +30,7 @@ class Estimates {
 
 class FastTraced final : public Forwarding<Trace<double>> {
  public:
-  using Forwarding::Forwarding;
+  using ForwardingFunctions::ForwardingFunctions;
   void velocity(const V& p, V& v) const override {
     const Estimates on(p);
     exact_->velocity(p, v);
@@ -106,7 +74,7 @@ Recorder<double>& fresh_recorder() {
 class FastPlain final : public Forwarding<double> {
  public:
   FastPlain(Pointer exact, std::shared_ptr<const Functions<Trace<double>>> traced)
-      : Forwarding(std::move(exact)), traced_(std::move(traced)) {}
+      : ForwardingFunctions(std::move(exact)), traced_(std::move(traced)) {}
 
   void velocity(const V& p, V& v) const override {
     Recorder<double>& recorder = fresh_recorder();

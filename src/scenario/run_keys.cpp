@@ -123,7 +123,12 @@ const RunKeys& run_keys() {
                   .type = OptionType::table,
                   .unset = "none",
                   .keys = {section_keys().coordinate, section_keys().expression, section_keys().value,
-                           section_keys().direction}}};
+                           section_keys().direction}},
+      .record_events = {.name = "record_events",
+                        .default_value = "100000",
+                        .meaning = "rows of each table of events, at most; counts go on",
+                        .range = Range::whole_from(0, static_cast<double>(most_steps)),
+                        .example = "1000"}};
   return keys;
 }
 
@@ -161,10 +166,11 @@ const std::vector<DeclaredTable>& declared_tables() {
   static const std::vector<DeclaredTable> tables = [] {
     const RunKeys& r = run_keys();
     const OutputKeys& o = output_keys();
-    return std::vector<DeclaredTable>{{run_table,
-                                       {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues,
-                                        r.section, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
-                                      {output_table, {o.folder, o.formats, o.figures, o.observables}}};
+    return std::vector<DeclaredTable>{
+        {run_table,
+         {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.record_events,
+          r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+        {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;
 }

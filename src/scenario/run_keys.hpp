@@ -21,7 +21,7 @@ struct SectionKeys {
 };
 struct RunKeys {
   OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, kernel, threads, lyapunov,
-      eigenvalues, section;
+      eigenvalues, section, record_events;
 };
 struct OutputKeys {
   OptionInfo folder, formats, figures, observables;

@@ -22,7 +22,15 @@ void ScenarioReader::usual_units() {
   };
   Request& request = scenario_.request;
   if (scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
-    request.position_unit = unit_for(largest(scenario_.start_q), -9);
+    // Positions behind a mirror, as far from it as those in front, are exact in double, too.
+    std::vector<double> positions = scenario_.start_q;
+    if (const auto walls = walls_among(request.variant); walls && walls->hard()) {
+      for (const Walls::Interval& wall : walls->intervals) {
+        for (const std::string& text : {wall.min, wall.max})
+          positions.push_back(text.empty() ? 0 : 4 * number_value(text));
+      }
+    }
+    request.position_unit = unit_for(largest(positions), -9);
     request.momentum_unit = unit_for(largest(scenario_.start_p), -9);
     return;
   }

@@ -40,6 +40,7 @@ void ScenarioReader::read_measures(TomlTable& table) {
   if (scenario_.lyapunov > 0) refuse_derivative(table, keys.lyapunov.name);
   if (scenario_.eigenvalues) refuse_derivative(table, keys.eigenvalues.name);
   read_section(table);
+  if (const auto most = table.whole(keys.record_events)) scenario_.record_events = *most;
 }
 
 /// Steps are differentiated in double, and only where each is one step of one map.
@@ -69,6 +70,14 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
     table.complain(key, table.found(key) +
                             " with constraints; allowed in coordinates without any: on a manifold steps "
                             "have derivatives along it only, and tangent vectors of all of space are no motion");
+  }
+  if (has_hard_walls(scenario_.request)) {
+    table.complain(key, table.found(key) + " behind hard walls; allowed without walls: bounces are not differentiated");
+  }
+  if (const auto walls = walls_among(scenario_.request.variant); walls && !walls->hard()) {
+    table.complain(key, table.found(key) +
+                            " behind soft walls; allowed without walls: the steps that are "
+                            "differentiated know none");
   }
   const auto& structure = scenario_.problem != nullptr ? scenario_.problem->structure : std::nullopt;
   if (structure && structure->time) {

@@ -43,12 +43,19 @@ void ScenarioReader::read_output(TomlTable& table) {
 /// A name that may stand in files and figures beside those of the state.
 void ScenarioReader::read_observables(TomlTable& output) {
   const std::string& key = output_keys().observables.name;
+  std::vector<std::string> taken{"t", "step", "energy", "energy-error"};
+  if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {
+    for (const auto& [name, text] : scenario_.problem->info.observables) {
+      taken.push_back(name);
+      scenario_.observables.push_back(
+          {name, StateExpression(text, *scenario_.problem, scenario_.request.parameters, scenario_.start_q.size())});
+    }
+  }
   if (!output.has(key)) {
     output.know(key);
     return;
   }
   TomlTable table = output.table(key);
-  std::vector<std::string> taken{"t", "step", "energy", "energy-error"};
   if (scenario_.problem != nullptr) {
     const StateNames names = state_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
     taken.insert(taken.end(), names.q.begin(), names.q.end());

@@ -65,6 +65,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   if (info.two_bodies) read_bodies(table);
   read_initial(table);
   read_frame(table);
+  read_walls(table);
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);
@@ -110,6 +111,8 @@ void ScenarioReader::read_uncertain(TomlTable& table, const std::string& name) {
     }
   }
   table.know_all({"name", "initial"});
+  const WallKeys& walls = wall_keys();
+  table.know_all({walls.walls.name, walls.wall_rule.name, walls.strength.name, walls.exponent.name});
   if (!kinds.empty() && table.has("orbit")) {
     TomlTable orbit = table.table("orbit");
     (void)orbit.text(kind_key(kinds));

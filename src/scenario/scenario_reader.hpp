@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/walls.hpp"
 #include "run_keys.hpp"
 #include "toml_table.hpp"
 
@@ -38,6 +39,7 @@ class ScenarioReader {
     read_problem(problem);
     read_method(method);
     read_run(run);
+    check_walls();
     read_output(output);
     root_.finish();
     return scenario_;
@@ -64,6 +66,8 @@ class ScenarioReader {
   void read_initial(TomlTable& table);
   void read_start_energy(TomlTable& initial);
   void read_frame(TomlTable& table);
+  void read_walls(TomlTable& table);
+  void check_walls();
   void check_start(TomlTable& table);
   void check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);

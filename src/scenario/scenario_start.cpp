@@ -1,6 +1,7 @@
 // [problem]: where it starts, by an orbit, by a numbered case or by a state.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -128,6 +129,12 @@ void ScenarioReader::read_initial(TomlTable& table) {
   const std::string numbers = problem.dimension == 0   ? "as many numbers as there are coordinates"
                               : problem.dimension == 1 ? "1 number each"
                                                        : std::to_string(problem.dimension) + " numbers each";
+  const OptionInfo& velocities = problem.info.velocities;
+  const auto given = velocities.name.empty() ? std::nullopt : table.text(velocities);
+  if (given && table.has(velocities.name) && table.has("initial")) {
+    table.complain(velocities.name, table.found(velocities.name) + " beside initial; allowed one of them");
+    return;
+  }
   if (!table.has("initial")) {
     table.know("initial");
     if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
@@ -135,6 +142,11 @@ void ScenarioReader::read_initial(TomlTable& table) {
     if (!problem.info.default_q.empty()) {
       spec.q = problem.info.default_q;
       spec.p = problem.info.default_p;
+      if (!velocities.name.empty()) spec.v = list_parts(given.value_or(velocities.default_value));
+      if (const auto& places = problem.info.velocity_places; !places.empty()) {
+        const std::vector<std::string> some = std::exchange(spec.v, std::vector<std::string>(spec.q.size(), "0"));
+        for (std::size_t i = 0; i < places.size() && i < some.size(); ++i) spec.v[places[i]] = some[i];
+      }
       return;
     }
     table.missing("initial", std::string(problem.info.starts.empty()      ? ""

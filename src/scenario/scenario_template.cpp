@@ -7,6 +7,7 @@
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "option_text.hpp"
 #include "run_keys.hpp"
@@ -258,8 +259,10 @@ class TemplateWriter {
         page_.off(code, (changes.empty() ? "" : changes + "; ") + start.info->meaning);
       }
     }
+    if (!info_.velocities.name.empty()) write_option(info_.velocities, true);
     write_state();
     if (!info_.frame.name.empty()) write_option(info_.frame, false);
+    write_walls();
     if (info_.two_bodies) {
       page_.prose("Two bodies in space, reduced to the plane; without mass, which follows:");
       page_.line("# bodies = [{ mass = 1, position = [0, 0, 0], velocity = [0, 0, 0] },");
@@ -285,11 +288,25 @@ class TemplateWriter {
       comment += "; default: " + std::string(info_.default_q.size() <= longest ? "this" : "the problem's own");
     if (q.empty()) {
       page_.off("initial = { q = [...], p = [...] }", comment);
-    } else if (active_ != nullptr) {
+    } else if (active_ != nullptr || !info_.velocities.name.empty()) {
       page_.off("initial = { q = " + q + ", p = " + p + " }", comment);
     } else {
       page_.line("initial = { q = " + q + ", p = " + p + " }", comment);
     }
+  }
+
+  void write_walls() {
+    const WallKeys& keys = wall_keys();
+    const bool fixed = !info_.walls.empty();
+    if (!fixed) {
+      const std::string coordinate = problem_.dimension > 0 ? info_.coordinates[0] : "q1";
+      page_.off(keys.walls.name + " = [{ " + keys.coordinate.name + " = \"" + coordinate + "\", " + keys.min.name +
+                    " = -1, " + keys.max.name + " = 1 }]",
+                "hard walls, or soft ones; either end of a hard one may be left out");
+    }
+    write_option(keys.wall_rule, fixed);
+    write_option(keys.strength, false);
+    write_option(keys.exponent, false);
   }
 
   void write_method() {

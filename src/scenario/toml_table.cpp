@@ -302,11 +302,13 @@ std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, 
   const toml::node* node = find(key);
   if (node == nullptr) return std::nullopt;
   const auto* array = node->as_array();
-  const bool fits = array != nullptr && array->size() == count &&
+  const bool any = count == 0;
+  if (any && array != nullptr) count = array->size();
+  const bool fits = array != nullptr && array->size() == count && count > 0 &&
                     std::all_of(array->begin(), array->end(), [](const toml::node& entry) { return entry.is_table(); });
   if (!fits) {
     complain(key, (array == nullptr ? "found " + shown(*node) : "found " + std::to_string(array->size()) + " entries") +
-                      "; allowed an array of " + std::to_string(count) + " tables");
+                      "; allowed an array of " + (any ? std::string() : std::to_string(count) + " ") + "tables");
     return std::nullopt;
   }
   std::vector<TomlTable> all;

@@ -37,7 +37,7 @@ class TomlTable {
   /// The entries of a list of words; a single string counts as a list of one.
   std::optional<std::vector<std::string>> words(const OptionInfo& option);
   std::optional<bool> yes_no(const OptionInfo& option);
-  /// An array of so many tables.
+  /// An array of so many tables; 0: of any number from 1.
   std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
   TomlTable table(const std::string& key);
   /// The keys that are there, in the order of the file.

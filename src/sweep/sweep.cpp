@@ -334,7 +334,9 @@ class Sweep::Worker {
     row.energy = simulation->energy();
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();
-    row.message = outcome == Outcome::not_converged ? simulation->failure() : std::string(message(outcome));
+    row.walls = simulation->wall_counts();
+    row.message = outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : simulation->failure();
+    if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);
     if (watch && frame.step > 0) row.observables = watch->row();
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
   }

@@ -31,6 +31,7 @@ struct MemberRow {
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
+  std::vector<WallCount> walls;
   std::vector<double> section;  // of each point of the section t, q, p
   double section_residual = 0;  // the largest
   std::string message;          // of a failure, and why there is no start

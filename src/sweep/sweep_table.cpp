@@ -8,6 +8,7 @@
 
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/state_names.hpp"
 #include "hdf5_text.hpp"
 #include "whole_file.hpp"
 
@@ -69,6 +70,21 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
     columns.push_back(vectors(sweep, group + "final", sizes[i], scalar,
                               [&](const MemberRow& row) -> const std::vector<double>& { return of(row).final; }));
     columns.push_back(numbers(sweep, group + "max_error", [&](const MemberRow& row) { return of(row).max_error; }));
+  }
+}
+
+/// How often each hard wall was met.
+void add_walls(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+  const Scenario& common = sweep.common();
+  const auto any =
+      std::find_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return !row.walls.empty(); });
+  if (any == sweep.rows().end()) return;
+  const StateNames names = state_names(*common.problem, common.request.parameters, common.start_q.size());
+  for (std::size_t k = 0; k < any->walls.size(); ++k) {
+    const WallCount& wall = any->walls[k];
+    SweepColumn column{"events/wall:" + names.q.at(wall.coordinate) + (wall.side < 0 ? ":min" : ":max")};
+    for (const MemberRow& row : sweep.rows()) column.counts.push_back(k < row.walls.size() ? row.walls[k].bounces : 0);
+    columns.push_back(std::move(column));
   }
 }
 
@@ -175,6 +191,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   columns.push_back(numbers(sweep, "energy/max_error", [](const MemberRow& row) { return row.energy.max_error; }));
   columns.push_back(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy_scale; }));
   add_invariants(sweep, columns);
+  add_walls(sweep, columns);
   for (std::size_t i = 0; i < sweep.observables().names.size(); ++i) {
     columns.push_back(numbers(sweep, "observables/" + sweep.observables().names[i], [&](const MemberRow& row) {
       return i < row.observables.size() ? row.observables[i] : nothing;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
 #include "rounding.hpp"
 #include "state_difference.hpp"
@@ -115,6 +116,13 @@ class ReferenceRun::Impl {
     // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long. However long the run
     // is, a piece is no longer than 800 steps, since only between pieces it can be stopped.
     pieces_ = std::max<std::int64_t>(steps / 800, 16);
+    // Behind hard walls the motion itself is that of located bounces, whatever the rule of the run; steps as short as
+    // those of the run tell where it turns.
+    if (auto walls = walls_among(full.variant); walls && walls->hard()) {
+      walls->rule = WallRule::event;
+      put_among(*walls, full.variant);
+      pieces_ = std::max<std::int64_t>(steps, 16);
+    }
     const std::string end = beyond_double ? t_end : exact_digits(evaluate_number<double>(t_end));
     full.dt = "(" + end + ")/" + std::to_string(pieces_);
     const int digits = std::min(digits_of(request.arithmetic), 290);  // tolerances are doubles

@@ -27,7 +27,7 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
   const auto go = [&](std::int64_t to, std::span<Observer* const> observers) {
     found.outcome = run(simulation, to, observers, counted);
-    if (found.outcome == Outcome::not_converged) found.failure = simulation.failure();
+    if (is_failure(found.outcome) && found.outcome != Outcome::non_finite) found.failure = simulation.failure();
     return found.outcome == Outcome::done;
   };
   const bool there = go(first + steps, there_observers);

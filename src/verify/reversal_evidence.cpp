@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/verify/counter_random.hpp"
 #include "rounding.hpp"
@@ -165,6 +166,19 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
   return {ReversalProof::to_rounding, explained};
 }
 
+/// The step of the first bounce; 0: there is none in so many steps.
+std::int64_t first_bounce(const Request& request, std::int64_t steps) {
+  const auto simulation = make_simulation(request);
+  std::int64_t first = 0;
+  simulation->tell_bounces([&](const Bounce& bounce) {
+    if (first == 0) first = bounce.step;
+  });
+  for (std::int64_t block = 1000; first == 0 && simulation->step() < steps; block *= 2) {
+    if (simulation->advance(std::min(block, steps - simulation->step())) != Outcome::done) break;
+  }
+  return first;
+}
+
 }  // namespace
 
 bool depends_on_time(const ProblemEntry& problem) { return problem.structure && problem.structure->time; }
@@ -194,9 +208,12 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   simulation->look(start);
   const auto most = static_cast<std::int64_t>(1e8 / static_cast<double>(std::max<std::size_t>(1, start.q.size())));
   found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(at_least));
+  const bool walled = has_hard_walls(request);
+  if (walled) found.steps = std::max(found.steps, first_bounce(plain, std::min(steps_taken, most)));
   found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
+  simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
   Waypoints way(found.steps);
   Observer* const watch[] = {&way};
   const Reversal reversal = reverse(*simulation, found.steps, {}, watch);
@@ -212,6 +229,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
         std::max(1.0, static_cast<double>(effort.force + effort.gradient) / static_cast<double>(2 * found.steps));
     std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, simulation->energy_scale(), actions);
   }
+  if (walled && found.bounces == 0) found.reason += "; no bounce was met";
   if (found.steps < steps_taken) {
     found.reason += fmt::format("; the other {} steps of the run were left out", steps_taken - found.steps);
   }

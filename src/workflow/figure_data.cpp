@@ -9,6 +9,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "run_file.hpp"
 #include "section_text.hpp"
@@ -73,7 +74,10 @@ void add_section(const Section& section, const StateNames& names, RunSamples& sa
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
   std::vector<std::pair<std::string, std::string>> facts{{"problem", request.problem}};
-  for (const auto& [key, value] : request.variant) {
+  if (const auto walls = walls_among(request.variant)) {
+    facts.emplace_back("walls", wall_rules()[static_cast<std::size_t>(walls->rule)]);
+  }
+  for (const auto& [key, value] : without_walls(request.variant)) {
     if (!scenario.problem->structure) facts.emplace_back(key, value);  // a typed problem's are long texts
   }
   facts.emplace_back("method", describe(request.method).name);
@@ -127,7 +131,7 @@ RunForFigure read_for_figure(const fs::path& run) {
   }
   data.diagnostics = std::move(samples.diagnostics);
   data.observables = std::move(samples.observables);
-  if (problem.dimension == 1) {
+  if (problem.dimension == 1 && !has_hard_walls(scenario.request)) {  // the level curve goes on behind them
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
   if (scenario.section && samples.description.section && (data.q.size() >= 2 || scenario.section->by_time_alone)) {

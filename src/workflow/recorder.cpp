@@ -26,8 +26,9 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
     RunDescription description = description_of(scenario, static_cast<std::size_t>(sample_count(scenario)));
     description.identity = identity;
     const std::filesystem::path file = folder / "run.h5";
-    h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
-                          : std::make_unique<RunFile>(file, description, from->rows, from->section_rows);
+    h5_ = from == nullptr
+              ? std::make_unique<RunFile>(file, description)
+              : std::make_unique<RunFile>(file, description, from->rows, from->section_rows, from->wall_rows);
   }
   if (wants("csv")) {
     const std::filesystem::path file = folder / "trajectory.csv";
@@ -67,6 +68,10 @@ void Recorder::append(const SectionPoint& point) {
   if (h5_) h5_->append(point);
 }
 
+void Recorder::append(const Bounce& bounce) {
+  if (h5_ && h5_->wall_rows() < static_cast<std::uint64_t>(scenario_.record_events)) h5_->append(bounce);
+}
+
 void Recorder::finish(const Simulation& simulation) {
   if (!by_times() && last_ != simulation.step()) {
     Frame frame;
@@ -96,6 +101,7 @@ void Recorder::mark(Checkpoint& checkpoint) {
   const Sizes now = before_the_end_.value_or(sizes());
   checkpoint.rows = now.rows;
   checkpoint.section_rows = h5_ ? h5_->section_rows() : 0;  // a point of the section is there, however the run goes on
+  checkpoint.wall_rows = h5_ ? h5_->wall_rows() : 0;
   checkpoint.csv_bytes = now.csv_bytes;
   checkpoint.csv_hash = now.csv_hash;
 }

@@ -23,6 +23,8 @@ class Recorder final : public Observer {
   std::span<const std::string> times(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
   void append(const SectionPoint& point);
+  /// As long as the scenario wants more rows.
+  void append(const Bounce& bounce);
 
   /// The state in which a run by steps ended early is a sample too.
   void finish(const Simulation& simulation);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/walls.hpp"
 #include "number_text.hpp"
 #include "summary.hpp"
 
@@ -14,9 +15,15 @@ namespace hamflow {
 namespace {
 using Json = nlohmann::ordered_json;
 
+bool rejects_steps(const Scenario& scenario) {
+  const auto walls = walls_among(scenario.request.variant);
+  return walls && walls->rule == WallRule::reject;
+}
+
 /// What runs on the lattice is made of kicks and drifts, which are one-to-one there; in a palindrome each is undone by
 /// its mirror image.
 bool palindromic_on_lattice(const Scenario& scenario) {
+  if (rejects_steps(scenario)) return false;
   return scenario.request.arithmetic == "lattice" && describe(scenario.request.method).symmetric;
 }
 
@@ -117,6 +124,11 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   const Reversal& r = report.reversal;
   report.note =
       note_of(describe(scenario.request.method), scenario.request.arithmetic, timed, even, report.expected_bit_exact);
+  if (rejects_steps(scenario)) {
+    report.note +=
+        (report.note.empty() ? "" : "; ") +
+        std::string("steps that leave the walls are rejected, which is not one-to-one: no return is promised");
+  }
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }

@@ -112,6 +112,7 @@ class ScenarioRun {
       }
       recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, last->identity, from);
     }
+    if (recorder_) simulation_->tell_bounces([this](const Bounce& bounce) { recorder_->append(bounce); });
     measures_.emplace(scenario_, *simulation_, recorder_.get());
     std::vector<NamedObserver> archived = measures_->observers();
     archived.push_back({"energy_blocks", &blocks_});
@@ -181,7 +182,7 @@ class ScenarioRun {
     } catch (const FileError& error) {  // a full disk, say: what was computed is still reported
       result.file_trouble = error.what();
     }
-    if (result.outcome == Outcome::not_converged && result.failure.empty()) result.failure = simulation_->failure();
+    if (is_failure(result.outcome) && result.failure.empty()) result.failure = simulation_->failure();
     return result;
   }
 

@@ -65,6 +65,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .observables = observable_columns(scenario),
           .diagnostics = method.diagnostics,
           .section = scenario.section.has_value(),
+          .walls = has_hard_walls(request),
           .samples = samples,
           .dt = scenario.dt,
           .dt_text = request.dt,

@@ -71,6 +71,7 @@ void Session::restart() {
   step_before_ = 0;
   time_before_ = 0;
   effort_before_ = {};
+  bounces_before_.clear();
   initial_energy_ = simulation_->energy().initial;
   scale_ = simulation_->energy_scale();
   worst_energy_ = 0;
@@ -172,6 +173,7 @@ void Session::change(const Request& next, const std::string& what) {
   other->look(fresh);
   for (std::size_t i = 0; i < offset_.size(); ++i) offset_[i] += now.invariants[i] - fresh.invariants[i];
   effort_before_ = effort();
+  bounces_before_ = wall_counts();
   step_before_ += now.step;
   time_before_ += now.time;
   worst_residuals_ = constraints();
@@ -289,6 +291,12 @@ std::vector<InvariantExcursion> Session::invariants() const {
                    worst_invariants_[k]});
     at = end;
   }
+  return all;
+}
+
+std::vector<WallCount> Session::wall_counts() const {
+  std::vector<WallCount> all = simulation_->wall_counts();
+  for (std::size_t i = 0; i < bounces_before_.size(); ++i) all.at(i).bounces += bounces_before_[i].bounces;
   return all;
 }
 

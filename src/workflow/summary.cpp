@@ -13,6 +13,8 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/state_names.hpp"
+#include "hamflow/run/walls.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
 #include "warnings.hpp"
@@ -24,12 +26,27 @@ using Json = nlohmann::ordered_json;
 
 Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e.final}, {"max_error", e.max_error}}; }
 
+Json walls_of(const Walls& walls) {
+  Json all = Json::array();
+  for (const Walls::Interval& wall : walls.intervals) {
+    Json interval{{wall_keys().coordinate.name, wall.coordinate}};
+    if (!wall.min.empty()) interval[wall_keys().min.name] = number_value(wall.min);
+    if (!wall.max.empty()) interval[wall_keys().max.name] = number_value(wall.max);
+    all.push_back(interval);
+  }
+  return all;
+}
+
 Json parameters_of(const Scenario& scenario) {
   Json parameters = Json::object();
   const std::optional<FormulaStructure>& structure = scenario.problem->structure;
   for (const auto& [key, value] : scenario.problem->info.variant) {
     // Those of the problem `formula` are its texts, which the scenario has.
     const bool is_text = scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters;
+    if (key == wall_keys().walls.name) {
+      parameters[key] = walls_of(*walls_among(scenario.request.variant));
+      continue;
+    }
     const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
     if (!structure || !is_text) parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
   }
@@ -171,7 +188,9 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
             {"message", result.file_trouble},
             {"hint", "make room, or write elsewhere with --out; the samples up to the last flush are kept"}};
   }
-  const bool own_words = result.outcome == Outcome::not_converged && !result.failure.empty();
+  const bool says_more =
+      result.outcome == Outcome::not_converged || result.outcome == Outcome::wall || result.outcome == Outcome::outside;
+  const bool own_words = says_more && !result.failure.empty();
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
   const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
                                        own_words ? result.failure : std::string(message(result.outcome)));
@@ -251,6 +270,10 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
         {"min", effort.solves_min}, {"mean", mean}, {"max", effort.solves_max}, {"stagnated", effort.stagnated}};
   }
   s["events"] = Json::object();
+  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+  for (const WallCount& wall : simulation.wall_counts()) {
+    s["events"]["wall:" + names.q.at(wall.coordinate) + (wall.side < 0 ? ":min" : ":max")] = wall.bounces;
+  }
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);
   s["warnings"] = warnings_of(scenario, s, simulation, turns);

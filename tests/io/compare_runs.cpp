@@ -1,6 +1,6 @@
 // compare_runs A.h5 B.h5: whether two files hold the same datasets, bit for bit. Names those that differ, with
 // status 1. compare_runs --scenario A.h5 prints the scenario that a run was given, --unprotected A.h5 the datasets of
-// rows that have no checksum.
+// rows that have no checksum, --numbers=NAME A.h5 the numbers of a dataset.
 #include <cstring>
 #include <iostream>
 #include <map>
@@ -64,6 +64,18 @@ void print_unprotected(const char* path) {
   }
 }
 
+void print_numbers(const char* path, const std::string& name) {
+  const Hdf5Handle file = hamflow::open_to_read(path);
+  const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open a space");
+  std::vector<double> all(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  if (!all.empty()) {
+    check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), "read a dataset");
+  }
+  std::cout.precision(17);
+  for (const double x : all) std::cout << x << '\n';
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -78,6 +90,10 @@ int main(int argc, char** argv) {
     }
     if (std::string(argv[1]) == "--unprotected") {
       print_unprotected(argv[2]);
+      return 0;
+    }
+    if (const std::string option = argv[1]; option.starts_with("--numbers=")) {
+      print_numbers(argv[2], option.substr(option.find('=') + 1));
       return 0;
     }
     const Contents a = contents(argv[1]);

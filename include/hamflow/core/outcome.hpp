@@ -12,6 +12,8 @@ enum class [[nodiscard]] Outcome{
     not_converged,     // an implicit step found no solution; the state is that before the step
     non_finite,        // energy or state became infinite or NaN; the state is the last finite one
     lattice_overflow,  // the lattice lost its range; the state is the last one inside
+    wall,              // more bounces in one step than can be; the state is that before the step
+    outside,           // on or beyond a soft wall at some evaluation; the state is the last good one
     not_run            // a member of a sweep whose turn did not come
 };
 
@@ -28,6 +30,10 @@ constexpr std::string_view name(Outcome outcome) {
       return "non_finite";
     case Outcome::lattice_overflow:
       return "lattice_overflow";
+    case Outcome::wall:
+      return "wall";
+    case Outcome::outside:
+      return "outside";
     case Outcome::not_run:
       return "not_run";
   }
@@ -49,6 +55,10 @@ constexpr std::string_view message(Outcome outcome) {
       return "the energy or the state became infinite or NaN";
     case Outcome::lattice_overflow:
       return "a number left the range of the lattice";
+    case Outcome::wall:
+      return "the step met its walls more often than 1000 times";
+    case Outcome::outside:
+      return "a coordinate stood on a soft wall or beyond it";
     case Outcome::done:
     case Outcome::stopped:
     case Outcome::not_run:
@@ -66,6 +76,10 @@ constexpr std::string_view hint(Outcome outcome) {
       return "try a smaller dt: the energy in the samples before shows where it went wrong";
     case Outcome::lattice_overflow:
       return "a position or momentum left the range of 2^62 lattice units: give larger powers of two in run.lattice";
+    case Outcome::wall:
+      return "try a smaller dt; a motion that is pressed onto a wall for good cannot be followed by bounces";
+    case Outcome::outside:
+      return "try a smaller dt, or a larger exponent";
     case Outcome::done:
     case Outcome::stopped:
     case Outcome::not_run:

@@ -76,6 +76,13 @@ struct ExampleInfo {
   std::string start{};  // the kind of the geometric start that is active; empty: the state
 };
 
+/// A wall that belongs to the problem.
+struct FixedWall {
+  std::size_t coordinate = 0;
+  std::string min;  // number expressions
+  std::string max;
+};
+
 struct ProblemInfo {
   std::string name;                                            // as in a scenario
   std::vector<std::pair<std::string, std::string>> variant{};  // keys that select among entries of one name
@@ -101,6 +108,11 @@ struct ProblemInfo {
   /// StartFrames), with its default; a start by `initial` stays as it is given unless the key says otherwise.
   /// Without a name there is none. A problem that has it has to_barycentre() (core/optional_functions.hpp).
   OptionInfo frame{};
+  /// The name of the key that gives the start its velocities where `initial` is not given; empty: there is none.
+  OptionInfo velocities{};
+  std::vector<std::size_t> velocity_places{};  // the coordinates that it gives, others rest; empty: all, in order
+  std::vector<FixedWall> walls{};              // a scenario chooses their rule alone
+  std::vector<std::pair<std::string, std::string>> observables{};  // names and expressions, averaged in every run
   bool two_bodies =
       false;  // a planar relative motion: `bodies` may give two bodies in space, from which `mass` follows
   RegionInfo region{};

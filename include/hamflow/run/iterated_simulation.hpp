@@ -5,14 +5,14 @@
 #include <memory>
 #include <utility>
 
+#include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
-#include "hamflow/run/simulation_of.hpp"
 
 namespace hamflow {
 
 template <class P, class M, Arithmetic A>
-class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMember {
-  using Base = SimulationOf<P, M, A>;
+class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public IteratedMember {
+  using Base = InParts<SimulationOf<P, M, A>>;
   using Base::clock_;
   using Base::method_;
   using Base::probe_;
@@ -20,7 +20,7 @@ class IteratedSimulation final : public SimulationOf<P, M, A>, public IteratedMe
   using Equations = typename M::Equations;
 
  public:
-  IteratedSimulation(Base simulation, IterationRecorder recorder)
+  IteratedSimulation(SimulationOf<P, M, A> simulation, IterationRecorder recorder)
       : Base(std::move(simulation)), recorder_(std::make_shared<const IterationRecorder>(std::move(recorder))) {
     frame_.n = z_.q.size();
     frame_.m = Equations(method_.setup(), Base::problem(), clock_.step(), z_.positions(), z_.momenta(), unused())

@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/recorded_step.hpp"
-#include "hamflow/run/simulation_of.hpp"
 
 namespace hamflow {
 
@@ -23,8 +23,8 @@ using StepRecorder =
                                               double h, const RecordedTime& time, bool watch, RecordedAt at)>;
 
 template <class P, class M, Arithmetic A>
-class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMember {
-  using Base = SimulationOf<P, M, A>;
+class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public RecordedMember {
+  using Base = InParts<SimulationOf<P, M, A>>;
   using Base::clock_;
   using Base::density_;
   using Base::method_;
@@ -33,7 +33,7 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
 
  public:
   /// @param recorder empty: every step takes the ordinary road   @param watch false: the probe stays as it was
-  RecordedSimulation(Base simulation, StepRecorder recorder, bool watch)
+  RecordedSimulation(SimulationOf<P, M, A> simulation, StepRecorder recorder, bool watch)
       : Base(std::move(simulation)),
         recorder_(std::make_shared<const StepRecorder>(std::move(recorder))),
         watch_(watch) {}
@@ -65,6 +65,30 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     clock_ = clock;
     density_ = density;
     return ordinary(steps);
+  }
+
+  /// A check of the step says where walls were met; blocks are short, so that little is taken twice.
+  std::int64_t take_recorded(std::int64_t steps) override {
+    constexpr std::int64_t at_once = 32;
+    behind_walls_ = true;
+    const Loop* const loop = loop_for(clock_.step_length(), steps);
+    if (loop == nullptr) return 0;
+    values_.resize(loop->step->program.values());
+    if (!read_values(*loop->step, values_)) return 0;  // one step by the ordinary road mends it
+    std::int64_t taken = 0;
+    std::int64_t block = at_once;
+    while (taken < steps && block > 0) {
+      block = std::min(block, steps - taken);
+      kept_values_ = values_;
+      if (loop->steps->run(values_, block) && are_finite()) {
+        taken += block;
+      } else {
+        values_.swap(kept_values_);
+        block /= 2;  // to the step that fails
+      }
+    }
+    take_values(*loop->step, values_, taken);
+    return taken;
   }
 
   /// Lanes take equal steps.
@@ -150,6 +174,8 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
     auto made = std::make_shared<Loop>();
     made->h = h;
     made->step = record();
+    constexpr int often_enough = 32;  // the step that was to be recorded may be one that meets a wall
+    if (!made->step && behind_walls_ && ++failures_ < often_enough) return nullptr;
     if (made->step) made->steps = make_step_loop(made->step->program);
     loops_[loops_[0] ? 1 : 0] = made;
     return made->steps ? made.get() : nullptr;
@@ -161,7 +187,10 @@ class RecordedSimulation final : public SimulationOf<P, M, A>, public RecordedMe
   std::shared_ptr<const RecordedStep> step_;  // the last one that was recorded, of length step_of_
   double step_of_ = 0;
   std::vector<double> values_;
+  std::vector<double> kept_values_;
   std::int64_t asked_ = 0;
+  bool behind_walls_ = false;
+  int failures_ = 0;  // of recording
 };
 
 }  // namespace hamflow

@@ -13,6 +13,7 @@
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"
 #include "hamflow/run/probe.hpp"
+#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -78,6 +79,41 @@ std::vector<CarriedField> carried_fields(const TracedFields& before, const Trace
 using TracedMonitor = StepMonitor<Trace<double>, dynamic>;
 struct NoDensity {};
 
+/// Hard walls that a recorded step has to stay within, as a check of its own.
+struct StepWalls {
+  std::vector<WallSide<double>> sides;
+  bool and_turns = false;  // also where it goes out and comes back within the step
+};
+
+/// Whether a step of length h from (q0, v0) to (q1, v1) stays within the walls. The motion that turns within the step
+/// is inside for certain where it would be so by going on for two steps from either end; where it would not, and where
+/// the step ends outside, one has to look closer. More than one turn within a step is not seen.
+template <class S>
+bool stays_within(const StepWalls& walls, const double& h, const Vector<S, dynamic>& q0, const Vector<S, dynamic>& v0,
+                  const Vector<S, dynamic>& q1, const Vector<S, dynamic>& v1) {
+  for (const WallSide<double>& wall : walls.sides) {
+    const std::size_t i = wall.coordinate;
+    if (wall.side > 0 ? S(wall.at) < q1[i] : q1[i] < S(wall.at)) return false;
+    if (!walls.and_turns) continue;
+    const S ahead = q0[i] + S(2 * h) * v0[i];
+    const S behind = q1[i] - S(2 * h) * v1[i];
+    if (wall.side > 0 ? S(wall.at) < -larger(-ahead, -behind) : larger(ahead, behind) < S(wall.at)) return false;
+  }
+  return true;
+}
+/// dH/dp of a problem behind virtual calls.
+template <class P, class S>
+Vector<S, dynamic> velocities(const P& problem, const Vector<S, dynamic>& q, const Vector<S, dynamic>& p) {
+  Vector<S, dynamic> v = zeros_like(p);
+  if constexpr (Separable<P>) {
+    velocity(problem, p, v);
+  } else {
+    Vector<S, dynamic> by_q = zeros_like(q);
+    gradient(problem, q, p, by_q, v);
+  }
+  return v;
+}
+
 /// Time as a StepClock counts it, for the recording: t = start + position step.
 struct RecordedTime {
   double start = 0;
@@ -89,13 +125,14 @@ struct RecordedTime {
 /// Records the step from (q, p).
 /// @tparam A of traces; where it has any lengths (methods/step_density.hpp) the density of steps is carried, too
 /// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
-/// @param monitor of steps of varying length
+/// @param monitor of steps of varying length   @param walls that the step stays within; null: none
 /// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
 template <class A, class P, class M>
 std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, const RecordedTime& time,
                                         bool watch, RecordedAt at = RecordedAt::steady,
-                                        [[maybe_unused]] const TracedMonitor* monitor = nullptr) {
+                                        [[maybe_unused]] const TracedMonitor* monitor = nullptr,
+                                        const StepWalls* walls = nullptr) {
   using Number = Trace<double>;
   constexpr bool varies = requires { typename A::Length; };
   PhasePoint<A, dynamic> z;
@@ -139,7 +176,16 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     for (const Number& x : z.momenta()) recorded.state.push_back(static_cast<std::size_t>(x.node));
     const Number position = recorder.input(time.position + time.direction) + Number(time.direction);
     const detail::TracedFields before = detail::traced_fields(z, method, probe, density);
+    const Vector<Number, dynamic> q0 = z.positions();
+    const Vector<Number, dynamic> p0 = z.momenta();
     if (step() != Outcome::done) return std::nullopt;
+    if (walls != nullptr) {
+      const Vector<Number, dynamic> q1 = z.positions();
+      const Vector<Number, dynamic> p1 = z.momenta();
+      if (!stays_within(*walls, h, q0, velocities(problem, q0, p0), q1, velocities(problem, q1, p1))) {
+        return std::nullopt;
+      }
+    }
     const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
     if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
     detail::TracedFields after = detail::traced_fields(z, method, probe, density);

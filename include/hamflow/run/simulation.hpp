@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,21 @@ struct ConstraintResiduals {
   double position = 0;
   double velocity = 0;
 };
+/// A coordinate has met a wall: the state behind the bounce.
+struct Bounce {
+  std::int64_t step = 0;  // at the end of which the bounce is behind
+  double time = 0;
+  std::size_t coordinate = 0;
+  int side = 1;  // -1: the wall below, 1: that above
+  std::vector<double> q;
+  std::vector<double> p;
+};
+/// How often.
+struct WallCount {
+  std::size_t coordinate = 0;
+  int side = 1;
+  std::int64_t bounces = 0;
+};
 
 class Simulation {
  public:
@@ -86,6 +102,10 @@ class Simulation {
   virtual std::string failure() const = 0;
   /// Whether steps have been recorded, and many of them run as one compiled loop (run/recorded_simulation.hpp).
   virtual bool is_recorded() const { return false; }
+  /// Of each hard wall, since the start.
+  virtual std::vector<WallCount> wall_counts() const { return {}; }
+  /// Calls `told` for every bounce from here on, in their order, when its step is done. A copy tells nobody.
+  virtual void tell_bounces(std::function<void(const Bounce&)> /*told*/) {}
 
   /// Everything that decides the bits of the steps to come and of the summary: state, clock, and the memory of the
   /// method and of the probe. Equal simulations give equal bytes.

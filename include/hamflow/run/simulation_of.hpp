@@ -40,6 +40,8 @@ class SimulationOf : public SimulationState<P, A, Probe> {
   static_assert(Method<M, P, A>, "hamflow: this type is not a Method for this problem and arithmetic");
   using State::n;
   using Real = typename A::Real;
+  using Stepper = M;
+  using Watch = Probe;
 
   /// @param start canonical (q, p)   @param h step length   @param arithmetic e.g. lattice units
   SimulationOf(P problem, M method, const Vector<Real, n>& q, const Vector<Real, n>& p, Real h, A arithmetic = {},
@@ -139,6 +141,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     return outcome;
   }
 
+ protected:
   /// Works on local copies, which the compiler can keep in registers, and writes them back at the end. Trouble is found
   /// cheaply, after the fact; the way to the last good step is then walked again from the unchanged originals.
   /// @param h that of the clock, or of a partial step
@@ -169,6 +172,7 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     return Outcome::done;
   }
 
+ private:
   /// Takes single steps from the originals up to the one that is not finite. Cold, or the compiler would make a second
   /// march for single steps.
   [[gnu::cold, gnu::noinline]] Outcome one_by_one(std::int64_t steps, const Real& h, std::int64_t& taken, M& method,

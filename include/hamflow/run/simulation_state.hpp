@@ -15,6 +15,7 @@
 #include "hamflow/methods/step_density.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/simulation.hpp"
+#include "hamflow/run/steps_in_parts.hpp"
 
 namespace hamflow {
 
@@ -37,7 +38,7 @@ inline std::string arithmetic_kind(std::string_view name, int digits) {
 }  // namespace detail
 
 template <class P, Arithmetic A, class Probe>
-class SimulationState : public Simulation {
+class SimulationState : public Simulation, public StepsInParts<typename A::Real> {
  public:
   using Real = typename A::Real;
   static constexpr std::size_t n = P::dimension;
@@ -72,6 +73,25 @@ class SimulationState : public Simulation {
     for (std::size_t i = 0; i < z_.p.size(); ++i) ar(z_.p[i]);
     return ar.take();
   }
+
+  Real length_of_step() const final { return next_length(); }
+  Real present_time() const final { return time(); }
+  [[gnu::cold]] Vector<Real, dynamic> present_positions() const final { return values(z_.positions()); }
+  [[gnu::cold]] Vector<Real, dynamic> present_momenta() const final { return values(z_.momenta()); }
+  [[gnu::cold]] void negate_momentum(std::size_t i) final { z_.p[i] = A::Axis::negated(z_.p[i]); }
+  [[gnu::cold]] void push_momentum(std::size_t i, const Real& change) final {
+    z_.arithmetic.momentum.add(z_.p[i], change);
+  }
+  [[gnu::cold]] void mirror_position(std::size_t i, const Real& twice_the_wall) final {
+    z_.q[i] = A::Axis::negated(z_.q[i]);
+    z_.arithmetic.position.add(z_.q[i], twice_the_wall);
+  }
+  [[gnu::cold]] Outcome complete_step() final {
+    if (!probe_.look(problem_, z_.positions(), z_.momenta(), time_after(1, next_length()))) return Outcome::non_finite;
+    clock_.advance(1);
+    return Outcome::done;
+  }
+  void show_at(const Real& time, Frame& frame) const final { show(z_, time, frame); }
 
   Excursion energy() const final {
     const Real now = hamflow::energy(problem_, z_.positions(), z_.momenta());
@@ -163,6 +183,11 @@ class SimulationState : public Simulation {
            ": the lengths that the monitor asks for change too much within a step";
   }
 
+  [[gnu::cold]] static Vector<Real, dynamic> values(const auto& x) {
+    Vector<Real, dynamic> all(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) all[i] = x[i];
+    return all;
+  }
   /// The state after one step of length `part`, which is at time t.
   virtual Outcome show_after(const Real& part, const Real& t, Frame& frame) const = 0;
 

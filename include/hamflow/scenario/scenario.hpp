@@ -51,6 +51,7 @@ struct Scenario {
   std::size_t lyapunov = 0;                  // exponents to be measured
   bool eigenvalues = false;                  // of the derivative of all steps
   std::optional<Section> section{};          // whose points are recorded
+  std::int64_t record_events = 100000;       // rows of each table of events, at most
   std::vector<std::string> notes;            // worth saying, but no errors
   std::optional<TwoBodies> bodies;           // of a start by two bodies in space
   std::vector<double> start_q;               // in double, canonical

@@ -61,6 +61,7 @@ class Session final : public Simulation {
   StepDiagnostics diagnostics() const override { return simulation_->diagnostics(); }
   MethodInfo method() const override { return describe(request_.method); }
   std::string failure() const override { return simulation_->failure(); }
+  std::vector<WallCount> wall_counts() const override;
   /// A session has no checkpoint and no copy: these three throw Error.
   std::vector<std::byte> save() const override;
   void restore(std::span<const std::byte> saved) override;
@@ -90,6 +91,7 @@ class Session final : public Simulation {
   std::int64_t step_before_ = 0;
   double time_before_ = 0;
   Effort effort_before_;
+  std::vector<WallCount> bounces_before_;
   double initial_energy_ = 0;
   double scale_ = 0;
   double worst_energy_ = 0;

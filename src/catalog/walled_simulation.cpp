@@ -1,0 +1,385 @@
+#include "walled_simulation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "hamflow/core/archive.hpp"
+#include "hamflow/run/recorded_step.hpp"
+#include "wall_events.hpp"
+#include "walled_functions.hpp"
+
+namespace hamflow {
+
+namespace {
+
+/// What the walls of one run are.
+template <class R>
+struct RunWalls {
+  WallRule rule = WallRule::event;
+  std::vector<WallSide<R>> sides;
+  std::vector<std::string> names;  // of their coordinates
+  std::shared_ptr<const Functions<R>> functions;
+};
+
+template <class R>
+class WalledSimulation final : public Simulation {
+  using Parts = StepsInParts<R>;
+  using Place = typename Parts::Place;
+  static constexpr int most_bounces = 1000;  // in one step
+
+ public:
+  WalledSimulation(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<R>> walls)
+      : inner_(std::move(inner)),
+        parts_(dynamic_cast<Parts*>(inner_.get())),
+        walls_(std::move(walls)),
+        counts_(walls_->sides.size()) {
+    if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
+  }
+
+  Outcome advance(std::int64_t steps) override {
+    why_.clear();
+    outside_.reset();
+    const OutsideNote note(outside_);
+    while (steps > 0) {
+      const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps);
+      steps -= recorded;
+      if (steps == 0) break;
+      const std::int64_t some = walls_->rule == WallRule::soft ? steps : 1;
+      const Outcome outcome = some == 1 ? take_step() : inner_->advance(some);
+      if (outcome != Outcome::done) return explained(outcome);
+      steps -= some;
+    }
+    return Outcome::done;
+  }
+  std::int64_t step() const override { return inner_->step(); }
+  void look(Frame& frame) const override {
+    inner_->look(frame);
+    add_evaluations(frame.effort, given_up_);
+  }
+  void reverse_time() override { inner_->reverse_time(); }
+  void negate_momenta() override { inner_->negate_momenta(); }
+  std::vector<std::byte> bits() const override { return inner_->bits(); }
+  Excursion energy() const override { return inner_->energy(); }
+  double energy_scale() const override { return inner_->energy_scale(); }
+  std::vector<InvariantExcursion> invariants() const override { return inner_->invariants(); }
+  std::optional<ConstraintResiduals> constraints() const override { return inner_->constraints(); }
+  Effort effort() const override {
+    Effort all = inner_->effort();
+    add_evaluations(all, given_up_);
+    return all;
+  }
+  StepDiagnostics diagnostics() const override { return inner_->diagnostics(); }
+  MethodInfo method() const override { return inner_->method(); }
+  std::string failure() const override { return why_.empty() ? inner_->failure() : why_; }
+  bool is_recorded() const override { return inner_->is_recorded(); }
+  std::vector<WallCount> wall_counts() const override {
+    std::vector<WallCount> all;
+    for (std::size_t k = 0; k < counts_.size(); ++k) {
+      all.push_back({walls_->sides[k].coordinate, walls_->sides[k].side, counts_[k]});
+    }
+    return all;
+  }
+  void tell_bounces(std::function<void(const Bounce&)> told) override { told_ = std::move(told); }
+  std::vector<std::byte> save() const override {
+    Writer ar;
+    ar(inner_->save(), counts_, given_up_);
+    return ar.take();
+  }
+  void restore(std::span<const std::byte> saved) override {
+    Reader ar(saved);
+    std::vector<std::byte> inner;
+    std::vector<std::int64_t> counts;
+    Effort given_up;
+    ar(inner, counts, given_up);
+    ar.finish();
+    if (counts.size() != counts_.size()) throw Error("the saved state is that of other walls");
+    inner_->restore(inner);
+    counts_ = std::move(counts);
+    given_up_ = given_up;
+  }
+  std::unique_ptr<Simulation> clone() const override { return copy(); }
+  Outcome look_ahead(const std::string& time, Frame& frame) const override {
+    if (!bounces_within_parts()) return inner_->look_ahead(time, frame);
+    const R now = parts_->present_time();
+    const R t = evaluate_number<R>(time);
+    if (abs(t - now) <= 4 * std::numeric_limits<R>::epsilon() * abs(t)) {
+      look(frame);
+      return Outcome::done;
+    }
+    return show_after(t - now, t, frame);
+  }
+  Outcome look_part(double theta, Frame& frame) const override {
+    if (theta == 0 || !bounces_within_parts()) return inner_->look_part(theta, frame);
+    const R part = R(theta) * parts_->length_of_step();
+    return show_after(part, parts_->present_time() + part, frame);
+  }
+
+ private:
+  /// Within a rejected step a sample is the flight that was given up; soft walls are a term of H.
+  bool bounces_within_parts() const { return walls_->rule == WallRule::event || walls_->rule == WallRule::mirror; }
+  std::unique_ptr<WalledSimulation> copy() const {
+    auto other = std::make_unique<WalledSimulation>(inner_->clone(), walls_);
+    other->counts_ = counts_;
+    other->given_up_ = given_up_;
+    return other;
+  }
+  /// On a copy, so that it changes nothing and tells nobody.
+  Outcome show_after(const R& part, const R& t, Frame& frame) const {
+    const auto other = copy();
+    Outcome outcome = Outcome::done;
+    if (walls_->rule == WallRule::mirror) {
+      outcome = other->parts_->take_part(part);
+      other->fold();
+    } else {
+      outcome = other->fly(part);
+    }
+    if (outcome == Outcome::done) other->parts_->show_at(t, frame);
+    if (outcome == Outcome::done) frame.effort = effort();
+    return outcome;
+  }
+
+  Outcome take_step() {
+    parts_->mark(Place::step);
+    const Effort before = inner_->effort();
+    const V q0 = parts_->present_positions();
+    const V v0 = walls_->rule == WallRule::event ? velocity(q0, parts_->present_momenta()) : V();
+    Outcome outcome = inner_->advance(1);
+    if (walls_->rule == WallRule::soft || (outcome != Outcome::done && walls_->rule != WallRule::event)) return outcome;
+    if (outcome == Outcome::done && stays_inside(q0, v0)) return outcome;
+    Effort spent;
+    add_evaluations(spent, inner_->effort(), before);
+    outcome = walls_->rule == WallRule::reject   ? reject()
+              : walls_->rule == WallRule::mirror ? mirror()
+                                                 : bounce(outcome);
+    if (outcome != Outcome::done) return back_with(outcome);
+    if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
+    tell();
+    return Outcome::done;
+  }
+
+  using V = Vector<R, dynamic>;
+  V velocity(const V& q, const V& p) const {
+    V v = zeros_like(p);
+    if (walls_->functions->has_parts()) {
+      walls_->functions->velocity(p, v);
+    } else {
+      V by_q = zeros_like(q);
+      walls_->functions->gradient(q, p, by_q, v);
+    }
+    return v;
+  }
+
+  /// Whether the step that was taken was within the walls for certain (see stays_within, run/recorded_step.hpp).
+  bool stays_inside(const V& q0, const V& v0) const {
+    const V q1 = parts_->present_positions();
+    const bool and_turns = walls_->rule == WallRule::event;
+    const V v1 = and_turns ? velocity(q1, parts_->present_momenta()) : V();
+    const R h = parts_->length_of_step();
+    return std::all_of(walls_->sides.begin(), walls_->sides.end(), [&](const WallSide<R>& wall) {
+      const std::size_t i = wall.coordinate;
+      if (wall.beyond(q1[i]) > R(0)) return false;
+      if (!and_turns) return true;
+      const R ahead = wall.beyond(q0[i] + R(2) * h * v0[i]);
+      const R behind = wall.beyond(q1[i] - R(2) * h * v1[i]);
+      return !(ahead > R(0) && behind > R(0));
+    });
+  }
+
+  /// The rule of the listing [Sonnleitner2010, pp. 84, 103]: the whole old state with one momentum turned round, of two
+  /// walls at once the last; the step's time passes.
+  Outcome reject() {
+    const V q1 = parts_->present_positions();
+    parts_->back(Place::step);
+    std::size_t last = 0;
+    for (std::size_t k = 0; k < walls_->sides.size(); ++k) {
+      const WallSide<R>& wall = walls_->sides[k];
+      if (!(wall.beyond(q1[wall.coordinate]) > R(0))) continue;
+      met_.push_back({k, parts_->length_of_step()});
+      last = wall.coordinate;
+    }
+    WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
+    if (!events.reflect(last)) return no_other_root(last);
+    parts_->forget();
+    for (Met& met : met_) keep_state(met);
+    return parts_->complete_step();
+  }
+
+  /// Behind the walls the motion of the mirrored H is that of H, turned round: back inside, one reflection after the
+  /// other.
+  bool fold() {
+    for (int n = 0; n <= most_bounces; ++n) {
+      const V q = parts_->present_positions();
+      const auto wall = std::find_if(walls_->sides.begin(), walls_->sides.end(),
+                                     [&](const WallSide<R>& side) { return side.beyond(q[side.coordinate]) > R(0); });
+      if (wall == walls_->sides.end()) return true;
+      parts_->mirror_position(wall->coordinate, R(2) * wall->at);
+      parts_->negate_momentum(wall->coordinate);
+      met_.push_back({static_cast<std::size_t>(wall - walls_->sides.begin()), R(0)});
+      keep_state(met_.back());
+    }
+    return false;
+  }
+
+  Outcome mirror() {
+    if (!fold()) {
+      why_ = "the step went out of the walls further than they are apart " + std::to_string(most_bounces) + " times";
+      return Outcome::wall;
+    }
+    parts_->forget();
+    return Outcome::done;
+  }
+
+  /// The step in parts, from wall to wall. One that meets none after all is taken whole, with all that is remembered.
+  /// @param whole how that one ended
+  Outcome bounce(Outcome whole) {
+    parts_->back(Place::step);
+    const Effort spent_before = parts_->effort_of_parts();
+    const Effort before = inner_->effort();
+    const Outcome outcome = fly(parts_->length_of_step());
+    if (outcome != Outcome::done) return outcome;
+    add_evaluations(given_up_, parts_->effort_of_parts(), spent_before);
+    if (met_.empty()) {
+      parts_->back(Place::step);
+      return whole == Outcome::done ? inner_->advance(1) : whole;
+    }
+    Effort kept;
+    add_evaluations(kept, inner_->effort(), before);
+    add_evaluations(given_up_, {}, kept);
+    return parts_->complete_step();
+  }
+
+  /// Psi_length with bounces, which are listed in met_.
+  Outcome fly(const R& length) {
+    R left = length;
+    while (true) {
+      parts_->mark(Place::flight);
+      WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
+      typename WallEvents<R>::Hit hit;
+      const auto found = events.first(left, hit);
+      parts_->back(Place::flight);
+      if (found == WallEvents<R>::Found::failed) return events.outcome();
+      if (found == WallEvents<R>::Found::stuck) return stays_on(hit.side);
+      const R part = found == WallEvents<R>::Found::hit ? R(hit.part * left) : left;
+      if (part != R(0)) {
+        const Outcome outcome = parts_->take_part(part);
+        if (outcome != Outcome::done) return outcome;
+      }
+      if (found == WallEvents<R>::Found::none) return Outcome::done;
+      left -= part;
+      const std::size_t coordinate = walls_->sides[hit.side].coordinate;
+      if (!events.reflect(coordinate)) return no_other_root(coordinate);
+      parts_->forget();
+      met_.push_back({hit.side, length - left});
+      keep_state(met_.back());
+      if (met_.size() > most_bounces) {
+        why_ = "more than " + std::to_string(most_bounces) + " bounces in one step, the last off the wall of " +
+               walls_->names[hit.side];
+        return Outcome::wall;
+      }
+      if (left == R(0)) return Outcome::done;
+    }
+  }
+  struct Met {
+    std::size_t side = 0;
+    R after{};  // the start of the step
+    V q{};
+    V p{};
+  };
+  void keep_state(Met& met) const {
+    if (!told_) return;
+    met.q = parts_->present_positions();
+    met.p = parts_->present_momenta();
+  }
+
+  /// The step is done: its bounces count.
+  void tell() {
+    for (const Met& met : met_) {
+      ++counts_[met.side];
+      if (!told_) continue;
+      const WallSide<R>& wall = walls_->sides[met.side];
+      Bounce bounce;
+      bounce.step = inner_->step();
+      const bool located = walls_->rule == WallRule::event;
+      const R end = parts_->present_time();
+      bounce.time = static_cast<double>(located ? R(end - parts_->length_of_step() + met.after) : end);
+      bounce.coordinate = wall.coordinate;
+      bounce.side = wall.side;
+      for (const R& x : met.q) bounce.q.push_back(static_cast<double>(x));
+      for (const R& x : met.p) bounce.p.push_back(static_cast<double>(x));
+      told_(bounce);
+    }
+    met_.clear();
+  }
+
+  Outcome back_with(Outcome why) {
+    parts_->back(Place::step);
+    met_.clear();
+    return why;
+  }
+  Outcome no_other_root(std::size_t coordinate) {
+    const auto wall = std::find_if(walls_->sides.begin(), walls_->sides.end(),
+                                   [&](const WallSide<R>& side) { return side.coordinate == coordinate; });
+    why_ = "at the wall of " + walls_->names[static_cast<std::size_t>(wall - walls_->sides.begin())] +
+           " no other momentum of that coordinate has the same energy";
+    return Outcome::wall;
+  }
+  Outcome stays_on(std::size_t side) {
+    why_ = "the motion stays on the wall of " + walls_->names[side] + ", however often it is thrown back";
+    return Outcome::wall;
+  }
+  /// A number that is none, where a soft wall was met.
+  Outcome explained(Outcome outcome) {
+    if (!outside_ || (outcome != Outcome::non_finite && outcome != Outcome::not_converged)) return outcome;
+    why_ = walls_->names.at(*outside_) + " stood on a soft wall or beyond it";
+    return Outcome::outside;
+  }
+
+  std::unique_ptr<Simulation> inner_;
+  Parts* parts_;  // the same
+  std::shared_ptr<const RunWalls<R>> walls_;
+  std::vector<std::int64_t> counts_;  // of each side
+  Effort given_up_;                   // by the search for bounces and by steps that were rejected
+  std::vector<Met> met_;              // in the present step
+  std::string why_;
+  std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
+  std::function<void(const Bounce&)> told_;
+};
+
+}  // namespace
+
+template <class R>
+std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
+                                                  Simulate<R> simulate) {
+  auto behind = std::make_shared<RunWalls<R>>();
+  behind->rule = walls.rule;
+  if (walls.hard()) behind->sides = wall_sides<R>(walls);
+  if constexpr (std::is_same_v<R, double>) {
+    if (request.arithmetic == "lattice" && walls.rule == WallRule::mirror) {
+      for (auto& side : behind->sides) side.at = on_half_lattice(side.at, request.position_unit);
+    }
+  }
+  for (const auto& interval : walls.intervals) {
+    if (!interval.min.empty() || !walls.hard()) behind->names.push_back(interval.coordinate);
+    if (!interval.max.empty() && walls.hard()) behind->names.push_back(interval.coordinate);
+  }
+  ErasedRun<R> other = run;
+  other.functions = functions_behind_walls(run.functions, request, walls, behind->sides);
+  behind->functions = other.functions.plain;
+  if constexpr (std::is_same_v<R, double>) {
+    if (walls.hard()) {
+      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule == WallRule::event});
+    }
+  }
+  return std::make_unique<WalledSimulation<R>>(simulate(other, request), std::move(behind));
+}
+
+#define HAMFLOW_BEHIND_WALLS(R)                                                                                    \
+  template std::unique_ptr<Simulation> simulate_behind_walls<R>(const ErasedRun<R>&, const Request&, const Walls&, \
+                                                                Simulate<R>);
+HAMFLOW_BEHIND_WALLS(double)
+HAMFLOW_BEHIND_WALLS(DoubleDouble)
+HAMFLOW_BEHIND_WALLS(Quad)
+HAMFLOW_BEHIND_WALLS(Mp)
+#undef HAMFLOW_BEHIND_WALLS
+
+}  // namespace hamflow

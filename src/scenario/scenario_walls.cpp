@@ -1,0 +1,203 @@
+// [problem]: walls on coordinates, and what does not go with them.
+#include <algorithm>
+#include <cmath>
+
+#include "hamflow/run/state_names.hpp"
+#include "scenario_reader.hpp"
+
+namespace hamflow {
+
+namespace {
+
+/// The names of coordinates, as `show` lists them; of bodies numbers alone, q1, q2, ..., too.
+std::vector<std::vector<std::string>> coordinate_names(const ProblemEntry& problem, const Texts& parameters,
+                                                       std::size_t size) {
+  std::vector<std::vector<std::string>> names{state_names(problem, parameters, size).q};
+  if (problem.dimension == 0) names.push_back(numbered_names(size).q);
+  return names;
+}
+
+std::optional<Walls::Interval> read_interval(TomlTable& table, const std::vector<std::vector<std::string>>& names,
+                                             bool both) {
+  const WallKeys& keys = wall_keys();
+  OptionInfo coordinate = keys.coordinate;
+  for (const auto& list : names) {
+    for (const std::string& name : list) {
+      if (std::find(coordinate.words.begin(), coordinate.words.end(), name) == coordinate.words.end()) {
+        coordinate.words.push_back(name);
+      }
+    }
+  }
+  const auto name = table.text(coordinate);
+  const auto min = table.text(keys.min);
+  const auto max = table.text(keys.max);
+  const bool has_min = table.has(keys.min.name);
+  const bool has_max = table.has(keys.max.name);
+  table.finish();
+  if ((has_min && !min) || (has_max && !max) || !name) return std::nullopt;
+  if (!min && !max) {
+    table.missing(keys.min.name, "a number, or " + keys.max.name + ", or both");
+    return std::nullopt;
+  }
+  if (both && (!min || !max)) {
+    table.missing((min ? keys.max : keys.min).name,
+                  "a number: a soft wall is a potential between both ends of an interval");
+    return std::nullopt;
+  }
+  if (min && max && !(number_value(*min) < number_value(*max))) {
+    table.complain(keys.max.name, table.found(keys.max.name) + "; allowed more than " + keys.min.name + " = " + *min);
+    return std::nullopt;
+  }
+  Walls::Interval interval{*name, 0, min.value_or(""), max.value_or("")};
+  for (const auto& list : names) {
+    const auto place = std::find(list.begin(), list.end(), *name);
+    if (place != list.end()) interval.index = static_cast<std::size_t>(place - list.begin());
+  }
+  for (std::string* text : {&interval.min, &interval.max}) std::erase(*text, ' ');
+  return interval;
+}
+
+}  // namespace
+
+void ScenarioReader::read_walls(TomlTable& table) {
+  const WallKeys& keys = wall_keys();
+  const ProblemInfo& info = scenario_.problem->info;
+  const bool fixed = !info.walls.empty();
+  table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
+  const std::size_t before = complaints_.size();
+  if (!fixed && !scenario_.problem->constraint_form.empty() && table.has(keys.walls.name)) {
+    table.complain(keys.walls.name,
+                   "found walls beside constraints, which a momentum that is turned round would leave; allowed in "
+                   "coordinates without constraints");
+    return;
+  }
+  if (fixed && table.has(keys.walls.name)) {
+    table.complain(keys.walls.name,
+                   "found walls, but those of " + info.name + " are fixed; allowed " + keys.wall_rule.name + " alone");
+  }
+  if (!fixed && !table.has(keys.walls.name)) {
+    for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) {
+      // exponents of other kinds of walls may be keys of their own
+      if (table.has(key->name)) table.complain(key->name, table.found(key->name) + "; allowed with " + keys.walls.name);
+    }
+    return;
+  }
+  Walls walls;
+  const auto rule = table.text(keys.wall_rule);
+  if (rule) {
+    walls.rule =
+        static_cast<WallRule>(std::find(wall_rules().begin(), wall_rules().end(), *rule) - wall_rules().begin());
+  }
+  for (const auto& [key, to] :
+       {std::pair{&keys.strength, &walls.strength}, std::pair{&keys.exponent, &walls.exponent}}) {
+    if (walls.hard() && table.has(key->name) && (rule || !table.has(keys.wall_rule.name))) {
+      table.complain(key->name, table.found(key->name) + "; allowed with " + keys.wall_rule.name + " = \"soft\"");
+    } else if (const auto text = table.text(*key)) {
+      *to = *text;
+      std::erase(*to, ' ');
+    }
+  }
+  const Texts& parameters = scenario_.request.parameters;
+  const std::size_t size =
+      scenario_.problem->dimension > 0 ? scenario_.problem->dimension : scenario_.request.start.q.size();
+  if (complaints_.size() != before || size == 0) return;
+  if (!scenario_.problem->refused_size(parameters, size).empty()) return;  // complained about with the start
+  const auto names = coordinate_names(*scenario_.problem, parameters, size);
+  for (const FixedWall& wall : info.walls) {
+    walls.intervals.push_back({names.front().at(wall.coordinate), wall.coordinate, wall.min, wall.max});
+  }
+  if (!fixed) {
+    auto tables = table.tables(keys.walls.name, 0);
+    if (!tables) return;
+    for (TomlTable& entry : *tables) {
+      const auto interval = read_interval(entry, names, !walls.hard());
+      if (!interval) continue;
+      const bool again = std::any_of(walls.intervals.begin(), walls.intervals.end(),
+                                     [&](const auto& other) { return other.index == interval->index; });
+      if (again) {
+        entry.complain(keys.coordinate.name, entry.found(keys.coordinate.name) +
+                                                 " a second time; allowed one interval "
+                                                 "of each coordinate");
+      }
+      walls.intervals.push_back(*interval);
+    }
+  }
+  if (scenario_.bodies) {
+    table.complain(keys.walls.name,
+                   "found walls beside bodies; allowed with initial or orbit: bodies are shown where "
+                   "they are in space");
+  }
+  if (complaints_.size() != before) return;
+  put_among(walls, scenario_.request.variant);
+  scenario_.problem = &find_problem(scenario_.request.problem, scenario_.request.variant);
+}
+
+/// What only shows beside method and arithmetic.
+void ScenarioReader::check_walls() {
+  const auto walls = walls_among(scenario_.request.variant);
+  if (!walls || scenario_.problem == nullptr || scenario_.start_q.empty() || !has_method()) return;
+  const WallKeys& keys = wall_keys();
+  TomlTable table = root_.table("problem");
+  const MethodSpec& method = scenario_.request.method;
+  const MethodInfo info = describe(method);
+  const bool on_lattice = scenario_.request.arithmetic == "lattice";
+  const std::string& rule = wall_rules()[static_cast<std::size_t>(walls->rule)];
+  const auto refuse = [&](const std::string& why) {
+    table.complain(
+        table.has(keys.wall_rule.name) || !table.has(keys.walls.name) ? keys.wall_rule.name : keys.walls.name,
+        "found \"" + rule + "\" " + why);
+  };
+  if (walls->hard() && info.varies_steps) {
+    refuse("with steps of varying length, which walls would cut; allowed \"soft\", or step_control = \"fixed\"");
+  }
+  if (info.carries_copy && walls->hard()) {
+    refuse("with " + info.name +
+           ", which carries a second copy of the state that meets walls elsewhere; allowed "
+           "\"soft\", or another method");
+  }
+  if (walls->rule == WallRule::event && on_lattice) {
+    refuse("on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"");
+  }
+  if (walls->rule != WallRule::mirror) return;
+  const bool drifts = find_method(method.name).family->not_on_lattice.empty();
+  if (!drifts) {
+    refuse("with " + info.name +
+           ", which has no drifts to be reflected; allowed \"event\", \"reject\", or a splitting "
+           "method, e.g. stv4");
+    return;
+  }
+  const ProblemEntry& problem = *scenario_.problem;
+  const Texts& parameters = scenario_.request.parameters;
+  const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
+  for (const Walls::Interval& wall : walls->intervals) {
+    std::vector<double> p(scenario_.start_q.size(), 0.0);
+    p[wall.index] = 1;
+    const std::vector<double> v = problem.rates(parameters, scenario_.start_q, p);
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      if (quadratic && (k == wall.index || v[k] == 0)) continue;
+      refuse("where the velocity of " + wall.coordinate +
+             (quadratic ? " depends on other momenta too"
+                        : " is not a "
+                          "constant times its momentum") +
+             ": a reflected drift would not be one of H; allowed \"event\", \"reject\"");
+      return;
+    }
+  }
+  if (!on_lattice) return;
+  for (const Walls::Interval& wall : walls->intervals) {
+    for (const std::string& text : {wall.min, wall.max}) {
+      if (text.empty()) continue;
+      const double at = number_value(text);
+      const double unit = scenario_.request.position_unit;
+      if (std::abs(at) > 0x1p51 * unit) {
+        refuse("with a wall at " + text + " and a unit of " + shortest(unit) +
+               "; allowed walls within 2^51 units, behind which positions are still exact in double");
+        return;
+      }
+      scenario_.notes.push_back("the wall of " + wall.coordinate + " at " + text + " is moved by " +
+                                shortest(on_half_lattice(at, unit) - at) + ", to half a unit of the lattice");
+    }
+  }
+}
+
+}  // namespace hamflow

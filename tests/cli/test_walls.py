@@ -1,0 +1,179 @@
+"""Walls: what a run counts and records, what goes on with it, and what is refused with the reason."""
+
+import json
+import os
+import subprocess
+import unittest
+
+from command import CommandCase
+
+COMPARE = os.environ["COMPARE_RUNS"]
+
+TUBE = """
+[problem]
+name = "t-tube"
+eps = -0.6
+velocities = [6, 1]
+{}
+[method]
+name = "{}"
+[run]
+dt = 0.01
+steps = 2000
+record_every = 100
+"""
+
+BOX = """
+[problem]
+name = "{}"
+{}
+initial = {{ q = [0.1, -0.2], p = [1, 0.7] }}
+walls = {}
+{}
+[method]
+name = "{}"
+[run]
+dt = 0.01
+steps = 1000
+{}
+"""
+
+
+class Walls(CommandCase):
+    def tube(self, method="stv4", rule=""):
+        return self.write("tube.toml", TUBE.format(rule, method))
+
+    def box(self, walls, method="stv4", rule="", problem="henon-heiles", keys="", run=""):
+        return self.write("box.toml", BOX.format(problem, keys, walls, rule, method, run))
+
+    def test_counts_and_observables(self):
+        found = self.summary(self.tube())
+        self.assertEqual(found["status"], "done")
+        self.assertEqual(sorted(found["events"]), ["wall:q1:max", "wall:q1:min", "wall:q2:max", "wall:q2:min"])
+        self.assertGreater(sum(found["events"].values()), 60)
+        self.assertEqual(found["parameters"]["wall_rule"], "event")
+        for name, start in (("kinetic1", 18), ("kinetic2", 50)):
+            self.assertEqual(found["observables"][name]["initial"], start)
+        # What is no longer so behind walls is not shown.
+        self.assertEqual(found["invariants"], {})
+        for key in ("orbit", "exact"):
+            self.assertNotIn(key, found)
+        self.assertEqual(found["certificate"]["reversal_distance"]["proves"], "reversible to rounding")
+        self.assertGreater(found["certificate"]["reversal_distance"]["bounces"], 0)
+
+    def test_the_rows_of_bounces(self):
+        """As many as are counted, at their walls, and no more than are asked for; the same after a resumption."""
+        self.tube("cg")
+        counts = json.loads(self.hamflow("run", "tube.toml", "--out", "whole", "--json").stdout)["events"]
+        self.hamflow("run", "tube.toml", "--out", "parts", "--set", "run.steps=777")
+        self.hamflow("run", "tube.toml", "--out", "parts", "--resume")
+        subprocess.run([COMPARE, "whole/run.h5", "parts/run.h5"], cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual(json.loads((self.folder / "parts/summary.json").read_text())["events"], counts)
+        self.assertEqual(len(self.column("whole", "t")), sum(counts.values()))
+        self.assertEqual(self.column("whole", "t"), self.column("parts", "t"))
+        sides = [(int(c), int(s)) for c, s in zip(self.column("whole", "coordinate"), self.column("whole", "side"))]
+        names = {(0, -1): "wall:q1:min", (0, 1): "wall:q1:max", (1, -1): "wall:q2:min", (1, 1): "wall:q2:max"}
+        self.assertEqual({name: sides.count(side) for side, name in names.items()}, counts)
+        self.hamflow("run", "tube.toml", "--out", "few", "--set", "run.record_events=5")
+        self.assertEqual(len(self.column("few", "t")), 5)
+
+    def column(self, folder, name):
+        done = subprocess.run([COMPARE, f"--numbers=/events/wall/{name}", f"{folder}/run.h5"], cwd=self.folder,
+                              capture_output=True, text=True, check=True)
+        return [float(x) for x in done.stdout.split()]
+
+    def test_walls_of_any_problem(self):
+        for method in ("stv4", "cg(2,auto)", "rk4", "gauss(2)"):
+            walls = '[{ coordinate = "q1", min = -0.3, max = "1/3" }, { coordinate = "q2", max = 0.25 }]'
+            found = self.summary(self.box(walls, method))
+            self.assertGreater(sum(found["events"].values()), 10, method)
+            self.assertEqual(sorted(found["events"]), ["wall:q1:max", "wall:q1:min", "wall:q2:max"])
+        reject = self.summary(self.box(walls, "stv4", 'wall_rule = "reject"'))
+        mirror = self.summary(self.box(walls, "stv4", 'wall_rule = "mirror"'))
+        for other in (reject, mirror):
+            self.assertGreater(sum(other["events"].values()), 10)
+        soft = self.summary(self.box('[{ coordinate = "q1", min = -2, max = 2 }]', "stv4",
+                                     'wall_rule = "soft"\nstrength = 0.5\nexponent = 3'))
+        self.assertEqual(soft["events"], {})
+        self.assertEqual(soft["parameters"]["wall_rule"], "soft")
+
+    def test_the_thesis(self):
+        """Sim-0.6III, a thousandth of it: the mean kinetic energies of the listing over its 20000 steps."""
+        found = self.summary(self.tube("stv4", 'wall_rule = "reject"'), "--set", "run.steps=20000")
+        for name, mean in (("kinetic1", 18.857958545985127), ("kinetic2", 49.066220503030145)):
+            seen = found["observables"][name]  # the listing's mean has the start in it, and not the end
+            self.assertAlmostEqual(seen["mean"] + (seen["initial"] - seen["final"]) / 20000, mean, delta=1e-9)
+
+    def test_failures(self):
+        soft = self.summary(self.box('[{ coordinate = "q1", min = -0.5, max = 0.5 }]', "stv4", 'wall_rule = "soft"',
+                                     run=""), "--set", "run.dt=0.9", status=1)
+        self.assertEqual(soft["error"]["kind"], "outside")
+        self.assertIn("q1", soft["error"]["message"])
+        many = self.summary(self.box('[{ coordinate = "q1", min = 0.0999, max = 0.1001 }]'), "--set", "run.dt=1",
+                            status=1)
+        self.assertEqual(many["error"]["kind"], "wall")
+
+    def refused(self, *arguments):
+        return self.hamflow("run", *arguments, "--out", "none", status=2).stderr
+
+    def test_refusals(self):
+        one = '[{ coordinate = "q1", min = -1, max = 1 }]'
+        self.assertIn("no drifts", self.refused(self.box(one, "rk4", 'wall_rule = "mirror"')))
+        self.assertIn("on the lattice", self.refused(self.box(one, run='arithmetic = "lattice"')))
+        self.assertIn("q1 = 0.1 beyond the wall at 0.05",
+                      self.refused(self.box('[{ coordinate = "q1", max = 0.05 }]')))
+        self.assertIn("both ends", self.refused(self.box('[{ coordinate = "q1", max = 1 }]', rule='wall_rule = "soft"')))
+        self.assertIn("did you mean q1?", self.refused(self.box('[{ coordinate = "q_1", max = 1 }]')))
+        self.assertIn("allowed more than min", self.refused(self.box('[{ coordinate = "q1", min = 2, max = 1 }]')))
+        self.assertIn("did you mean event?", self.refused(self.box(one, rule='wall_rule = "events"')))
+        self.assertIn("soft", self.refused(self.box(one, rule="strength = 2")))
+        self.assertIn("bounces are not differentiated", self.refused(self.box(one, run="lyapunov = true")))
+        self.assertIn("are fixed", self.refused(self.tube(rule="walls = " + one)))
+        self.write("arm.toml", """
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "p_x^2 + p_x*p_y + p_y^2"
+initial = { q = [0, 0], p = [1, 1] }
+walls = [{ coordinate = "x", max = 1 }]
+wall_rule = "mirror"
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 10
+""")
+        self.assertIn("depends on other momenta", self.refused("arm.toml"))
+
+    def test_the_lattice_returns_every_bit(self):
+        found = json.loads(self.hamflow("reverse", self.tube("stv4", 'wall_rule = "mirror"'), "--set",
+                                        "run.arithmetic=lattice", "--json").stdout)
+        self.assertTrue(found["bit_exact"])
+        found = json.loads(self.hamflow("reverse", self.tube("stv4", 'wall_rule = "reject"'), "--set",
+                                        "run.arithmetic=lattice", "--json").stdout)
+        self.assertFalse(found["expected_bit_exact"])
+        self.assertIn("one-to-one", found["note"])
+
+    def test_a_sweep_counts_for_each_member(self):
+        self.tube()
+        self.hamflow("sweep", "tube.toml", "--vary", "problem.velocities[0]=1,6", "--out", "s.sweep", "--set",
+                     "output.formats=['csv']")
+        rows = (self.folder / "s.sweep/sweep.csv").read_text().splitlines()
+        head = rows[0].split(",")
+        at = head.index("events/wall:q1:max")
+        for row, speed in zip(rows[1:], ("1", "6")):
+            one = self.summary("tube.toml", "--set", f"problem.velocities=[{speed}, 1]")
+            self.assertEqual(int(row.split(",")[at]), one["events"]["wall:q1:max"])
+            self.assertEqual(float(row.split(",")[head.index("observables/kinetic1_mean")]),
+                             one["observables"]["kinetic1"]["mean"])
+
+    def test_compare_has_a_reference(self):
+        done = json.loads(self.hamflow("compare", self.tube(), "--methods", "cg(3,auto),stv4", "--set", "run.steps=100",
+                                       "--out", "none", "--json").stdout)
+        self.assertEqual(done["reference"]["kind"], "integration")
+        errors = {row["method"]: row["error"] for row in done["rows"]}
+        self.assertLess(errors["cg(3,auto)"], 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
