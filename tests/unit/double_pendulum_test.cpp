@@ -508,8 +508,8 @@ TEST(Modal, FourDegreesOfFreedomWithStableAndUnstableModes) {
 TEST(DoublePendulum, DeclaresItself) {
   const ProblemInfo info = DoublePendulumNonlinearRelative<>::info();
   EXPECT_EQ(info.name, "double-pendulum");
-  EXPECT_EQ(info.variant,
-            (std::vector<std::pair<std::string, std::string>>{{"model", "nonlinear"}, {"angles", "relative"}}));
+  EXPECT_EQ(info.variant, (std::vector<std::pair<std::string, std::string>>{
+                              {"model", "nonlinear"}, {"angles", "relative"}, {"coordinates", "generalised"}}));
   std::map<std::string, std::string> defaults;
   for (const ParameterInfo& p : info.parameters) defaults[p.name] = p.default_value;
   const Parameters<Long> given(defaults);

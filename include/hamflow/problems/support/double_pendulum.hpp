@@ -38,7 +38,7 @@ inline ProblemInfo double_pendulum_info(const char* model, Angles angles, const 
                                         std::vector<ParameterInfo> parameters) {
   const bool absolute = angles == Angles::absolute;
   return {.name = "double-pendulum",
-          .variant = {{"model", model}, {"coordinates", "generalised"}, {"angles", absolute ? "absolute" : "relative"}},
+          .variant = {{"model", model}, {"angles", absolute ? "absolute" : "relative"}, {"coordinates", "generalised"}},
           .default_choices =
               absolute ? std::vector<std::string>{"coordinates", "angles"} : std::vector<std::string>{"coordinates"},
           .chart_key = "angles",
