@@ -4,6 +4,7 @@
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/problems/support/double_pendulum_body.hpp"
 #include "hamflow/problems/support/generalised.hpp"
+#include "hamflow/problems/t_tube.hpp"
 #include "typed_problem.hpp"
 
 namespace hamflow {
@@ -37,7 +38,8 @@ struct TwoRods {
   R second;
   explicit TwoRods(const Parameters<R>& given)
       : first(given.list("half_lengths").at(0)), second(given.list("half_lengths").at(1)) {}
-  Matrix<R, 4> mass(const Parameters<R>& given) const {
+  Matrix<R, 4> mass(const Parameters<R>& given) const { return masses_of(given); }
+  static Matrix<R, 4> masses_of(const Parameters<R>& given) {
     Matrix<R, 4> m{};
     for (std::size_t i = 0; i < 4; ++i) m[i][i] = given.list("masses").at(i / 2);
     return m;
@@ -53,7 +55,22 @@ struct TwoRods {
   }
 };
 
-/// To the chart of angles and back.
+/// (Q1, Q2) on the rails y1 = 0, x2 = 0.
+template <class R>
+struct Rails {
+  static constexpr std::size_t dimension = 2;
+  static constexpr std::size_t space = 4;
+  explicit Rails(const Parameters<R>&) {}
+  Matrix<R, 4> mass(const Parameters<R>& given) const { return TwoRods<R>::masses_of(given); }
+  template <class S>
+  Vector<S, 4> operator()(const Vector<S, 2>& q) const {
+    const S zero = q[0] * R(0);
+    return {q[0], zero, zero, q[1]};
+  }
+  static Vector<R, 2> angles(const Vector<R, 4>& x) { return {x[0], x[3]}; }
+};
+
+/// To the chart of generalised coordinates, angles mostly, and back.
 template <template <class> class Map>
 struct ChartOfAngles {
   static constexpr std::size_t k = Map<double>::dimension;
@@ -216,10 +233,45 @@ ProblemEntry double_pendulum(const std::string& form) {
   return entry;
 }
 
+ProblemEntry t_tube(const std::string& form) {
+  FormulaTexts texts;
+  texts.coordinates = {"x1", "y1", "x2", "y2"};
+  texts.kinetic = "(p_x1^2 + p_y1^2)/(2*masses[1]) + (p_x2^2 + p_y2^2)/(2*masses[2])";
+  texts.potential = "-eps/sqrt((x1 - x2)^2 + (y1 - y2)^2)";
+  texts.constraints = {"y1", "x2"};
+  texts.parameters = {{"masses", "[?, ?]"}, {"eps", FormulaKeys::unknown}};
+  ProblemEntry entry = entry_of_texts("t-tube", texts, form);
+  ProblemInfo& info = entry.info;
+  const ProblemInfo on_rails = TTube<double>::info();
+  info.variant = {{FormulaKeys::coordinates, "cartesian"}, {FormulaKeys::constraint_form, form}};
+  if (form == FormulaKeys::manifold) info.default_choices.emplace_back(FormulaKeys::constraint_form);
+  info.formula = "H = |p1|^2/(2 m1) + |p2|^2/(2 m2) - eps/|r1 - r2|, y1 = x2 = 0, x1 in [-1, 1], y2 in [0.1, 2.1]";
+  info.reference = on_rails.reference;
+  info.parameters = on_rails.parameters;
+  info.velocities = on_rails.velocities;
+  info.velocity_places = {0, 3};
+  info.default_q = {"0.01", "0", "0", "1.1"};
+  info.walls = {{0, "-1", "1"}, {3, "0.1", "2.1"}};
+  info.observables = {{"kinetic1", "p_x1^2/(2*masses[1])"}, {"kinetic2", "p_y2^2/(2*masses[2])"}};
+  ChartOfAngles<Rails>::add_to(entry);
+  info.region = {.parameters = on_rails.region.parameters,
+                 .centre = {1, 0, 0, 0.25, 0.1, 0, 0, 1.1},
+                 .spread = 0.05,
+                 .step = 0.11,
+                 .time = 2.3};
+  info.example = {.parameters = on_rails.example.parameters,
+                  .q = {0.01, 0, 0, 1.1},
+                  .p = {0, 0, 0, 100},
+                  .dt = 0.01,
+                  .steps = 20000};
+  return entry;
+}
+
 }  // namespace
 
 DigitCharts constrained_digit_charts(const ProblemEntry& entry, const Texts& parameters) {
   if (!entry.to_reference) return {};
+  if (entry.info.name == "t-tube") return digit_charts<Rails>(parameters);
   return entry.info.coordinates.size() == 2 ? digit_charts<Circle>(parameters) : digit_charts<TwoRods>(parameters);
 }
 
@@ -228,6 +280,7 @@ std::vector<ProblemEntry> constrained_problems() {
   for (const char* const form : {FormulaKeys::manifold, FormulaKeys::multiplier}) {
     for (const int dimension : {2, 3}) all.push_back(pendulum(dimension, form));
     all.push_back(double_pendulum(form));
+    all.push_back(t_tube(form));
   }
   return all;
 }

@@ -62,6 +62,7 @@ class WalledSimulation final : public Simulation {
   Excursion energy() const override { return inner_->energy(); }
   double energy_scale() const override { return inner_->energy_scale(); }
   std::vector<InvariantExcursion> invariants() const override { return inner_->invariants(); }
+  std::optional<ConstraintResiduals> constraints() const override { return inner_->constraints(); }
   Effort effort() const override {
     Effort all = inner_->effort();
     add_evaluations(all, given_up_);

@@ -1,6 +1,7 @@
 // [problem]: where it starts, by an orbit, by a numbered case or by a state.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -143,6 +144,10 @@ void ScenarioReader::read_initial(TomlTable& table) {
       spec.q = problem.info.default_q;
       spec.p = problem.info.default_p;
       if (!velocities.name.empty()) spec.v = list_parts(given.value_or(velocities.default_value));
+      if (const auto& places = problem.info.velocity_places; !places.empty()) {
+        const std::vector<std::string> some = std::exchange(spec.v, std::vector<std::string>(spec.q.size(), "0"));
+        for (std::size_t i = 0; i < places.size() && i < some.size(); ++i) spec.v[places[i]] = some[i];
+      }
       return;
     }
     table.missing("initial", std::string(problem.info.starts.empty()      ? ""

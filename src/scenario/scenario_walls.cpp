@@ -65,6 +65,12 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const bool fixed = !info.walls.empty();
   table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
   const std::size_t before = complaints_.size();
+  if (!fixed && !scenario_.problem->constraint_form.empty() && table.has(keys.walls.name)) {
+    table.complain(keys.walls.name,
+                   "found walls beside constraints, which a momentum that is turned round would leave; allowed in "
+                   "coordinates without constraints");
+    return;
+  }
   if (fixed && table.has(keys.walls.name)) {
     table.complain(keys.walls.name,
                    "found walls, but those of " + info.name + " are fixed; allowed " + keys.wall_rule.name + " alone");

@@ -47,6 +47,18 @@ name = "{method}"
 dt = 0.05
 steps = 1000
 """
+T_TUBE = """
+[problem]
+name = "t-tube"
+eps = -0.6
+velocities = [6, 1]
+{problem}
+[method]
+name = "{method}"
+[run]
+dt = 0.01
+steps = 300
+"""
 
 
 class Constraints(CommandCase):
@@ -251,6 +263,36 @@ steps = 100
                                     "--json").stdout)
         self.assertEqual(s["done"], 2)
         self.assertEqual(s["rows"][1]["final"]["q"], self.summary(self.pendulum(steps=50))["final"]["q"])
+
+    def test_the_t_tube_on_its_rails(self):
+        # Rails are straight: rattle takes Verlet's steps there, but for rounding, and the walls see the same motion.
+        def tube(method, problem):
+            return self.summary(self.write("tube.toml", T_TUBE.format(method=method, problem=problem)))
+
+        rails = 'coordinates = "cartesian"\n'
+        for free, bound in (("verlet", "rattle"), ("stv4", "rattle4")):
+            for rule in ("event", "reject", "soft"):
+                one = tube(free, f'wall_rule = "{rule}"')
+                other = tube(bound, rails + f'wall_rule = "{rule}"')
+                x1, y1, x2, y2 = other["final"]["q"]
+                self.assertLess(max(abs(y1), abs(x2)), 16 * EPSILON)
+                self.assertAlmostEqual(x1, one["final"]["q"][0], delta=1e-9)
+                self.assertAlmostEqual(y2, one["final"]["q"][1], delta=1e-9)
+                self.assertEqual({key.replace("q1", "x1").replace("q2", "y2"): n for key, n in one["events"].items()},
+                                 other["events"])
+                self.assertLess(other["constraints"]["position"], 16 * EPSILON)
+                self.assertLess(other["constraints"]["velocity"], 64 * EPSILON)
+                for name in ("kinetic1", "kinetic2"):
+                    self.assertAlmostEqual(one["observables"][name]["mean"], other["observables"][name]["mean"], delta=1e-9)
+        one = tube("rk4", "")
+        other = tube("rk4", rails + 'constraint_form = "multiplier"')
+        self.assertAlmostEqual(other["final"]["q"][0], one["final"]["q"][0], delta=1e-9)
+        self.assertAlmostEqual(other["final"]["q"][3], one["final"]["q"][1], delta=1e-9)
+        for rule, method in (("mirror", "rattle"), ("mirror", "rattle4")):
+            text = self.refused(self.write("tube.toml", T_TUBE.format(method=method, problem=rails + f'wall_rule = "{rule}"')))
+            self.assertIn("no drifts to be reflected", text)
+        walls = PLANE + '\nwalls = [{ coordinate = "x", max = 0.9 }]'
+        self.assertIn("found walls beside constraints", self.refused(self.pendulum(walls)))
 
     def test_lists_and_templates(self):
         text = self.hamflow("new", "pendulum").stdout

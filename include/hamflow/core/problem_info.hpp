@@ -110,7 +110,8 @@ struct ProblemInfo {
   OptionInfo frame{};
   /// The name of the key that gives the start its velocities where `initial` is not given; empty: there is none.
   OptionInfo velocities{};
-  std::vector<FixedWall> walls{};                                  // a scenario chooses their rule alone
+  std::vector<std::size_t> velocity_places{};  // the coordinates that it gives, others rest; empty: all, in order
+  std::vector<FixedWall> walls{};              // a scenario chooses their rule alone
   std::vector<std::pair<std::string, std::string>> observables{};  // names and expressions, averaged in every run
   bool two_bodies =
       false;  // a planar relative motion: `bodies` may give two bodies in space, from which `mass` follows

@@ -21,6 +21,9 @@ class TTube {
 
   static ProblemInfo info() {
     return {.name = "t-tube",
+            .variant = {{"coordinates", "generalised"}},
+            .default_choices = {"coordinates"},
+            .chart_key = "coordinates",
             .formula = "H = p1^2/(2 m1) + p2^2/(2 m2) - eps/sqrt(q1^2 + q2^2), q1 in [-1, 1], q2 in [0.1, 2.1]",
             .reference = "Sonnleitner2010, ch. 1.9",
             .coordinates = {"q1", "q2"},
