@@ -77,7 +77,8 @@ void check_coordinates(const std::string& name) {
 const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to) {
   check_coordinates(to);
   if (walls_among({problem.info.variant.begin(), problem.info.variant.end()})) {
-    throw Error("found " + problem.info.name + " behind walls; allowed without: a wall on one coordinate is none on those "
+    throw Error("found " + problem.info.name +
+                " behind walls; allowed without: a wall on one coordinate is none on those "
                 "of another chart");
   }
   const auto charts = charted_problems().find(problem.info.name);

@@ -193,7 +193,7 @@ TEST(Averages, OrdersAreTwiceTheDegreeWhateverTheNumberOfPoints) {
   for (int k = 1; k <= 6; ++k) {
     for (const int points : {k, k + 1, 2 * k, 3 * k}) {
       const StepMapOf<Pendulum, Averages, Beyond::quad> map([]<class R>() { return Pendulum<R>(); },
-                                                    CgOfDegree{{.degree = k, .quadrature = points}});
+                                                            CgOfDegree{{.degree = k, .quadrature = points}});
       const State<Quad> start{Quad(1.2), Quad(0.5)};
       const State<Quad> exact = map.flow(start, Quad(1));
       double previous = 0;

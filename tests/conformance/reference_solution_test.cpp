@@ -98,6 +98,7 @@ TEST(ReferenceSolution, EveryProblemHasOneInEveryArithmetic) {
     EXPECT_GE(digits_beyond_double(reference_arithmetic(arithmetic)), digits_beyond_double(arithmetic) + 10);
   }
   for (const ProblemEntry& problem : problems()) {
+    if (!problem.info.walls.empty()) continue;  // a scenario puts them; without them its motion ends in the centre
     Request request;
     request.problem = problem.info.name;
     for (const auto& [key, value] : problem.info.variant) request.variant[key] = value;
