@@ -267,7 +267,9 @@ steps = 100
     def test_the_t_tube_on_its_rails(self):
         # Rails are straight: rattle takes Verlet's steps there, but for rounding, and the walls see the same motion.
         def tube(method, problem):
-            return self.summary(self.write("tube.toml", T_TUBE.format(method=method, problem=problem)))
+            text = T_TUBE.format(method=method, problem=problem)
+            # The force of a soft wall is stiff: a step of 0.01 jumps beyond it.
+            return self.summary(self.write("tube.toml", text.replace("dt = 0.01", "dt = 0.001") if "soft" in text else text))
 
         rails = 'coordinates = "cartesian"\n'
         for free, bound in (("verlet", "rattle"), ("stv4", "rattle4")):

@@ -98,13 +98,16 @@ TEST(ReferenceSolution, EveryProblemHasOneInEveryArithmetic) {
     EXPECT_GE(digits_beyond_double(reference_arithmetic(arithmetic)), digits_beyond_double(arithmetic) + 10);
   }
   for (const ProblemEntry& problem : problems()) {
-    if (!problem.info.walls.empty()) continue;  // a scenario puts them; without them its motion ends in the centre
     Request request;
     request.problem = problem.info.name;
     for (const auto& [key, value] : problem.info.variant) request.variant[key] = value;
     request.parameters = problem.info.region.parameters;
     request.start = {.q = problem.info.default_q, .p = problem.info.default_p};
-    const std::vector<double>& centre = problem.info.region.centre;
+    std::vector<double> centre = problem.info.region.centre;
+    if (!problem.constraint_form.empty() && problem.info.walls.empty()) {  // where it is need not meet the constraints
+      centre = problem.info.example.q;
+      centre.insert(centre.end(), problem.info.example.p.begin(), problem.info.example.p.end());
+    }
     if (!centre.empty()) request.start = {};
     for (std::size_t i = 0; i < centre.size(); ++i) {
       (i < centre.size() / 2 ? request.start.q : request.start.p).push_back(shortest(centre[i]));

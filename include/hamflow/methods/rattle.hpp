@@ -6,6 +6,7 @@
 #pragma once
 
 #include "hamflow/core/capability.hpp"
+#include "hamflow/core/pool.hpp"
 #include "hamflow/methods/implicit/implicit_method.hpp"
 #include "hamflow/methods/implicit/rattle_equations.hpp"
 
@@ -44,7 +45,7 @@ class RattleStep {
 
   RattleStep(const P& problem, const RattleOptions& options) : options_(options) {
     const Real jump = evaluate_number<Real>("1/(2 - 2^(1/3))");
-    lengths_ = options.order == 2 ? std::vector<Real>{Real(1)} : std::vector<Real>{jump, 1 - 2 * jump, jump};
+    lengths_ = options.order == 2 ? Parts<Real>{Real(1)} : Parts<Real>{jump, 1 - 2 * jump, jump};
     parts_.assign(lengths_.size(), Part(problem, options.newton));
   }
 
@@ -146,9 +147,12 @@ class RattleStep {
     return own;
   }
 
+  /// Every block of steps works on a copy of the method.
+  template <class T>
+  using Parts = std::vector<T, PoolAllocator<T>>;
   RattleOptions options_;
-  std::vector<Real> lengths_;  // of the parts, in units of the step
-  std::vector<Part> parts_;
+  Parts<Real> lengths_;  // of the parts, in units of the step
+  Parts<Part> parts_;
   Effort whole_{};
 };
 
