@@ -2,12 +2,14 @@
 
 import json
 import os
+import pathlib
 import subprocess
 import unittest
 
 from command import CommandCase
 
 COMPARE = os.environ["COMPARE_RUNS"]
+DATA = pathlib.Path(__file__).parents[1] / "data"
 
 TUBE = """
 [problem]
@@ -46,6 +48,24 @@ class Walls(CommandCase):
 
     def box(self, walls, method="stv4", rule="", run=""):
         return self.write("box.toml", BOX.format(walls, rule, method, run))
+
+    def test_the_motion_itself(self):
+        """Against Taylor series with located bounces, in 40 digits (tools/tube_reference.py)."""
+        exact = json.loads((DATA / "t_tube_bounces.json").read_text())
+        rows = exact["bounces"]
+        for method, times, states in (("cg(4,auto)", 1e-11, 1e-9), ("rkn8-s19", 1e-11, 1e-9)):
+            found = self.summary(self.tube(method), "--set", "run.dt=0.005", "--set", "run.steps=2400")
+            self.assertEqual(found["status"], "done")
+            end = exact["states"][1]
+            for key in ("q", "p"):
+                for value, other in zip(found["final"][key], end[key]):
+                    self.assertLess(abs(value - float(other)), states * max(1, abs(value)), method)
+            self.hamflow("run", self.tube(method), "--set", "run.dt=0.005", "--set", "run.steps=2400", "--out", "w.run",
+                         "--force", "--quiet")
+            self.assertEqual(self.column("w.run", "coordinate")[: len(rows)], [row["coordinate"] for row in rows])
+            self.assertEqual(self.column("w.run", "side")[: len(rows)], [row["side"] for row in rows])
+            for time, row in zip(self.column("w.run", "t"), rows):
+                self.assertLess(abs(time - float(row["t"])), times, method)
 
     def test_counts_and_observables(self):
         found = self.summary(self.tube())
