@@ -171,9 +171,11 @@ void show_starts(const ProblemInfo& info) {
 }
 
 /// What may stand between coordinates and walls.
-void show_walls(const ProblemInfo& info) {
+void show_walls(const ProblemEntry& entry) {
+  const ProblemInfo& info = entry.info;
   const WallKeys& keys = wall_keys();
   const bool fixed = !info.walls.empty();
+  if (!fixed && !entry.constraint_form.empty()) return;  // they exclude each other
   for (const FixedWall& wall : info.walls) {
     std::cout << fmt::format("  walls: {} from {} to {}\n", info.coordinates.at(wall.coordinate), wall.min, wall.max);
   }
@@ -196,7 +198,7 @@ void show_problem(const ProblemEntry& entry) {
   if (!info.frame.name.empty()) std::cout << option_row(info.frame);
   if (!info.velocities.name.empty()) std::cout << option_row(info.velocities);
   show_starts(info);
-  show_walls(info);
+  show_walls(entry);
   std::cout << fmt::format("  momenta: {}\n",
                            entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
   for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);

@@ -298,6 +298,7 @@ class TemplateWriter {
   void write_walls() {
     const WallKeys& keys = wall_keys();
     const bool fixed = !info_.walls.empty();
+    if (!fixed && !problem_.constraint_form.empty()) return;  // a wall would throw the motion off its constraints
     if (!fixed) {
       const std::string coordinate = problem_.dimension > 0 ? info_.coordinates[0] : "q1";
       page_.off(keys.walls.name + " = [{ " + keys.coordinate.name + " = \"" + coordinate + "\", " + keys.min.name +
