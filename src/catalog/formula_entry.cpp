@@ -4,6 +4,7 @@
 #include "hamflow/problems/support/central_force.hpp"
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/formula_functions.hpp"
+#include "hamflow/run/walls.hpp"
 #include "mp_simulation.hpp"
 #include "problem_start.hpp"
 #include "recipes.hpp"
@@ -121,6 +122,7 @@ std::size_t operations_at_point(const formula::Model& model) {
 std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, const ErasedRun<double>& run,
                                                const Request& request) {
   constexpr std::size_t most_operations = 2000;
+  if (walls_among(request.variant)) return simulate_erased<double>(run, request);  // the programs below know none
   auto element = visit_method(request.method, [&]<class M>(const M& recipe) -> std::unique_ptr<Simulation> {
     if constexpr (std::is_same_v<M, Cg>) {
       if (operations_at_point(model) <= most_operations) return simulate_recorded_element(run, request, recipe.options);

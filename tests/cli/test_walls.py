@@ -104,7 +104,7 @@ class Walls(CommandCase):
         return [float(x) for x in done.stdout.split()]
 
     def test_walls_of_any_problem(self):
-        for method in ("stv4", "cg(2,auto)", "rk4", "gauss(2)"):
+        for method in ("stv4", "cg(1,auto)", "cg(1,3)", "cg(2,auto)", "rk4", "gauss(2)", "dop853", "taylor"):
             walls = '[{ coordinate = "q1", min = -0.3, max = "1/3" }, { coordinate = "q2", max = 0.25 }]'
             found = self.summary(self.box(walls, method))
             self.assertGreater(sum(found["events"].values()), 10, method)
