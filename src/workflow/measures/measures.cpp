@@ -70,6 +70,13 @@ class MeasuredMember final : public MemberWatch {
     }
     return all;
   }
+  std::vector<MeanWatch*> means() override {
+    std::vector<MeanWatch*> all;
+    for (const auto& measure : measures_) {
+      if (MeanWatch* const watch = measure->means()) all.push_back(watch);
+    }
+    return all;
+  }
   std::vector<double> row() const override {
     std::vector<double> all;
     for (const auto& measure : measures_) {
