@@ -9,8 +9,8 @@
 
 namespace hamflow {
 
-/// An exception of a thread is passed on to the caller. Where the system starts fewer threads, these do the work: it has
-/// the same bits.   @return the number of threads, the caller included
+/// An exception of a thread is passed on to the caller. Where the system starts fewer threads, these do the work: it
+/// has the same bits.   @return the number of threads, the caller included
 template <class Work>
 int on_threads(int threads, const Work& work) {
   std::exception_ptr trouble;
