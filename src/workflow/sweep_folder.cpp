@@ -122,7 +122,7 @@ void SweepFolder::save_if_due() {
     const SweepTable table = table_of(sweep_);
     hold.unlock();
     write_table(table);
-  } catch (const FileError&) {
+  } catch (const std::exception&) {  // a full disk, too little memory: the sweep itself goes on
     failed_ = true;
   }
   last_ = Clock::now();
