@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "experiments.hpp"
 #include "figure_kinds.hpp"
 #include "formula_keys.hpp"
 #include "guarded.hpp"
@@ -73,7 +74,7 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
   if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
     return "; did you mean " + run_path(run_keys().arithmetic) + " = \"" + name + "\"?";
   }
-  if (name == "methods" || name == "problems") return "; did you mean hamflow list " + name + "?";
+  if (name == "methods" || name == "problems" || name == "experiments") return "; did you mean hamflow list " + name + "?";
   std::string meant = suggested_problem(name);
   if (meant.empty()) meant = suggestion(name, names);
   return meant.empty() ? key_elsewhere(name) : meant;
@@ -312,6 +313,10 @@ void print_problems() {
 
 int list_command(const std::string& what, bool all, bool json) {
   return guarded(json, [&] {
+    if (what == "experiments") {
+      list_experiments(json);
+      return exit_done;
+    }
     const bool of_methods = what == "methods";
     if (json) {
       std::cout << (of_methods ? methods_json() : problems_json()).dump(2) << '\n';
@@ -333,6 +338,7 @@ int show_command(const std::string& name) {
       return exit_done;
     }
     bool found = false;
+    if (show_experiment(name)) return exit_done;
     std::vector<std::string> names;
     for (const ProblemEntry& entry : problems()) {
       names.push_back(entry.info.name);
@@ -354,7 +360,7 @@ int show_command(const std::string& name) {
     const std::string method = name.substr(0, name.find('('));
     if (std::find(names.begin(), names.end(), method) == names.end()) {
       throw Error("there is no problem, method or figure '" + name + "'" + meant_by(method, names) +
-                  " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)");
+                  " (hamflow list problems, hamflow list methods, hamflow list experiments; keys: hamflow show run, hamflow show output)");
     }
     show_method(parse_method(name));
     return exit_done;
