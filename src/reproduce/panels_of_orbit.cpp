@@ -41,9 +41,10 @@ Page orbit_page(const std::string& title, const Trajectory& dots, const Trajecto
   double lowest = energy;
   for (int i = 0; i <= 400; ++i) lowest = std::min(lowest, at(nearest + (furthest - nearest) * i / 400.0));
   const double room = std::max(2 * (energy - lowest), 0.5 * std::max(std::abs(energy), std::abs(V(nearest))));
+  const double end = std::max(1.4 * furthest, dots.t.back());
   for (int i = 0; i <= 800; ++i) {
-    const double r = nearest / 3 + (1.4 * furthest - nearest / 3) * i / 800.0;
-    if (at(r) <= energy + room) effective.add(r, at(r));
+    const double r = nearest / 3 * std::pow(3 * end / nearest, i / 800.0);
+    if (std::abs(at(r) - energy) <= room) effective.add(r, at(r));
   }
   Extent across, up;
   across.include(0);
@@ -56,7 +57,7 @@ Page orbit_page(const std::string& title, const Trajectory& dots, const Trajecto
   below.y = fit_axis(up, padding, {6});
   below.x_label = "{/:Italic t}, {/:Italic r}";
   below.y_label = "{/:Italic E}, {/:Italic V}'";
-  below.series.push_back({Ink::level, "{/:Italic V}'({/:Italic r})", effective});
+  below.series.push_back({Ink::line, "{/:Italic V}'({/:Italic r})", effective, {.colour = "#d55e00"}});
   below.series.push_back({Ink::dots, "{/:Italic E}({/:Italic t})", thin_out({dots.t, dots.energy}, 200)});
   return {title, {orbit, below}};
 }
