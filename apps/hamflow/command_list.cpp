@@ -74,7 +74,8 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
   if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
     return "; did you mean " + run_path(run_keys().arithmetic) + " = \"" + name + "\"?";
   }
-  if (name == "methods" || name == "problems" || name == "experiments") return "; did you mean hamflow list " + name + "?";
+  if (name == "methods" || name == "problems" || name == "experiments")
+    return "; did you mean hamflow list " + name + "?";
   std::string meant = suggested_problem(name);
   if (meant.empty()) meant = suggestion(name, names);
   return meant.empty() ? key_elsewhere(name) : meant;
@@ -360,7 +361,8 @@ int show_command(const std::string& name) {
     const std::string method = name.substr(0, name.find('('));
     if (std::find(names.begin(), names.end(), method) == names.end()) {
       throw Error("there is no problem, method or figure '" + name + "'" + meant_by(method, names) +
-                  " (hamflow list problems, hamflow list methods, hamflow list experiments; keys: hamflow show run, hamflow show output)");
+                  " (hamflow list problems, hamflow list methods, hamflow list experiments; keys: hamflow show run, "
+                  "hamflow show output)");
     }
     show_method(parse_method(name));
     return exit_done;

@@ -63,7 +63,8 @@ int reproduce_command(const ReproduceCommandOptions& options) {
     std::cout << (options.json ? report.json : report.text);
     if (!options.json && !options.quiet) {
       std::cout << fmt::format("{:<16}{}\n", "the page", (request.folder / "index.html").string());
-      if (report.status == "interrupted") std::cout << fmt::format("{:<16}the same command with --resume\n", "to go on");
+      if (report.status == "interrupted")
+        std::cout << fmt::format("{:<16}the same command with --resume\n", "to go on");
     }
     for (const ExperimentReport& experiment : report.experiments) {
       if (experiment.status == "failed") print_error(experiment.info.id + ": " + experiment.message);

@@ -155,7 +155,8 @@ int main(int argc, char** argv) {
       add(app, "reproduce", "Carry out the experiments of both theses: figures, tables, statements, and verdicts",
           "  hamflow reproduce all --quick\n  hamflow reproduce G2.8 G2.9 --out kepler\n  hamflow reproduce gross "
           "--resume\n  hamflow list experiments\n");
-  reproduce_command->add_option("experiment", reproduce.what, "IDs of hamflow list experiments; gross, sonnleitner, all")
+  reproduce_command
+      ->add_option("experiment", reproduce.what, "IDs of hamflow list experiments; gross, sonnleitner, all")
       ->required()
       ->type_name("ID...");
   reproduce_command->add_flag("--quick", reproduce.quick, "about a minute for all; figures as SVG only");
@@ -247,8 +248,9 @@ int main(int argc, char** argv) {
   std::string what;
   bool list_all = false;
   bool list_json = false;
-  CLI::App* list_command = add(app, "list", "List the catalogue",
-                               "  hamflow list methods\n  hamflow list methods --all\n  hamflow list problems\n  hamflow list experiments\n");
+  CLI::App* list_command = add(
+      app, "list", "List the catalogue",
+      "  hamflow list methods\n  hamflow list methods --all\n  hamflow list problems\n  hamflow list experiments\n");
   list_command->add_option("what", what, "methods, problems or experiments")
       ->required()
       ->check(one_of({"methods", "problems", "experiments"}));
@@ -259,7 +261,9 @@ int main(int argc, char** argv) {
   std::string name;
   CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",
                                "  hamflow show central-force\n  hamflow show cg\n");
-  show_command->add_option("name", name, "a problem, a method, a figure or an experiment")->required()->type_name("NAME");
+  show_command->add_option("name", name, "a problem, a method, a figure or an experiment")
+      ->required()
+      ->type_name("NAME");
   show_command->callback([&] { status = hamflow::app::show_command(name); });
 
   try {

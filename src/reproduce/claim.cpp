@@ -85,7 +85,8 @@ Judgement judge(const Rule& rule, std::span<const Measured> measured, Grounds gr
   for (const Measured& one : measured) numbers += (numbers.empty() ? "" : ", ") + told(one);
   if (any_inside && any_outside) return {ClaimVerdict::undecided, "the ways of measuring disagree: " + numbers};
   if (any_inside) return {ClaimVerdict::holds, numbers + ", within the rule"};
-  if (grounds == Grounds::identity) return {ClaimVerdict::cannot_hold, numbers + ", where the rule asks for an identity"};
+  if (grounds == Grounds::identity)
+    return {ClaimVerdict::cannot_hold, numbers + ", where the rule asks for an identity"};
   if (grounds == Grounds::ways && measured.size() >= 2) {
     return {ClaimVerdict::cannot_hold, numbers + ": beyond the rule in independent ways"};
   }

@@ -23,7 +23,8 @@ struct Place {
 
 Place place_of(const ExperimentInfo& info) {
   Place place{info.thesis.front(), 0, {}, info.id};
-  const bool starts_with_figure = info.id.size() > 1 && (info.id[0] == 'G' || info.id[0] == 'S') && std::isdigit(info.id[1]);
+  const bool starts_with_figure =
+      info.id.size() > 1 && (info.id[0] == 'G' || info.id[0] == 'S') && std::isdigit(info.id[1]);
   place.kind = starts_with_figure ? 0 : info.id.starts_with("T") || info.id.starts_with("S-T") ? 1 : 2;
   int number = -1;
   for (const char c : info.id + " ") {
@@ -79,7 +80,9 @@ std::vector<std::string> named_experiments(const std::vector<std::string>& words
     }
   }
   std::vector<std::string> ids;
-  const auto asked = [&](const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  const auto asked = [&](const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
   for (const ExperimentInfo& info : all) {
     const bool of_gross = info.thesis == reproduction::gross;
     if (asked("all") || asked(of_gross ? "gross" : "sonnleitner") || asked(info.id)) ids.push_back(info.id);

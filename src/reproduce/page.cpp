@@ -1,5 +1,5 @@
-// index.html: a summary of verdicts, then a section for each experiment. It is one file that needs no other, readable on
-// a telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
+// index.html: a summary of verdicts, then a section for each experiment. It is one file that needs no other, readable
+// on a telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -150,9 +150,9 @@ std::string extent_option(WorkExtent extent) {
 
 std::string section_of(const ExperimentReport& report, const ReproduceRequest& request) {
   const ExperimentInfo& info = report.info;
-  std::string text = fmt::format("<h3 id=\"{0}\">{0}: {1}</h3>\n<p class=\"quiet\">{2}, page {3}</p>\n",
-                                 escaped_html(info.id), escaped_html(info.title), escaped_html(info.thesis),
-                                 escaped_html(info.page));
+  std::string text =
+      fmt::format("<h3 id=\"{0}\">{0}: {1}</h3>\n<p class=\"quiet\">{2}, page {3}</p>\n", escaped_html(info.id),
+                  escaped_html(info.title), escaped_html(info.thesis), escaped_html(info.page));
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
   if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
   const fs::path folder = request.folder / "reproduction" / info.id;
@@ -178,12 +178,13 @@ std::string page_of(const ReproduceReport& report, const ReproduceRequest& reque
     for (const Claim& claim : one.claims) ++counts[claim.judgement.verdict];
   }
   std::string text = head;
-  text += "<body>\n<h1>Both theses, figure by figure</h1>\n<p>What was printed, what hamflow measured, and the rule by "
-          "which the two were judged. No verdict was typed in: each is computed from its numbers. A claim <em>holds</em> "
-          "where everything that the measured number may be lies within the rule, <em>differs</em> where nothing of it "
-          "does, <em>cannot hold</em> where it is wrong whatever the program: by an identity, or in two independent "
-          "ways. It is <em>undecided</em> where the number is too uncertain.</p>\n<table><caption "
-          "class=\"quiet\">Verdicts</caption>\n";
+  text +=
+      "<body>\n<h1>Both theses, figure by figure</h1>\n<p>What was printed, what hamflow measured, and the rule by "
+      "which the two were judged. No verdict was typed in: each is computed from its numbers. A claim <em>holds</em> "
+      "where everything that the measured number may be lies within the rule, <em>differs</em> where nothing of it "
+      "does, <em>cannot hold</em> where it is wrong whatever the program: by an identity, or in two independent "
+      "ways. It is <em>undecided</em> where the number is too uncertain.</p>\n<table><caption "
+      "class=\"quiet\">Verdicts</caption>\n";
   for (const ClaimVerdict verdict : all_claim_verdicts) {
     text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", verdict_html(verdict), counts[verdict]);
   }

@@ -37,7 +37,8 @@ void prepare(const ReproduceRequest& request) {
   }
   if (there && !is_there(request.folder / "verdicts.json") && !fs::is_empty(request.folder, error) &&
       !is_there(request.folder / "reproduction")) {
-    throw FileError("found in " + request.folder.string() + " no reproduction; allowed the folder of one, or a new one");
+    throw FileError("found in " + request.folder.string() +
+                    " no reproduction; allowed the folder of one, or a new one");
   }
   fs::create_directories(request.folder / "reproduction", error);
   if (error) throw FileError("cannot make the folder " + request.folder.string() + ": " + error.message());
@@ -135,9 +136,8 @@ class Run {
     for (const ExperimentReport& one : reports_) {
       if (one.status == "interrupted") report.status = "interrupted";
     }
-    if (report.status == "done" && std::any_of(reports_.begin(), reports_.end(), [](const ExperimentReport& one) {
-          return one.status == "failed";
-        })) {
+    if (report.status == "done" && std::any_of(reports_.begin(), reports_.end(),
+                                               [](const ExperimentReport& one) { return one.status == "failed"; })) {
       report.status = "failed";
     }
     report.json = verdicts_json(report);

@@ -43,8 +43,9 @@ Claim claim_in(const Json& json) {
 }
 
 void write_csv(const fs::path& file, const Curves& curves) {
-  std::string text =
-      joined(curves.columns, [](const auto& column) { return column.first; }, ",") + "\n";
+  std::string text = joined(
+                         curves.columns, [](const auto& column) { return column.first; }, ",") +
+                     "\n";
   std::size_t rows = 0;
   for (const auto& [name, numbers] : curves.columns) rows = std::max(rows, numbers.size());
   for (std::size_t row = 0; row < rows; ++row) {
@@ -73,8 +74,9 @@ void write_h5(const fs::path& file, const Study& study) {
     for (const auto& [name, numbers] : curves.columns) {
       const hsize_t size = numbers.size();
       const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "describe " + name);
-      const Hdf5Handle set(H5Dcreate2(group, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Dclose, "create " + name);
+      const Hdf5Handle set(
+          H5Dcreate2(group, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+          "create " + name);
       check_hdf5(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), "write " + name);
     }
   }
@@ -115,8 +117,8 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
-  Json all{{"fingerprint", print},        {"seconds", seconds},           {"claims", Json::array()},
-           {"notes", study.notes()},      {"scenarios", Json::array()},   {"figures", Json::array()}};
+  Json all{{"fingerprint", print},   {"seconds", seconds},         {"claims", Json::array()},
+           {"notes", study.notes()}, {"scenarios", Json::array()}, {"figures", Json::array()}};
   for (const Claim& claim : study.claims()) all["claims"].push_back(json_of(claim));
   for (const KeptScenario& scenario : study.scenarios()) {
     write_text(folder / (scenario.name + ".toml"), scenario.text);

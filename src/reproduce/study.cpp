@@ -24,7 +24,10 @@ class Sampler final : public Observer {
     trajectory_.p.push_back(frame.p);
     trajectory_.energy.push_back(frame.energy);
     trajectory_.invariants.push_back(frame.invariants);
-    trajectory_.iterations.push_back(static_cast<int>(frame.diagnostics.iterations));
+    trajectory_.iterations.push_back(frame.diagnostics.iterations);
+    trajectory_.condition_tangent.push_back(frame.diagnostics.condition_tangent);
+    trajectory_.determinant_tangent.push_back(frame.diagnostics.determinant_tangent);
+    trajectory_.condition_inverse_mass.push_back(frame.diagnostics.condition_inverse_mass);
     return Verdict::go_on;
   }
 
@@ -49,7 +52,8 @@ std::vector<double> Trajectory::momentum(std::size_t i) const { return column(p,
 Trajectory Study::run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
   const Reading reading = read_scenario_text(toml, info_.id + "/" + name + ".toml", sets);
   if (!reading.scenario) {
-    throw Error(joined(reading.complaints, [](const Complaint& complaint) { return complaint.text(); }, "; "));
+    throw Error(joined(
+        reading.complaints, [](const Complaint& complaint) { return complaint.text(); }, "; "));
   }
   const Scenario& scenario = *reading.scenario;
   Trajectory trajectory;

@@ -17,11 +17,15 @@ namespace hamflow::reproduction {
 struct Trajectory {
   std::vector<std::int64_t> step;
   std::vector<double> t;
-  std::vector<std::vector<double>> q;           // q[k][i]: coordinate i of sample k
+  std::vector<std::vector<double>> q;  // q[k][i]: coordinate i of sample k
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
   std::vector<std::vector<double>> invariants;  // all components of all invariants, of each sample
-  std::vector<int> iterations;                  // of the step before the sample, where they were asked for
+  // Of the step before each sample, where method.diagnostics asks for them; else, and of the start, not a number.
+  std::vector<double> iterations;
+  std::vector<double> condition_tangent;
+  std::vector<double> determinant_tangent;
+  std::vector<double> condition_inverse_mass;
   RunReport report;
 
   std::size_t size() const { return t.size(); }

@@ -39,7 +39,8 @@ Panel over_time(const std::string& label, const std::vector<double>& t, const st
 }
 
 Panel phase_plane(const std::string& x_label, const std::string& y_label, const std::vector<double>& x,
-                  const std::vector<double>& y, const std::vector<double>& exact_x, const std::vector<double>& exact_y) {
+                  const std::vector<double>& y, const std::vector<double>& exact_x,
+                  const std::vector<double>& exact_y) {
   Extent across, up;
   across.include(x);
   across.include(exact_x);

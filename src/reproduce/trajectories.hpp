@@ -29,7 +29,8 @@ std::vector<double> geometric_grid(double a, double b, std::size_t count);
 
 /// The extrema of a quantity with its rate at the samples, where the rate changes its sign: those of cubic Hermite
 /// pieces, whose error is h^4/384 times the fourth derivative.
-std::vector<double> extrema(const std::vector<double>& t, const std::vector<double>& x, const std::vector<double>& rate);
+std::vector<double> extrema(const std::vector<double>& t, const std::vector<double>& x,
+                            const std::vector<double>& rate);
 
 /// max |H - H0| over every step, as the run has watched it.
 double energy_error(const Trajectory& trajectory);

@@ -1,5 +1,5 @@
-// **Claim**: what a thesis prints or says, what was measured of it, and the rule by which the two are judged. No verdict
-// is written down anywhere: each is what judge() makes of the numbers.
+// **Claim**: what a thesis prints or says, what was measured of it, and the rule by which the two are judged. No
+// verdict is written down anywhere: each is what judge() makes of the numbers.
 #pragma once
 
 #include <limits>

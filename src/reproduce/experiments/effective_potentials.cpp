@@ -106,7 +106,8 @@ figures::Page page_of(const Case& c) {
     x.include(curve.x);
     y.include(curve.y);
     const figures::Mark mark{.colour = colours[shape++ % 3]};
-    panel.series.push_back({figures::Ink::level, "", {{curve.x.front(), curve.x.back()}, {level.energy, level.energy}}});
+    panel.series.push_back(
+        {figures::Ink::level, "", {{curve.x.front(), curve.x.back()}, {level.energy, level.energy}}});
     panel.series.push_back({figures::Ink::line, level.name, curve, mark});
   }
   panel.x = figures::fit_axis(x, 0.02, {7, 40});

@@ -1,5 +1,5 @@
-// Gross 1999, section 3.1: the linear double pendulum, m = 0.25, l = 0.5, in absolute and in relative angles, against its
-// modal solution q(t) = l1 A1 cos(w1 t) + l2 A2 cos(w2 t) with w^2 = (4 +- sqrt(13)) g/l, equations 3.64, 3.65.
+// Gross 1999, section 3.1: the linear double pendulum, m = 0.25, l = 0.5, in absolute and in relative angles, against
+// its modal solution q(t) = l1 A1 cos(w1 t) + l2 A2 cos(w2 t) with w^2 = (4 +- sqrt(13)) g/l, equations 3.64, 3.65.
 #include <fmt/format.h>
 
 #include <array>
@@ -165,11 +165,12 @@ void claim_amplitudes(Study& study, const Motion& motion, const Pair& printed, c
   for (std::size_t i = 0; i < 2; ++i) {
     off = std::max(off, std::abs(a[i] * printed[0] + b[i] * printed[1] - motion.q0[i]));
   }
-  study.claim({"amplitudes", fmt::format("the amplitudes of equation {}", equation), texts, page},
-              at_most(1e-9, "they have to give the start q0 = l1 A1 + l2 A2, to the digits printed"),
-              {{off, 1e-10, fmt::format("largest component of l1 A1 + l2 A2 - q0; right are {:.12g}, {:.12g}", right[0],
-                                        right[1])}},
-              Grounds::identity);
+  study.claim(
+      {"amplitudes", fmt::format("the amplitudes of equation {}", equation), texts, page},
+      at_most(1e-9, "they have to give the start q0 = l1 A1 + l2 A2, to the digits printed"),
+      {{off, 1e-10,
+        fmt::format("largest component of l1 A1 + l2 A2 - q0; right are {:.12g}, {:.12g}", right[0], right[1])}},
+      Grounds::identity);
 }
 
 /// Whether two starts, in absolute and in relative angles, are one motion.
@@ -177,12 +178,14 @@ void claim_identical(Study& study, std::size_t row) {
   const Pair absolute = motions[row].q0, relative = motions[row + 3].q0;
   const Pair converted{absolute[0], absolute[1] - absolute[0]};
   const double off = std::max(std::abs(converted[0] - relative[0]), std::abs(converted[1] - relative[1]));
-  study.claim({"identical_" + std::to_string(row + 1),
-               fmt::format("row {} of tables 3.1 and 3.2 is the same motion in both coordinates", row + 1), "identical"},
-              at_most(1e-12, "relative angles are q1, q2 - q1 of the absolute ones"),
-              {{off, 1e-14, fmt::format("largest difference; the start of table 3.1 is ({:.6g}, {:.6g}) in relative angles",
-                                        converted[0], converted[1])}},
-              Grounds::identity);
+  study.claim(
+      {"identical_" + std::to_string(row + 1),
+       fmt::format("row {} of tables 3.1 and 3.2 is the same motion in both coordinates", row + 1), "identical"},
+      at_most(1e-12, "relative angles are q1, q2 - q1 of the absolute ones"),
+      {{off, 1e-14,
+        fmt::format("largest difference; the start of table 3.1 is ({:.6g}, {:.6g}) in relative angles", converted[0],
+                    converted[1])}},
+      Grounds::identity);
 }
 
 void starts(Study& study, bool absolute) {
@@ -203,11 +206,10 @@ void starts(Study& study, bool absolute) {
 
 std::vector<Experiment> linear_pendulum_experiments() {
   using namespace linear_pendulum;
-  std::vector<Experiment> all{
-      {{"T3.1", gross, "88", "starts of the linear double pendulum, absolute angles"},
-       [](Study& study) { starts(study, true); }},
-      {{"T3.2", gross, "98", "starts of the linear double pendulum, relative angles"},
-       [](Study& study) { starts(study, false); }}};
+  std::vector<Experiment> all{{{"T3.1", gross, "88", "starts of the linear double pendulum, absolute angles"},
+                               [](Study& study) { starts(study, true); }},
+                              {{"T3.2", gross, "98", "starts of the linear double pendulum, relative angles"},
+                               [](Study& study) { starts(study, false); }}};
   struct Pages {
     const char* over_t;
     const char* planes;
@@ -222,23 +224,25 @@ std::vector<Experiment> linear_pendulum_experiments() {
                                         {"G3.17", "G3.18", "104", "105"}}};
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const Motion& motion = motions[i];
-    const std::string what = fmt::format("linear double pendulum, {} angles, {}", motion.absolute ? "absolute" : "relative",
-                                         motion.mode == 0   ? "a small start"
-                                         : motion.mode == 1 ? "first eigenform"
-                                                            : "second eigenform");
+    const std::string what =
+        fmt::format("linear double pendulum, {} angles, {}", motion.absolute ? "absolute" : "relative",
+                    motion.mode == 0   ? "a small start"
+                    : motion.mode == 1 ? "first eigenform"
+                                       : "second eigenform");
     all.push_back({{pages[i].over_t, gross, pages[i].page, what}, [&motion](Study& study) {
                      over_t(study, motion);
                      if (motion.mode != 0) return;
                      if (motion.absolute) {
-                       claim_amplitudes(study, motion, {-0.8959177992, 0.7959177992}, "-0.8959177992, +0.7959177992", "94",
-                                        "3.85");
+                       claim_amplitudes(study, motion, {-0.8959177992, 0.7959177992}, "-0.8959177992, +0.7959177992",
+                                        "94", "3.85");
                      } else {
                        claim_amplitudes(study, motion, {0.03890599608, 0.06109400392}, "0.03890599608, 0.06109400392",
                                         "104", "3.115");
-                       study.claim({"caption", "the caption of the figure names the start of table 3.2", "(0.1, -0.01)"},
-                                   at_most(5e-3, "two printed numbers, each to two decimals"),
-                                   {{std::abs(-0.01 - (-0.11)), 0, "the caption says -0.01, the table -0.11"}},
-                                   Grounds::identity);
+                       study.claim(
+                           {"caption", "the caption of the figure names the start of table 3.2", "(0.1, -0.01)"},
+                           at_most(5e-3, "two printed numbers, each to two decimals"),
+                           {{std::abs(-0.01 - (-0.11)), 0, "the caption says -0.01, the table -0.11"}},
+                           Grounds::identity);
                      }
                    }});
     all.push_back({{pages[i].planes, gross, pages[i].page_of_planes, what + ", phase planes"},

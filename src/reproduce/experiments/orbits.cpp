@@ -77,9 +77,9 @@ Trajectory with_step(Study& study, const Case& c, int refinement) {
                    scenario(c, element, fmt::format("\"0.1/{}\"", refinement), steps, refinement));
 }
 
-/// 2 l/mu times the integral of 1/(r^2 rdot) from one turning point to the other, equation 2.43, by Gauss and Chebyshev:
-/// with r = (r1 + r2)/2 - (r2 - r1)/2 cos(x) the integrand is smooth and periodic, so that the sums converge faster than
-/// any power.
+/// 2 l/mu times the integral of 1/(r^2 rdot) from one turning point to the other, equation 2.43, by Gauss and
+/// Chebyshev: with r = (r1 + r2)/2 - (r2 - r1)/2 cos(x) the integrand is smooth and periodic, so that the sums converge
+/// faster than any power.
 double apsidal_angle(const Case& c, double r1, double r2, double l, double energy, int points) {
   constexpr double mu = 2;
   double sum = 0;
@@ -96,7 +96,8 @@ double apsidal_angle(const Case& c, double r1, double r2, double l, double energ
 /// How near to a closed orbit the angle comes within so many radial periods.
 double nearest_return(double angle, int periods) {
   double nearest = std::numbers::pi;
-  for (int k = 1; k <= periods; ++k) nearest = std::min(nearest, std::abs(std::remainder(k * angle, 2 * std::numbers::pi)));
+  for (int k = 1; k <= periods; ++k)
+    nearest = std::min(nearest, std::abs(std::remainder(k * angle, 2 * std::numbers::pi)));
   return nearest;
 }
 
@@ -125,7 +126,8 @@ void carry_out(const Case& c, Study& study) {
   } else {
     study.note(fmt::format("E = {:.10g}; the figure prints no number.", figure.report.energy.initial));
   }
-  study.claim({"kept", "the energy is constant", "constant"}, at_most(1e-11, "rounding over the run, of energies of size 1"),
+  study.claim({"kept", "the energy is constant", "constant"},
+              at_most(1e-11, "rounding over the run, of energies of size 1"),
               {{energy_error(figure), rounding * scale, "largest |H - H0| over every step of cg(1,5), dt = 0.1"}});
   double size = 0;
   for (const auto& q : exact.q) size = std::max({size, std::abs(q[0]), std::abs(q[1])});
@@ -137,9 +139,10 @@ void carry_out(const Case& c, Study& study) {
   for (const auto& invariant : figure.invariants) {
     lost = std::max(lost, std::abs(invariant[0] - figure.invariants[0][0]));
   }
-  study.note(fmt::format("At dt = 0.1 the dots are at most {:.2g} from the exact orbit at the same time. Angular momentum, of "
-                         "which the thesis says nothing here, is kept to {:.2g} of {:.4g}.",
-                         largest_distance(figure, exact), lost, figure.invariants[0][0]));
+  study.note(
+      fmt::format("At dt = 0.1 the dots are at most {:.2g} from the exact orbit at the same time. Angular momentum, of "
+                  "which the thesis says nothing here, is kept to {:.2g} of {:.4g}.",
+                  largest_distance(figure, exact), lost, figure.invariants[0][0]));
   study.keep({"orbit",
               {{"t", figure.t},
                {"x", figure.coordinate(0)},
@@ -147,10 +150,11 @@ void carry_out(const Case& c, Study& study) {
                {"energy", figure.energy},
                {"exact_x", exact.coordinate(0)},
                {"exact_y", exact.coordinate(1)}}});
-  study.draw("figure",
-             fmt::format("Orbit with dt = 0.1 (dots) and exact (line); energy E over t and effective potential over r. {}",
-                         study.info().title),
-             orbit_page(study.info().title, figure, exact, c.V, 2));
+  study.draw(
+      "figure",
+      fmt::format("Orbit with dt = 0.1 (dots) and exact (line); energy E over t and effective potential over r. {}",
+                  study.info().title),
+      orbit_page(study.info().title, figure, exact, c.V, 2));
 }
 
 }  // namespace orbits
