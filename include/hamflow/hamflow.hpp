@@ -207,6 +207,8 @@
 #include "hamflow/problems/support/radial_motion.hpp"
 #include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/problems/t_tube.hpp"
+#include "hamflow/reproduce/claim.hpp"
+#include "hamflow/reproduce/reproduce.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"
 #include "hamflow/run/catalog.hpp"

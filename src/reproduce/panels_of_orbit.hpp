@@ -1,4 +1,4 @@
-// The figure of most orbits of Gross 1999: the orbit above, energy over time and effective potential over r below.
+// The figure of most orbits of Gross1999: the orbit above, energy over time and effective potential over r below.
 #pragma once
 
 #include <functional>
