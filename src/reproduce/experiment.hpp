@@ -12,8 +12,8 @@
 
 namespace hamflow::reproduction {
 
-inline const char* const gross = "Gross (1999)";
-inline const char* const sonnleitner = "Sonnleitner (2010)";
+inline const char* const gross = "Gross";
+inline const char* const sonnleitner = "Sonnleitner";
 
 struct Experiment {
   ExperimentInfo info;

@@ -24,7 +24,7 @@ class Reproduce(CommandCase):
         listed = json.loads(self.hamflow("list", "experiments", "--json").stdout)
         self.assertIn("G2.8", [e["id"] for e in listed])
         self.assertEqual(len({e["id"] for e in listed}), len(listed))
-        self.assertIn("Gross (1999)", self.hamflow("show", "G2.8").stdout)
+        self.assertIn("Gross, page 42", self.hamflow("show", "G2.8").stdout)
 
     def test_claims_and_their_counts(self):
         found = json.loads(self.reproduce(*SOME, "--quick", "--json").stdout)

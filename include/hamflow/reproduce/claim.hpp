@@ -71,7 +71,7 @@ Judgement judge(const Rule& rule, std::span<const Measured> measured, Grounds gr
 
 struct Claim {
   std::string id;      // EXPERIMENT/name
-  std::string thesis;  // "Gross (1999)", "Sonnleitner (2010)"
+  std::string thesis;  // "Gross", "Sonnleitner"
   std::string page;
   std::string statement;
   std::string printed;

@@ -17,7 +17,7 @@ enum class WorkExtent { quick, usual, full };
 
 struct ExperimentInfo {
   std::string id;      // "G2.8"
-  std::string thesis;  // "Gross (1999)", "Sonnleitner (2010)"
+  std::string thesis;  // "Gross", "Sonnleitner"
   std::string page;
   std::string title;
 };
