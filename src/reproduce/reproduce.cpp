@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "gnuplot.hpp"
@@ -47,13 +49,29 @@ void prepare(const ReproduceRequest& request) {
 /// A folder of an experiment holds nothing but its own files: it can be made anew.
 void clear(const fs::path& folder) {
   std::error_code error;
-  if (is_there(folder) && !is_there(folder / "result.json")) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.is_directory()) throw FileError("found a folder in " + folder.string() + ", which is not hamflow's");
-    }
+  if (is_there(folder) && !is_there(folder / "begun.txt")) {
+    throw FileError("found the folder " + folder.string() + ", which is not hamflow's; allowed --out another");
   }
   fs::remove_all(folder, error);
   if (error) throw FileError("cannot remove " + folder.string() + ": " + error.message());
+}
+
+std::string contents_of(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// The folder of an experiment that is to be carried out: new, or as a kill of the same experiment has left it, with
+/// long runs that go on.
+void begin_in(const fs::path& folder, const std::string& print, bool resume) {
+  const fs::path mark = folder / "begun.txt";
+  if (resume && contents_of(mark) == print) return;
+  clear(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+  write_text(mark, print);
 }
 
 class Run {
@@ -109,12 +127,13 @@ class Run {
       return report;
     }
     const auto begin = std::chrono::steady_clock::now();
-    Study study(experiment.info, request_.extent, [this] { return go_on(); });
+    begin_in(folder, print, request_.existing == Existing::resume);
+    Study study(
+        experiment.info, request_.extent, [this] { return go_on(); }, folder);
     try {
       experiment.carry_out(study);
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       const bool quick = request_.extent == WorkExtent::quick;
-      clear(folder);
       keep(folder, study, print, report.seconds,
            quick ? std::vector<std::string>{"svg"} : std::vector<std::string>{"svg", "pdf", "png"});
       report.claims = study.claims();

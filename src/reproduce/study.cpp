@@ -10,6 +10,8 @@ namespace hamflow::reproduction {
 
 namespace {
 
+constexpr std::int64_t worth_a_checkpoint = 5000000;  // steps: some seconds
+
 class Sampler final : public Observer {
  public:
   Sampler(Trajectory& trajectory, std::int64_t every, std::int64_t last)
@@ -31,7 +33,16 @@ class Sampler final : public Observer {
     return Verdict::go_on;
   }
 
+  void archive(Writer& ar) override { fields(ar); }
+  void archive(Reader& ar) override { fields(ar); }
+
  private:
+  void fields(auto& ar) {
+    Trajectory& all = trajectory_;
+    ar(all.step, all.t, all.q, all.p, all.energy, all.invariants, all.iterations, all.condition_tangent,
+       all.determinant_tangent, all.condition_inverse_mass);
+  }
+
   Trajectory& trajectory_;
   std::int64_t every_;
   std::int64_t last_;
@@ -61,7 +72,16 @@ Trajectory Study::run(const std::string& name, const std::string& toml, const st
   RunSettings settings;
   settings.observers = {&sampler};
   settings.pulse = [this](std::int64_t) { return !go_on_ || go_on_(); };
+  if (scenario.steps >= worth_a_checkpoint) {
+    settings.folder = folder_ / (name + ".run");
+    settings.existing = std::filesystem::exists(settings.folder) ? Existing::resume : Existing::refuse;
+  }
   trajectory.report = run_scenario(scenario, settings);
+  if (trajectory.report.was_complete) {  // by a run whose experiment was killed later: its samples are not known here
+    settings.existing = Existing::replace;
+    trajectory = {};
+    trajectory.report = run_scenario(scenario, settings);
+  }
   if (trajectory.report.status == "interrupted") throw Stopped{};
   scenarios_.push_back({name, scenario.text});
   return trajectory;

@@ -55,8 +55,9 @@ struct Stopped {};
 
 class Study {
  public:
-  Study(ExperimentInfo info, WorkExtent extent, std::function<bool()> go_on)
-      : info_(std::move(info)), extent_(extent), go_on_(std::move(go_on)) {}
+  /// @param folder of the experiment, in which long runs keep their checkpoints
+  Study(ExperimentInfo info, WorkExtent extent, std::function<bool()> go_on, std::filesystem::path folder)
+      : info_(std::move(info)), extent_(extent), go_on_(std::move(go_on)), folder_(std::move(folder)) {}
 
   template <class T>
   T sized(T quick, T usual, T full) const {
@@ -64,7 +65,8 @@ class Study {
   }
   const ExperimentInfo& info() const { return info_; }
 
-  /// Runs a scenario and keeps its text under that name. Its samples are those that `run.record_every` asks for.
+  /// Runs a scenario and keeps its text under that name. Its samples are those that `run.record_every` asks for. A run
+  /// of millions of steps has a folder of its own, NAME.run, from which it goes on after a kill.
   /// @param sets PATH=VALUE   @throws Error where the scenario is refused; a run that fails says so in its report
   Trajectory run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
 
@@ -98,6 +100,7 @@ class Study {
   ExperimentInfo info_;
   WorkExtent extent_;
   std::function<bool()> go_on_;
+  std::filesystem::path folder_;
   std::vector<Claim> claims_;
   std::vector<Curves> curves_;
   std::vector<Drawn> drawn_;
