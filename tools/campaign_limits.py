@@ -13,7 +13,7 @@ import sys
 
 from campaign import SESSION, main
 
-SWEEP = ("sweep", "s.toml", "--vary", "run.dt=0.001:0.01:300", "--json", "--force", "--threads", "2", "--out", "x.sweep")
+SWEEP = ("sweep", "s.toml", "--vary", "run.dt=0.001:0.01:300", "--json", "--threads", "2", "--out", "x.sweep")
 CONVERT = ("convert", "base", "--to", "polar", "-o")
 ALLOWED = (0, 1, 2, 3)
 
@@ -45,6 +45,9 @@ def each_command(campaign, what, **options):
     done = campaign.call("run", "s.toml", "--out", "x.run", "--json", **options)
     campaign.judge(done, ALLOWED, f"{what}, run")
     campaign.judge(campaign.call(*SWEEP, **options), ALLOWED, f"{what}, sweep")
+    left = campaign.folder / "x.sweep" / "members.bin"
+    goes_on = "--resume" if left.exists() else "--force"  # where not even that could be written, there is nothing to go on from
+    campaign.judge(campaign.call(*SWEEP, goes_on), (0,), f"{what}, the sweep that goes on")
     for name in ("x.h5", "x.csv"):
         campaign.judge(campaign.call(*CONVERT, name, **options), ALLOWED, f"{what}, convert", json_expected=False)
     session = campaign.call("shell", "s.toml", **options, input=SESSION.replace("step 20\nsave! saved\n", ""))

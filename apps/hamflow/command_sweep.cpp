@@ -21,9 +21,22 @@ fs::path folder_for(const SweepCommandOptions& options) {
   return fs::path(options.scenario).stem().string() + ".sweep";
 }
 
+/// What is wrong with the options together.
+void check_together(const SweepCommandOptions& options) {
+  if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
+  if (options.resume && options.out == "none") throw Error("found --resume with --out none; allowed with a folder");
+}
+
+void open_folder(ScenarioSweep& sweep, const SweepCommandOptions& options) {
+  const std::size_t told = sweep.notes().size();
+  const Existing existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
+  const std::vector<std::string> wrong = sweep.keep_in(folder_for(options), existing);
+  if (!wrong.empty()) throw RejectedLines{wrong};
+  print_notes({sweep.notes().begin() + static_cast<std::ptrdiff_t>(told), sweep.notes().end()}, options.quiet);
+}
+
 SweepReport carry_out(ScenarioSweep& sweep, const SweepCommandOptions& options) {
-  catch_interrupts();
-  Progress progress(0, sweep.total_steps(), options.quiet);
+  Progress progress(sweep.steps_before(), sweep.total_steps(), options.quiet);
   return sweep.run([&](std::int64_t steps) {
     progress.show(steps);
     return !interrupted();
@@ -34,6 +47,7 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
   std::cout << (!options.json ? report.text : writes ? report.json : sweep.json_with_rows(report));
   if (writes && !options.json && !options.quiet) {
     std::cout << fmt::format("{:<20}{}\n", "written to", folder_for(options).string());
+    if (report.status == "interrupted") std::cout << fmt::format("{:<20}the same command with --resume\n", "to go on");
   }
   print_warnings(report.warnings);
   if (report.status != "failed") print_notes(report.failures, options.quiet);
@@ -50,6 +64,7 @@ std::string refused_colour(const std::string& colour) {
 
 int sweep_command(const SweepCommandOptions& options) {
   return guarded(options.json, [&] {
+    check_together(options);
     ScenarioSweep sweep({.text = scenario_text(options.scenario),
                          .name = options.scenario,
                          .sets = options.sets,
@@ -65,9 +80,9 @@ int sweep_command(const SweepCommandOptions& options) {
     if (!wrong.empty()) throw RejectedLines{{wrong}};
     require_folder_of(options.figure);
     const bool writes = options.out != "none";
-    const auto alone = writes ? make_sweep_folder(folder_for(options), options.force) : nullptr;
+    catch_interrupts();
+    if (writes) open_folder(sweep, options);
     const SweepReport report = carry_out(sweep, options);
-    if (writes) sweep.write(report, folder_for(options));
     print(sweep, report, writes, options);
     if (draws && report.status != "failed") sweep.draw(options.figure, options.colour);
     return exit_status(report.status);

@@ -30,6 +30,7 @@ struct SweepCommandOptions {
   std::string lanes;  // auto, none, generic, avx2, avx512
   int threads = 0;    // 0: as the scenario says, else all cores
   bool force = false;
+  bool resume = false;
   bool json = false;
   bool quiet = false;
   std::string figure;  // a file; empty: none

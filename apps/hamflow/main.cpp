@@ -121,6 +121,8 @@ int main(int argc, char** argv) {
                    "the column to draw, e.g. observables/lyapunov1 [the section; without one energy/max_error]")
       ->type_name("COLUMN");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
+  sweep_command->add_flag("--resume", sweep.resume,
+                          "go on with the sweep in an existing folder: members that are done are not run again");
   sweep_command->add_flag("--json", sweep.json,
                           "print the summary as JSON, and nothing else, on stdout; with --out none and at most 10^4 "
                           "members their rows too");

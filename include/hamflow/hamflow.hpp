@@ -237,6 +237,7 @@
 #include "hamflow/run/state_expression.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/step_map.hpp"
+#include "hamflow/run/step_mean.hpp"
 #include "hamflow/run/steps_in_parts.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/coordinates.hpp"

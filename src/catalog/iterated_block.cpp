@@ -62,6 +62,8 @@ class IteratedBlock final : public EnsembleBlock {
     end.energy = member.simulation->energy();
     end.energy_scale = member.simulation->energy_scale();
     end.invariants = member.simulation->invariants();
+    end.walls = member.simulation->wall_counts();
+    end.halved = member.simulation->effort().halved;
     const auto is_finite = [](double x) { return std::abs(x) <= std::numeric_limits<double>::max(); };
     end.regular = is_finite(end.energy.final) && is_finite(end.energy.max_error) &&
                   std::all_of(end.q.begin(), end.q.end(), is_finite) &&

@@ -76,6 +76,8 @@ class RecordedBlock final : public EnsembleBlock {
     end.energy = member.simulation->energy();
     end.energy_scale = member.simulation->energy_scale();
     end.invariants = member.simulation->invariants();
+    end.walls = member.simulation->wall_counts();
+    end.halved = member.simulation->effort().halved;
     end.regular = end.regular && std::abs(end.energy.final) <= most && end.energy.max_error <= most;
     return end;
   }

@@ -71,7 +71,9 @@ std::string read_attribute(hid_t object, const std::string& name) {
 void write_text_dataset(hid_t file, const std::string& name, const std::string& text) {
   const Hdf5Handle type = text_type(text.size());
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
-  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+  const Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_obj_track_times(plist, false), "leave out times");
+  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
                            "create dataset " + name);
   check_hdf5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), "write " + name);
   write_attribute(dataset, hash_attribute, hash_of(text.empty() ? std::string(1, 0) : text));

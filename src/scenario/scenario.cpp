@@ -14,7 +14,6 @@ namespace hamflow {
 
 namespace {
 
-/// Every value by its dotted path.
 void list_settings(const toml::table& table, const std::string& path, std::map<std::string, Setting>& settings) {
   for (const auto& [key, node] : table) {
     const std::string name = path + std::string(key.str());
@@ -47,6 +46,12 @@ std::string hint_to(std::string_view description) {
 }
 
 }  // namespace
+
+std::map<std::string, Setting> settings_of(const toml::table& root) {
+  std::map<std::string, Setting> settings;
+  list_settings(root, "", settings);
+  return settings;
+}
 
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every) {
   return steps / record_every + 1 + (steps % record_every != 0 ? 1 : 0);
@@ -100,7 +105,7 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
   Scenario scenario = ScenarioReader(*document, name, reading.complaints).read();
   drop_replaced_method_keys(document->root, document->file_method);  // they were noted
   scenario.text = effective_text(text, sets, document->root);
-  list_settings(document->root, "", scenario.settings);
+  scenario.settings = settings_of(document->root);
   // In the order of the file, so that a reader can walk through it.
   std::stable_sort(reading.complaints.begin(), reading.complaints.end(),
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });

@@ -16,6 +16,7 @@ namespace hamflow {
 struct ScenarioFamily::Impl {
   std::string name;
   std::string text;
+  std::map<std::string, Setting> settings;
   Document document;
   std::vector<toml::table> values;
   std::vector<Complaint> complaints;
@@ -28,6 +29,7 @@ ScenarioFamily::ScenarioFamily(const std::string& text, const std::string& name,
   std::vector<Complaint> the_same;
   if (auto common = parsed_document(text, name, sets, the_same)) {  // a copy would have lost the order of its keys
     drop_replaced_method_keys(common->root, common->file_method);
+    impl_->settings = settings_of(common->root);
     impl_->text = effective_text(text, sets, common->root);
   }
 }
@@ -36,6 +38,7 @@ ScenarioFamily::~ScenarioFamily() = default;
 
 const std::vector<Complaint>& ScenarioFamily::complaints() const { return impl_->complaints; }
 const std::string& ScenarioFamily::text() const { return impl_->text; }
+const std::map<std::string, Setting>& ScenarioFamily::settings() const { return impl_->settings; }
 
 std::size_t ScenarioFamily::add_value(const std::string& text) {
   impl_->values.push_back(parsed_value(text));

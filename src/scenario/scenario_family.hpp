@@ -28,6 +28,8 @@ class ScenarioFamily {
   Reading read(const std::vector<std::string>& paths, const std::vector<std::size_t>& values);
   /// What is common to all members: the scenario with every --set, before anything is varied.
   const std::string& text() const;
+  /// Its keys. Those of a member's scenario are not listed.
+  const std::map<std::string, Setting>& settings() const;
 
  private:
   struct Impl;

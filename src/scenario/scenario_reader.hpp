@@ -19,6 +19,8 @@ std::optional<Document> parsed_document(const std::string& text, const std::stri
 /// The scenario as it is carried out, which `run` takes as it is: the file's own text, or, where something was set from
 /// outside, the document written anew.
 std::string effective_text(const std::string& text, const std::vector<std::string>& sets, const toml::table& root);
+/// Every value by its dotted path.
+std::map<std::string, Setting> settings_of(const toml::table& root);
 
 /// Reads the checked parts of one scenario; every find* leaves its complaints behind and goes on.
 class ScenarioReader {

@@ -62,12 +62,11 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   }
   rows_.resize(members);
   starts_.resize(rows_.size());
+  steps_.resize(rows_.size());
   threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
   threads_ = std::max(threads_, 1);
   read_members(name);
-  if (complaints_.empty() && !common_.events.empty()) {
-    complaints_.push_back("run.events: error: found events; allowed in single runs: a sweep keeps none of its members");
-  }
+  common_.settings = reader.family().settings();
   if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
 }
 
@@ -185,16 +184,40 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     group.shape = shape;
     group.steps = scenario.steps;
     const auto block = make_ensemble_block(request, options_.lanes);
-    group.lanes = block == nullptr || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
+    const bool alone = block == nullptr || !scenario.events.empty();  // events are sought on a simulation
+    group.lanes = alone || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
   }
   group.members.push_back(member);
+  steps_[member] = scenario.steps;
   total_steps_ += scenario.steps;
   beyond_double_ = beyond_double_ || digits_beyond_double(request.arithmetic) > 0;
+  halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
   if (group.lanes > 0) {
     ++in_lanes_;
     lane_count_ = group.lanes;
     starts_[member] = std::move(start);
   }
+}
+
+void Sweep::restore(std::size_t member, MemberRow row) {
+  steps_before_ += row.steps;
+  rows_[member] = std::move(row);
+}
+
+std::size_t Sweep::members_left() const {
+  return static_cast<std::size_t>(
+      std::count_if(rows_.begin(), rows_.end(), [](const MemberRow& row) { return !row.is_finished(); }));
+}
+
+void Sweep::put(std::size_t member, MemberRow row) {
+  const bool is_finished = row.is_finished();
+  {
+    const std::lock_guard lock(rows_mutex_);
+    rows_[member] = std::move(row);
+  }
+  if (!is_finished || !finished_) return;
+  const std::lock_guard lock(finished_mutex_);
+  finished_(member);
 }
 
 /// The resources of one thread.
@@ -216,6 +239,7 @@ class Sweep::Worker {
   /// A member in a lane, with what observes it.
   struct Watched {
     Scenario scenario;
+    MemberRow row{};
     std::unique_ptr<MemberWatch> watch{};
     std::optional<SectionSearch> section{};
   };
@@ -244,15 +268,15 @@ class Sweep::Worker {
       if (Clock::now() - begin < std::chrono::milliseconds(10)) chunk = std::min(chunk * 2, std::int64_t{1} << 40);
     }
     for (std::size_t lane = 0; lane < task.count; ++lane) {
-      finish_lane(members[lane], block->look(lane), run.taken(), group.steps,
-                  is_watched ? watched[lane].get() : nullptr);
+      if (!is_watched) watched.push_back(std::make_unique<Watched>());
+      finish_lane(members[lane], block->look(lane), run.taken(), group.steps, *watched[lane]);
     }
   }
 
   std::unique_ptr<Watched> watched_of(std::size_t member) {
     auto one = std::make_unique<Watched>(Watched{scenario_of(member)});
-    if (sweep_.observables_.watch) one->watch = sweep_.observables_.watch(one->scenario);
-    if (one->scenario.section) one->section.emplace(*one->scenario.section, points_of(sweep_.rows_[member]));
+    if (sweep_.observables_.watch) one->watch = sweep_.observables_.watch(one->scenario, nullptr);
+    if (one->scenario.section) one->section.emplace(*one->scenario.section, points_of(one->row));
     return one;
   }
   static std::vector<LaneObservers> observers_of(const std::vector<std::unique_ptr<Watched>>& watched) {
@@ -274,13 +298,12 @@ class Sweep::Worker {
   }
 
   /// @param taken of all steps: fewer where the sweep was stopped
-  void finish_lane(std::size_t member, MemberEnd end, std::int64_t taken, std::int64_t steps, const Watched* watched) {
-    MemberRow& row = sweep_.rows_[member];
+  void finish_lane(std::size_t member, MemberEnd end, std::int64_t taken, std::int64_t steps, Watched& watched) {
     if (!end.regular) {  // the single run shows what happened, and when
-      row.section.clear();
       if (taken == steps) run_alone(member);
       return;
     }
+    MemberRow& row = watched.row;
     row.status = taken == steps ? Outcome::done : Outcome::stopped;
     row.steps = taken;
     row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[member].h;
@@ -289,10 +312,14 @@ class Sweep::Worker {
     row.energy = end.energy;
     row.energy_scale = end.energy_scale;
     row.invariants = std::move(end.invariants);
-    if (watched != nullptr && watched->section) row.section_residual = watched->section->max_residual();
-    if (row.status != Outcome::done) return;
-    if (watched != nullptr && watched->watch) row.observables = watched->watch->row();
-    if (is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(member), row);
+    row.walls = std::move(end.walls);
+    row.halved = end.halved;
+    if (watched.section) row.section_residual = watched.section->max_residual();
+    if (row.status == Outcome::done) {
+      if (watched.watch) row.observables = watched.watch->row();
+      if (is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(member), row);
+    }
+    sweep_.put(member, std::move(row));
   }
 
   /// A run whose steps are counted and which Ctrl-C ends.
@@ -311,7 +338,7 @@ class Sweep::Worker {
   void run_alone(std::size_t member) {
     const Scenario scenario = scenario_of(member);
     const auto simulation = make_simulation(scenario.request);
-    MemberRow& row = sweep_.rows_[member];
+    MemberRow row;
     std::optional<SectionFinder> finder;
     std::vector<Observer*> observers;
     if (scenario.section) {
@@ -320,11 +347,13 @@ class Sweep::Worker {
     }
     std::unique_ptr<MemberWatch> watch;
     if (sweep_.observables_.watch) {
-      watch = sweep_.observables_.watch(scenario);
+      watch = sweep_.observables_.watch(scenario, simulation.get());
       const std::vector<Observer*> more = watch->observers();
       observers.insert(observers.end(), more.begin(), more.end());
     }
-    const Outcome outcome = go(*simulation, scenario.steps, observers);
+    Outcome outcome = go(*simulation, scenario.steps, observers);
+    if (watch) row.stopped_by = watch->stopped_by();
+    if (outcome == Outcome::stopped && row.stopped_by) outcome = Outcome::done;  // by its own will
     if (finder) row.section_residual = finder->max_residual();
     Frame frame;
     simulation->look(frame);
@@ -338,10 +367,13 @@ class Sweep::Worker {
     row.energy_scale = simulation->energy_scale();
     row.invariants = simulation->invariants();
     row.walls = simulation->wall_counts();
+    row.halved = simulation->effort().halved;
+    if (watch) row.events = watch->events();
     row.message = outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : simulation->failure();
     if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);
     if (watch && frame.step > 0) row.observables = watch->row();
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
+    sweep_.put(member, std::move(row));
   }
 
   bool is_suspect(const MemberRow& row) const {
@@ -361,9 +393,12 @@ class Sweep::Worker {
   std::optional<MemberReader> reader_;
 };
 
-void Sweep::run(const std::function<bool(std::int64_t)>& pulse) {
+void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::function<void(std::size_t)>& finished) {
+  finished_ = finished;
+  steps_taken_ = steps_before_;
   std::vector<Task> tasks;
-  for (const auto& [key, group] : groups_) {
+  for (auto& [key, group] : groups_) {
+    std::erase_if(group.members, [this](std::size_t member) { return rows_[member].is_finished(); });
     const std::size_t at_once = std::max<std::size_t>(group.lanes, 1);
     for (std::size_t i = 0; i < group.members.size(); i += at_once) {
       tasks.push_back({&group, i, std::min(at_once, group.members.size() - i)});
@@ -374,11 +409,11 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse) {
                    [](const Task& a, const Task& b) { return a.group->steps > b.group->steps; });
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
-  std::condition_variable finished;
+  std::condition_variable all_done;
   bool over = false;
   const auto look = [&] {
     std::unique_lock lock(mutex);
-    while (!finished.wait_for(lock, std::chrono::milliseconds(20), [&] { return over; })) {
+    while (!all_done.wait_for(lock, std::chrono::milliseconds(20), [&] { return over; })) {
       if (pulse && !pulse(steps_taken_)) stop_ = true;
     }
   };
@@ -392,13 +427,18 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse) {
   const auto end = [&] {
     const std::lock_guard lock(mutex);
     over = true;
-    finished.notify_all();
+    all_done.notify_all();
   };
   try {
     const int wanted = std::min<int>(threads_, static_cast<int>(std::max<std::size_t>(tasks.size(), 1)));
     const int started = on_threads(wanted, [&] {
       Worker worker(*this);
-      for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) worker.carry_out(tasks[i]);
+      try {
+        for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) worker.carry_out(tasks[i]);
+      } catch (...) {  // no thread works for a sweep that is lost
+        stop_ = true;
+        throw;
+      }
     });
     if (started < wanted) threads_ = started;
   } catch (...) {

@@ -7,16 +7,27 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hamflow/core/archive.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/step_mean.hpp"
 #include "hamflow/verify/lyapunov.hpp"
 #include "member_reader.hpp"
 #include "varied.hpp"
 
 namespace hamflow {
+
+/// The event that ended a member's run.
+struct MemberStop {
+  std::size_t event = 0;  // of the scenario's
+  double t = 0;
+  std::vector<double> q;
+  std::vector<double> p;
+};
 
 /// The result of a member; of one that failed, its last good state.
 struct MemberRow {
@@ -32,14 +43,22 @@ struct MemberRow {
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
   std::vector<WallCount> walls;
-  std::vector<double> section;  // of each point of the section t, q, p
-  double section_residual = 0;  // the largest
-  std::string message;          // of a failure, and why there is no start
-  bool nonsense = false;        // done, but its energy is off by more than it can be
+  std::vector<std::int64_t> events;      // how often each of the scenario's was met
+  std::optional<MemberStop> stopped_by;  // done before its last step
+  std::int64_t halved = 0;               // steps
+  std::vector<double> section;           // of each point of the section t, q, p
+  double section_residual = 0;           // the largest
+  std::string message;                   // of a failure, and why there is no start
+  bool nonsense = false;                 // done, but its energy is off by more than it can be
 
   /// As it is called in files.
   std::string status_name() const { return no_start ? "no_start" : std::string(name(status)); }
   std::size_t section_points() const { return section.size() / (1 + q.size() + p.size()); }
+  /// Whether there is nothing left to be done for it.
+  bool is_finished() const { return no_start || (status != Outcome::not_run && status != Outcome::stopped); }
+  /// All of it, for what a sweep goes on from (core/archive.hpp).
+  template <class Archive>
+  void archive(Archive& ar);
 };
 
 /// Observes one member: alone or in a lane, where frames hold step, time, q and p and nothing else.
@@ -49,14 +68,21 @@ class MemberWatch {
   virtual std::vector<Observer*> observers() = 0;
   /// Those of them that follow tangent vectors.
   virtual std::vector<TangentWatch*> tangents() { return {}; }
+  /// Those of them that take means over every step.
+  virtual std::vector<MeanWatch*> means() { return {}; }
   /// What was seen of a run that is done: a number for each of MemberObservables::names.
   virtual std::vector<double> row() const = 0;
+  /// How often each event of the scenario was met, and which of them has ended the run.
+  virtual std::vector<std::int64_t> events() const { return {}; }
+  virtual std::optional<MemberStop> stopped_by() const { return {}; }
 };
 
 /// Further columns, e.g. an exponent: what is seen beside the run of each member.
 struct MemberObservables {
   std::vector<std::string> names;
-  std::function<std::unique_ptr<MemberWatch>(const Scenario&)> watch;  // none: no columns. The scenario outlives it.
+  /// None: no columns.   @param alone the member's simulation where it runs alone; null in a lane. Both, and the
+  /// scenario, outlive the watch.
+  std::function<std::unique_ptr<MemberWatch>(const Scenario&, const Simulation* alone)> watch;
 };
 
 struct SweepOptions {
@@ -93,8 +119,23 @@ class Sweep {
   /// Whether a member has more digits than double.
   bool beyond_double() const { return beyond_double_; }
 
-  /// Runs all members. @param pulse called several times a second with the steps taken by all; false stops
-  void run(const std::function<bool(std::int64_t)>& pulse);
+  /// Whether a member's method halves steps that do not converge.
+  bool halves_steps() const { return halves_steps_; }
+  /// Steps that a member is to take; 0 of one without a start.
+  std::int64_t steps_of(std::size_t member) const { return steps_[member]; }
+  /// The row of a member that an earlier part of this sweep has finished: it is not run again.
+  void restore(std::size_t member, MemberRow row);
+  /// Steps of members that were restored.
+  std::int64_t steps_before() const { return steps_before_; }
+  /// Members that are still to be run.
+  std::size_t members_left() const;
+
+  /// Runs all members that are not finished. Rows change while it goes on: who looks at them holds them.
+  /// @param pulse called several times a second with the steps taken by all; false stops
+  /// @param finished called by any thread, one at a time, with a member that is finished; what it throws ends the sweep
+  void run(const std::function<bool(std::int64_t)>& pulse, const std::function<void(std::size_t)>& finished = {});
+  /// No row changes while it is held.
+  [[nodiscard]] std::unique_lock<std::mutex> hold_rows() const { return std::unique_lock(rows_mutex_); }
 
  private:
   /// Members that can share a block.
@@ -118,6 +159,7 @@ class Sweep {
   void take_as_common(std::size_t member, const Scenario& scenario);
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
+  void put(std::size_t member, MemberRow row);
   void report(const std::map<std::string, std::vector<std::size_t>>& found);
 
   Varied varied_;
@@ -133,6 +175,10 @@ class Sweep {
   std::vector<std::string> complaints_;
   std::vector<MemberStart> starts_;  // of members in lanes
   std::vector<MemberRow> rows_;
+  std::vector<std::int64_t> steps_;
+  mutable std::mutex rows_mutex_;
+  std::mutex finished_mutex_;
+  std::function<void(std::size_t)> finished_;
   std::map<std::string, Group> groups_;
   std::mutex mutex_;
   std::map<std::string, std::vector<std::size_t>> found_;  // complaint -> members
@@ -140,9 +186,36 @@ class Sweep {
   std::size_t in_lanes_ = 0;
   std::size_t lane_count_ = 0;
   std::int64_t total_steps_ = 0;
+  std::int64_t steps_before_ = 0;
   bool beyond_double_ = false;
+  bool halves_steps_ = false;
   std::atomic<bool> stop_{false};
   std::atomic<std::int64_t> steps_taken_{0};
 };
+
+template <class Archive>
+void MemberRow::archive(Archive& ar) {
+  const auto list = [&ar](auto& all, const auto& fields) {
+    auto size = static_cast<std::uint64_t>(all.size());
+    ar(size);
+    if constexpr (Archive::reading) {
+      if (size > ar.left()) throw Error("saved bytes end too early");
+      all.resize(size);
+    }
+    for (auto& one : all) fields(one);
+  };
+  ar(status, no_start, steps, t, q, p, digits.time, digits.q, digits.p, digits.energy, digits.initial_energy);
+  ar(energy.initial, energy.final, energy.max_error, energy_scale);
+  list(invariants, [&ar](InvariantExcursion& one) { ar(one.initial, one.final, one.max_error); });
+  ar(observables);
+  list(walls, [&ar](WallCount& one) { ar(one.coordinate, one.side, one.bounces); });
+  bool stopped = stopped_by.has_value();
+  ar(events, stopped);
+  if (stopped) {
+    if (!stopped_by) stopped_by.emplace();
+    ar(stopped_by->event, stopped_by->t, stopped_by->q, stopped_by->p);
+  }
+  ar(halved, section, section_residual, message, nonsense);
+}
 
 }  // namespace hamflow

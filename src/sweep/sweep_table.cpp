@@ -1,16 +1,11 @@
 #include "sweep_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/state_names.hpp"
-#include "hdf5_text.hpp"
-#include "whole_file.hpp"
+#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -73,19 +68,43 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   }
 }
 
-/// How often each hard wall was met.
-void add_walls(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+/// How often each hard wall was met, each event of the user, and how many steps were halved.
+void add_events(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   const Scenario& common = sweep.common();
-  const auto any =
-      std::find_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return !row.walls.empty(); });
-  if (any == sweep.rows().end()) return;
-  const StateNames names = state_names(*common.problem, common.request.parameters, common.start_q.size());
-  for (std::size_t k = 0; k < any->walls.size(); ++k) {
-    const WallCount& wall = any->walls[k];
-    SweepColumn column{"events/wall:" + names.q.at(wall.coordinate) + (wall.side < 0 ? ":min" : ":max")};
-    for (const MemberRow& row : sweep.rows()) column.counts.push_back(k < row.walls.size() ? row.walls[k].bounces : 0);
+  const auto add = [&](const std::string& name, const auto& count) {
+    SweepColumn column{"events/" + name};
+    for (const MemberRow& row : sweep.rows()) column.counts.push_back(count(row));
     columns.push_back(std::move(column));
+  };
+  for (const WallCount& wall : hard_walls(common)) {
+    add(wall_name(common, wall), [&](const MemberRow& row) { return bounces_of(row, wall); });
   }
+  for (std::size_t i = 0; i < common.events.size(); ++i) {
+    add("user:" + common.events[i].name,
+        [i](const MemberRow& row) { return i < row.events.size() ? row.events[i] : 0; });
+  }
+  if (sweep.halves_steps()) add("halved", [](const MemberRow& row) { return row.halved; });
+}
+
+/// Of the event that ended a member's run; of the others an empty text and NaN.
+void add_stops(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+  const std::vector<UserEvent>& events = sweep.common().events;
+  if (std::none_of(events.begin(), events.end(), [](const UserEvent& event) { return event.stops; })) return;
+  static const std::vector<double> none;
+  const std::size_t n = sweep.common().start_q.size();
+  SweepColumn event{"stopped_by/event"};
+  for (const MemberRow& row : sweep.rows()) {
+    event.texts.push_back(row.stopped_by ? events[row.stopped_by->event].name : "");
+  }
+  columns.push_back(std::move(event));
+  columns.push_back(numbers(sweep, "stopped_by/t",
+                            [](const MemberRow& row) { return row.stopped_by ? row.stopped_by->t : nothing; }));
+  columns.push_back(vectors(sweep, "stopped_by/q", n, false, [](const MemberRow& row) -> const std::vector<double>& {
+    return row.stopped_by ? row.stopped_by->q : none;
+  }));
+  columns.push_back(vectors(sweep, "stopped_by/p", n, false, [](const MemberRow& row) -> const std::vector<double>& {
+    return row.stopped_by ? row.stopped_by->p : none;
+  }));
 }
 
 /// A third is no double: a member is run again from the text.
@@ -127,47 +146,27 @@ void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& col
   add("digits/energy/final", 1, true, [](const FrameDigits& d) { return List{d.energy}; });
 }
 
-/// With a checksum for each chunk; chunks of 64 kilobytes at most, or of one row.
-Hdf5Handle protected_chunks(int rank, const hsize_t* size, std::size_t bytes) {
-  constexpr hsize_t most_bytes = 1 << 16;
-  const hsize_t width = rank > 1 ? size[1] : 1;
-  const hsize_t chunk[2] = {std::clamp<hsize_t>(most_bytes / (bytes * width), 1, std::max<hsize_t>(size[0], 1)), width};
-  Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_chunk(plist, rank, chunk), "choose the chunks");
-  check_hdf5(H5Pset_fletcher32(plist), "choose a checksum");
-  return plist;
-}
-
-void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memory, int rank, const hsize_t* size,
-                   const void* values) {
-  const Hdf5Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose, "make a data space");
-  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_create_intermediate_group(links, 1), "request intermediate groups");
-  const Hdf5Handle plist = protected_chunks(rank, size, H5Tget_size(stored));
-  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, plist, H5P_DEFAULT), H5Dclose,
-                           "create dataset " + name);
-  check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
-}
-
-void write_column(hid_t file, const SweepColumn& column) {
-  const hsize_t rows = column.rows();
-  const hsize_t size[2] = {rows, column.width};
-  const int rank = column.scalar ? 1 : 2;
-  if (!column.texts.empty()) {
-    std::size_t longest = 1;
-    for (const std::string& text : column.texts) longest = std::max(longest, text.size());
-    std::string all;
-    for (const std::string& text : column.texts) all += text + std::string(longest - text.size(), '\0');
-    const Hdf5Handle type = text_type(longest);
-    write_dataset(file, column.name, type, type, rank, size, all.data());
-  } else if (!column.counts.empty()) {
-    write_dataset(file, column.name, H5T_STD_I64LE, H5T_NATIVE_INT64, rank, size, column.counts.data());
-  } else {
-    write_dataset(file, column.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, column.numbers.data());
-  }
-}
-
 }  // namespace
+
+std::vector<WallCount> hard_walls(const Scenario& scenario) {
+  const auto walls = walls_among(scenario.request.variant);
+  std::vector<WallCount> all;
+  if (!walls || !walls->hard()) return all;
+  for (const WallSide<double>& side : wall_sides<double>(*walls)) all.push_back({side.coordinate, side.side, 0});
+  return all;
+}
+
+std::string wall_name(const Scenario& scenario, const WallCount& wall) {
+  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+  return "wall:" + names.q.at(wall.coordinate) + (wall.side < 0 ? ":min" : ":max");
+}
+
+std::int64_t bounces_of(const MemberRow& row, const WallCount& wall) {
+  const auto same = std::find_if(row.walls.begin(), row.walls.end(), [&](const WallCount& each) {
+    return each.coordinate == wall.coordinate && each.side == wall.side;
+  });
+  return same == row.walls.end() ? 0 : same->bounces;
+}
 
 std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   std::vector<SweepColumn> columns;
@@ -191,7 +190,8 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   columns.push_back(numbers(sweep, "energy/max_error", [](const MemberRow& row) { return row.energy.max_error; }));
   columns.push_back(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy_scale; }));
   add_invariants(sweep, columns);
-  add_walls(sweep, columns);
+  add_events(sweep, columns);
+  add_stops(sweep, columns);
   for (std::size_t i = 0; i < sweep.observables().names.size(); ++i) {
     columns.push_back(numbers(sweep, "observables/" + sweep.observables().names[i], [&](const MemberRow& row) {
       return i < row.observables.size() ? row.observables[i] : nothing;
@@ -221,91 +221,6 @@ std::vector<SweepColumn> section_columns_of(const Sweep& sweep) {
     }
   }
   return {std::move(member), std::move(t), std::move(q), std::move(p)};
-}
-
-void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description) {
-  silence_hdf5();
-  WholeFile whole(file, next_name(file));
-  Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                "create " + file.string());
-  const Request& request = sweep.common().request;
-  write_attribute(id, "hamflow", description.version);
-  write_attribute(id, "host", description.host);
-  write_attribute(id, "problem", request.problem);
-  write_attribute(id, "arithmetic", request.arithmetic);
-  write_attribute(id, "kernel", request.kernel);
-  if (request.kernel == "fast") {
-    write_attribute(id, "instruction_set", std::string(name(fast_kernel_instruction_set())));
-  }
-  write_text_dataset(id, "scenario", sweep.text());
-  for (const SweepColumn& column : columns_of(sweep)) write_column(id, column);
-  for (const SweepColumn& column : section_columns_of(sweep)) write_column(id, column);
-  id.close_now("write " + file.string() + " (is the disk full?)");
-  whole.put_in_place();
-}
-
-namespace {
-
-/// A text with commas, quotes or line ends as CSV has it.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string all = "\"";
-  for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return all + "\"";
-}
-
-std::string cell(const SweepColumn& column, std::size_t at) {
-  if (!column.texts.empty()) return quoted(column.texts[at]);
-  if (!column.counts.empty()) return std::to_string(column.counts[at]);
-  return fmt::format("{:.17g}", column.numbers[at]);
-}
-
-/// @throws FileError
-void write_csv(const std::filesystem::path& file, const std::vector<SweepColumn>& columns) {
-  WholeFile whole(file, next_name(file));
-  std::ofstream out(whole.part());
-  if (!out) throw FileError("cannot write " + file.string());
-  std::vector<std::string> labels;
-  for (const SweepColumn& column : columns) {
-    for (std::size_t i = 0; i < column.width; ++i) labels.push_back(quoted(csv_name(column, i)));
-  }
-  out << joined(labels, ",") << '\n';
-  for (std::size_t row = 0; row < columns[0].rows(); ++row) {
-    std::vector<std::string> cells;
-    for (const SweepColumn& column : columns) {
-      for (std::size_t i = 0; i < column.width; ++i) cells.push_back(cell(column, row * column.width + i));
-    }
-    out << joined(cells, ",") << '\n';
-  }
-  out.close();
-  if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
-  whole.put_in_place();
-}
-
-}  // namespace
-
-std::string csv_name(const SweepColumn& column, std::size_t i) {
-  const std::string varied = "varied/", section = "section/";
-  std::string name = column.name;
-  for (const std::string& table : {varied, section}) {
-    if (name.starts_with(table)) name = name.substr(table.size());
-  }
-  return name + (column.scalar ? "" : std::to_string(i + 1));
-}
-
-void write_sweep_csv(const std::filesystem::path& folder, const Sweep& sweep) {
-  // Each column with all its digits, where there are more than those of a double. What was varied stays a number.
-  std::vector<SweepColumn> columns = columns_of(sweep);
-  const std::string beyond_double = "digits/";
-  for (SweepColumn& column : columns) {
-    for (const SweepColumn& other : columns) {
-      const bool varied = column.name.starts_with("varied/");
-      if (!varied && other.name == beyond_double + column.name) column.texts = other.texts;
-    }
-  }
-  std::erase_if(columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
-  write_csv(folder / "sweep.csv", columns);
-  if (sweep.common().section) write_csv(folder / "section.csv", section_columns_of(sweep));
 }
 
 }  // namespace hamflow

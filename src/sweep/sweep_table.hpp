@@ -23,14 +23,28 @@ struct SweepColumn {
 };
 
 /// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
-/// /energy/..., /invariants/NAME/..., /observables/NAME; in arithmetic beyond double also /digits/final/t, q, p and
-/// /digits/energy/initial, final, the same numbers as decimal texts that read back exactly, and /digits/varied/KEY, the
-/// numbers of /varied as they were given. What a member does not have is NaN, or an empty text.
+/// /energy/..., /invariants/NAME/..., /events/..., /stopped_by/..., /observables/NAME; in arithmetic beyond double also
+/// /digits/final/t, q, p and /digits/energy/initial, final, the same numbers as decimal texts that read back exactly,
+/// and /digits/varied/KEY, the numbers of /varied as they were given. What a member does not have is NaN, or an empty
+/// text.
 std::vector<SweepColumn> columns_of(const Sweep& sweep);
 
 /// The points of all members' sections, a row a point: /section/member (its number), t, q, p. None where no section is
 /// asked for.
 std::vector<SweepColumn> section_columns_of(const Sweep& sweep);
+
+/// Both, as they are at one moment.
+struct SweepTable {
+  std::vector<SweepColumn> members;
+  std::vector<SweepColumn> section;
+};
+inline SweepTable table_of(const Sweep& sweep) { return {columns_of(sweep), section_columns_of(sweep)}; }
+
+/// The hard walls that members have, without bounces; the name of one among the events, "wall:q1:max"; and how often a
+/// member has met it.
+std::vector<WallCount> hard_walls(const Scenario& scenario);
+std::string wall_name(const Scenario& scenario, const WallCount& wall);
+std::int64_t bounces_of(const MemberRow& row, const WallCount& wall);
 
 /// What is the same for all rows.
 struct SweepDescription {
@@ -39,10 +53,11 @@ struct SweepDescription {
 };
 
 /// @throws FileError
-void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepDescription& description);
+void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTable& table,
+                    const SweepDescription& description);
 /// What the i-th part of a column is called in CSV: "final/q1", and without their table "problem.k" and "member".
 std::string csv_name(const SweepColumn& column, std::size_t i);
 /// sweep.csv, and section.csv where a section is asked for. @throws FileError
-void write_sweep_csv(const std::filesystem::path& folder, const Sweep& sweep);
+void write_sweep_csv(const std::filesystem::path& folder, SweepTable table);
 
 }  // namespace hamflow

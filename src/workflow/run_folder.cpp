@@ -25,19 +25,23 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, none));
 }
 
-/// What a folder is of, and what it has beside figures/. The first file tells it from the others. The checkpoint is the
-/// last: what a kill interrupts on the way is still a run.
+/// What a folder is of, and what it has beside figures/. What it goes on from is the last: what a kill interrupts on
+/// the way is still a run, or a sweep.
 struct KindOfFolder {
   FolderOf what;
-  const char* name;  // in a sentence
+  const char* name;                // in a sentence
+  std::vector<const char*> signs;  // which tell it from the others
   std::vector<const char*> files;
 };
 
 const std::vector<KindOfFolder>& kinds_of_folders() {
   static const std::vector<KindOfFolder> all{
-      {FolderOf::run, "run", {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"}},
-      {FolderOf::sweep, "sweep", {"sweep.h5", "sweep.csv", "section.csv", "summary.json"}},
-      {FolderOf::comparison, "comparison", {"compare.json", "compare.csv"}}};
+      {FolderOf::run, "run", {"run.h5"}, {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"}},
+      {FolderOf::sweep,
+       "sweep",
+       {"sweep.h5", "members.bin"},
+       {"sweep.h5", "sweep.csv", "section.csv", "summary.json", "members.bin"}},
+      {FolderOf::comparison, "comparison", {"compare.json"}, {"compare.json", "compare.csv"}}};
   return all;
 }
 
@@ -100,7 +104,9 @@ void remove_file(const fs::path& file) {
 
 void clear(const fs::path& folder, FolderOf what) {
   for (const KindOfFolder& other : kinds_of_folders()) {
-    if (other.what == what || !is_there(folder / other.files.front())) continue;
+    const bool is_other =
+        std::any_of(other.signs.begin(), other.signs.end(), [&](const char* sign) { return is_there(folder / sign); });
+    if (other.what == what || !is_other) continue;
     throw FileError(std::string("found a ") + other.name + " in " + folder.string() +
                     ", which is not replaced; allowed a folder of a " + kind_of(what).name + ", or --out another");
   }
@@ -127,7 +133,9 @@ void make_folder(const fs::path& folder, FolderOf what, bool force) {
     if (!fs::is_directory(folder, error)) throw FileError(folder.string() + " exists and is no folder");
     if (!force) {
       throw FileError("the folder " + folder.string() + " exists; give " +
-                      (what == FolderOf::run ? "--resume to go on with the run in it, " : "") +
+                      (what == FolderOf::comparison
+                           ? std::string()
+                           : std::string("--resume to go on with the ") + kind_of(what).name + " in it, ") +
                       "--force to replace it, or --out another");
     }
     clear(folder, what);

@@ -1,5 +1,5 @@
 // The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/; that of a sweep: sweep.h5, sweep.csv,
-// section.csv; that of a comparison: compare.json, compare.csv, figures/.
+// section.csv, summary.json, members.bin; that of a comparison: compare.json, compare.csv, figures/.
 #pragma once
 
 #include <filesystem>

@@ -62,7 +62,8 @@ struct DrawnColumn {
 };
 std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
   std::vector<DrawnColumn> all;
-  for (const SweepColumn& column : columns_of(sweep)) {
+  for (SweepColumn& column : columns_of(sweep)) {
+    column.numbers.insert(column.numbers.end(), column.counts.begin(), column.counts.end());
     for (std::size_t i = 0; !column.numbers.empty() && i < column.width; ++i) {
       DrawnColumn& one = all.emplace_back(DrawnColumn{column.scalar ? column.name : csv_name(column, i), {}});
       for (std::size_t row = 0; row < column.rows(); ++row)

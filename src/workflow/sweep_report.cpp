@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "run_keys.hpp"
+#include "summary.hpp"
+#include "sweep_table.hpp"
 
 namespace hamflow {
 
@@ -113,6 +115,17 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   const std::vector<InvariantInfo>& declared = sweep.common().problem->info.invariants;
   for (std::size_t i = 0; i < row.invariants.size(); ++i) {
     json["invariants"][declared[i].name] = invariant_json(declared[i], row.invariants[i]);
+  }
+  json["events"] = Json::object();
+  for (const WallCount& wall : hard_walls(sweep.common())) {
+    json["events"][wall_name(sweep.common(), wall)] = bounces_of(row, wall);
+  }
+  const std::vector<UserEvent>& events = sweep.common().events;
+  for (std::size_t i = 0; i < row.events.size(); ++i) json["events"]["user:" + events[i].name] = row.events[i];
+  if (row.halved > 0) json["events"]["halved"] = row.halved;
+  if (row.stopped_by) {
+    const MemberStop& stop = *row.stopped_by;
+    json["stopped_by"] = {{"event", events[stop.event].name}, {"t", stop.t}, {"q", stop.q}, {"p", stop.p}};
   }
   for (std::size_t i = 0; i < row.observables.size(); ++i) {
     json[sweep.observables().names[i]] = row.observables[i];

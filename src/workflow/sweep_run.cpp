@@ -7,13 +7,11 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "measures/measures.hpp"
-#include "run_description.hpp"
-#include "run_folder.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
 #include "sweep_figure.hpp"
+#include "sweep_folder.hpp"
 #include "sweep_report.hpp"
-#include "sweep_table.hpp"
 #include "toml_path.hpp"
 #include "warnings.hpp"
 
@@ -35,15 +33,6 @@ LaneSet lanes_named(const std::string& name) {
   if (widest_lanes() >= LaneSet::avx512) allowed.emplace_back("avx512");
   throw Error("--lanes: found \"" + name + "\"; allowed on this machine: " + joined(allowed) +
               suggestion(name, allowed));
-}
-
-void save(const Sweep& sweep, const fs::path& folder, const std::string& summary) {
-  const std::vector<std::string>& formats = sweep.common().formats;
-  if (std::find(formats.begin(), formats.end(), "h5") != formats.end()) {
-    write_sweep_h5(folder / "sweep.h5", sweep, {HAMFLOW_VERSION, host_name()});
-  }
-  if (std::find(formats.begin(), formats.end(), "csv") != formats.end()) write_sweep_csv(folder, sweep);
-  write_text(folder / "summary.json", summary);
 }
 
 /// Whether a key decides nothing but what a run writes, and when.
@@ -122,7 +111,7 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std
 
 class ScenarioSweep::Impl {
  public:
-  explicit Impl(const SweepRequest& request) {
+  explicit Impl(const SweepRequest& asked) : request(asked) {
     SweepOptions how{.threads = request.threads};
     Varied varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
@@ -140,9 +129,11 @@ class ScenarioSweep::Impl {
     complaints = sweep->complaints();
   }
 
+  SweepRequest request;
   std::vector<std::string> complaints;
   std::vector<std::string> notes;
   std::optional<Sweep> sweep;
+  std::optional<SweepFolder> folder;
 };
 
 ScenarioSweep::ScenarioSweep(const SweepRequest& request) : impl_(std::make_unique<Impl>(request)) {}
@@ -150,6 +141,7 @@ ScenarioSweep::~ScenarioSweep() = default;
 const std::vector<std::string>& ScenarioSweep::complaints() const { return impl_->complaints; }
 const std::vector<std::string>& ScenarioSweep::notes() const { return impl_->notes; }
 std::int64_t ScenarioSweep::total_steps() const { return impl_->sweep->total_steps(); }
+std::int64_t ScenarioSweep::steps_before() const { return impl_->sweep->steps_before(); }
 
 std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column) const {
   return refused_sweep_figure(*impl_->sweep, file, column);
@@ -157,13 +149,19 @@ std::string ScenarioSweep::refused_figure(const fs::path& file, const std::strin
 
 SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
   Sweep& sweep = *impl_->sweep;
+  std::optional<SweepFolder>& folder = impl_->folder;
   std::atomic<bool> stopped{false};
   const auto begin = std::chrono::steady_clock::now();
-  sweep.run([&](std::int64_t steps) {
+  if (folder) folder->begin();
+  const auto look = [&](std::int64_t steps) {
     if (pulse && !pulse(steps)) stopped = true;
+    if (folder && !stopped) folder->save_if_due();
     return !stopped;
-  });
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const auto keep = [&](std::size_t member) { folder->keep(member); };
+  sweep.run(look, folder ? keep : std::function<void(std::size_t)>{});
+  const double seconds =
+      folder ? folder->seconds() : std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const Json summary = sweep_summary(sweep, seconds, stopped);
   SweepReport report;
   report.status = summary["status"].get<std::string>();
@@ -174,7 +172,15 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
     report.failures.push_back(fmt::format("member {}, step {}: {}", failure["member"].get<std::size_t>(),
                                           failure["step"].get<std::int64_t>(), failure["message"].get<std::string>()));
   }
+  if (folder) folder->save(report.json);
   return report;
+}
+
+std::vector<std::string> ScenarioSweep::keep_in(const fs::path& folder, Existing existing) {
+  impl_->folder.emplace(*impl_->sweep, impl_->request, folder, existing);
+  const std::vector<std::string>& notes = impl_->folder->notes();
+  impl_->notes.insert(impl_->notes.end(), notes.begin(), notes.end());
+  return impl_->folder->wrong();
 }
 
 std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
@@ -186,17 +192,8 @@ std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
   return json_text(summary);
 }
 
-void ScenarioSweep::write(const SweepReport& report, const fs::path& folder) const {
-  save(*impl_->sweep, folder, report.json);
-}
-
 void ScenarioSweep::draw(const fs::path& file, const std::string& column) const {
   draw_sweep_figure(*impl_->sweep, file, column);
-}
-
-std::shared_ptr<const void> make_sweep_folder(const fs::path& folder, bool replace) {
-  make_folder(folder, FolderOf::sweep, replace);
-  return std::make_shared<FolderLock>(folder);
 }
 
 }  // namespace hamflow

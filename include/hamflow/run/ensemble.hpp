@@ -36,6 +36,8 @@ struct MemberEnd {
   Excursion energy;
   double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;
+  std::vector<WallCount> walls;
+  std::int64_t halved = 0;  // steps
 };
 
 /// Tangent vectors of a lane that wait to be carried through so many steps from a state, as StepMap does it.

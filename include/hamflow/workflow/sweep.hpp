@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/workflow/run.hpp"
+
 namespace hamflow {
 
 inline constexpr int most_sweep_threads = 1024;
@@ -48,13 +50,24 @@ class ScenarioSweep {
   std::string refused_figure(const std::filesystem::path& file, const std::string& column) const;
   /// Of all members together.
   std::int64_t total_steps() const;
+  /// Of members that were finished before.
+  std::int64_t steps_before() const;
 
-  /// Runs all members.   @param pulse called several times a second with the steps taken by all; returns false to stop
+  /// Keeps the sweep in a folder: its table in the scenario's formats, written again and again while it runs, and
+  /// members.bin, from which it goes on. With Existing::resume members that are finished there are not run again, and
+  /// the table becomes, bit for bit, that of a sweep that was never stopped; of the scenario only what may change when
+  /// a run goes on may have changed. To be called once, before run(). Nobody else writes into the folder while this
+  /// lives.
+  /// @return what is wrong with going on, a line each: then nothing was touched, and nothing can be run
+  /// @throws FileError when the folder exists and is not to be used, is that of a run or a comparison, or cannot be
+  /// made
+  [[nodiscard]] std::vector<std::string> keep_in(const std::filesystem::path& folder, Existing existing);
+
+  /// Runs all members that are not finished, and writes the folder, if there is one, also where it was stopped.
+  /// @throws FileError   @param pulse called several times a second with the steps taken by all; returns false to stop
   SweepReport run(const std::function<bool(std::int64_t steps)>& pulse = {});
   /// The summary with a row for each member; without them where there are more than 10^4.
   std::string json_with_rows(const SweepReport& report) const;
-  /// Writes the table in the scenario's formats, and summary.json, into a folder made before.   @throws FileError
-  void write(const SweepReport& report, const std::filesystem::path& folder) const;
   /// A column over the one or two keys varied, or the section of all members.   @throws Error, FileError
   void draw(const std::filesystem::path& file, const std::string& column) const;
 
@@ -62,10 +75,5 @@ class ScenarioSweep {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Makes the folder for a sweep. With `replace` what an earlier one left in it is removed, nothing else. Nobody else
-/// writes into it while what is returned lives.
-/// @throws FileError when it exists and `replace` is false, is that of a run or a comparison, or cannot be made
-[[nodiscard]] std::shared_ptr<const void> make_sweep_folder(const std::filesystem::path& folder, bool replace);
 
 }  // namespace hamflow

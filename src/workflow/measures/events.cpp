@@ -35,6 +35,15 @@ class EventsMeasure final : public Measure, public Observer {
   void add_events(Json& events) const override {
     for (std::size_t i = 0; i < events_.size(); ++i) events["user:" + events_[i].name] = finders_[i]->points();
   }
+  std::vector<std::int64_t> event_counts() const override {
+    std::vector<std::int64_t> all;
+    for (const auto& finder : finders_) all.push_back(finder->points());
+    return all;
+  }
+  std::optional<MemberStop> stopped_by() const override {
+    if (!by_) return std::nullopt;
+    return MemberStop{*by_, where_.time, where_.q, where_.p};
+  }
   Json summary() const override {
     if (!by_) return nullptr;
     return {{"event", events_[*by_].name}, {"t", where_.time}, {"q", where_.q}, {"p", where_.p}};
@@ -72,7 +81,8 @@ MeasureKind measure_events() {
               [](const Json& found) {
                 return fmt::format("{} at t = {}", found["event"].get<std::string>(),
                                    number_text(found["t"], "{:.17g}"));
-              }};
+              },
+          .counts_events = true};
 }
 
 }  // namespace hamflow

@@ -5,11 +5,13 @@
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/step_mean.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/lyapunov.hpp"
 #include "sweep.hpp"
@@ -26,12 +28,17 @@ class Measure {
   virtual Observer& observer() = 0;
   /// The same where it follows tangent vectors, which many members carry together.
   virtual TangentWatch* tangents() { return nullptr; }
+  /// The same where it takes means over every step, which lanes may take in theirs.
+  virtual MeanWatch* means() { return nullptr; }
   /// Its entry in the summary, from what was seen so far; null: none.
   virtual nlohmann::ordered_json summary() const = 0;
   /// What it counts among the events.
   virtual void add_events(nlohmann::ordered_json& /*events*/) const {}
   /// Whether the run ends here by its own will.
   virtual bool stops() const { return false; }
+  /// How often each event of the scenario was met, and which has ended the run; of events alone.
+  virtual std::vector<std::int64_t> event_counts() const { return {}; }
+  virtual std::optional<MemberStop> stopped_by() const { return {}; }
   /// Its numbers in a sweep, from what was seen of a member that is done, one for each of the columns.
   virtual std::vector<double> row() const { return {}; }
 };
@@ -50,6 +57,8 @@ struct MeasureKind {
   /// The names of the columns that it gives a sweep whose first member is this scenario; null: a sweep records it for
   /// each member in a table of its own.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;
+  /// Whether it gives a sweep the counts of events, made by make_of_run: members then run one by one.
+  bool counts_events = false;
 };
 
 /// Every kind, in the alphabetical order of its files.

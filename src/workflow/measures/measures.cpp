@@ -49,8 +49,14 @@ namespace {
 /// A column of a sweep is what the same measure shows of the single run.
 class MeasuredMember final : public MemberWatch {
  public:
-  MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario) {
-    for (const MeasureKind* kind : kinds) measures_.push_back(kind->make(scenario));
+  MeasuredMember(std::span<const MeasureKind* const> kinds, const Scenario& scenario, const Simulation* alone) {
+    for (const MeasureKind* kind : kinds) {
+      if (kind->make != nullptr) {
+        measures_.push_back(kind->make(scenario));
+      } else if (alone != nullptr) {
+        measures_.push_back(kind->make_of_run(scenario, *alone, nullptr));
+      }
+    }
   }
   std::vector<Observer*> observers() override {
     std::vector<Observer*> all;
@@ -64,6 +70,13 @@ class MeasuredMember final : public MemberWatch {
     }
     return all;
   }
+  std::vector<MeanWatch*> means() override {
+    std::vector<MeanWatch*> all;
+    for (const auto& measure : measures_) {
+      if (MeanWatch* const watch = measure->means()) all.push_back(watch);
+    }
+    return all;
+  }
   std::vector<double> row() const override {
     std::vector<double> all;
     for (const auto& measure : measures_) {
@@ -71,6 +84,20 @@ class MeasuredMember final : public MemberWatch {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
+  }
+  std::vector<std::int64_t> events() const override {
+    std::vector<std::int64_t> all;
+    for (const auto& measure : measures_) {
+      const std::vector<std::int64_t> part = measure->event_counts();
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+  std::optional<MemberStop> stopped_by() const override {
+    for (const auto& measure : measures_) {
+      if (auto stop = measure->stopped_by()) return stop;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -83,13 +110,16 @@ MemberObservables sweep_columns(const Scenario& first) {
   MemberObservables all;
   std::vector<const MeasureKind*> kinds;
   for (const MeasureKind& kind : measure_kinds()) {
-    if (kind.columns == nullptr || !kind.requested(first)) continue;
+    if ((kind.columns == nullptr && !kind.counts_events) || !kind.requested(first)) continue;
     kinds.push_back(&kind);
+    if (kind.columns == nullptr) continue;
     const std::vector<std::string> names = kind.columns(first);
     all.names.insert(all.names.end(), names.begin(), names.end());
   }
   if (kinds.empty()) return all;
-  all.watch = [kinds](const Scenario& scenario) { return std::make_unique<MeasuredMember>(kinds, scenario); };
+  all.watch = [kinds](const Scenario& scenario, const Simulation* alone) {
+    return std::make_unique<MeasuredMember>(kinds, scenario, alone);
+  };
   return all;
 }
 

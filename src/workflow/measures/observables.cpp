@@ -1,10 +1,10 @@
 // output.observables: expressions of the user, averaged over every step; in a sweep three columns each.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/step_mean.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
@@ -16,28 +16,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The values of one expression over a run. The sum keeps what it loses, so that the mean of 10^9 steps has the digits
-/// of the values.
-struct Seen {
-  double initial = 0;
-  double final = 0;
-  double sum = 0;
-  double lost = 0;
-
-  void add(double x) {
-    final = x;
-    const double next = sum + x;
-    lost += std::abs(sum) >= std::abs(x) ? (sum - next) + x : (x - next) + sum;
-    sum = next;
-  }
-};
-
-class ObservablesMeasure final : public Measure, public Observer {
+class ObservablesMeasure final : public Measure, public MeanWatch {
  public:
   explicit ObservablesMeasure(const std::vector<NamedExpression>& observables)
       : observables_(observables), seen_(observables.size()) {}
 
   Observer& observer() override { return *this; }
+  MeanWatch* means() override { return this; }
+  std::span<const NamedExpression> expressions() const override { return observables_; }
+  void take(std::int64_t steps, std::span<const StepMean> means) override {
+    steps_ = steps;
+    seen_.assign(means.begin(), means.end());
+  }
   std::int64_t next_due(std::int64_t step) const override { return step; }
   Verdict observe(const Frame& frame) override {
     if (frame.step <= steps_) return Verdict::go_on;  // a run that goes on shows its last state again
@@ -46,7 +36,7 @@ class ObservablesMeasure final : public Measure, public Observer {
       if (frame.step > 0) {
         seen_[i].add(x);
       } else {
-        seen_[i].initial = seen_[i].final = x;
+        seen_[i].begin(x);
       }
     }
     steps_ = frame.step;
@@ -58,10 +48,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   /// {initial, mean, final} of each; without steps the mean is the initial value.
   std::vector<double> row() const override {
     std::vector<double> all;
-    for (const Seen& seen : seen_) {
-      const double mean = steps_ > 0 ? (seen.sum + seen.lost) / static_cast<double>(steps_) : seen.initial;
-      all.insert(all.end(), {seen.initial, mean, seen.final});
-    }
+    for (const StepMean& seen : seen_) all.insert(all.end(), {seen.initial, seen.mean(steps_), seen.final});
     return all;
   }
   Json summary() const override {
@@ -77,11 +64,11 @@ class ObservablesMeasure final : public Measure, public Observer {
   template <class Archive>
   void fields(Archive& ar) {
     ar(steps_);
-    for (Seen& seen : seen_) ar(seen.initial, seen.final, seen.sum, seen.lost);
+    for (StepMean& seen : seen_) ar(seen);
   }
 
   const std::vector<NamedExpression>& observables_;
-  std::vector<Seen> seen_;
+  std::vector<StepMean> seen_;
   std::int64_t steps_ = -1;  // the last that was seen
 };
 

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "hamflow/core/inverse_cube.hpp"
+#include "hamflow/core/text.hpp"
+#include "hdf5_text.hpp"
+#include "sweep_table.hpp"
+#include "whole_file.hpp"
+
+namespace hamflow {
+
+namespace {
+
+/// With a checksum for each chunk; chunks of 64 kilobytes at most, or of one row.
+Hdf5Handle protected_chunks(int rank, const hsize_t* size, std::size_t bytes) {
+  constexpr hsize_t most_bytes = 1 << 16;
+  const hsize_t width = rank > 1 ? size[1] : 1;
+  const hsize_t chunk[2] = {std::clamp<hsize_t>(most_bytes / (bytes * width), 1, std::max<hsize_t>(size[0], 1)), width};
+  Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_chunk(plist, rank, chunk), "choose the chunks");
+  check_hdf5(H5Pset_fletcher32(plist), "choose a checksum");
+  check_hdf5(H5Pset_obj_track_times(plist, false), "leave out times");  // equal sweeps leave equal files
+  return plist;
+}
+
+void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memory, int rank, const hsize_t* size,
+                   const void* values) {
+  const Hdf5Handle space(H5Screate_simple(rank, size, nullptr), H5Sclose, "make a data space");
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "make a property list");
+  check_hdf5(H5Pset_create_intermediate_group(links, 1), "request intermediate groups");
+  const Hdf5Handle plist = protected_chunks(rank, size, H5Tget_size(stored));
+  const Hdf5Handle dataset(H5Dcreate2(file, name.c_str(), stored, space, links, plist, H5P_DEFAULT), H5Dclose,
+                           "create dataset " + name);
+  check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
+}
+
+void write_column(hid_t file, const SweepColumn& column) {
+  const hsize_t rows = column.rows();
+  const hsize_t size[2] = {rows, column.width};
+  const int rank = column.scalar ? 1 : 2;
+  if (!column.texts.empty()) {
+    std::size_t longest = 1;
+    for (const std::string& text : column.texts) longest = std::max(longest, text.size());
+    std::string all;
+    for (const std::string& text : column.texts) all += text + std::string(longest - text.size(), '\0');
+    const Hdf5Handle type = text_type(longest);
+    write_dataset(file, column.name, type, type, rank, size, all.data());
+  } else if (!column.counts.empty()) {
+    write_dataset(file, column.name, H5T_STD_I64LE, H5T_NATIVE_INT64, rank, size, column.counts.data());
+  } else {
+    write_dataset(file, column.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, column.numbers.data());
+  }
+}
+
+}  // namespace
+
+void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTable& table,
+                    const SweepDescription& description) {
+  silence_hdf5();
+  WholeFile whole(file, next_name(file));
+  Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                "create " + file.string());
+  const Request& request = sweep.common().request;
+  write_attribute(id, "hamflow", description.version);
+  write_attribute(id, "host", description.host);
+  write_attribute(id, "problem", request.problem);
+  write_attribute(id, "arithmetic", request.arithmetic);
+  write_attribute(id, "kernel", request.kernel);
+  if (request.kernel == "fast") {
+    write_attribute(id, "instruction_set", std::string(name(fast_kernel_instruction_set())));
+  }
+  write_text_dataset(id, "scenario", sweep.text());
+  for (const SweepColumn& column : table.members) write_column(id, column);
+  for (const SweepColumn& column : table.section) write_column(id, column);
+  id.close_now("write " + file.string() + " (is the disk full?)");
+  whole.put_in_place();
+}
+
+namespace {
+
+/// A text with commas, quotes or line ends as CSV has it.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string all = "\"";
+  for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return all + "\"";
+}
+
+std::string cell(const SweepColumn& column, std::size_t at) {
+  if (!column.texts.empty()) return quoted(column.texts[at]);
+  if (!column.counts.empty()) return std::to_string(column.counts[at]);
+  return fmt::format("{:.17g}", column.numbers[at]);
+}
+
+/// @throws FileError
+void write_csv(const std::filesystem::path& file, const std::vector<SweepColumn>& columns) {
+  WholeFile whole(file, next_name(file));
+  std::ofstream out(whole.part());
+  if (!out) throw FileError("cannot write " + file.string());
+  std::vector<std::string> labels;
+  for (const SweepColumn& column : columns) {
+    for (std::size_t i = 0; i < column.width; ++i) labels.push_back(quoted(csv_name(column, i)));
+  }
+  out << joined(labels, ",") << '\n';
+  for (std::size_t row = 0; row < columns[0].rows(); ++row) {
+    std::vector<std::string> cells;
+    for (const SweepColumn& column : columns) {
+      for (std::size_t i = 0; i < column.width; ++i) cells.push_back(cell(column, row * column.width + i));
+    }
+    out << joined(cells, ",") << '\n';
+  }
+  out.close();
+  if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
+  whole.put_in_place();
+}
+
+}  // namespace
+
+std::string csv_name(const SweepColumn& column, std::size_t i) {
+  const std::string varied = "varied/", section = "section/";
+  std::string name = column.name;
+  for (const std::string& table : {varied, section}) {
+    if (name.starts_with(table)) name = name.substr(table.size());
+  }
+  return name + (column.scalar ? "" : std::to_string(i + 1));
+}
+
+void write_sweep_csv(const std::filesystem::path& folder, SweepTable table) {
+  // Each column with all its digits, where there are more than those of a double. What was varied stays a number.
+  std::vector<SweepColumn>& columns = table.members;
+  const std::string beyond_double = "digits/";
+  for (SweepColumn& column : columns) {
+    for (const SweepColumn& other : columns) {
+      const bool varied = column.name.starts_with("varied/");
+      if (!varied && other.name == beyond_double + column.name) column.texts = other.texts;
+    }
+  }
+  std::erase_if(columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
+  write_csv(folder / "sweep.csv", columns);
+  if (!table.section.empty()) write_csv(folder / "section.csv", table.section);
+}
+
+}  // namespace hamflow

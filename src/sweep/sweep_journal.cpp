@@ -1,0 +1,118 @@
+#include "sweep_journal.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "hamflow/core/hash.hpp"
+#include "whole_file.hpp"
+
+namespace hamflow {
+
+namespace {
+
+// The file: these words, then parts. A part is its length, its bytes, and the hash of both: the head, then records.
+constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP", which also tells the order of bytes
+constexpr std::uint64_t format = 1;
+constexpr std::size_t word = sizeof(std::uint64_t);
+
+template <class... T>
+std::vector<std::byte> part_of(const T&... fields) {
+  Writer content;
+  content(fields...);
+  Writer part;
+  part(content.bytes());  // a list of bytes begins with its length
+  part(fnv1a(part.bytes()));
+  return part.take();
+}
+
+/// The content of the part that begins there, which is then behind it; empty where it is not whole.
+std::span<const std::byte> next_part(std::span<const std::byte>& left) {
+  std::uint64_t size = 0;
+  if (left.size() < 2 * word) return {};
+  Reader(left.first(word))(size);
+  if (size > left.size() - 2 * word) return {};
+  std::uint64_t sum = 0;
+  Reader(left.subspan(word + size, word))(sum);
+  if (sum != fnv1a(left.first(word + size))) return {};
+  const auto content = left.subspan(word, size);
+  left = left.subspan(size + 2 * word);
+  return content;
+}
+
+}  // namespace
+
+SweepPast read_journal(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FileError("cannot read " + file.string());
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::span<const std::byte> left = std::as_bytes(std::span(text));
+  const auto damaged = [&](const std::string& how) {
+    return FileError(file.string() + " " + how + "; give --out another folder, or --force to begin anew");
+  };
+  SweepPast past;
+  std::uint64_t found[2] = {};
+  if (left.size() < sizeof found) throw damaged("is damaged: it is too short");
+  Reader(left.first(sizeof found))(found);
+  if (found[0] != magic) throw damaged("is none of hamflow on a machine like this, or damaged");
+  if (found[1] != format) {
+    throw damaged("has format " + std::to_string(found[1]) + ", this hamflow knows " + std::to_string(format));
+  }
+  left = left.subspan(sizeof found);
+  const auto head = next_part(left);
+  if (head.empty()) throw damaged("is damaged: its head is not whole");
+  try {
+    Reader ar(head);
+    ar(past.head);
+    ar.finish();
+    while (!left.empty()) {
+      const auto record = next_part(left);
+      if (record.empty()) break;
+      std::uint64_t member = 0;
+      FinishedMember finished;
+      Reader fields(record);
+      fields(member, finished);
+      fields.finish();
+      past.members.insert_or_assign(member, std::move(finished));
+    }
+  } catch (const Error& error) {
+    throw damaged(std::string("is damaged: ") + error.what());
+  }
+  past.dropped_bytes = left.size();
+  return past;
+}
+
+SweepJournal::SweepJournal(const std::filesystem::path& file, const SweepPast& past) : file_(file) {
+  Writer all;
+  all(magic, format);
+  const auto add = [&all](const std::vector<std::byte>& part) { all.raw(part.data(), part.size()); };
+  add(part_of(past.head));
+  for (const auto& [member, finished] : past.members) add(part_of(member, finished));
+  WholeFile whole(file, next_name(file));
+  write_whole(whole, all.bytes());
+  descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor_ < 0) throw FileError("cannot open " + file.string() + ": " + std::strerror(errno));
+}
+
+SweepJournal::~SweepJournal() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void SweepJournal::append(std::uint64_t member, const FinishedMember& finished) {
+  const std::vector<std::byte> part = part_of(member, finished);
+  std::span<const std::byte> left = part;
+  while (!left.empty()) {
+    const ssize_t count = write(descriptor_, left.data(), left.size());
+    if (count < 0 && errno != EINTR) {
+      throw FileError("cannot write " + file_.string() + ": " + std::strerror(errno) +
+                      "; the same command with --resume goes on with the members that are not done");
+    }
+    if (count > 0) left = left.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace hamflow

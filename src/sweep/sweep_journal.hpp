@@ -1,0 +1,66 @@
+// members.bin: what a sweep goes on from. A head that says which sweep it is, then a record for each member that is
+// finished, appended when it is. A kill, a full disk or damage costs records at the end: their members are run again.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sweep.hpp"
+
+namespace hamflow {
+
+/// Which sweep it is: what has to be the same for it to go on.
+struct SweepHead {
+  std::string version;            // of hamflow
+  std::string instruction_set;    // of kernel = "fast"
+  std::vector<std::string> keys;  // settings of the scenario that the members have in common
+  std::vector<std::string> values;
+  std::vector<std::string> varied;  // PATH=VALUES as they were typed
+  bool in_step = false;
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(version, instruction_set, keys, values, varied, in_step);
+  }
+};
+
+/// A member that is finished.
+struct FinishedMember {
+  std::int64_t steps = 0;  // that it was to take; it took fewer where it failed or an event ended it
+  double seconds = 0;      // of the sweep until then, all its parts together
+  MemberRow row;
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(steps, seconds, row);
+  }
+};
+
+struct SweepPast {
+  SweepHead head;
+  std::map<std::uint64_t, FinishedMember> members;
+  std::uint64_t dropped_bytes = 0;  // at the end, half written or damaged
+};
+
+/// @throws FileError when it cannot be read, or its head is damaged or of another format
+SweepPast read_journal(const std::filesystem::path& file);
+
+/// Appends records. A record is in the hands of the system once append() returns.
+class SweepJournal {
+ public:
+  /// A file of its own in the place of what was there, with what is known of members.   @throws FileError
+  SweepJournal(const std::filesystem::path& file, const SweepPast& past);
+  ~SweepJournal();
+  SweepJournal(const SweepJournal&) = delete;
+  SweepJournal& operator=(const SweepJournal&) = delete;
+  /// @throws FileError when it cannot be written, e.g. because the disk is full
+  void append(std::uint64_t member, const FinishedMember& finished);
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+}  // namespace hamflow

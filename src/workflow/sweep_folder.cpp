@@ -1,0 +1,146 @@
+#include "sweep_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "hamflow/core/inverse_cube.hpp"
+#include "resume.hpp"
+#include "run_description.hpp"
+#include "sweep_table.hpp"
+
+namespace hamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* journal_name = "members.bin";
+
+SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
+  const Checkpoint of_scenario = beginning_of(sweep.common(), "");
+  return {.version = of_scenario.version,
+          .instruction_set = of_scenario.instruction_set,
+          .keys = of_scenario.keys,
+          .values = of_scenario.values,
+          .varied = request.varied,
+          .in_step = request.zip};
+}
+
+/// What differs from the sweep that began, a line each.
+std::vector<std::string> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
+  Checkpoint began;
+  began.version = before.version;
+  began.instruction_set = before.instruction_set;
+  began.keys = before.keys;
+  began.values = before.values;
+  std::vector<std::string> all;
+  for (const Complaint& complaint : differences(sweep.common(), began)) all.push_back(complaint.text());
+  const std::string what_to_do = ", as when the sweep began; give --out another folder, or --force to begin anew";
+  for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
+    const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";
+    const std::string allowed = i < before.varied.size() ? before.varied[i] : "nothing";
+    if (found == allowed) continue;
+    all.push_back("--vary: error: found " + found + "; allowed with --resume " + allowed + what_to_do);
+  }
+  if (now.in_step != before.in_step) {
+    const auto name = [](bool in_step) { return in_step ? "--zip" : "no --zip"; };
+    all.push_back(std::string("--zip: error: found ") + name(now.in_step) + "; allowed with --resume " +
+                  name(before.in_step) + what_to_do);
+  }
+  return all;
+}
+
+}  // namespace
+
+SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path folder, Existing existing)
+    : sweep_(sweep), folder_(std::move(folder)) {
+  SweepPast past;
+  past.head = head_of(sweep, request);
+  const bool goes_on = existing == Existing::resume && fs::exists(folder_);
+  if (goes_on) lock_.emplace(folder_);
+  if (goes_on && fs::exists(folder_ / journal_name)) {
+    SweepPast found = read_journal(folder_ / journal_name);
+    wrong_ = differences_of(sweep, past.head, found.head);
+    if (!wrong_.empty()) return;
+    past.members = std::move(found.members);
+    restore(past);
+    fs::remove(folder_ / "summary.json");  // of the part before
+  } else {
+    if (existing == Existing::resume) {
+      if (const std::string left = left_in(folder_, FolderOf::sweep); !left.empty()) {
+        throw FileError(
+            fmt::format("there is no {} in {} to go on from, but {}; give --out another folder, or --force "
+                        "to replace what is there",
+                        journal_name, folder_.string(), left));
+      }
+      notes_.push_back(fmt::format("there is no {} in {} to go on from: the sweep starts from the beginning",
+                                   journal_name, folder_.string()));
+    }
+    lock_.reset();
+    make_folder(folder_, FolderOf::sweep, existing != Existing::refuse);
+    lock_.emplace(folder_);
+  }
+  journal_.emplace(folder_ / journal_name, past);
+}
+
+/// Members that are not finished with as many steps as they are to take now are run again, from their beginning.
+void SweepFolder::restore(SweepPast& past) {
+  std::size_t shorter = 0;
+  for (const auto& [member, finished] : past.members) {
+    seconds_before_ = std::max(seconds_before_, finished.seconds);
+    if (member >= sweep_.members()) throw FileError(folder_.string() + ": members.bin is of another sweep");
+    if (finished.steps != sweep_.steps_of(member)) ++shorter;
+  }
+  std::erase_if(past.members, [&](const auto& each) { return each.second.steps != sweep_.steps_of(each.first); });
+  for (const auto& [member, finished] : past.members) sweep_.restore(member, finished.row);
+  if (shorter > 0) {
+    notes_.push_back(fmt::format("{} members were finished with another number of steps: they are run again", shorter));
+  }
+  if (const std::size_t left = sweep_.members_left(); left == 0) {
+    notes_.emplace_back("the sweep is complete: there is nothing to do");
+  } else {
+    notes_.push_back(fmt::format("{} of {} members are finished", sweep_.members() - left, sweep_.members()));
+  }
+}
+
+double SweepFolder::seconds() const {
+  return seconds_before_ + std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+void SweepFolder::keep(std::size_t member) {
+  journal_->append(member, {sweep_.steps_of(member), seconds(), sweep_.rows()[member]});
+  is_behind_ = true;
+}
+
+void SweepFolder::save_if_due() {
+  const Clock::time_point now = Clock::now();
+  if (failed_ || !is_behind_ || now - last_ < pause_) return;
+  is_behind_ = false;
+  try {
+    auto hold = sweep_.hold_rows();
+    const SweepTable table = table_of(sweep_);
+    hold.unlock();
+    write_table(table);
+  } catch (const FileError&) {
+    failed_ = true;
+  }
+  last_ = Clock::now();
+  pause_ = std::max<Clock::duration>(std::chrono::milliseconds(250), 20 * (last_ - now));
+}
+
+void SweepFolder::write_table(const SweepTable& table) const {
+  const std::vector<std::string>& formats = sweep_.common().formats;
+  const auto is_wanted = [&](const char* format) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  };
+  if (is_wanted("h5")) write_sweep_h5(folder_ / "sweep.h5", sweep_, table, {HAMFLOW_VERSION, host_name()});
+  if (is_wanted("csv")) write_sweep_csv(folder_, table);
+}
+
+void SweepFolder::save(const std::string& summary) {
+  write_table(table_of(sweep_));
+  write_text(folder_ / "summary.json", summary);
+}
+
+}  // namespace hamflow
