@@ -85,8 +85,12 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
         "density of steps is a part of the state");
   }
   const ProblemEntry& entry = find_problem(region.problem, region.variant);
-  const MethodSpec fixed = measurable(method);
-  auto map = entry.step_map(complete(entry.info, region.parameters), fixed, region.centre.size() / 2);
+  const Request request{.problem = region.problem,
+                        .variant = region.variant,
+                        .parameters = complete(entry.info, region.parameters),
+                        .start = {},
+                        .method = measurable(method)};
+  auto map = entry.step_map(request, region.centre.size() / 2);
   if (!map) throw Error(refusal(method, entry));
   return map;
 }
