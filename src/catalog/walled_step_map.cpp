@@ -27,13 +27,12 @@ ErasedProblem problem_behind(const ErasedProblem& problem, const Request& reques
   return {behind(problem.in_double), behind(problem.in_long), behind(problem.in_quad)};
 }
 
-/// What a bounce leaves of the claims of a method. A rejected step is a reflection, of whatever length it was; the time
-/// of a located bounce depends on the state; mirrors and rejections are wrong by the first power of the step.
+/// What a bounce leaves of the claims of a method. The time of a located bounce depends on the state, a rejection turns
+/// a momentum round and leaves its coordinate: neither is symplectic. Mirrors and rejections are wrong by the first
+/// power of the step.
 MethodInfo claims_behind(const Walls& walls, MethodInfo claims) {
-  if (walls.rule == WallRule::event) {
-    claims.symplectic = false;
-    return claims;
-  }
+  if (walls.rule != WallRule::mirror) claims.symplectic = false;
+  if (walls.rule == WallRule::event) return claims;
   claims.order = std::min(claims.order, 1);
   claims.energy_conserving = Conservation::no;
   if (walls.rule == WallRule::reject) claims.symmetric = claims.reversible = claims.weakly_reversible = false;
