@@ -31,6 +31,7 @@ ErasedProblem problem_behind(const ErasedProblem& problem, const Request& reques
 /// a momentum round and leaves its coordinate: neither is symplectic. Mirrors and rejections are wrong by the first
 /// power of the step.
 MethodInfo claims_behind(const Walls& walls, MethodInfo claims) {
+  claims.name += " + " + wall_rules()[static_cast<std::size_t>(walls.rule)];
   if (walls.rule != WallRule::mirror) claims.symplectic = false;
   if (walls.rule == WallRule::event) return claims;
   claims.order = std::min(claims.order, 1);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/run/walls.hpp"
 #include "hamflow/verify/counter_random.hpp"
 #include "structure.hpp"
 
@@ -66,6 +67,18 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
     region.centre.push_back((texts.empty() ? 0.5 : evaluate_number<double>(texts[at])) +
                             0.1 * counter_uniform(seed + 1, i));
   }
+  return region;
+}
+
+std::optional<Region> region_at_walls(const std::string& problem) {
+  const ProblemEntry& entry = usual_problem(problem);
+  if (entry.info.region_at_walls.centre.empty()) return std::nullopt;
+  Region region{entry.info.region_at_walls, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
+  Walls walls;
+  for (const FixedWall& wall : entry.info.walls) {
+    walls.intervals.push_back({entry.info.coordinates.at(wall.coordinate), wall.coordinate, wall.min, wall.max});
+  }
+  put_among(walls, region.variant);
   return region;
 }
 
@@ -135,6 +148,20 @@ PropertyRow measure_method(const MethodSpec& method, std::span<const Region> reg
   MethodCertificate certificate = certificate_of(method, regions, on);
   PropertyRow row = judge(claims, std::move(on));
   row.certificate = std::move(certificate);
+  return row;
+}
+
+PropertyRow measure_at_walls(const MethodSpec& method, const Region& region) {
+  const auto map = step_map_on(region, method);
+  Measurement found;
+  found.problem = region.problem + ", at a wall";
+  found.order = measure_order(*map, region);
+  measure_structure(*map, region, found);
+  PropertyRow row = judge(map->claims(), {found});
+  std::erase_if(row.cells, [](const PropertyCell& cell) {
+    const std::vector<std::string> others{"explicit", "energy conserving", "forces per step", "Newton corrections"};
+    return std::find(others.begin(), others.end(), cell.property) != others.end();
+  });
   return row;
 }
 

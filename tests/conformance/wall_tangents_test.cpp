@@ -220,5 +220,17 @@ TEST(Walls, ASaltationMatrixThatIsLeftOutIsCaught) {
   EXPECT_GE(apart(mutant.jacobian(at_the_wall, 0.02), exact), 0x1p40);
 }
 
+/// The second region of the T-tube: the reference flow locates its bounces, too.
+TEST(Walls, AStepThroughAWallIsWhatIsClaimed) {
+  const auto region = region_at_walls("t-tube");
+  ASSERT_TRUE(region);
+  const PropertyRow row = measure_at_walls(parse_method("stv4"), *region);
+  EXPECT_TRUE(row.agrees()) << row.differing();
+  EXPECT_EQ(row["order"].claimed, "4");
+  EXPECT_EQ(row["symplectic"].measured, "no");
+  EXPECT_EQ(row["Jacobian is the step's"].measured, "yes");
+  EXPECT_FALSE(region_at_walls("pendulum"));
+}
+
 }  // namespace
 }  // namespace hamflow::test
