@@ -183,9 +183,8 @@ inline ProblemEntry joined(const TypedEntry& typed, const ErasedEntry& erased) {
   entry.has_pairwise_forces = typed.has_pairwise_forces;
   entry.simulate_erased = erased.simulate;
   entry.simulate_member = erased.simulate_member;
-  entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Texts& parameters, const MethodSpec& method,
-                                                                     std::size_t size) {
-    return accepts(method) ? make(parameters, method, size) : nullptr;
+  entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Request& request, std::size_t size) {
+    return accepts(request.method) ? make(request, size) : nullptr;
   };
   return entry;
 }

@@ -251,6 +251,7 @@ ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, c
   template ErasedFunctions<R> functions_behind_walls<R>(const ErasedFunctions<R>&, const Request&, const Walls&, \
                                                         const std::vector<WallSide<R>>&);
 HAMFLOW_BEHIND_WALLS(double)
+HAMFLOW_BEHIND_WALLS(long double)
 HAMFLOW_BEHIND_WALLS(DoubleDouble)
 HAMFLOW_BEHIND_WALLS(Quad)
 HAMFLOW_BEHIND_WALLS(Mp)
