@@ -16,6 +16,20 @@ struct ColumnText {
   std::string unit{};
 };
 
+/// A dataset of numbers, and what it means.
+struct NamedColumn {
+  const char* name;
+  const char* meaning;
+};
+
+/// Those of /solver that `method.diagnostics` adds.
+inline constexpr NamedColumn diagnostic_columns[] = {
+    {"solver/iterations", "of the last step; NaN at the start"},
+    {"solver/residual", "of the last step"},
+    {"solver/condition_tangent", "of the tangent matrix of the last step"},
+    {"solver/determinant_tangent", "of the tangent matrix of the last step"},
+    {"solver/condition_inverse_mass", "of the inverse mass matrix at the last step"}};
+
 class Column {
  public:
   /// @param type of a number: H5T_IEEE_F64LE, H5T_STD_I64LE or digits_type()

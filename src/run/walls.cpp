@@ -7,21 +7,6 @@
 
 namespace hamflow {
 
-namespace {
-/// The parts of a text between separators.
-std::vector<std::string> parts_of(const std::string& text, char separator) {
-  std::vector<std::string> parts{""};
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-}  // namespace
-
 const std::vector<std::string>& wall_rules() {
   static const std::vector<std::string> names{"event", "mirror", "reject", "soft"};
   return names;
@@ -64,8 +49,8 @@ std::optional<Walls> walls_among(const std::map<std::string, std::string>& choic
   const auto given = choices.find(wall_keys().walls.name);
   if (given == choices.end()) return std::nullopt;
   Walls walls;
-  for (const std::string& text : parts_of(given->second, ';')) {
-    const std::vector<std::string> parts = parts_of(text, ':');
+  for (const std::string& text : split_list(given->second)) {
+    const std::vector<std::string> parts = split_list(text.substr(1, text.size() - 2));  // without its brackets
     walls.intervals.push_back({parts.at(0), std::stoul(parts.at(1)), parts.at(2), parts.at(3)});
   }
   const auto rule = choices.find(wall_keys().wall_rule.name);
@@ -85,7 +70,8 @@ std::optional<Walls> walls_among(const std::map<std::string, std::string>& choic
 void put_among(const Walls& walls, std::map<std::string, std::string>& choices) {
   std::string text;
   for (const Walls::Interval& i : walls.intervals) {
-    text += (text.empty() ? "" : ";") + i.coordinate + ":" + std::to_string(i.index) + ":" + i.min + ":" + i.max;
+    text += (text.empty() ? "[" : ", [") + i.coordinate + ", " + std::to_string(i.index) + ", " + i.min + ", " + i.max +
+            "]";
   }
   choices[wall_keys().walls.name] = text;
   choices[wall_keys().wall_rule.name] = wall_rules()[static_cast<std::size_t>(walls.rule)];

@@ -9,7 +9,6 @@
 #include <iterator>
 
 #include "hamflow/core/hash.hpp"
-#include "whole_file.hpp"
 
 namespace hamflow {
 

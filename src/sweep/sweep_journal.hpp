@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sweep.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
@@ -57,6 +58,8 @@ class SweepJournal {
   SweepJournal& operator=(const SweepJournal&) = delete;
   /// @throws FileError when it cannot be written, e.g. because the disk is full
   void append(std::uint64_t member, const FinishedMember& finished);
+  /// Until then a crash of the machine, not of the sweep, can lose what was appended.   @throws FileError
+  void force() const { force_to_disk(file_); }
 
  private:
   std::filesystem::path file_;

@@ -130,6 +130,7 @@ void SweepFolder::save_if_due() {
 }
 
 void SweepFolder::write_table(const SweepTable& table) const {
+  journal_->force();
   const std::vector<std::string>& formats = sweep_.common().formats;
   const auto is_wanted = [&](const char* format) {
     return std::find(formats.begin(), formats.end(), format) != formats.end();

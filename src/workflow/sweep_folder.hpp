@@ -51,7 +51,7 @@ class SweepFolder {
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_ = begin_;
   Clock::duration pause_ = std::chrono::milliseconds(250);
-  std::atomic<bool> is_behind_{false};  // a member was finished since the table was written
+  std::atomic<bool> is_behind_{true};  // a member was finished since the table was written, or there is none yet
   bool failed_ = false;
 };
 

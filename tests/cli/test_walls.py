@@ -139,8 +139,10 @@ class Walls(CommandCase):
         self.assertEqual(found["events"]["user:event2"], 1)
         again = json.loads(self.hamflow("run", "tube.toml", "--out", "e", "--resume", "--json", "--set", events).stdout)
         self.assertEqual(again["steps"], found["steps"])
-        self.assertIn("found events", self.hamflow("sweep", "tube.toml", "--vary", "problem.eps=1,2", "--set", events,
-                                                   "--out", "none", status=2).stderr)
+        done = self.hamflow("sweep", "tube.toml", "--vary", "problem.eps=-0.6,2", "--set", events, "--out", "none", "--json")
+        row = json.loads(done.stdout)["rows"][0]
+        for key in ("steps", "events", "stopped_by", "final"):
+            self.assertEqual(row[key], found[key])
 
     def test_failures(self):
         soft = self.summary(self.box('[{ coordinate = "q1", min = -0.5, max = 0.5 }]', "stv4", 'wall_rule = "soft"',

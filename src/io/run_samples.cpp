@@ -1,0 +1,182 @@
+// What run.h5 holds, read again: also while it grows, and after a crash.
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include "hdf5_text.hpp"
+#include "run_column.hpp"
+#include "run_file.hpp"
+
+namespace hamflow {
+
+namespace {
+/// A dataset of rows of `width` numbers, open to be read.
+struct OpenColumn {
+  OpenColumn(hid_t file, const char* its_name)
+      : name(its_name), dataset(H5Dopen2(file, its_name, H5P_DEFAULT), H5Dclose, "open dataset " + name) {
+    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
+    if (H5Sget_simple_extent_ndims(space) > 2) throw FileError("HDF5: dataset " + name + " has too many dimensions");
+    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
+  }
+  std::size_t rows() const { return size[0]; }
+  std::size_t width() const { return size[1]; }
+  /// A chunk that its writer is writing at this moment has another checksum: a moment later it is whole.
+  void read(hid_t type, void* values) const {
+    for (int attempt = 1; attempt < 3; ++attempt) {
+      if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0) return;
+    }
+    check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read " + name);
+  }
+
+  std::string name;
+  Hdf5Handle dataset;
+  hsize_t size[2] = {0, 1};
+};
+
+/// Row by row.
+std::vector<double> read_column(hid_t file, const char* name, std::size_t& width) {
+  const OpenColumn column(file, name);
+  width = column.width();
+  std::vector<double> values(column.rows() * width);
+  if (!values.empty()) column.read(H5T_NATIVE_DOUBLE, values.data());
+  return values;
+}
+
+std::vector<std::string> read_texts(hid_t file, const char* name, std::size_t& width) {
+  const OpenColumn column(file, name);
+  width = column.width();
+  const Hdf5Handle type(H5Dget_type(column.dataset), H5Tclose, "read the type of " + column.name);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
+    throw FileError("HDF5: dataset " + column.name + " holds no texts of one length");
+  }
+  const std::size_t length = H5Tget_size(type);
+  std::string all(column.rows() * width * length, '\0');
+  if (!all.empty()) column.read(type, all.data());
+  std::vector<std::string> texts;
+  for (std::size_t at = 0; at < all.size(); at += length) {
+    const std::string_view text = std::string_view(all).substr(at, length);
+    texts.emplace_back(text.substr(0, text.find('\0')));
+  }
+  return texts;
+}
+
+template <class T>
+std::vector<std::vector<T>> by_coordinate(const std::vector<T>& rows, std::size_t width, std::size_t count) {
+  std::vector<std::vector<T>> out(width, std::vector<T>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < width; ++i) out[i][k] = rows[k * width + i];
+  }
+  return out;
+}
+/// The names in a group; none where it is not there.
+std::vector<std::string> names_in(hid_t file, const char* group_name) {
+  if (H5Lexists(file, group_name, H5P_DEFAULT) <= 0) return {};
+  const Hdf5Handle group(H5Gopen2(file, group_name, H5P_DEFAULT), H5Gclose, "open group " + std::string(group_name));
+  H5G_info_t info{};
+  check_hdf5(H5Gget_info(group, &info), "count the objects of " + std::string(group_name));
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    char name[256] = "";
+    const bool read =
+        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) >= 0;
+    check_hdf5(read ? 0 : -1, "read a name in " + std::string(group_name));
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+RunSamples read_samples(const std::filesystem::path& path) {
+  silence_hdf5();
+  const Hdf5Handle file = open_to_read(path);
+  RunSamples run;
+  run.description.scenario = read_text_dataset(file, "scenario");
+  run.description.version = read_attribute(file, "hamflow");
+  run.description.host = read_attribute(file, "host");
+  run.description.problem = read_attribute(file, "problem");
+  run.description.method = read_attribute(file, "method");
+  run.description.arithmetic = read_attribute(file, "arithmetic");
+  std::size_t width = 0;
+  run.t = read_column(file, "t", width);
+  run.energy = read_column(file, "energy", width);
+  std::size_t q_width = 0;
+  std::size_t p_width = 0;
+  const std::vector<double> q = read_column(file, "q", q_width);
+  const std::vector<double> p = read_column(file, "p", p_width);
+  std::size_t one = 0;
+  for (const auto& [name, meaning] : diagnostic_columns) {
+    if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
+    run.diagnostics.emplace_back(name + std::string("solver/").size(), read_column(file, name, one));
+  }
+  for (const std::string& name : names_in(file, "observables")) {
+    run.observables.emplace_back(name, read_column(file, ("observables/" + name).c_str(), one));
+  }
+  // After a crash between two flushes the columns may differ in length: what all of them have is complete.
+  std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
+  for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
+  for (const auto& column : run.observables) count = std::min(count, column.second.size());
+  for (auto* columns : {&run.diagnostics, &run.observables}) {
+    for (auto& column : *columns) column.second.resize(count);
+  }
+  run.t.resize(count);
+  run.energy.resize(count);
+  run.q = by_coordinate(q, q_width, count);
+  run.p = by_coordinate(p, p_width, count);
+  run.description.dimension = q_width;
+  if (H5Lexists(file, "section", H5P_DEFAULT) > 0) {
+    run.section_t = read_column(file, "section/t", one);
+    const std::vector<double> section_q = read_column(file, "section/q", one);
+    const std::vector<double> section_p = read_column(file, "section/p", one);
+    const std::size_t points = std::min({run.section_t.size(), section_q.size() / q_width, section_p.size() / p_width});
+    run.section_t.resize(points);
+    run.section_q = by_coordinate(section_q, q_width, points);
+    run.section_p = by_coordinate(section_p, p_width, points);
+    run.description.section = true;
+  }
+  return run;
+}
+
+RunDigits read_digits(const std::filesystem::path& path) {
+  silence_hdf5();
+  const Hdf5Handle file = open_to_read(path);
+  RunDigits run;
+  if (H5Lexists(file, "digits", H5P_DEFAULT) <= 0) return run;
+  std::size_t one = 0;
+  std::size_t width = 0;
+  run.t = read_texts(file, "digits/t", one);
+  run.energy = read_texts(file, "digits/energy", one);
+  const std::vector<std::string> q = read_texts(file, "digits/q", width);
+  const std::vector<std::string> p = read_texts(file, "digits/p", width);
+  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / width, p.size() / width});
+  run.t.resize(count);
+  run.energy.resize(count);
+  run.q = by_coordinate(q, width, count);
+  run.p = by_coordinate(p, width, count);
+  return run;
+}
+
+/// What goes wrong while a file is read names the file.
+template <class Read>
+auto naming(const std::filesystem::path& path, const Read& read) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) {
+    const bool of_sweep = std::filesystem::exists(path.parent_path() / "sweep.h5", unknown) && path.has_parent_path();
+    throw FileError(path.string() + " cannot be read: there is no such file" +
+                    (of_sweep ? "; this is the folder of a sweep: hamflow sweep --figure draws it" : ""));
+  }
+  try {
+    return read(path);
+  } catch (const FileError& error) {
+    throw FileError(path.string() + " cannot be read, damaged or no run of hamflow: " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
+  } catch (const std::length_error&) {
+    throw FileError(path.string() + " cannot be read: it claims a size that cannot be");
+  }
+}
+
+}  // namespace
+
+RunSamples read_run_file(const std::filesystem::path& path) { return naming(path, read_samples); }
+RunDigits read_run_digits(const std::filesystem::path& path) { return naming(path, read_digits); }
+
+}  // namespace hamflow

@@ -1,0 +1,39 @@
+// The same work on several threads.
+#pragma once
+
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace hamflow {
+
+/// An exception of a thread is passed on to the caller. Where the system starts fewer threads, these do the work: it
+/// has the same bits.   @return the number of threads, the caller included
+template <class Work>
+int on_threads(int threads, const Work& work) {
+  std::exception_ptr trouble;
+  std::mutex mutex;
+  const auto guarded = [&] {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!trouble) trouble = std::current_exception();
+    }
+  };
+  int started = 1;
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (; started < threads; ++started) others.emplace_back(guarded);
+    } catch (const std::system_error&) {  // NOLINT: told by the number
+    }
+    guarded();
+  }
+  if (trouble) std::rethrow_exception(trouble);
+  return started;
+}
+
+}  // namespace hamflow

@@ -1,0 +1,164 @@
+// The members of a sweep: read, checked, and put into groups that can share a block.
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "memory.hpp"
+#include "on_threads.hpp"
+#include "sweep.hpp"
+
+namespace hamflow {
+
+Sweep::Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets, Varied varied,
+             SweepOptions options)
+    : varied_(std::move(varied)), options_(std::move(options)), raw_text_(text), name_(name), sets_(sets) {
+  MemberReader reader(varied_, text, name, sets);
+  text_ = reader.family().text();
+  for (const Complaint& complaint : reader.family().complaints()) complaints_.push_back(complaint.text());
+  if (!complaints_.empty()) return;
+  const std::size_t members = varied_.members();
+  if (const std::string wrong = refused_members(members, coordinates_of_first(reader), available_memory());
+      !wrong.empty()) {
+    complaints_.push_back("--vary: error: " + wrong);
+    return;
+  }
+  rows_.resize(members);
+  starts_.resize(rows_.size());
+  steps_.resize(rows_.size());
+  threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
+  threads_ = std::max(threads_, 1);
+  read_members(name);
+  common_.settings = reader.family().settings();
+  if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
+}
+
+/// 0 where it cannot be read, which is told later.
+std::size_t Sweep::coordinates_of_first(MemberReader& reader) const {
+  const Reading reading = reader.read(0);
+  const std::optional<Scenario>& any = reading.scenario ? reading.scenario : reading.startless;
+  return any ? any->start_q.size() : 0;
+}
+
+void Sweep::read_members(const std::string& name) {
+  std::atomic<std::size_t> next{0};
+  constexpr std::size_t batch = 64;
+  const auto work = [&] {
+    MemberReader reader(varied_, raw_text_, name, sets_);
+    for (std::size_t begin = next.fetch_add(batch); begin < rows_.size(); begin = next.fetch_add(batch)) {
+      for (std::size_t member = begin; member < std::min(begin + batch, rows_.size()); ++member) {
+        const Reading reading = reader.read(member);
+        if (reading.scenario) {
+          add(member, *reading.scenario);
+        } else if (reading.startless) {
+          leave_without_start(member, reading);
+        } else {
+          add_complaints(member, reading, reader.paths());
+        }
+      }
+    }
+  };
+  (void)on_threads(rows_.size() > 4 * batch ? threads_ : 1, work);
+  if (!found_.empty()) {
+    report(found_);
+    return;
+  }
+  for (auto& [key, group] : groups_) std::sort(group.members.begin(), group.members.end());
+}
+
+void Sweep::add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths) {
+  const std::lock_guard lock(mutex_);
+  for (const Complaint& complaint : reading.complaints) {
+    std::string text = varied_.as_typed(complaint.text(), member);
+    const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+      return path.starts_with(complaint.key) || complaint.key.starts_with(path);
+    });
+    if (complaint.line == 0 && of_vary) text = "--vary" + text.substr(std::string("--set").size());
+    found_[text].push_back(member);
+  }
+}
+
+void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
+  const std::lock_guard lock(mutex_);
+  take_as_common(member, *reading.startless);
+  rows_[member].no_start = true;
+  rows_[member].message = reading.no_start;
+}
+
+void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found) {
+  constexpr std::size_t most = 10;
+  std::vector<std::pair<std::size_t, std::string>> lines;
+  for (const auto& [text, members] : found) {
+    const std::size_t first = *std::min_element(members.begin(), members.end());
+    const bool all = members.size() == rows_.size();
+    lines.emplace_back(first, all ? text
+                                  : text + " (" + varied_.described(first) +
+                                        (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") +
+                                        ")");
+  }
+  std::sort(lines.begin(), lines.end());
+  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) complaints_.push_back(lines[i].second);
+  if (lines.size() > most) {
+    complaints_.push_back("error: and " + std::to_string(lines.size() - most) + " more of this kind");
+  }
+}
+
+/// Rows of one table have the same columns. What the first member with a start has, all have.
+void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
+  const bool has_start = !scenario.start_p.empty() && scenario.start_p.front() == scenario.start_p.front();
+  const bool alike = common_.problem == nullptr || (scenario.start_q.size() == common_.start_q.size() &&
+                                                    scenario.problem->info.name == common_.problem->info.name);
+  if (!alike) {
+    found_
+        ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
+         "that is one problem of one size"]
+            .push_back(member);
+  }
+  const bool better = has_start == common_has_start_ ? member < common_member_ : has_start;
+  if (common_.problem != nullptr && !better) return;
+  common_ = scenario;
+  common_member_ = member;
+  common_has_start_ = has_start;
+}
+
+void Sweep::add(std::size_t member, const Scenario& scenario) {
+  const Request& request = scenario.request;
+  const Parameters<double> parameters(request.parameters);
+  ParameterShape shape;
+  MemberStart start{scenario.start_q, scenario.start_p, {}, evaluate_number<double>(request.dt)};
+  std::string key = request.problem + '\n' + request.method.name + '\n' + request.arithmetic + '\n' + request.kernel;
+  for (const auto& [option, value] : request.method.options) key += '\n' + option + '=' + value;
+  for (const auto& [choice, value] : request.variant) key += '\n' + choice + '=' + value;
+  for (const ParameterInfo& info : scenario.problem->info.parameters) {
+    if (!parameters.has(info.name)) continue;
+    const std::vector<double>& numbers = parameters.list(info.name);
+    shape.emplace_back(info.name, numbers.size());
+    start.parameters.insert(start.parameters.end(), numbers.begin(), numbers.end());
+    key += '\n' + info.name + ' ' + std::to_string(numbers.size());
+  }
+  key += '\n' + std::to_string(scenario.steps);
+
+  const std::lock_guard lock(mutex_);
+  take_as_common(member, scenario);
+  auto [at, is_new] = groups_.try_emplace(key);
+  Group& group = at->second;
+  if (is_new) {
+    group.request = request;
+    group.shape = shape;
+    group.steps = scenario.steps;
+    const auto block = make_ensemble_block(request, options_.lanes);
+    const bool alone = block == nullptr || !scenario.events.empty();  // events are sought on a simulation
+    group.lanes = alone || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
+  }
+  group.members.push_back(member);
+  steps_[member] = scenario.steps;
+  total_steps_ += scenario.steps;
+  beyond_double_ = beyond_double_ || digits_beyond_double(request.arithmetic) > 0;
+  halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
+  if (group.lanes > 0) {
+    ++in_lanes_;
+    lane_count_ = group.lanes;
+    starts_[member] = std::move(start);
+  }
+}
+
+}  // namespace hamflow
