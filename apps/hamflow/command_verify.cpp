@@ -50,9 +50,9 @@ std::vector<PropertyRow> measure_all(const std::vector<Job>& jobs, const std::ve
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      const auto& [spec, at_walls] = jobs[i];
-      measured[i] = at_walls ? measure_at_walls(spec, *at_walls)
-                             : measure_method(spec, given.empty() ? default_regions(spec) : given);
+      const auto& [method, at_walls] = jobs[i];
+      measured[i] = at_walls ? measure_at_walls(method, *at_walls)
+                             : measure_method(method, given.empty() ? default_regions(method) : given);
     }
   };
   {

@@ -241,9 +241,12 @@ class WalledStepMap final : public StepMap {
   std::optional<State<double>> rate_of(const State<double>& z, double length, double h) const {
     Request request = in_quad(request_);
     request.variant = without_walls(request.variant);
-    for (const char* key : {tolerance_option, "criterion"}) request.method.options.erase(key);
-    const MethodFamily& family = *find_method(request.method.name).family;
-    if (family.completed) request.method.options = family.completed(request.method.options, 33);
+    if (!free_->claims().explicit_step) {  // what is said of Newton begins with the tolerance
+      const auto& options = find_method(request.method.name).family->options;
+      auto option =
+          std::find_if(options.begin(), options.end(), [](auto& each) { return each.name == tolerance_option; });
+      for (; option != options.end(); ++option) request.method.options.erase(option->name);
+    }
     const Quad apart = Quad(h) * Quad(0x1p-37);
     State<Quad> ahead(z.begin(), z.end());
     State<Quad> behind = ahead;

@@ -7,6 +7,7 @@
 
 #include "../support/walled_request.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/numerics/elimination.hpp"
 #include "hamflow/verify/lyapunov.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "hamflow/verify/monodromy.hpp"
@@ -134,6 +135,15 @@ TEST(Walls, TangentsOfAnyReflection) {
   }
 }
 
+/// What a tolerance leaves of Newton's residual is no part of the derivative by the length of a flight.
+TEST(Walls, ToleranceAndTangents) {
+  const auto exact = map_of(t_tube("cg(1,3)", WallRule::event, "0.01"));
+  for (const char* method : {"cg(1,3,tolerance=1e-8)", "cg(1,3,criterion=seed,tolerance=1e-10)"}) {
+    const auto map = map_of(t_tube(method, WallRule::event, "0.01"));
+    EXPECT_LE(apart(map->jacobian(at_the_wall, 0.02), exact->jacobian(at_the_wall, 0.02)), 1e-8 / epsilon) << method;
+  }
+}
+
 /// A free particle between walls: unfolded, it goes straight on, dPsi^n = (-1)^bounces (1, t; 0, 1). Exponents of such
 /// a billiard are 0.
 TEST(Walls, TangentsOfABilliard) {
@@ -218,6 +228,49 @@ TEST(Walls, ASaltationMatrixThatIsLeftOutIsCaught) {
   const Rows exact = differences(mutant, at_the_wall, 0.02, 1);
   EXPECT_LE(apart(map_of(request)->jacobian(at_the_wall, 0.02), exact), 16);
   EXPECT_GE(apart(mutant.jacobian(at_the_wall, 0.02), exact), 0x1p40);
+}
+
+double determinant(const Rows& rows) {
+  std::vector<double> m;
+  for (const auto& row : rows) m.insert(m.end(), row.begin(), row.end());
+  return detail::eliminate<double>(m.data(), nullptr, rows.size(), 0);
+}
+
+/// What a step of length h with a bounce does to volume, at the worst of some states, and how far S Psi S Psi z is off.
+std::pair<double, double> volume_and_return(const char* method, WallRule rule, double h) {
+  const auto map = map_of(t_tube(method, rule, "0.01"));
+  double volume = 0;
+  double off = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double part = (k + 0.5) / 12;  // of the step, behind which it meets the wall
+    const State<double> z{1 - (4 + k % 3) * h * part, 0.5 + 0.1 * k, 4.0 + k % 3, k % 2 == 0 ? 60.0 : -80.0};
+    volume = std::max(volume, std::abs(std::abs(determinant(differences(*map, z, h, 1))) - 1));
+    State<Quad> there(z.begin(), z.end());
+    for (int way = 0; way < 2; ++way) {
+      EXPECT_TRUE(map->advance(there, Quad(h), 1));
+      for (std::size_t i = 2; i < 4; ++i) there[i] = -there[i];
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      off = std::max(off, std::abs(static_cast<double>((there[i] - Quad(z[i])) / (Quad(1) + Quad(std::abs(z[i]))))));
+    }
+  }
+  return {volume, off};
+}
+
+/// A mirror and a rejection keep volume, a located bounce as far as the method is the flow; what is located or mirrored
+/// comes back.
+TEST(Walls, VolumeAndReturnOfAStep) {
+  constexpr double quad_epsilon = 0x1p-112;
+  for (const WallRule rule : {WallRule::mirror, WallRule::reject}) {
+    EXPECT_LE(volume_and_return("stv4", rule, 0.02).first, 16 * epsilon);
+  }
+  EXPECT_LE(volume_and_return("stv4", WallRule::mirror, 0.02).second, 64 * quad_epsilon);
+  for (const auto& [method, order] : {std::pair{"verlet", 2}, std::pair{"stv4", 4}}) {
+    const auto [coarse, off] = volume_and_return(method, WallRule::event, 0.002);
+    const auto [fine, off_fine] = volume_and_return(method, WallRule::event, 0.0005);
+    EXPECT_LE(std::max(off, off_fine), 64 * quad_epsilon) << method;
+    EXPECT_NEAR(std::log2(coarse / fine) / 2, order, 0.5) << method;
+  }
 }
 
 /// The second region of the T-tube: the reference flow locates its bounces, too.
