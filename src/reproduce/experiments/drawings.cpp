@@ -14,7 +14,11 @@ std::vector<Experiment> drawings_experiments() {
           drawing(gross, "G2.7", "31", "polar coordinates as generalised coordinates"),
           drawing(gross, "G2.12", "47", "a spring as a model of the Hooke potential"),
           drawing(gross, "G2.22", "62", "a spring as a model of the binomial potential"),
-          drawing(gross, "G2.25", "65", "the Duffing oscillator")};
+          drawing(gross, "G2.25", "65", "the Duffing oscillator"),
+          drawing(sonnleitner, "S1.1", "19", "weak reversibility"),
+          drawing(sonnleitner, "S1.3", "26", "the T-tube"),
+          drawing(sonnleitner, "S3.1", "70", "scheme of the gas program"),
+          drawing(sonnleitner, "S3.9", "101", "scheme of the T-tube program")};
 }
 
 }  // namespace hamflow::reproduction
