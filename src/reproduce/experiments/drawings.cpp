@@ -22,7 +22,11 @@ std::vector<Experiment> drawings_experiments() {
           drawing(gross, "G3.19", "111", "nonlinear double pendulum, absolute angles"),
           drawing(gross, "G3.20", "115", "start of the lower rod at +90 degrees, absolute angles"),
           drawing(gross, "G3.23", "118", "nonlinear double pendulum, relative angles"),
-          drawing(gross, "G3.24", "121", "start of the lower rod at +90 degrees, relative angles")};
+          drawing(gross, "G3.24", "121", "start of the lower rod at +90 degrees, relative angles"),
+          drawing(sonnleitner, "S1.1", "19", "weak reversibility"),
+          drawing(sonnleitner, "S1.3", "26", "the T-tube"),
+          drawing(sonnleitner, "S3.1", "70", "scheme of the gas program"),
+          drawing(sonnleitner, "S3.9", "101", "scheme of the T-tube program")};
 }
 
 }  // namespace hamflow::reproduction
