@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -21,7 +22,8 @@ void ScenarioReader::usual_units() {
     return std::ldexp(1.0, -52 + (exponent < coarsest || exponent > 0 ? exponent : 0));
   };
   Request& request = scenario_.request;
-  if (scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
+  const bool gas = request.problem == GasKeys::problem;  // whose pairs repel each other before they come near
+  if (gas || scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
     // Positions behind a mirror, as far from it as those in front, are exact in double, too.
     std::vector<double> positions = scenario_.start_q;
     if (const auto walls = walls_among(request.variant); walls && walls->hard()) {

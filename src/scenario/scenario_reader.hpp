@@ -3,6 +3,7 @@
 
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/walls.hpp"
+#include "hamflow/scenario/gas_start.hpp"
 #include "run_keys.hpp"
 #include "toml_table.hpp"
 
@@ -57,6 +58,11 @@ class ScenarioReader {
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
   Texts read_typed_parameters(TomlTable& table);
   void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
+  void read_gas(TomlTable& table);
+  void read_typed_pair(TomlTable& table, Texts& parameters);
+  GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space);
+  void read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters);
+  void read_box(TomlTable& table);
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
