@@ -176,12 +176,6 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
       return who + shortest(std::sqrt(square)) +
              " from the middle, on the soft wall or beyond it; allowed below radius = " + shortest(given[Keys::radius]);
     }
-    for (std::size_t k = 0; kind.shape.container == ContainerKind::box && k < space; ++k) {
-      const double half = given.list(Keys::size)[k] / 2;
-      if (std::abs(q[i * space + k]) <= half) continue;
-      return who + std::string(1, "xyz"[k]) + " = " + shortest(q[i * space + k]) +
-             ", beyond the wall of the box; allowed from " + shortest(-half) + " to " + shortest(half);
-    }
   }
   if (given.has("softening") && given["softening"] > 0) return {};
   std::vector<std::size_t> order(particles);

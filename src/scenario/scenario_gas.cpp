@@ -265,4 +265,25 @@ void ScenarioReader::read_box(TomlTable& table) {
   scenario_.problem = &find_problem(GasKeys::problem, scenario_.request.variant);
 }
 
+/// The Hessian of many particles is a matrix that does not fit: methods and measures that need it whole are refused.
+void ScenarioReader::check_gas() {
+  constexpr std::size_t most_with_hessian = 3000;
+  const std::size_t size = scenario_.start_q.size();
+  if (scenario_.request.problem != GasKeys::problem || size <= most_with_hessian) return;
+  const std::string many = " with " + std::to_string(size) +
+                           " coordinates, whose Hessian is needed as a matrix; allowed up to " +
+                           std::to_string(most_with_hessian) + " coordinates, above them ";
+  if (has_method()) {
+    const std::string& name = scenario_.request.method.name;
+    TomlTable method = root_.table("method");
+    if (name == "chin4a" || name == "chin4b" || name == "discrete-gradient") {
+      method.complain("name", "found " + name + many +
+                                  "a splitting, e.g. stv4, blanes-moan-s6, or cg with iteration = \"fixed-point\"");
+    }
+  }
+  TomlTable run = root_.table(run_table);
+  if (scenario_.lyapunov > 0) run.complain(run_keys().lyapunov.name, "found it" + many + "none");
+  if (scenario_.eigenvalues) run.complain(run_keys().eigenvalues.name, "found it" + many + "none");
+}
+
 }  // namespace hamflow

@@ -41,6 +41,7 @@ class ScenarioReader {
     read_method(method);
     read_run(run);
     check_walls();
+    check_gas();
     read_output(output);
     root_.finish();
     return scenario_;
@@ -63,6 +64,7 @@ class ScenarioReader {
   GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space);
   void read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters);
   void read_box(TomlTable& table);
+  void check_gas();
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -94,6 +96,7 @@ class ScenarioReader {
   void read_observables(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
+  void round_edges();
   void read_lattice(TomlTable& table);
   void read_output(TomlTable& table);
 

@@ -231,8 +231,11 @@ class TemplateWriter {
     for (OptionInfo option : all_gas_options()) {
       const auto is = [&](const OptionInfo& other) { return option.name == other.name; };
       if (is(o.particles_per_side)) option.example = "5";  // a second is enough for a look at them
-      write_option(option, is(o.particles_per_side) || is(o.start) || is(o.seed) || is(o.pair) || is(o.scale) ||
-                               is(o.container));
+      if (is(o.container)) {
+        page_.line(option.name + " = " + option.example, explained_with_default(option));
+        continue;
+      }
+      write_option(option, is(o.particles_per_side) || is(o.start) || is(o.seed) || is(o.pair) || is(o.scale));
     }
     page_.off("initial = { q = [...], p = [...] }", "q = [" + joined(info_.coordinates) + "], in place of start");
     write_option(wall_keys().wall_rule, false);
