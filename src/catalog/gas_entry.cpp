@@ -320,10 +320,11 @@ ProblemEntry entry_of(const Words& choices) {
   ProblemEntry e;
   ProblemInfo& info = e.info;
   info.name = Keys::problem;
+  // That of lists has none: its keys are more than these words.
   for (const char* key : {Keys::pair, Keys::container, Keys::cutoff_kind, Keys::phi, Keys::parameters}) {
-    if (const auto found = kind.choices.find(key); found != kind.choices.end()) info.variant.push_back(*found);
+    const auto found = kind.choices.find(key);
+    if (!choices.empty() && found != kind.choices.end()) info.variant.push_back(*found);
   }
-  info.default_choices = {Keys::pair, Keys::container, Keys::cutoff_kind};
   info.formula = formula_of(kind);
   info.reference = "Sonnleitner2010, ch. 1.7, 3a";
   info.coordinates = {"x1", "y1", "(z1)", "x2", "..."};
