@@ -154,6 +154,8 @@ class BulkForces::Workspace {
       w_.resize(room);
       for (std::size_t i = 0; i < system.particles; ++i) w_[i] = system.strengths.empty() ? 1 : system.strengths[i];
       rows_.w = w_.data();
+      x_room_ = room;
+      divide_rows();
     }
   }
 
@@ -255,11 +257,35 @@ class BulkForces::Workspace {
       for (std::size_t k = 0; k < space; ++k) x_[k][i] = q[i * space + k];
     }
     const bulk::SumRows sum = kernels_->all[static_cast<std::size_t>(system_.law)][space - 2][with_energy];
-    const std::size_t blocks = team_ ? std::min(system_.particles, 8 * team_->size()) : 1;
-    run(blocks, [&](std::size_t, std::size_t b) {
-      const std::size_t n = system_.particles;
-      return sum(rows_, n * b / blocks, n * (b + 1) / blocks, {}, {});
+    const std::size_t size = space * x_room_;
+    run(row_blocks_.size() - 1, [&](std::size_t, std::size_t b) {
+      double* const forces = block_forces_.data() + b * size;
+      std::fill(forces, forces + size, 0.0);
+      return sum(rows_, row_blocks_[b], row_blocks_[b + 1], {}, {forces, x_room_});
     });
+    for (std::size_t i = 0; i < system_.particles; ++i) {
+      for (std::size_t k = 0; k < space; ++k) {
+        double force = 0;
+        for (std::size_t b = 0; b + 1 < row_blocks_.size(); ++b) force += block_forces_[b * size + k * x_room_ + i];
+        rows_.force[i * space + k] = force * scaled_.of_force;
+      }
+    }
+    counts_.pairs += system_.particles * (system_.particles - 1) / 2;
+  }
+  /// Rows of about as many pairs in each block, whatever the number of threads: the forces of a block are summed apart.
+  void divide_rows() {
+    constexpr std::size_t blocks = 16;
+    const std::size_t n = system_.particles;
+    const std::size_t each = n * (n - 1) / 2 / blocks + 1;
+    row_blocks_.assign(1, 0);
+    std::size_t held = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      held += n - 1 - i;
+      if (held < each && i + 1 < n) continue;
+      row_blocks_.push_back(i + 1);
+      held = 0;
+    }
+    block_forces_.resize((row_blocks_.size() - 1) * system_.space * x_room_);
   }
 
   template <class Work>
@@ -278,12 +304,12 @@ class BulkForces::Workspace {
     counts_.pairs += pairs / 2;
   }
 
-  /// The rows' energies in eight partial sums too. Each pair stands in two rows.
+  /// The rows' energies in eight partial sums too. With lists each pair stands in two rows.
   double total() const {
     double sums[8] = {};
     for (std::size_t i = 0; i < system_.particles; ++i) sums[i % 8] += energy_[i];
     const double all = ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-    return all * (scaled_.of_energy / 2);
+    return all * (lists() ? scaled_.of_energy / 2 : scaled_.of_energy);
   }
 
   std::mutex busy_;
@@ -295,6 +321,9 @@ class BulkForces::Workspace {
   bulk::Neighbours neighbours_;
   bulk::Numbers x_[3];
   bulk::Numbers w_;
+  std::size_t x_room_ = 0;
+  std::vector<std::size_t> row_blocks_;
+  bulk::Numbers block_forces_;
   bulk::Numbers energy_;
   std::vector<bulk::Numbers> memory_;
   std::vector<bulk::Scratch> scratch_;

@@ -35,7 +35,7 @@ struct Rows {
   double inverse_edge[3] = {};
   Law law{};
   double force_factor = 1;
-  bool times_strength = false;  // the sums of a row by its w
+  bool times_strength = false;  // with lists the sums of a row by its w
   double* force = nullptr;      // by particle
   double* energy = nullptr;     // by particle, of the unit law
 };
@@ -48,13 +48,14 @@ struct Candidates {
   const std::uint32_t* counts = nullptr;  // of each row
 };
 
-/// Of one worker: for two rows each u, d_x, d_y, d_z, w of those in range.
+/// With lists, of one worker: for two rows each u, d_x, d_y, d_z, w of those in range. Without, of one block of rows:
+/// the forces that it adds, coordinate by coordinate.
 struct Scratch {
   double* memory = nullptr;
-  std::size_t row = 0;  // numbers of each of the ten
+  std::size_t row = 0;  // numbers of each of them
 };
 
-/// @return how many neighbours were in range
+/// @return how many neighbours were in range, with lists
 using SumRows = std::uint64_t (*)(const Rows&, std::size_t first, std::size_t last, const Candidates&, const Scratch&);
 
 /// Some particles, in the order of their numbers, with room for eight more.

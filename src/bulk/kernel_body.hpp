@@ -48,34 +48,47 @@ struct Distance {
   Eight d[Space];
 };
 
-/// Sixteen pairs are added, or fewer, by bits: what the others hold does not count.
+/// Sixteen pairs.
 template <class L, class C, int Space, bool Energy>
-HAMFLOW_INLINE void add_two(const Law& law, const Distance<Space>& a, const Eight& weights_a, const Distance<Space>& b,
-                            const Eight& weights_b, Sums<Space>& sums) {
-  const Two s = over(L::numerator(law), {L::base(law, a.u), L::base(law, b.u)});
-  add<Space, Energy>(C::of(law, a.u, weights_a, L::of(law, s.first, weights_a), L::weighs), a.d, sums);
-  add<Space, Energy>(C::of(law, b.u, weights_b, L::of(law, s.second, weights_b), L::weighs), b.d, sums);
-}
-template <class L, class C, int Space, bool Energy>
-HAMFLOW_INLINE void add_some(const Law& law, unsigned bits, Distance<Space> a, const Eight& weights_a,
-                             Distance<Space> b, const Eight& weights_b, Sums<Space>& sums) {
-  a.u = where(bits, a.u, 1);
-  b.u = where(bits >> 8, b.u, 1);
-  const Two s = over(L::numerator(law), {L::base(law, a.u), L::base(law, b.u)});
-  Pair pair = C::of(law, a.u, weights_a, L::of(law, s.first, weights_a), L::weighs);
-  add<Space, Energy>({where(bits, pair.c, 0), where(bits, pair.phi, 0)}, a.d, sums);
-  pair = C::of(law, b.u, weights_b, L::of(law, s.second, weights_b), L::weighs);
-  add<Space, Energy>({where(bits >> 8, pair.c, 0), where(bits >> 8, pair.phi, 0)}, b.d, sums);
-}
+struct Sixteen {
+  Distance<Space> a;
+  Distance<Space> b;
+  Eight weights_a;
+  Eight weights_b;
+  typename L::Inverses s;
 
-/// All pairs: particle j is added to the (j mod 8)-th partial sum.
+  HAMFLOW_INLINE void begin(const Law& law) { s.begin(L::numerator(law), L::base(law, a.u), L::base(law, b.u)); }
+  HAMFLOW_INLINE void end(const Law& law, Sums<Space>& sums) {
+    s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
+    add<Space, Energy>(C::of(law, a.u, weights_a, L::of(law, s.first, weights_a), L::weighs), a.d, sums);
+    add<Space, Energy>(C::of(law, b.u, weights_b, L::of(law, s.second, weights_b), L::weighs), b.d, sums);
+  }
+  /// Those whose bits are set; what the others hold does not count.
+  HAMFLOW_INLINE void add_some(const Law& law, unsigned bits, Sums<Space>& sums) {
+    a.u = where(bits, a.u, 1);
+    b.u = where(bits >> 8, b.u, 1);
+    begin(law);
+    s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
+    Pair pair = C::of(law, a.u, weights_a, L::of(law, s.first, weights_a), L::weighs);
+    add<Space, Energy>({where(bits, pair.c, 0), where(bits, pair.phi, 0)}, a.d, sums);
+    pair = C::of(law, b.u, weights_b, L::of(law, s.second, weights_b), L::weighs);
+    add<Space, Energy>({where(bits >> 8, pair.c, 0), where(bits >> 8, pair.phi, 0)}, b.d, sums);
+  }
+};
+
+/// All pairs i < j of the rows i, each once: j is added to the (j mod 8)-th partial sum of the row, and what it feels
+/// to the forces of these rows (Scratch), which are summed over rows later.
 template <class L, int Space, bool Energy>
-std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, const Candidates&, const Scratch&) {
+std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, const Candidates&,
+                      const Scratch& scratch) {
   const Law law = rows.law;
   const std::size_t whole = rows.particles / 16 * 16;
+  double* force[Space];
+  for (int k = 0; k < Space; ++k) force[k] = scratch.memory + static_cast<std::size_t>(k) * scratch.row;
   for (std::size_t i = first; i < last; ++i) {
     Eight centre[Space];
     for (int k = 0; k < Space; ++k) centre[k] = all(rows.x[k][i]);
+    const Eight own_weight = all(L::weighs ? rows.w[i] : 1);
     Sums<Space> sums = nothing<Space>();
     const auto at = [&](std::size_t j) __attribute__((always_inline)) {
       Distance<Space> r;
@@ -86,28 +99,53 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
       return r;
     };
     const auto weights = [&](std::size_t j) __attribute__((always_inline)) {
-      return L::weighs ? load(rows.w + j) : all(1);
+      return L::weighs ? own_weight * load(rows.w + j) : own_weight;
     };
-    const auto visit = [&](std::size_t from, std::size_t to) __attribute__((always_inline)) {
-      for (std::size_t j = from; j < to; j += 16) {
-        add_two<L, Uncut, Space, Energy>(law, at(j), weights(j), at(j + 8), weights(j + 8), sums);
+    const auto both = [&](std::size_t j, const Pair& pair, const Distance<Space>& r) __attribute__((always_inline)) {
+      for (int k = 0; k < Space; ++k) {
+        const Eight other = load(force[k] + j);
+#if HAMFLOW_BULK_FAST
+        sums.force[k] = times_plus(pair.c, r.d[k], sums.force[k]);
+        store(minus_times(other, pair.c, r.d[k]), force[k] + j);
+#else
+        const Eight push = pair.c * r.d[k];
+        sums.force[k] = sums.force[k] + push;
+        store(other - push, force[k] + j);
+#endif
       }
+      if constexpr (Energy) sums.energy = sums.energy + pair.phi;
     };
     const auto visit_some = [&](std::size_t j, unsigned bits) {
-      add_some<L, Uncut, Space, Energy>(law, bits, at(j), weights(j), at(j + 8), weights(j + 8), sums);
+      Distance<Space> a = at(j);
+      Distance<Space> b = at(j + 8);
+      a.u = where(bits, a.u, 1);
+      b.u = where(bits >> 8, b.u, 1);
+      typename L::Inverses s;
+      s.begin(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
+      s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
+      Pair pair = L::of(law, s.first, weights(j));
+      both(j, {where(bits, pair.c, 0), where(bits, pair.phi, 0)}, a);
+      pair = L::of(law, s.second, weights(j + 8));
+      both(j + 8, {where(bits >> 8, pair.c, 0), where(bits >> 8, pair.phi, 0)}, b);
     };
     const std::size_t own = i / 16 * 16;
-    const unsigned others = ~(1u << (i - own));
+    const unsigned later = (0xfffeu << (i - own)) & 0xffff;
     const unsigned rest = (1u << (rows.particles - whole)) - 1;
-    visit(0, own);
-    visit_some(own, own < whole ? others : rest & others);
-    if (own < whole) {
-      visit(own + 16, whole);
-      if (rest != 0) visit_some(whole, rest);
+    visit_some(own, own < whole ? later : later & rest);
+    for (std::size_t j = own + 16; j < whole; j += 16) {
+      const Distance<Space> a = at(j);
+      const Distance<Space> b = at(j + 8);
+      typename L::Inverses s;
+      s.begin(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
+      s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
+      both(j, L::of(law, s.first, weights(j)), a);
+      both(j + 8, L::of(law, s.second, weights(j + 8)), b);
     }
-    write<Space, Energy>(rows, i, L::weighs && rows.times_strength ? rows.w[i] : 1, sums);
+    if (own < whole && rest != 0) visit_some(whole, rest);
+    for (int k = 0; k < Space; ++k) force[k][i] += sum_of(sums.force[k]);
+    if constexpr (Energy) rows.energy[i] = sum_of(sums.energy);
   }
-  return (last - first) * (rows.particles - 1);
+  return 0;
 }
 
 /// Those in range of one row, moved together.
@@ -172,19 +210,23 @@ std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, 
     const auto weights = [&](std::size_t j) __attribute__((always_inline)) {
       return L::weighs ? load(from + 4 * scratch.row + j) : all(1);
     };
+    const auto sixteen = [&](std::size_t j) __attribute__((always_inline)) {
+      return Sixteen<L, C, Space, Energy>{at(j), at(j + 8), weights(j), weights(j + 8), {}};
+    };
     std::size_t j = 0;
     for (; j + 16 <= count; j += 16) {
-      add_two<L, C, Space, Energy>(law, at(j), weights(j), at(j + 8), weights(j + 8), sums);
+      auto now = sixteen(j);
+      now.begin(law);
+      now.end(law, sums);
     }
     if (j < count) {
       const unsigned bits = (1u << (count - j)) - 1;
-      Distance<Space> a = at(j);
-      Distance<Space> b = at(j + 8);
+      auto rest = sixteen(j);
       for (int k = 0; k < Space; ++k) {  // what was there before may be no number
-        a.d[k] = where(bits, a.d[k], 0);
-        b.d[k] = where(bits >> 8, b.d[k], 0);
+        rest.a.d[k] = where(bits, rest.a.d[k], 0);
+        rest.b.d[k] = where(bits >> 8, rest.b.d[k], 0);
       }
-      add_some<L, C, Space, Energy>(law, bits, a, weights(j), b, weights(j + 8), sums);
+      rest.add_some(law, bits, sums);
     }
     write<Space, Energy>(rows, rows.number[i], L::weighs ? rows.at[4 * i + 3] : 1, sums);
   }

@@ -423,7 +423,9 @@ TEST(BulkForces, RefuseWhatTheyCannotDo) {
   s = melt(2, 8);
   s.skin = std::numeric_limits<double>::quiet_NaN();
   refused(s, "skin: found");
-  if (BulkForces::has_fast_kernel()) EXPECT_NO_THROW(BulkForces(melt(2, 8), BulkKernel::fast));
+  if (BulkForces::has_fast_kernel()) {
+    EXPECT_NO_THROW(BulkForces(melt(2, 8), BulkKernel::fast));
+  }
 }
 
 }  // namespace
