@@ -167,13 +167,25 @@ class BulkForces::Workspace {
     if (lists()) prepare_lists();
   }
 
-  double evaluate(const double* q, double* f, bool with_energy) {
+  /// Where the potential is asked for after every so many forces, at the positions of the last of them, it is computed
+  /// with that force: whoever watches the energy pays no second pass.
+  void force(const double* q, double* f) {
     const std::lock_guard turn(busy_);
-    return pass(q, f, with_energy);
+    ++forces_since_potential_;
+    const bool expected = forces_since_potential_ == usual_forces_;
+    pass(q, f, expected);
+    if (!expected) std::memcpy(known_at_.data(), q, bytes());
+  }
+  double force_and_potential(const double* q, double* f) {
+    const std::lock_guard turn(busy_);
+    return pass(q, f, true);
   }
   double potential(const double* q) {
     const std::lock_guard turn(busy_);
-    if (knows_ && std::memcmp(q, known_at_.data(), bytes()) == 0) return known_;
+    const bool at_last_force = std::memcmp(q, known_at_.data(), bytes()) == 0;
+    if (forces_since_potential_ > 0) usual_forces_ = at_last_force ? forces_since_potential_ : 0;
+    forces_since_potential_ = 0;
+    if (knows_ && at_last_force) return known_;
     unused_.resize(system_.space * system_.particles);
     return pass(q, unused_.data(), true);
   }
@@ -331,7 +343,9 @@ class BulkForces::Workspace {
   std::vector<double> unused_;
   std::vector<double> known_at_;
   double known_ = 0;
-  bool knows_ = false;
+  bool knows_ = false;  // of the positions known_at_; else these are those of the last force
+  std::uint64_t forces_since_potential_ = 0;
+  std::uint64_t usual_forces_ = 0;  // before the potential is asked for
   Counts counts_;
 };
 
@@ -339,8 +353,10 @@ BulkForces::BulkForces(const BulkPairSystem& system, BulkKernel kernel, BulkSet 
   check(system);
   workspace_ = std::make_shared<Workspace>(system, kernel, set);
 }
-void BulkForces::force(const double* q, double* f) const { workspace_->evaluate(q, f, false); }
-double BulkForces::force_and_potential(const double* q, double* f) const { return workspace_->evaluate(q, f, true); }
+void BulkForces::force(const double* q, double* f) const { workspace_->force(q, f); }
+double BulkForces::force_and_potential(const double* q, double* f) const {
+  return workspace_->force_and_potential(q, f);
+}
 double BulkForces::potential(const double* q) const { return workspace_->potential(q); }
 void BulkForces::use_threads(std::size_t count) const { workspace_->use_threads(count); }
 BulkForces::Counts BulkForces::counts() const { return workspace_->counts(); }

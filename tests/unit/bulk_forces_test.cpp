@@ -333,6 +333,23 @@ TEST(BulkForces, GiveThePotentialOfTheLastForceWithoutAnotherPass) {
   EXPECT_EQ(moved, BulkForces(s).potential(q.data()));
 }
 
+TEST(BulkForces, LearnAfterWhichForceThePotentialIsWanted) {
+  const BulkPairSystem s = melt(2, 8);
+  auto q = lattice(2, 8, 0.1, 0);
+  std::vector<double> f(q.size());
+  for (const int stages : {1, 3}) {
+    const BulkForces forces(s);
+    for (int step = 0; step < 10; ++step) {
+      for (int k = 0; k < stages; ++k) {
+        for (double& x : q) x += 1e-3;
+        forces.force(q.data(), f.data());
+      }
+      EXPECT_EQ(forces.potential(q.data()), BulkForces(s).potential(q.data()));
+    }
+    EXPECT_EQ(forces.counts().evaluations, static_cast<std::uint64_t>(10 * stages + 1)) << "one pass to learn";
+  }
+}
+
 TEST(BulkForces, AllocateNothingAfterTheFirstList) {
   const BulkPairSystem s = melt(3, 6);
   auto q = lattice(3, 6, 0.1, 0);
@@ -346,8 +363,8 @@ TEST(BulkForces, AllocateNothingAfterTheFirstList) {
     for (int n = 0; n < 50; ++n) {
       for (double& x : q) x += 0.05;
       forces.force(q.data(), f.data());
-      v += forces.force_and_potential(q.data(), f.data());
       v += forces.potential(q.data());
+      v += forces.force_and_potential(q.data(), f.data());
     }
     EXPECT_EQ(allocations, before) << threads << " threads, " << v;
     EXPECT_GT(forces.counts().lists, lists + 5);

@@ -65,9 +65,10 @@ class BulkForces {
 
   /// f <- -dV/dq. @param q, f space x particles numbers, particle by particle
   void force(const double* q, double* f) const;
-  /// The same, and V, which potential() then knows.
+  /// The same, and V.
   double force_and_potential(const double* q, double* f) const;
-  /// V; without a pass over pairs where q is that of the last force_and_potential.
+  /// V; without a pass over pairs where q is that of a force that has computed it too, which those forces do after
+  /// which it was asked for before.
   double potential(const double* q) const;
 
   /// The bits do not depend on it. @throws Error when the system starts no more threads
@@ -85,13 +86,6 @@ class BulkForces {
  private:
   class Workspace;
   std::shared_ptr<Workspace> workspace_;
-};
-
-/// **HasBulkForces**: bulk_forces() gives them, or nothing where a problem has none for its choices; forces of one
-/// particle and their potential are added by add_single_forces(q, f) and single_potential(q).
-template <class P>
-concept HasBulkPairSystem = requires(const P& problem) {
-  problem.bulk_pair_system();
 };
 
 }  // namespace hamflow
