@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/verify/counter_random.hpp"
 #include "structure.hpp"
 
 namespace hamflow {

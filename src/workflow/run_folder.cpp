@@ -37,7 +37,8 @@ const std::vector<KindOfFolder>& kinds_of_folders() {
   static const std::vector<KindOfFolder> all{
       {FolderOf::run, "run", {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"}},
       {FolderOf::sweep, "sweep", {"sweep.h5", "sweep.csv", "section.csv", "summary.json"}},
-      {FolderOf::comparison, "comparison", {"compare.json", "compare.csv"}}};
+      {FolderOf::comparison, "comparison", {"compare.json", "compare.csv"}},
+      {FolderOf::reversal, "reversal", {"reverse.h5", "reverse.json"}}};
   return all;
 }
 

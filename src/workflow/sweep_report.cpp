@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_keys.hpp"
+#include "summary.hpp"
 
 namespace hamflow {
 
