@@ -9,6 +9,7 @@
 #include "hamflow/arithmetic/plain.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/archive.hpp"
+#include "hamflow/core/bulk_forces.hpp"
 #include "hamflow/core/capability.hpp"
 #include "hamflow/core/concepts.hpp"
 #include "hamflow/core/constrained_motion.hpp"
