@@ -80,6 +80,8 @@ int convert_command(const ConvertOptions& options);
 struct ReverseOptions {
   std::string scenario;
   std::vector<std::string> sets;
+  std::string out;  // a folder, or "none", as without it
+  bool force = false;
   bool json = false;
   bool quiet = false;
 };

@@ -148,6 +148,11 @@ int main(int argc, char** argv) {
   reverse_command->add_option("--set", reverse.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+  reverse_command
+      ->add_option("--out", reverse.out, "folder for the states at start, turn and end; \"none\" writes nothing [none]")
+      ->type_name("DIR")
+      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+  reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
   reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
   reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
   reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });

@@ -10,8 +10,6 @@ namespace hamflow {
 
 namespace {
 
-thread_local std::optional<std::size_t>* outside_here = nullptr;
-
 /// What all functions of one problem share; B is the type of its parameters.
 template <class B>
 struct WallTerms {
@@ -206,12 +204,6 @@ std::shared_ptr<const Functions<S>> behind(std::shared_ptr<const Functions<S>> f
 }
 
 }  // namespace
-
-OutsideNote::OutsideNote(std::optional<std::size_t>& interval) : before_(std::exchange(outside_here, &interval)) {}
-OutsideNote::~OutsideNote() { outside_here = before_; }
-void OutsideNote::note(std::size_t interval) {
-  if (outside_here != nullptr && !*outside_here) *outside_here = interval;
-}
 
 template <class R>
 ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, const Request& request,

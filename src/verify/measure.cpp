@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/run/walls.hpp"
-#include "hamflow/verify/counter_random.hpp"
 #include "structure.hpp"
 
 namespace hamflow {
