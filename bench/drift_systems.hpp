@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
@@ -16,7 +17,6 @@
 #include "hamflow/problems/pendulum.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/support/polar.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow::drift {
 

@@ -1,6 +1,6 @@
-# The catalogue is the folders: every file of problems/, problems/potentials/, methods/compositions/, methods/splittings/,
-# methods/force_gradient/, methods/tableaus/ and src/catalog/families/ is found here, and gets its line in the generated
-# lists (problems: a translation unit each). Adding one is adding a file. By convention problems/henon_heiles.hpp defines
+# The catalogue is the folders: every file of problems/, problems/potentials/, problems/pairs/, methods/compositions/,
+# methods/splittings/, methods/force_gradient/, methods/tableaus/ and src/catalog/families/ is found here, and gets its line
+# in the generated lists (problems: a translation unit each). Adding one is adding a file. By convention problems/henon_heiles.hpp defines
 # the class template HenonHeiles, compositions/stv4.hpp the table compositions::stv4, families/runge_kutta.hpp the class
 # families::RungeKutta.
 
@@ -107,6 +107,34 @@ foreach(potential IN LISTS potential_names)
   hamflow_problem_unit(${header} ${name} "${unit_text}")
 endforeach()
 
+# Pair laws are alternatives of one type, so that each of them is compiled with the gas once.
+hamflow_names(pair_names problems/pairs)
+set(pair_includes "")
+set(pair_types "")
+set(pair_infos "")
+foreach(name IN LISTS pair_names)
+  hamflow_pascal_case(type ${name})
+  string(APPEND pair_includes "#include \"hamflow/problems/pairs/${name}.hpp\"\n")
+  string(APPEND pair_types "pairs::${type}<R>, ")
+  string(APPEND pair_infos "pairs::${type}<double>::info(), ")
+endforeach()
+file(CONFIGURE OUTPUT "${generated}/pair_list.hpp" CONTENT [[
+#pragma once
+#include <variant>
+@pair_includes@#include "pair_laws.hpp"
+#include "typed_pair.hpp"
+namespace hamflow {
+template <class R>
+using PairLaws = std::variant<@pair_types@TypedPair<R>>;
+inline std::vector<ProblemInfo> built_in_pairs() { return {@pair_infos@}; }
+/// The built-in law of that name.
+template <class R>
+PairLaws<R> make_pair_law(const std::string& name, const Parameters<R>& given) {
+  return detail::make_pair_law_of<PairLaws<R>>(name, given);
+}
+}  // namespace hamflow
+]] @ONLY)
+
 set(includes "")
 macro(hamflow_table_list kind out)
   hamflow_names(names methods/${kind})
@@ -183,9 +211,8 @@ inline ProblemEntry joined(const TypedEntry& typed, const ErasedEntry& erased) {
   entry.has_pairwise_forces = typed.has_pairwise_forces;
   entry.simulate_erased = erased.simulate;
   entry.simulate_member = erased.simulate_member;
-  entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Texts& parameters, const MethodSpec& method,
-                                                                     std::size_t size) {
-    return accepts(method) ? make(parameters, method, size) : nullptr;
+  entry.step_map = [accepts = entry.accepts, make = erased.step_map](const Request& request, std::size_t size) {
+    return accepts(request.method) ? make(request, size) : nullptr;
   };
   return entry;
 }

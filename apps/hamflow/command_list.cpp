@@ -6,11 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "experiments.hpp"
 #include "figure_kinds.hpp"
 #include "formula_keys.hpp"
+#include "gas_options.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/rejection.hpp"
@@ -73,7 +76,8 @@ std::string meant_by(const std::string& name, const std::vector<std::string>& na
   if (std::find(arithmetics().begin(), arithmetics().end(), name) != arithmetics().end()) {
     return "; did you mean " + run_path(run_keys().arithmetic) + " = \"" + name + "\"?";
   }
-  if (name == "methods" || name == "problems") return "; did you mean hamflow list " + name + "?";
+  if (name == "methods" || name == "problems" || name == "experiments")
+    return "; did you mean hamflow list " + name + "?";
   std::string meant = suggested_problem(name);
   if (meant.empty()) meant = suggestion(name, names);
   return meant.empty() ? key_elsewhere(name) : meant;
@@ -132,7 +136,8 @@ void show_scenario(const Scenario& scenario) {
   for (const auto& [name, value] : scenario.request.parameters) {
     if (!value.empty()) std::cout << fmt::format("  here: {} = {}\n", name, value);
   }
-  if (const auto walls = walls_among(scenario.request.variant)) {
+  const bool gas = scenario.request.problem == GasKeys::problem;  // the walls are those of its box
+  if (const auto walls = walls_among(scenario.request.variant); walls && !gas) {
     for (const Walls::Interval& wall : walls->intervals) {
       std::cout << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
                                wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
@@ -140,8 +145,12 @@ void show_scenario(const Scenario& scenario) {
     }
   }
   const auto list = [](const std::vector<double>& xs) { return joined(xs, shortest); };
+  constexpr std::size_t most_shown = 100;
   std::cout << fmt::format(
-      "  start: q = [{}], p = [{}], H = {}\n", list(scenario.start_q), list(scenario.start_p),
+      "  start: q = [{}], p = [{}], H = {}\n",
+      scenario.start_q.size() > most_shown ? fmt::format("{} numbers", scenario.start_q.size())
+                                           : list(scenario.start_q),
+      scenario.start_p.size() > most_shown ? "as many" : list(scenario.start_p),
       shortest(scenario.problem->energy(scenario.request.parameters, scenario.start_q, scenario.start_p)));
 }
 
@@ -194,7 +203,8 @@ void show_problem(const ProblemEntry& entry) {
                            degrees_of_freedom(entry), info.reference);
   if (entry.structure) std::cout << "  found: " << structure_text(*entry.structure) << "\n";
   if (!info.parameters.empty() || !info.frame.name.empty()) std::cout << "  keys of [problem]:\n";
-  for (const ParameterInfo& parameter : info.parameters) std::cout << option_row(parameter);
+  const bool gas = info.name == GasKeys::problem;
+  for (const OptionInfo& key : gas ? all_gas_options() : info.parameters) std::cout << option_row(key);
   if (!info.frame.name.empty()) std::cout << option_row(info.frame);
   if (!info.velocities.name.empty()) std::cout << option_row(info.velocities);
   show_starts(info);
@@ -312,6 +322,10 @@ void print_problems() {
 
 int list_command(const std::string& what, bool all, bool json) {
   return guarded(json, [&] {
+    if (what == "experiments") {
+      list_experiments(json);
+      return exit_done;
+    }
     const bool of_methods = what == "methods";
     if (json) {
       std::cout << (of_methods ? methods_json() : problems_json()).dump(2) << '\n';
@@ -333,6 +347,7 @@ int show_command(const std::string& name) {
       return exit_done;
     }
     bool found = false;
+    if (show_experiment(name)) return exit_done;
     std::vector<std::string> names;
     for (const ProblemEntry& entry : problems()) {
       names.push_back(entry.info.name);
@@ -354,7 +369,8 @@ int show_command(const std::string& name) {
     const std::string method = name.substr(0, name.find('('));
     if (std::find(names.begin(), names.end(), method) == names.end()) {
       throw Error("there is no problem, method or figure '" + name + "'" + meant_by(method, names) +
-                  " (hamflow list problems, hamflow list methods; keys: hamflow show run, hamflow show output)");
+                  " (hamflow list problems, hamflow list methods, hamflow list experiments; keys: hamflow show run, "
+                  "hamflow show output)");
     }
     show_method(parse_method(name));
     return exit_done;

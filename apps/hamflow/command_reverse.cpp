@@ -1,5 +1,6 @@
 // hamflow reverse: forward, negate the momenta, forward again, negate: what came back.
 #include <iostream>
+#include <optional>
 
 #include "commands.hpp"
 #include "guarded.hpp"
@@ -26,7 +27,10 @@ int reverse_command(const ReverseOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
+    std::optional<ReversalFolder> folder;
+    if (!options.out.empty() && options.out != "none") folder.emplace(options.out, options.force);
     const ReversalReport report = carry_out(scenario, options);
+    if (folder) folder->keep(scenario, report);
     std::cout << (options.json ? report.json : report.text);
     if (report.status == "failed") print_error(report.message, report.hint);
     return exit_status(report.status);

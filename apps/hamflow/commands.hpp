@@ -80,6 +80,8 @@ int convert_command(const ConvertOptions& options);
 struct ReverseOptions {
   std::string scenario;
   std::vector<std::string> sets;
+  std::string out;  // a folder, or "none", as without it
+  bool force = false;
   bool json = false;
   bool quiet = false;
 };
@@ -106,6 +108,19 @@ struct ShellOptions {
   bool quiet = false;
 };
 int shell_command(const ShellOptions& options);
+
+struct ReproduceCommandOptions {
+  std::vector<std::string> what;  // IDs, gross, sonnleitner, all
+  bool quick = false;
+  bool full = false;
+  std::string out;  // a folder; empty: reproduce
+  bool force = false;
+  bool resume = false;
+  int threads = 0;  // 0: all cores
+  bool json = false;
+  bool quiet = false;
+};
+int reproduce_command(const ReproduceCommandOptions& options);
 
 int list_command(const std::string& what, bool all, bool json);
 int show_command(const std::string& name);

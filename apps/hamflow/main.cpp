@@ -148,9 +148,38 @@ int main(int argc, char** argv) {
   reverse_command->add_option("--set", reverse.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+  reverse_command
+      ->add_option("--out", reverse.out, "folder for the states at start, turn and end; \"none\" writes nothing [none]")
+      ->type_name("DIR")
+      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+  reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
   reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
   reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
   reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });
+
+  ReproduceCommandOptions reproduce;
+  CLI::App* reproduce_command =
+      add(app, "reproduce", "Carry out the experiments of both theses: figures, tables, statements, and verdicts",
+          "  hamflow reproduce all --quick\n  hamflow reproduce G2.8 G2.9 --out kepler\n  hamflow reproduce gross "
+          "--resume\n  hamflow list experiments\n");
+  reproduce_command
+      ->add_option("experiment", reproduce.what, "IDs of hamflow list experiments; gross, sonnleitner, all")
+      ->required()
+      ->type_name("ID...");
+  reproduce_command->add_flag("--quick", reproduce.quick, "about a minute for all; figures as SVG only");
+  reproduce_command->add_flag("--full", reproduce.full, "about ten hours for all");
+  reproduce_command->add_option("--out", reproduce.out, "folder for the page and its data [reproduce]")
+      ->type_name("DIR")
+      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+  reproduce_command->add_flag("--force", reproduce.force, "carry out again what is there");
+  reproduce_command->add_flag("--resume", reproduce.resume,
+                              "only what is not done, or was changed since: in its runs, its rule or the version");
+  reproduce_command->add_option("--threads", reproduce.threads, "how many; verdicts do not depend on it")
+      ->type_name("N")
+      ->transform(whole_number(0, hamflow::most_sweep_threads));
+  reproduce_command->add_flag("--json", reproduce.json, "print verdicts.json, and nothing else, on stdout");
+  reproduce_command->add_flag("--quiet", reproduce.quiet, "no progress, no notes");
+  reproduce_command->callback([&] { status = hamflow::app::reproduce_command(reproduce); });
 
   CompareOptions compare;
   CLI::App* compare_command =
@@ -226,9 +255,12 @@ int main(int argc, char** argv) {
   std::string what;
   bool list_all = false;
   bool list_json = false;
-  CLI::App* list_command = add(app, "list", "List the catalogue",
-                               "  hamflow list methods\n  hamflow list methods --all\n  hamflow list problems\n");
-  list_command->add_option("what", what, "methods or problems")->required()->check(one_of({"methods", "problems"}));
+  CLI::App* list_command = add(
+      app, "list", "List the catalogue",
+      "  hamflow list methods\n  hamflow list methods --all\n  hamflow list problems\n  hamflow list experiments\n");
+  list_command->add_option("what", what, "methods, problems or experiments")
+      ->required()
+      ->check(one_of({"methods", "problems", "experiments"}));
   list_command->add_flag("--all", list_all, "each method with a line of its own");
   list_command->add_flag("--json", list_json, "print JSON, always of all");
   list_command->callback([&] { status = hamflow::app::list_command(what, list_all, list_json); });
@@ -236,7 +268,9 @@ int main(int argc, char** argv) {
   std::string name;
   CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",
                                "  hamflow show central-force\n  hamflow show cg\n");
-  show_command->add_option("name", name, "a problem or a method")->required()->type_name("NAME");
+  show_command->add_option("name", name, "a problem, a method, a figure or an experiment")
+      ->required()
+      ->type_name("NAME");
   show_command->callback([&] { status = hamflow::app::show_command(name); });
 
   try {

@@ -7,8 +7,10 @@
 
 #include "figure_kinds.hpp"
 #include "formula_keys.hpp"
+#include "gas_options.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
@@ -86,7 +88,7 @@ std::string problem(const ProblemEntry& entry) {
   std::string text = fmt::format("### {}{}\n\n{}\n\n", info.name, variant.empty() ? "" : ", " + variant, info.formula);
   text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n", degrees_of_freedom(entry),
                       joined(info.coordinates), info.reference);
-  std::vector<OptionInfo> keys = info.parameters;
+  std::vector<OptionInfo> keys = info.name == GasKeys::problem ? all_gas_options() : info.parameters;
   if (!info.frame.name.empty()) keys.push_back(info.frame);
   if (!info.velocities.name.empty()) keys.push_back(info.velocities);
   if (!keys.empty()) text += table(keys);

@@ -6,8 +6,10 @@
 
 #include "catalog_lists.hpp"  // generated from the folders of problems and tables
 #include "constrained_problems.hpp"
+#include "gas_entry.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/fast_functions.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/recorded_step.hpp"
 #include "step_control.hpp"
 #include "typed_problem.hpp"
@@ -19,6 +21,7 @@ std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> all = [] {
     std::vector<ProblemEntry> entries = generated_problems();
     for (ProblemEntry& entry : constrained_problems()) entries.push_back(std::move(entry));
+    entries.push_back(gas_problem({}));
     entries.push_back(formula_example());
     return entries;
   }();
@@ -28,6 +31,7 @@ std::span<const ProblemEntry> problems() {
 const ProblemEntry& find_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
   if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
+  if (name == GasKeys::problem) return gas_problem(variant);
   std::vector<std::string> names;
   const ProblemEntry* same_name = nullptr;
   for (const ProblemEntry& entry : problems()) {
@@ -51,6 +55,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
 const ProblemEntry& usual_problem(const std::string& name, const std::map<std::string, std::string>& variant) {
   if (walls_among(variant)) return walled_problem(name, variant);
   if (is_typed(name, variant)) return typed_problem(name, variant);
+  if (name == GasKeys::problem) return gas_problem(variant);
   const ProblemEntry& any = find_problem(name, variant);
   const auto usual = [](const ProblemInfo& info, const std::string& key) {
     const auto listed = [&](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };

@@ -74,14 +74,15 @@ struct ErasedProblem {
     }
   }
 };
-std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const MethodSpec& method);
+/// Of the request the method and the walls count.
+std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Request& request);
 
 /// What the catalogue has of one problem that is compiled with a light optimisation, beside its kernels.
 struct ErasedEntry {
   ProblemEntry facts;  // all but how it is simulated
   /// In any arithmetic of `extended`, and in double for methods that have no typed kernel.
   std::function<std::unique_ptr<Simulation>(const Request&)> simulate;
-  std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
+  std::function<std::unique_ptr<StepMap>(const Request&, std::size_t size)> step_map;
   /// The change of coordinates to the reference chart of the problem and back, in an arithmetic of `extended`; empty in
   /// that chart itself.
   std::function<DigitState(const std::string& arithmetic, const DigitState&)> to_reference{};

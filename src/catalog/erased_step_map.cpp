@@ -5,6 +5,7 @@
 #include "hamflow/run/recorded_tangents.hpp"
 #include "hamflow/verify/step_map_of.hpp"
 #include "visit_erased.hpp"
+#include "walled_step_map.hpp"
 
 namespace hamflow {
 
@@ -62,9 +63,8 @@ auto steps_in_quad(const ErasedFunctions<Quad>& functions, const MethodSpec& met
     return true;
   };
 }
-}  // namespace
 
-std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const MethodSpec& method) {
+std::unique_ptr<StepMap> map_without_walls(const ErasedProblem& problem, const MethodSpec& method) {
   return visit_erased(problem.in_double.capability, problem.in_double.size, method,
                       [&]<Capability c, class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
                         const auto make = [&]<class R>() { return problem.in<R>().template as<c>(); };
@@ -78,6 +78,13 @@ std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Met
                         }
                         return map;
                       });
+}
+}  // namespace
+
+std::unique_ptr<StepMap> erased_step_map(const ErasedProblem& problem, const Request& request) {
+  const auto walls = walls_among(request.variant);
+  return walls ? step_map_behind_walls(problem, request, *walls, map_without_walls)
+               : map_without_walls(problem, request.method);
 }
 
 }  // namespace hamflow

@@ -91,11 +91,13 @@ class ErasedUnit : ProblemStart<Family> {
     return all;
   }
 
-  static std::unique_ptr<StepMap> step_map(const Texts& parameters, const MethodSpec& method, std::size_t size) {
-    const auto in = [&]<class R>() { return functions_of<R>(In::template make<R>(Parameters<R>(parameters), size)); };
+  static std::unique_ptr<StepMap> step_map(const Request& request, std::size_t size) {
+    const auto in = [&]<class R>() {
+      return functions_of<R>(In::template make<R>(Parameters<R>(request.parameters), size));
+    };
     return erased_step_map(
         {in.template operator()<double>(), in.template operator()<long double>(), in.template operator()<Quad>()},
-        method);
+        request);
   }
 };
 

@@ -209,14 +209,15 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
                                                         vector_of(p, degrees), h},
                                                        request));
   };
-  e.step_map = [model](const Texts& parameters, const MethodSpec& method, std::size_t) -> std::unique_ptr<StepMap> {
-    if (!accepts(model->structure(), method)) return nullptr;
+  e.step_map = [model](const Request& request, std::size_t) -> std::unique_ptr<StepMap> {
+    if (!accepts(model->structure(), request.method)) return nullptr;
     if (model->structure().time) {
       throw Error("found an H that depends on t; allowed H without t where single steps are measured");
     }
+    const Texts& parameters = request.parameters;
     return erased_step_map({functions_of<double>(model, parameters), functions_of<long double>(model, parameters),
                             functions_of<Quad>(model, parameters)},
-                           method);
+                           request);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [field](const Texts& parameters, const StartSpec& spec) {

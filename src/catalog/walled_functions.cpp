@@ -10,8 +10,6 @@ namespace hamflow {
 
 namespace {
 
-thread_local std::optional<std::size_t>* outside_here = nullptr;
-
 /// What all functions of one problem share; B is the type of its parameters.
 template <class B>
 struct WallTerms {
@@ -207,12 +205,6 @@ std::shared_ptr<const Functions<S>> behind(std::shared_ptr<const Functions<S>> f
 
 }  // namespace
 
-OutsideNote::OutsideNote(std::optional<std::size_t>& interval) : before_(std::exchange(outside_here, &interval)) {}
-OutsideNote::~OutsideNote() { outside_here = before_; }
-void OutsideNote::note(std::size_t interval) {
-  if (outside_here != nullptr && !*outside_here) *outside_here = interval;
-}
-
 template <class R>
 ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, const Request& request,
                                           const Walls& walls, const std::vector<WallSide<R>>& sides) {
@@ -251,6 +243,7 @@ ErasedFunctions<R> functions_behind_walls(const ErasedFunctions<R>& functions, c
   template ErasedFunctions<R> functions_behind_walls<R>(const ErasedFunctions<R>&, const Request&, const Walls&, \
                                                         const std::vector<WallSide<R>>&);
 HAMFLOW_BEHIND_WALLS(double)
+HAMFLOW_BEHIND_WALLS(long double)
 HAMFLOW_BEHIND_WALLS(DoubleDouble)
 HAMFLOW_BEHIND_WALLS(Quad)
 HAMFLOW_BEHIND_WALLS(Mp)

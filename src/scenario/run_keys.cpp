@@ -86,7 +86,7 @@ const RunKeys& run_keys() {
       .record_every = {.name = "record_every",
                        .meaning = "steps from one sample to the next",
                        .range = Range::whole_from(1, static_cast<double>(most_steps)),
-                       .unset = "so that at most 10000 samples are kept",
+                       .unset = "so that at most 10000 samples and 1 GiB are kept",
                        .example = "1"},
       .record = {.name = "record",
                  .meaning = "times of the samples, in the order of the run, not only of steps",

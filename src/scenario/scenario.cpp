@@ -62,8 +62,10 @@ std::int64_t sample_count(const Scenario& scenario) {
                                  : static_cast<std::int64_t>(scenario.record.size());
 }
 
-std::int64_t default_record_every(std::int64_t steps) {
-  constexpr std::int64_t most_samples = 10000;
+std::int64_t default_record_every(std::int64_t steps, std::size_t coordinates) {
+  constexpr std::int64_t most_numbers = (std::int64_t{1} << 30) / sizeof(double);  // 1 GiB
+  const auto numbers = static_cast<std::int64_t>(std::max<std::size_t>(1, 2 * coordinates));
+  const std::int64_t most_samples = std::clamp<std::int64_t>(most_numbers / numbers, 3, 10000);
   std::int64_t every = std::max<std::int64_t>(1, steps / most_samples);
   while (sample_count(steps, every) > most_samples) ++every;
   return every;

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/problems/support/container.hpp"
+#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -21,7 +23,8 @@ void ScenarioReader::usual_units() {
     return std::ldexp(1.0, -52 + (exponent < coarsest || exponent > 0 ? exponent : 0));
   };
   Request& request = scenario_.request;
-  if (scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
+  const bool gas = request.problem == GasKeys::problem;  // whose pairs repel each other before they come near
+  if (gas || scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
     // Positions behind a mirror, as far from it as those in front, are exact in double, too.
     std::vector<double> positions = scenario_.start_q;
     if (const auto walls = walls_among(request.variant); walls && walls->hard()) {
@@ -47,6 +50,25 @@ void ScenarioReader::usual_units() {
   const double to_come = factor * std::sqrt(std::abs(potential) / (energy_with(factor) - potential));
   request.position_unit = unit_for(largest(scenario_.start_q), 0);
   request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
+}
+
+/// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units.
+void ScenarioReader::round_edges() {
+  Request& request = scenario_.request;
+  const auto container = request.variant.find(GasKeys::container);
+  if (container == request.variant.end() || container->second != ContainerNames::periodic) return;
+  std::vector<std::string> edges;
+  double moved = 0;
+  for (const std::string& text : list_parts(request.parameters.at(GasKeys::size))) {
+    const double edge = number_value(text);
+    const double rounded = std::nearbyint(edge / request.position_unit) * request.position_unit;
+    moved = std::max(moved, std::abs(rounded - edge));
+    edges.push_back(shortest(rounded));
+  }
+  if (moved == 0) return;
+  request.parameters[GasKeys::size] = "[" + joined(edges) + "]";
+  scenario_.notes.push_back("the edges of the periodic box are moved by up to " + shortest(moved) +
+                            ", to whole units of the lattice");
 }
 
 void ScenarioReader::read_lattice(TomlTable& table) {
@@ -77,6 +99,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     if (on_lattice) usual_units();
   }
   if (!on_lattice) return;
+  round_edges();
   const auto rounding = [](const std::vector<double>& values, double unit) {
     double most = 0;
     for (const double x : values) most = std::max(most, std::abs(std::remainder(x, unit)));

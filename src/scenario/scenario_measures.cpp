@@ -67,14 +67,6 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
                             " with steps of varying length; allowed with step_control = \"fixed\": the lengths depend "
                             "on the state and are not differentiated");
   }
-  if (has_hard_walls(scenario_.request)) {
-    table.complain(key, table.found(key) + " behind hard walls; allowed without walls: bounces are not differentiated");
-  }
-  if (const auto walls = walls_among(scenario_.request.variant); walls && !walls->hard()) {
-    table.complain(key, table.found(key) +
-                            " behind soft walls; allowed without walls: the steps that are "
-                            "differentiated know none");
-  }
   if (scenario_.problem != nullptr && !scenario_.problem->constraint_form.empty()) {
     table.complain(key, table.found(key) +
                             " with constraints; allowed in coordinates without any: on a manifold steps "

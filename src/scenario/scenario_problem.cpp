@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "formula_keys.hpp"
+#include "hamflow/run/gas.hpp"
 #include "meant.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
@@ -43,7 +44,9 @@ void ScenarioReader::read_problem(TomlTable& table) {
   if (!name) return;
   scenario_.request.problem = *name;
   const bool typed = is_typed_problem(table, *name);
-  typed ? read_typed_problem(table, *name) : read_variant(table, *name);
+  const bool gas = *name == GasKeys::problem;
+  gas ? read_gas(table) : typed ? read_typed_problem(table, *name) : read_variant(table, *name);
+  if (scenario_.problem == nullptr && gas) return;  // all that is wrong was told
   if (scenario_.problem == nullptr) {
     read_uncertain(table, *name);
     return;
@@ -51,6 +54,7 @@ void ScenarioReader::read_problem(TomlTable& table) {
   const std::size_t before = complaints_.size();
   const ProblemInfo& info = scenario_.problem->info;
   for (const ParameterInfo& parameter : info.parameters) {
+    if (gas) break;
     if (typed && scenario_.request.parameters.contains(parameter.name)) continue;  // among those of the user
     if (const auto text = table.text(parameter, " (" + parameter.meaning + ")")) {
       scenario_.request.parameters[parameter.name] = *text;

@@ -3,6 +3,7 @@
 
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/walls.hpp"
+#include "hamflow/scenario/gas_start.hpp"
 #include "run_keys.hpp"
 #include "toml_table.hpp"
 
@@ -42,6 +43,7 @@ class ScenarioReader {
     read_method(method);
     read_run(run);
     check_walls();
+    check_gas();
     read_output(output);
     root_.finish();
     return scenario_;
@@ -59,6 +61,12 @@ class ScenarioReader {
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
   Texts read_typed_parameters(TomlTable& table);
   void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
+  void read_gas(TomlTable& table);
+  void read_typed_pair(TomlTable& table, Texts& parameters);
+  GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space);
+  void read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters);
+  void read_box(TomlTable& table);
+  void check_gas();
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -90,6 +98,7 @@ class ScenarioReader {
   void read_observables(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
+  void round_edges();
   void read_lattice(TomlTable& table);
   void read_output(TomlTable& table);
 

@@ -115,7 +115,7 @@ void ScenarioReader::read_length(TomlTable& table) {
 void ScenarioReader::read_samples(TomlTable& table) {
   const RunKeys& keys = run_keys();
   const auto every = table.whole(keys.record_every);
-  scenario_.record_every = every ? *every : default_record_every(scenario_.steps);
+  scenario_.record_every = every ? *every : default_record_every(scenario_.steps, scenario_.start_q.size());
   const auto times = table.numbers(keys.record);
   if (!times || refuse_time(table, keys.record.name, keys.record_every.name)) return;
   if (table.has(keys.record_every.name)) {

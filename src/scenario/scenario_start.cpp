@@ -138,6 +138,7 @@ void ScenarioReader::read_initial(TomlTable& table) {
   }
   if (!table.has("initial")) {
     table.know("initial");
+    if (!spec.q.empty()) return;  // of a gas
     if (spec.geometric() || table.has("orbit") || table.has("bodies")) return;
     if (!problem.info.start_key.empty() && table.has(problem.info.start_key)) return;
     if (!problem.info.default_q.empty()) {

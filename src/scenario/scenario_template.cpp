@@ -4,9 +4,11 @@
 
 #include "figure_kinds.hpp"
 #include "formula_keys.hpp"
+#include "gas_options.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "option_text.hpp"
@@ -180,6 +182,10 @@ class TemplateWriter {
       write_typed();
       return;
     }
+    if (info_.name == GasKeys::problem) {
+      write_gas();
+      return;
+    }
     const bool typed_field = problem_.structure.has_value();
     for (const auto& [key, value] : info_.variant) {
       const std::vector<OptionInfo>& typed = central_formula_options();
@@ -217,6 +223,22 @@ class TemplateWriter {
     for (const OptionInfo& option : formula_options()) write_option(option, given(option.name));
     for (const std::string& sentence : formula_language()) page_.prose(sentence);
     write_starts();
+  }
+
+  /// Particles on a lattice in a circle; all other keys as comments.
+  void write_gas() {
+    const GasOptions& o = gas_options();
+    for (OptionInfo option : all_gas_options()) {
+      const auto is = [&](const OptionInfo& other) { return option.name == other.name; };
+      if (is(o.particles_per_side)) option.example = "5";  // a second is enough for a look at them
+      if (is(o.container)) {
+        page_.line(option.name + " = " + option.example, explained_with_default(option));
+        continue;
+      }
+      write_option(option, is(o.particles_per_side) || is(o.start) || is(o.seed) || is(o.pair) || is(o.scale));
+    }
+    page_.off("initial = { q = [...], p = [...] }", "q = [" + joined(info_.coordinates) + "], in place of start");
+    write_walls();
   }
 
   void write_parameter(const ParameterInfo& parameter) {

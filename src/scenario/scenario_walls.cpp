@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/problems/support/container.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 
@@ -60,6 +62,8 @@ std::optional<Walls::Interval> read_interval(TomlTable& table, const std::vector
 }  // namespace
 
 void ScenarioReader::read_walls(TomlTable& table) {
+  const auto container = scenario_.request.variant.find(GasKeys::container);
+  if (container != scenario_.request.variant.end() && container->second == ContainerNames::box) return read_box(table);
   const WallKeys& keys = wall_keys();
   const ProblemInfo& info = scenario_.problem->info;
   const bool fixed = !info.walls.empty();
@@ -170,6 +174,7 @@ void ScenarioReader::check_walls() {
   const Texts& parameters = scenario_.request.parameters;
   const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {
+    if (problem.info.name == GasKeys::problem) break;  // each particle has its mass
     std::vector<double> p(scenario_.start_q.size(), 0.0);
     p[wall.index] = 1;
     const std::vector<double> v = problem.rates(parameters, scenario_.start_q, p);

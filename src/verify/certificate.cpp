@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hamflow/verify/counter_random.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "rounding.hpp"
 
 namespace hamflow {

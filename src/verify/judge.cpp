@@ -135,6 +135,10 @@ bool PropertyRow::agrees() const {
   return std::all_of(cells.begin(), cells.end(), [](const PropertyCell& c) { return c.agrees == Finding::yes; });
 }
 
+bool PropertyRow::has(std::string_view property) const {
+  return std::any_of(cells.begin(), cells.end(), [&](const PropertyCell& c) { return c.property == property; });
+}
+
 std::string PropertyRow::differing() const {
   std::vector<std::string> properties;
   for (const PropertyCell& c : cells) {

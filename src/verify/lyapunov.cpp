@@ -4,8 +4,8 @@
 #include <cmath>
 #include <complex>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 

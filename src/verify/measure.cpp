@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/number.hpp"
-#include "hamflow/verify/counter_random.hpp"
+#include "hamflow/run/walls.hpp"
 #include "structure.hpp"
 
 namespace hamflow {
@@ -69,6 +70,18 @@ Region region_of(const std::string& problem, const std::map<std::string, std::st
   return region;
 }
 
+std::optional<Region> region_at_walls(const std::string& problem) {
+  const ProblemEntry& entry = usual_problem(problem);
+  if (entry.info.region_at_walls.centre.empty()) return std::nullopt;
+  Region region{entry.info.region_at_walls, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
+  Walls walls;
+  for (const FixedWall& wall : entry.info.walls) {
+    walls.intervals.push_back({entry.info.coordinates.at(wall.coordinate), wall.coordinate, wall.min, wall.max});
+  }
+  put_among(walls, region.variant);
+  return region;
+}
+
 namespace {
 /// With sub-steps of its own a step has no order.
 MethodSpec measurable(const MethodSpec& method) {
@@ -85,8 +98,12 @@ std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& met
         "density of steps is a part of the state");
   }
   const ProblemEntry& entry = find_problem(region.problem, region.variant);
-  const MethodSpec fixed = measurable(method);
-  auto map = entry.step_map(complete(entry.info, region.parameters), fixed, region.centre.size() / 2);
+  const Request request{.problem = region.problem,
+                        .variant = region.variant,
+                        .parameters = complete(entry.info, region.parameters),
+                        .start = {},
+                        .method = measurable(method)};
+  auto map = entry.step_map(request, region.centre.size() / 2);
   if (!map) throw Error(refusal(method, entry));
   return map;
 }
@@ -131,6 +148,20 @@ PropertyRow measure_method(const MethodSpec& method, std::span<const Region> reg
   MethodCertificate certificate = certificate_of(method, regions, on);
   PropertyRow row = judge(claims, std::move(on));
   row.certificate = std::move(certificate);
+  return row;
+}
+
+PropertyRow measure_at_walls(const MethodSpec& method, const Region& region) {
+  const auto map = step_map_on(region, method);
+  Measurement found;
+  found.problem = region.problem + ", at a wall";
+  found.order = measure_order(*map, region);
+  measure_structure(*map, region, found);
+  PropertyRow row = judge(map->claims(), {found});
+  std::erase_if(row.cells, [](const PropertyCell& cell) {
+    const std::vector<std::string> others{"explicit", "energy conserving", "forces per step", "Newton corrections"};
+    return std::find(others.begin(), others.end(), cell.property) != others.end();
+  });
   return row;
 }
 

@@ -40,35 +40,40 @@ nlohmann::json json_of(const DefectMeasurement& d) {
   return {{"defect", d.defect}, {"units_of_rounding", d.units}, {"holds", name(d.holds)}};
 }
 
-nlohmann::json json_of(const Measurement& m) {
+/// Of a step through a wall no long runs are measured.
+bool has_runs(const PropertyRow& row) { return row.has("energy conserving"); }
+
+nlohmann::json json_of(const Measurement& m, bool with_runs) {
   const EnergyMeasurement& e = m.energy;
-  return {{"problem", m.problem},
-          {"order",
-           {{"slope", m.order.slope},
-            {"points", m.order.points},
-            {"finest_step", m.order.finest_step},
-            {"finest_error", m.order.finest_error}}},
-          {"jacobian", json_of(m.jacobian)},
-          {"symplectic", json_of(m.symplectic)},
-          {"weakly_reversible", json_of(m.weakly_reversible)},
-          {"symmetric", json_of(m.symmetric)},
-          {"reversible", json_of(m.reversible)},
-          {"energy",
-           {{"step", e.step},
-            {"level", e.level},
-            {"rounding", e.rounding},
-            {"fine_level", e.fine_level},
-            {"fine_rounding", e.fine_rounding},
-            {"step_exponent", e.step_exponent},
-            {"drift", name(e.drift.drift)},
-            {"growth_exponent", e.drift.growth_exponent},
-            {"p_value", e.drift.p_value}}},
-          {"cost",
-           {{"force", m.cost.force},
-            {"gradient", m.cost.gradient},
-            {"hessian", m.cost.hessian},
-            {"linear_solves", m.cost.linear_solves},
-            {"coarse_solves", m.cost.coarse_solves}}}};
+  nlohmann::json all{{"problem", m.problem},
+                     {"order",
+                      {{"slope", m.order.slope},
+                       {"points", m.order.points},
+                       {"finest_step", m.order.finest_step},
+                       {"finest_error", m.order.finest_error}}},
+                     {"jacobian", json_of(m.jacobian)},
+                     {"symplectic", json_of(m.symplectic)},
+                     {"weakly_reversible", json_of(m.weakly_reversible)},
+                     {"symmetric", json_of(m.symmetric)},
+                     {"reversible", json_of(m.reversible)}};
+  if (!with_runs) return all;
+  all.update({{"energy",
+               {{"step", e.step},
+                {"level", e.level},
+                {"rounding", e.rounding},
+                {"fine_level", e.fine_level},
+                {"fine_rounding", e.fine_rounding},
+                {"step_exponent", e.step_exponent},
+                {"drift", name(e.drift.drift)},
+                {"growth_exponent", e.drift.growth_exponent},
+                {"p_value", e.drift.p_value}}},
+              {"cost",
+               {{"force", m.cost.force},
+                {"gradient", m.cost.gradient},
+                {"hessian", m.cost.hessian},
+                {"linear_solves", m.cost.linear_solves},
+                {"coarse_solves", m.cost.coarse_solves}}}});
+  return all;
 }
 nlohmann::json json_of(const MethodCertificate& c) {
   nlohmann::json maps = nlohmann::json::array();
@@ -111,6 +116,7 @@ std::string certificates(std::span<const PropertyRow> rows) {
     for (const auto& r : row.certificate.reversals) (void)column(return_heading(r));
   }
   for (const PropertyRow& row : rows) {
+    if (!has_runs(row)) continue;
     const MethodCertificate& c = row.certificate;
     std::vector<std::string> line(lines.front().size(), "-");
     line[0] = row.claims.name;
@@ -154,6 +160,7 @@ std::string property_table(std::span<const PropertyRow> rows) {
       structure.push_back({row.claims.name, m.problem, fmt::format("{:.3f}", m.order.slope),
                            std::to_string(m.order.points), units(m.symplectic), units(m.weakly_reversible),
                            units(m.symmetric), units(m.reversible)});
+      if (!has_runs(row)) continue;
       energy.push_back({row.claims.name, m.problem, fmt::format("{:.1e}", e.level), fmt::format("{:.1e}", e.rounding),
                         std::isnan(e.step_exponent) ? "-" : fmt::format("{:.1f}", e.step_exponent),
                         fmt::format("{:.1e}", e.fine_level), std::string(name(e.drift.drift)),
@@ -178,12 +185,12 @@ std::string property_json(std::span<const PropertyRow> rows) {
                             {"agrees", c.agrees == Finding::yes}});
     }
     nlohmann::json on = nlohmann::json::array();
-    for (const Measurement& m : row.on) on.push_back(json_of(m));
+    for (const Measurement& m : row.on) on.push_back(json_of(m, has_runs(row)));
     all.push_back({{"method", row.claims.name},
                    {"reference", row.claims.reference},
                    {"agrees", row.agrees()},
                    {"properties", properties},
-                   {"certificate", json_of(row.certificate)},
+                   {"certificate", has_runs(row) ? json_of(row.certificate) : nlohmann::json(nullptr)},
                    {"measurements", on}});
   }
   return nlohmann::json{{"methods", all}}.dump(2) + "\n";

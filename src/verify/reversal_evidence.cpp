@@ -5,10 +5,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/certificate.hpp"
-#include "hamflow/verify/counter_random.hpp"
 #include "rounding.hpp"
 
 namespace hamflow {

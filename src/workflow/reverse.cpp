@@ -8,6 +8,9 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
 #include "number_text.hpp"
+#include "reversal_measures.hpp"
+#include "reverse_file.hpp"
+#include "run_folder.hpp"
 #include "summary.hpp"
 
 namespace hamflow {
@@ -78,7 +81,12 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
            {"end", done ? Json(hex(r.end_hash)) : Json(nullptr)}}},
          {"method_reversible", method.reversible},
          {"expected_bit_exact", report.expected_bit_exact},
-         {"note", report.note}};
+         {"note", report.note},
+         {"digits_lost", done ? Json(digits_lost(r, scenario.request.arithmetic)) : Json(nullptr)}};
+  if (const std::size_t bodies = bodies_in(scenario); bodies > 0) {
+    s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
+    s["pair_evaluations"] = simulation.effort().force * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
+  }
   if (s["status"] == "failed") {
     RunResult result;
     result.outcome = r.outcome;
@@ -92,7 +100,11 @@ std::string readable_reversal(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {
     return fmt::format("{:<20}{}\n", label, text);
   };
-  const auto list = [](const Json& xs) { return joined(xs, [](const Json& x) { return number_text(x, "{:.17g}"); }); };
+  const auto list = [](const Json& xs) {
+    constexpr std::size_t most_shown = 60;
+    if (xs.size() > most_shown) return fmt::format("{} numbers (--json prints them)", xs.size());
+    return joined(xs, [](const Json& x) { return number_text(x, "{:.17g}"); });
+  };
   std::string text = row("status", s["status"].get<std::string>()) + row("problem", s["problem"].get<std::string>());
   text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
                                     s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
@@ -102,6 +114,14 @@ std::string readable_reversal(const Json& s) {
     text += row("returned q", list(s["returned"]["q"])) + row("returned p", list(s["returned"]["p"]));
     text += row("distance", fmt::format("{} ({} of the start's size)", number_text(s["distance"], "{:.3g}"),
                                         number_text(s["relative_distance"], "{:.3g}")));
+    text += row("digits lost", fmt::format("{:.2f}", s["digits_lost"].get<double>()));
+    if (s.contains("return_error")) {
+      text +=
+          row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N); {} pairs computed",
+                                          number_text(s["return_error"]["position"], "{:.3g}"),
+                                          number_text(s["return_error"]["momentum"], "{:.3g}"),
+                                          s["pair_evaluations"].get<std::int64_t>()));
+    }
     text += row("every bit", s["bit_exact"].get<bool>() ? "yes" : "no");
     text +=
         row("hash of the bits", fmt::format("{} -> {} -> {}", s["hash"]["start"].get<std::string>(),
@@ -141,6 +161,18 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   report.json = json_text(json);
   report.text = readable_reversal(json);
   return report;
+}
+
+ReversalFolder::ReversalFolder(const std::filesystem::path& folder, bool force) : folder_(folder) {
+  make_folder(folder, FolderOf::reversal, force);
+  lock_ = std::make_shared<FolderLock>(folder);
+}
+
+void ReversalFolder::keep(const Scenario& scenario, const ReversalReport& report) const {
+  const Reversal& r = report.reversal;
+  const bool done = r.outcome == Outcome::done;
+  write_reverse_file(folder_ / "reverse.h5", scenario.text, r.start, r.turn, done ? &r.end : nullptr);
+  write_text(folder_ / "reverse.json", report.json);
 }
 
 }  // namespace hamflow

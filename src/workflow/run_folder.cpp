@@ -41,7 +41,8 @@ const std::vector<KindOfFolder>& kinds_of_folders() {
        "sweep",
        {"sweep.h5", "members.bin"},
        {"sweep.h5", "sweep.csv", "section.csv", "summary.json", "members.bin"}},
-      {FolderOf::comparison, "comparison", {"compare.json"}, {"compare.json", "compare.csv"}}};
+      {FolderOf::comparison, "comparison", {"compare.json"}, {"compare.json", "compare.csv"}},
+      {FolderOf::reversal, "reversal", {"reverse.h5"}, {"reverse.h5", "reverse.json"}}};
   return all;
 }
 

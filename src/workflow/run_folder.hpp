@@ -1,5 +1,6 @@
 // The folder that a run leaves: run.h5, summary.json, trajectory.csv, figures/; that of a sweep: sweep.h5, sweep.csv,
-// section.csv, summary.json, members.bin; that of a comparison: compare.json, compare.csv, figures/.
+// section.csv, summary.json, members.bin; that of a comparison: compare.json, compare.csv, figures/; that of a
+// reversal: reverse.h5, reverse.json.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@
 namespace hamflow {
 
 /// What leaves a folder. Each knows its own files, and takes no others away.
-enum class FolderOf { run, sweep, comparison };
+enum class FolderOf { run, sweep, comparison, reversal };
 
 /// The stem of the figure that a comparison draws.
 constexpr const char* comparison_figure = "work-precision";

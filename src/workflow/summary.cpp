@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <variant>
 
@@ -13,6 +14,8 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/problems/support/container.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "measures/measures.hpp"
@@ -55,7 +58,14 @@ Json parameters_of(const Scenario& scenario) {
     const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
     if (!structure || !is_text) parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
   }
-  if (const auto walls = walls_among(scenario.request.variant)) add_walls(*walls, parameters);
+  if (const auto walls = walls_among(scenario.request.variant)) {
+    if (scenario.request.problem == GasKeys::problem && without.at(GasKeys::container) == ContainerNames::box) {
+      parameters[wall_keys().wall_rule.name] =
+          wall_rules()[static_cast<std::size_t>(walls->rule)];  // the box says the rest
+    } else {
+      add_walls(*walls, parameters);
+    }
+  }
   const Parameters<double> values(scenario.request.parameters);
   for (const ParameterInfo& parameter : scenario.problem->info.parameters) {
     if (!values.has(parameter.name)) continue;
@@ -240,6 +250,8 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     s["energy"]["initial"] = frame.digits.initial_energy;
     s["energy"]["final"] = frame.digits.energy;
   }
+  constexpr std::size_t most_coordinates = 10000;
+  if (frame.q.size() > most_coordinates) s["final"] = {{"t", s["final"]["t"]}, {"dataset", "/q, /p"}};
   if (certificate != nullptr && energy.max_error == 0 && !certificate->energy_level.text.empty()) {
     // No double is so small: what the certificate found.
     const LongNumber& level = certificate->energy_level;
@@ -277,8 +289,12 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   }
   s["events"] = Json::object();
   const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+  const bool gas = scenario.request.problem == GasKeys::problem;  // whose particles are counted together: "wall:x:max"
+  std::map<std::string, std::int64_t> together;
   for (const WallCount& wall : simulation.wall_counts()) {
-    s["events"]["wall:" + names.q.at(wall.coordinate) + (wall.side < 0 ? ":min" : ":max")] = wall.bounces;
+    const std::string& name = names.q.at(wall.coordinate);
+    const std::string key = "wall:" + (gas ? name.substr(0, 1) : name) + (wall.side < 0 ? ":min" : ":max");
+    s["events"][key] = together[key] += wall.bounces;
   }
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);

@@ -54,8 +54,14 @@ std::string readable(const Json& s) {
   text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
                                     s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
   text += row("steps", fmt::format("{}, t = {}", s["steps"].get<std::int64_t>(), number(s["final"]["t"])));
-  text += row("final q", list(s["final"]["q"]));
-  text += row("final p", list(s["final"]["p"]));
+  constexpr std::size_t most_shown = 60;
+  for (const char* const key : {"q", "p"}) {
+    if (!s["final"].contains(key)) continue;
+    const Json& numbers = s["final"][key];
+    text += row(std::string("final ") + key, numbers.size() <= most_shown
+                                                 ? list(numbers)
+                                                 : fmt::format("{} numbers (--json prints them)", numbers.size()));
+  }
   const bool has_scale = !s["energy"]["scale"].is_null() && s["energy"]["scale"].get<double>() > 0;
   text += row("energy",
               watched(s["energy"]) + (has_scale ? fmt::format(" ({} of its scale)",

@@ -6,10 +6,10 @@
 
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/methods/averages.hpp"
 #include "hamflow/methods/cg.hpp"
 #include "hamflow/problems/pendulum.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "hamflow/verify/counter_random.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "native/functions.hpp"
 
 namespace hamflow {

@@ -62,7 +62,12 @@ TEST_P(OneStep, MatchesTheDefinitionInLongDouble) {
   // The same to the digits of long double: nothing on the way, no coefficient either, is a double.
   const auto file = reference_file("one_step.json")["one_step"][0];
   const ProblemEntry& entry = find_problem("central-force", {{"potential", "kepler"}});
-  const auto map = entry.step_map(complete(entry.info, {}), parse_method(GetParam().method), 2);
+  const auto map = entry.step_map({.problem = "central-force",
+                                   .variant = {},
+                                   .parameters = complete(entry.info, {}),
+                                   .start = {},
+                                   .method = parse_method(GetParam().method)},
+                                  2);
   const auto state = [](const nlohmann::json& q, const nlohmann::json& p) {
     State<long double> z;
     for (const auto& part : {texts(q), texts(p)}) {

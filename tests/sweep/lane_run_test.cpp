@@ -67,7 +67,7 @@ void compare_block(const MemberFamily& family, std::span<const MemberStart> memb
     requests.push_back(family.alone(member));
     const StepMapSource map{n, [&problem, &tally, n, request = requests.back()] {
                               ++tally.on_their_own;
-                              return problem.step_map(request.parameters, request.method, n);
+                              return problem.step_map(request, n);
                             }};
     in_lanes.push_back(std::make_unique<Measured>(map, member.h));
     searches.push_back(std::make_unique<SectionSearch>(section, in_lanes.back()->take()));
@@ -78,7 +78,7 @@ void compare_block(const MemberFamily& family, std::span<const MemberStart> memb
   for (const std::int64_t part : {1, 99, 250, 50}) run.advance(part);
   bool out_of_step = false;
   for (std::size_t lane = 0; lane < members.size(); ++lane) {
-    const std::shared_ptr<const StepMap> map = problem.step_map(requests[lane].parameters, requests[lane].method, n);
+    const std::shared_ptr<const StepMap> map = problem.step_map(requests[lane], n);
     Measured alone({n, [map] { return map; }}, members[lane].h);
     const auto simulation = make_simulation(requests[lane]);
     SectionFinder finder(*simulation, section, alone.take());

@@ -6,6 +6,7 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/methods/compositions/kahan_li8.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
@@ -13,7 +14,6 @@
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/run/digits.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 namespace {

@@ -216,7 +216,9 @@ TEST(Catalog, RefusesTablesForQuadraticKineticEnergyElsewhere) {
     SCOPED_TRACE(entry.name);
     const MethodSpec spec = parse_method(entry.name);
     EXPECT_EQ(sextic.accepts(spec), !needs_quadratic);
-    EXPECT_EQ(sextic.step_map({}, spec, 1) == nullptr, needs_quadratic);
+    EXPECT_EQ(sextic.step_map({.problem = "sextic", .variant = {}, .parameters = {}, .start = {}, .method = spec}, 1) ==
+                  nullptr,
+              needs_quadratic);
     EXPECT_TRUE(find_problem("henon-heiles", {}).accepts(spec));
     if (!needs_quadratic) continue;
     const std::string message = refusal(spec, sextic);

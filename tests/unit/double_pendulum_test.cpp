@@ -1,10 +1,10 @@
 // The double pendulum: entries of its Hamiltonian, derivatives by hand, both sets of angles, modes.
 #include "../support/exact_motion.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/problems/double_pendulum_linear_absolute.hpp"
 #include "hamflow/problems/double_pendulum_linear_relative.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_relative.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "../support/near.hpp"
-#include "hamflow/verify/counter_random.hpp"
+#include "hamflow/core/counter_random.hpp"
 
 namespace hamflow {
 namespace {

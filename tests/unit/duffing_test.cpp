@@ -2,7 +2,7 @@
 #include "hamflow/problems/duffing.hpp"
 
 #include "../support/exact_motion.hpp"
-#include "hamflow/verify/counter_random.hpp"
+#include "hamflow/core/counter_random.hpp"
 
 namespace hamflow {
 namespace {

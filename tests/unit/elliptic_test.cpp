@@ -3,8 +3,8 @@
 #include "hamflow/numerics/elliptic.hpp"
 
 #include "../support/near.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/derivatives.hpp"
-#include "hamflow/verify/counter_random.hpp"
 #include "hamflow/verify/reference_flow.hpp"
 
 namespace hamflow {

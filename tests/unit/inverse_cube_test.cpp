@@ -2,12 +2,12 @@
 #include "hamflow/core/inverse_cube.hpp"
 
 #include "../support/near.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
 #include "hamflow/methods/splitting.hpp"
 #include "hamflow/problems/potentials/kepler.hpp"
 #include "hamflow/problems/support/fast_kernel.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 namespace {

@@ -1,8 +1,8 @@
 // Gauss rules and small linear systems.
 #include "../support/near.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/numerics/dense.hpp"
 #include "hamflow/numerics/gauss_legendre.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 namespace {

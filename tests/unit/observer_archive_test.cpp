@@ -23,7 +23,9 @@ Request chaos() {
 
 std::shared_ptr<const StepMap> map_of(const Request& request) {
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
-  return problem.step_map(complete(problem.info, request.parameters), request.method, 2);
+  Request full = request;
+  full.parameters = complete(problem.info, request.parameters);
+  return problem.step_map(full, 2);
 }
 
 /// Everything that watches a run, as a scenario requests it.

@@ -3,6 +3,7 @@
 
 #include "../support/near.hpp"
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/methods/compositions/stv4.hpp"
@@ -12,7 +13,6 @@
 #include "hamflow/problems/support/from_functions.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/simulation_of.hpp"
-#include "hamflow/verify/counter_random.hpp"
 #include "problem_list.hpp"  // generated: includes every problem, defines HAMFLOW_FOR_EACH_PROBLEM
 
 namespace hamflow {

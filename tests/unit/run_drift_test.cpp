@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "../support/near.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/verify/certificate.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow {
 namespace {

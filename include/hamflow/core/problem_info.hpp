@@ -112,6 +112,7 @@ struct ProblemInfo {
   OptionInfo velocities{};
   std::vector<std::size_t> velocity_places{};  // the coordinates that it gives, others rest; empty: all, in order
   std::vector<FixedWall> walls{};              // a scenario chooses their rule alone
+  RegionInfo region_at_walls{};                // a second region, of motion that meets them; without centre: none
   std::vector<std::pair<std::string, std::string>> observables{};  // names and expressions, averaged in every run
   bool two_bodies =
       false;  // a planar relative motion: `bodies` may give two bodies in space, from which `mass` follows

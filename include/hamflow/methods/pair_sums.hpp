@@ -17,6 +17,14 @@
 
 namespace hamflow {
 
+/// Forces besides those of pairs, each on one body: single_kicks(factor, position, sink) calls sink(i, r) where factor
+/// times such a force adds r to p_i; position(k) is the k-th coordinate.
+template <class P, class F = typename P::Real>
+concept HasSingleKicks = requires(const P& problem, const F& factor, F (*position)(std::size_t),
+                                  void (*sink)(std::size_t, const F&)) {
+  problem.single_kicks(factor, position, sink);
+};
+
 /// Copies share their threads, and take turns.
 template <class P, Arithmetic A>
 requires PairwiseForces<P> && IntegerSums<A>
@@ -33,9 +41,18 @@ class PairSums {
   template <class F>
   [[gnu::noinline]] bool evaluate(const P& problem, const F& factor, const PhasePoint<A, n>& z,
                                   Vector<Stored, n>& kick) const {
-    return sum(problem, z, kick, [&](std::size_t first, std::size_t last, Sink& sink) {
+    const bool pairs = sum(problem, z, kick, [&](std::size_t first, std::size_t last, Sink& sink) {
       problem.pair_kicks(factor, Difference{z}, first, last, sink);
     });
+    if constexpr (has_singles<F>) {
+      Sink sink{z.arithmetic, limit(problem), kick.begin()};
+      problem.single_kicks(
+          factor, [&](std::size_t i) { return z.arithmetic.position.read(z.q[i]); },
+          [&](std::size_t i, const Real& r) { sink.add(i, r); });
+      return pairs && !sink.lost;
+    } else {
+      return pairs;
+    }
   }
   /// kick <- first F(q) - third V''(q) v, likewise.
   template <class F>
@@ -64,11 +81,21 @@ class PairSums {
       sums[up] += k;
       sums[down] -= k;
     }
+    void add(std::size_t i, const Real& r) {
+      Stored k = 0;
+      if (!arithmetic.momentum.units(r, limit, k)) [[unlikely]]
+        lost = true;
+      sums[i] += k;
+    }
   };
+  /// Whether there are forces besides those of pairs, on one body each (HasSingleKicks).
+  template <class F>
+  static constexpr bool has_singles = HasSingleKicks<P, F>;
   /// A power of two such that as many contributions as a coordinate has stay below 2^62 together: no partial sum can
   /// overflow, whatever its order, and whether a kick is refused does not depend on the order either.
   static Real limit(const P& problem) {
-    return std::ldexp(Real(1), 62 - static_cast<int>(std::bit_width(problem.pair_rows())));
+    const std::size_t singles = has_singles<Real> ? 1 : 0;
+    return std::ldexp(Real(1), 62 - static_cast<int>(std::bit_width(problem.pair_rows() + singles)));
   }
 
   /// What one thread has summed in the call that it last took part in.

@@ -42,6 +42,12 @@ class TTube {
                            .length = 2,
                            .example = "[6, 1]"},
             .walls = {{0, "-1", "1"}, {1, "0.1", "2.1"}},
+            // Every step from there meets the wall of q1.
+            .region_at_walls = {.parameters = {{"masses", "[1, 2]"}, {"eps", "-0.6"}},
+                                .centre = {0.9, 1.1, 2, 0.5},
+                                .spread = 0.03,
+                                .step = 0.11,
+                                .time = 1.7},
             .observables = {{"kinetic1", "p1^2/(2*masses[1])"}, {"kinetic2", "p2^2/(2*masses[2])"}},
             // Without walls: Kepler's motion, which masses that differ would lead through the centre.
             .region = {.parameters = {{"masses", "[1, 1]"}, {"eps", "1"}},

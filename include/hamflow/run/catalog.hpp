@@ -85,8 +85,9 @@ struct ProblemEntry {
   std::function<std::unique_ptr<Simulation>(const Request&, const Parameters<double>&, const std::vector<double>& q,
                                             const std::vector<double>& p, double h)>
       simulate_member;
-  /// Null where the method is not accepted.
-  std::function<std::unique_ptr<StepMap>(const Texts& parameters, const MethodSpec&, std::size_t size)> step_map;
+  /// Of the request the parameters, which are complete, the method and the walls count. Null where the method is not
+  /// accepted.
+  std::function<std::unique_ptr<StepMap>(const Request&, std::size_t size)> step_map;
   /// The parameters with those that follow from a geometric start set.
   std::function<Texts(const Texts& parameters, const StartSpec&)> derived;
   /// The conditions that a geometric start has to meet.

@@ -83,7 +83,7 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
 std::string scenario_text(const std::string& file);
 
 /// The smallest spacing of samples, start and end included, that keeps at most 10^4 of them.
-std::int64_t default_record_every(std::int64_t steps);
+std::int64_t default_record_every(std::int64_t steps, std::size_t coordinates = 0);
 /// Samples kept: the start, every `record_every`-th step, and the last.
 std::int64_t sample_count(std::int64_t steps, std::int64_t record_every);
 /// Those at given times, where there are any.

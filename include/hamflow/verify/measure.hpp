@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -123,6 +124,7 @@ struct PropertyRow {
   std::vector<PropertyCell> cells;
   MethodCertificate certificate{};
   bool agrees() const;
+  bool has(std::string_view property) const;
   /// The names of the properties that do not agree, joined by commas.
   std::string differing() const;
   const PropertyCell& operator[](std::string_view property) const;
@@ -151,12 +153,17 @@ State<double> random_state(const Region& region, std::uint64_t k);
 /// The region that a problem of the catalogue declares; what the variant leaves open is chosen as usual_problem does.
 /// Without one, states about the default start, or about any state. @throws Error when there is no such problem
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant = {});
+/// The second region of a problem with walls of its own, where every step meets one, which is located. Without value:
+/// there is none.
+std::optional<Region> region_at_walls(const std::string& problem);
 /// The step of a method on the region's problem. @throws Error when there is no such problem
 std::unique_ptr<StepMap> step_map_on(const Region& region, const MethodSpec& method);
 /// pendulum and henon-heiles; for methods that need another problem, that one.
 std::vector<Region> default_regions(const MethodSpec& method = {});
 /// A method of the catalogue. @throws Error when the method or a problem is unknown
 PropertyRow measure_method(const MethodSpec& method, std::span<const Region> regions);
+/// What a step through a wall is: order, structure and Jacobian. The row has no cells for the rest.
+PropertyRow measure_at_walls(const MethodSpec& method, const Region& region);
 
 /// Tables of plain text: the claims beside the findings, then the numbers behind them.
 std::string property_table(std::span<const PropertyRow> rows);

@@ -1,7 +1,9 @@
 // Forward, negate the momenta, forward again, negate: what came back of a scenario's start.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "hamflow/scenario/scenario.hpp"
@@ -22,5 +24,19 @@ struct ReversalReport {
 
 /// @param pulse called with the steps taken both ways; returns false to stop   @throws Error
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t step)>& pulse = {});
+
+/// A folder that keeps a reversal: reverse.json, and reverse.h5 with the states at the start, the turn and the end.
+class ReversalFolder {
+ public:
+  /// @param force replaces an earlier reversal, and nothing else   @throws FileError when the folder exists, or cannot
+  /// be made
+  ReversalFolder(const std::filesystem::path& folder, bool force);
+  /// @throws FileError
+  void keep(const Scenario& scenario, const ReversalReport& report) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::shared_ptr<const void> lock_;
+};
 
 }  // namespace hamflow

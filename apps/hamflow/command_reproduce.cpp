@@ -1,0 +1,98 @@
+// hamflow reproduce: the experiments of both theses, and a page with verdicts; hamflow list experiments, show ID.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "commands.hpp"
+#include "experiments.hpp"
+#include "guarded.hpp"
+#include "hamflow/reproduce/reproduce.hpp"
+#include "progress.hpp"
+
+namespace hamflow::app {
+
+namespace {
+using Clock = std::chrono::steady_clock;
+
+std::filesystem::path folder_for(const ReproduceCommandOptions& options) {
+  return options.out.empty() ? "reproduce" : options.out;
+}
+
+void check_together(const ReproduceCommandOptions& options) {
+  if (options.quick && options.full) throw Error("found --quick with --full; allowed one of them");
+  if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
+}
+
+ReproduceRequest request_of(const ReproduceCommandOptions& options) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return {.ids = named_experiments(options.what),
+          .extent = options.quick  ? WorkExtent::quick
+                    : options.full ? WorkExtent::full
+                                   : WorkExtent::usual,
+          .folder = folder_for(options),
+          .existing = options.resume  ? Existing::resume
+                      : options.force ? Existing::replace
+                                      : Existing::refuse,
+          .threads = options.threads > 0 ? options.threads : cores};
+}
+
+ReproduceReport carry_out(const ReproduceRequest& request, bool quiet) {
+  catch_interrupts();
+  Progress progress(0, 0, quiet);
+  const Clock::time_point begin = Clock::now();
+  return reproduce(request, [&](std::size_t done, std::size_t all) {
+    const double part = static_cast<double>(done) / static_cast<double>(all);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    progress.show(part, done > 0 ? std::optional(seconds * (1 - part) / part) : std::nullopt,
+                  fmt::format("experiment {} of {}", std::min(done + 1, all), all));
+    return !interrupted();
+  });
+}
+}  // namespace
+
+int reproduce_command(const ReproduceCommandOptions& options) {
+  return guarded(options.json, [&] {
+    check_together(options);
+    const ReproduceRequest request = request_of(options);
+    const ReproduceReport report = carry_out(request, options.quiet);
+    std::cout << (options.json ? report.json : report.text);
+    if (!options.json && !options.quiet) {
+      std::cout << fmt::format("{:<16}{}\n", "the page", (request.folder / "index.html").string());
+      if (report.status == "interrupted")
+        std::cout << fmt::format("{:<16}the same command with --resume\n", "to go on");
+    }
+    for (const ExperimentReport& experiment : report.experiments) {
+      if (experiment.status == "failed") print_error(experiment.info.id + ": " + experiment.message);
+    }
+    return exit_status(report.status);
+  });
+}
+
+void list_experiments(bool json) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const ExperimentInfo& info : experiment_infos()) {
+    if (json) {
+      all.push_back({{"id", info.id}, {"thesis", info.thesis}, {"page", info.page}, {"title", info.title}});
+    } else {
+      std::cout << fmt::format("{:<12} {:<18} p. {:<9} {}\n", info.id, info.thesis, info.page, info.title);
+    }
+  }
+  if (json) std::cout << all.dump(2) << '\n';
+}
+
+bool show_experiment(const std::string& id) {
+  for (const ExperimentInfo& info : experiment_infos()) {
+    if (info.id != id) continue;
+    std::cout << fmt::format("{}\n  {}\n  {}, page {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n", info.id,
+                             info.title, info.thesis, info.page, info.id);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace hamflow::app

@@ -1,0 +1,12 @@
+// What list and show tell of experiments.
+#pragma once
+
+#include <string>
+
+namespace hamflow::app {
+
+void list_experiments(bool json);
+/// False where there is no experiment of that ID.
+bool show_experiment(const std::string& id);
+
+}  // namespace hamflow::app

@@ -1,0 +1,40 @@
+// Newtonian pairs, phi(r) = -1/sqrt(r^2 + softening^2).   [HLW2006, (I.2.11)]
+#pragma once
+
+#include "hamflow/core/problem_info.hpp"
+
+namespace hamflow::pairs {
+
+template <class R>
+class Newton {
+ public:
+  explicit Newton(const Parameters<R>& given) : softening_squared_(given["softening"] * given["softening"]) {}
+  static ProblemInfo info() {
+    return {.name = "newton",
+            .formula = "phi(r) = -1/sqrt(r^2 + softening^2)",
+            .reference = "HLW2006, (I.2.11)",
+            .parameters = {{"softening", "0", "length", Range::not_negative}}};
+  }
+
+  /// phi as a function of u = r^2, and its derivatives by u.
+  template <class S>
+  S value(const S& u) const {
+    return R(-1) / sqrt(S(u + softening_squared_));
+  }
+  template <class S>
+  S first(const S& u) const {
+    const S d = u + softening_squared_;
+    return R(0.5) / (d * sqrt(d));
+  }
+  template <class S>
+  S second(const S& u) const {
+    const S d = u + softening_squared_;
+    return R(-0.75) / (d * d * sqrt(d));
+  }
+  const R& softening_squared() const { return softening_squared_; }
+
+ private:
+  R softening_squared_;
+};
+
+}  // namespace hamflow::pairs

@@ -1,0 +1,35 @@
+// What the gas of the catalogue is made of.
+#pragma once
+
+#include <vector>
+
+#include "hamflow/core/problem_info.hpp"
+
+namespace hamflow {
+
+/// The names of the gas: keys of a scenario, choices among its entries, and parameters.
+struct GasKeys {
+  static constexpr const char* problem = "gas";
+  // Choices.
+  static constexpr const char* pair = "pair";
+  static constexpr const char* container = "container";
+  static constexpr const char* cutoff_kind = "cutoff_kind";
+  static constexpr const char* typed = "formula";  // the word for a pair law that is typed
+  static constexpr const char* phi = "phi";
+  static constexpr const char* parameters = "parameters";
+  // Parameters.
+  static constexpr const char* masses = "masses";
+  static constexpr const char* dimension = "dimension";
+  static constexpr const char* scale = "scale";
+  static constexpr const char* radius = "radius";      // of the circle
+  static constexpr const char* exponent = "exponent";  // of its soft wall
+  static constexpr const char* size = "size";          // of a box
+  static constexpr const char* cutoff = "cutoff";
+  static constexpr const char* inner = "inner";
+  static constexpr const char* skin = "skin";
+};
+
+/// The pair laws that are built in: names, formulas and parameters.
+const std::vector<ProblemInfo>& pair_laws();
+
+}  // namespace hamflow

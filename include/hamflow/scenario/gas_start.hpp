@@ -1,0 +1,28 @@
+// Where the particles of a gas begin, as texts that every arithmetic reads with its own digits.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hamflow {
+
+struct GasStart {
+  std::vector<std::string> q;  // particle by particle
+  std::vector<std::string> p;
+  std::vector<std::string> masses;  // of a file that names them; else empty
+};
+
+/// n particles on each side of the square, or cube, [-1, 1]^space, the first coordinate changing fastest; momenta
+/// uniform in [-1, 1), multiples of 2e-5 [Sonnleitner2010, ch. 3a]: the k-th of them is 2e-5 floor(1e5 u_k) - 1, u_k in
+/// [0, 1) the upper 53 bits of counter_bits(seed, k), k = 0, 1, ... in the order of p.
+/// @param n at least 2   @param space 2 or 3
+GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed);
+/// The same on [0, 1]^space, at rest.
+GasStart gas_in_corner(std::int64_t n, std::size_t space);
+/// A CSV whose first row names x, y(, z), p_x, p_y(, p_z)(, mass), in any order; a row a particle.
+/// @throws Error with the line, what was found and what is allowed
+GasStart gas_from_file(const std::filesystem::path& file, std::size_t space);
+
+}  // namespace hamflow

@@ -1,0 +1,251 @@
+// Eight numbers in as many registers as the instruction set at hand needs for them: the same operations in the same
+// order for each. Included by kernel_body.hpp, within the namespace of an instruction set.
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define HAMFLOW_NATIVE_BYTES 64
+#elif defined(__AVX2__)
+#define HAMFLOW_NATIVE_BYTES 32
+#else
+#define HAMFLOW_NATIVE_BYTES 16
+#endif
+#define HAMFLOW_INLINE [[gnu::always_inline]] inline
+
+typedef double Native __attribute__((vector_size(HAMFLOW_NATIVE_BYTES)));
+typedef long long NativeBits __attribute__((vector_size(HAMFLOW_NATIVE_BYTES)));
+constexpr int lanes = HAMFLOW_NATIVE_BYTES / 8;
+constexpr int natives = 8 / lanes;
+
+struct Eight {
+  Native v[natives];
+};
+#define HAMFLOW_EACH for (int n = 0; n < natives; ++n)
+
+HAMFLOW_INLINE Eight all(double x) {
+  Eight r;
+  HAMFLOW_EACH r.v[n] = x - Native{};
+  return r;
+}
+HAMFLOW_INLINE Eight load(const double* from) {
+  Eight r;
+  HAMFLOW_EACH __builtin_memcpy(&r.v[n], from + n * lanes, sizeof(Native));
+  return r;
+}
+HAMFLOW_INLINE void store(const Eight& x, double* to) {
+  HAMFLOW_EACH __builtin_memcpy(to + n * lanes, &x.v[n], sizeof(Native));
+}
+HAMFLOW_INLINE Eight operator+(const Eight& a, const Eight& b) {
+  Eight r;
+  HAMFLOW_EACH r.v[n] = a.v[n] + b.v[n];
+  return r;
+}
+HAMFLOW_INLINE Eight operator-(const Eight& a, const Eight& b) {
+  Eight r;
+  HAMFLOW_EACH r.v[n] = a.v[n] - b.v[n];
+  return r;
+}
+HAMFLOW_INLINE Eight operator*(const Eight& a, const Eight& b) {
+  Eight r;
+  HAMFLOW_EACH r.v[n] = a.v[n] * b.v[n];
+  return r;
+}
+HAMFLOW_INLINE Eight operator/(const Eight& a, const Eight& b) {
+  Eight r;
+  HAMFLOW_EACH r.v[n] = a.v[n] / b.v[n];
+  return r;
+}
+HAMFLOW_INLINE Eight root(const Eight& a) {
+  Eight r;
+#if HAMFLOW_NATIVE_BYTES == 64
+  HAMFLOW_EACH r.v[n] = (Native)_mm512_sqrt_pd((__m512d)a.v[n]);
+#elif HAMFLOW_NATIVE_BYTES == 32
+  HAMFLOW_EACH r.v[n] = (Native)_mm256_sqrt_pd((__m256d)a.v[n]);
+#else
+  HAMFLOW_EACH r.v[n] = (Native)_mm_sqrt_pd((__m128d)a.v[n]);
+#endif
+  return r;
+}
+/// 0 where x is below it. NaN stays.
+HAMFLOW_INLINE Eight not_below_zero(const Eight& x) {
+  Eight r;
+#if HAMFLOW_NATIVE_BYTES == 64
+  HAMFLOW_EACH r.v[n] = (Native)_mm512_max_pd(_mm512_setzero_pd(), (__m512d)x.v[n]);
+#elif HAMFLOW_NATIVE_BYTES == 32
+  HAMFLOW_EACH r.v[n] = (Native)_mm256_max_pd(_mm256_setzero_pd(), (__m256d)x.v[n]);
+#else
+  HAMFLOW_EACH r.v[n] = (Native)_mm_max_pd(_mm_setzero_pd(), (__m128d)x.v[n]);
+#endif
+  return r;
+}
+/// a b + c, one rounding in kernel fast, two in kernel exact.
+HAMFLOW_INLINE Eight times_plus(const Eight& a, const Eight& b, const Eight& c) {
+#if HAMFLOW_BULK_FAST
+  Eight r;
+#if HAMFLOW_NATIVE_BYTES == 64
+  HAMFLOW_EACH r.v[n] = (Native)_mm512_fmadd_pd((__m512d)a.v[n], (__m512d)b.v[n], (__m512d)c.v[n]);
+#else
+  HAMFLOW_EACH r.v[n] = (Native)_mm256_fmadd_pd((__m256d)a.v[n], (__m256d)b.v[n], (__m256d)c.v[n]);
+#endif
+  return r;
+#else
+  return a * b + c;
+#endif
+}
+/// c - a b, likewise.
+HAMFLOW_INLINE Eight minus_times(const Eight& c, const Eight& a, const Eight& b) {
+#if HAMFLOW_BULK_FAST
+  Eight r;
+#if HAMFLOW_NATIVE_BYTES == 64
+  HAMFLOW_EACH r.v[n] = (Native)_mm512_fnmadd_pd((__m512d)a.v[n], (__m512d)b.v[n], (__m512d)c.v[n]);
+#else
+  HAMFLOW_EACH r.v[n] = (Native)_mm256_fnmadd_pd((__m256d)a.v[n], (__m256d)b.v[n], (__m256d)c.v[n]);
+#endif
+  return r;
+#else
+  return c - a * b;
+#endif
+}
+/// The nearest whole number of |x| < 2^51.
+HAMFLOW_INLINE Eight nearest_whole(const Eight& x) {
+  const Eight large = all(0x1.8p52);
+  return (x + large) - large;
+}
+
+/// A bit for each of the eight where x is not at the limit or above: set of NaN.
+HAMFLOW_INLINE unsigned below(const Eight& x, const Eight& limit) {
+#if HAMFLOW_NATIVE_BYTES == 64
+  return _mm512_cmp_pd_mask((__m512d)x.v[0], (__m512d)limit.v[0], _CMP_NGE_UQ);
+#else
+  unsigned bits = 0;
+#if HAMFLOW_NATIVE_BYTES == 32
+  HAMFLOW_EACH bits |= (unsigned)_mm256_movemask_pd(_mm256_cmp_pd((__m256d)x.v[n], (__m256d)limit.v[n], _CMP_NGE_UQ))
+                       << (n * lanes);
+#else
+  HAMFLOW_EACH bits |= (unsigned)_mm_movemask_pd(_mm_cmpnge_pd((__m128d)x.v[n], (__m128d)limit.v[n])) << (n * lanes);
+#endif
+  return bits;
+#endif
+}
+/// x where a bit is set, else another number.
+HAMFLOW_INLINE Eight where(unsigned bits, const Eight& x, double other) {
+  Eight r;
+#if HAMFLOW_NATIVE_BYTES == 64
+  r.v[0] = (Native)_mm512_mask_mov_pd(_mm512_set1_pd(other), (__mmask8)bits, (__m512d)x.v[0]);
+#else
+  HAMFLOW_EACH {
+    NativeBits mask;
+    for (int k = 0; k < lanes; ++k) mask[k] = -(long long)((bits >> (n * lanes + k)) & 1);
+    r.v[n] = (Native)(((NativeBits)x.v[n] & mask) | ((NativeBits)(other - Native{}) & ~mask));
+  }
+#endif
+  return r;
+}
+
+/// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
+HAMFLOW_INLINE double sum_of(const Eight& x) {
+  double e[8];
+  store(x, e);
+  return ((e[0] + e[4]) + (e[2] + e[6])) + ((e[1] + e[5]) + (e[3] + e[7]));
+}
+
+#if HAMFLOW_NATIVE_BYTES == 32
+/// Which halves of numbers go where when those of four bits are moved together.
+struct Packing {
+  int halves[16][8];
+};
+constexpr Packing packing() {
+  Packing p{};
+  for (int bits = 0; bits < 16; ++bits) {
+    int to = 0;
+    for (int k = 0; k < 4; ++k) {
+      if ((bits >> k) & 1) {
+        p.halves[bits][2 * to] = 2 * k;
+        p.halves[bits][2 * to + 1] = 2 * k + 1;
+        ++to;
+      }
+    }
+  }
+  return p;
+}
+alignas(32) constexpr Packing packed = packing();
+#endif
+
+/// Those whose bits are set, in their order, to a place with room for eight more.
+HAMFLOW_INLINE void append(unsigned bits, const Eight& x, double* to) {
+#if HAMFLOW_NATIVE_BYTES == 64
+  _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, (__m512d)x.v[0]));
+#elif HAMFLOW_NATIVE_BYTES == 32
+  HAMFLOW_EACH {
+    const unsigned four = (bits >> (4 * n)) & 15;
+    const __m256i halves = _mm256_load_si256((const __m256i*)packed.halves[four]);
+    _mm256_storeu_si256((__m256i*)to, _mm256_permutevar8x32_epi32((__m256i)x.v[n], halves));
+    to += __builtin_popcount(four);
+  }
+#else
+  for (int k = 0; k < 8; ++k) {
+    *to = x.v[k / lanes][k % lanes];
+    to += (bits >> k) & 1;
+  }
+#endif
+}
+
+HAMFLOW_INLINE void append(unsigned bits, const std::uint32_t* from, std::uint32_t* to) {
+#if HAMFLOW_NATIVE_BYTES == 64
+  const __m256i x = _mm256_loadu_si256((const __m256i*)from);
+  _mm256_storeu_si256((__m256i*)to, _mm256_maskz_compress_epi32((__mmask8)bits, x));
+#else
+  for (int k = 0; k < 8; ++k) {
+    *to = from[k];
+    to += (bits >> k) & 1;
+  }
+#endif
+}
+
+/// x, y, z, w of eight slots.
+HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eight& x, Eight& y, Eight& z, Eight& w) {
+  const auto row = [&](int k) { return at + 4 * (std::size_t)slots[k]; };
+#if HAMFLOW_NATIVE_BYTES == 64
+  const auto two = [&](int low, int high) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(row(low))), _mm256_load_pd(row(high)), 1);
+  };
+  const __m512d a = two(0, 4);  // x0 y0 z0 w0 x4 y4 z4 w4
+  const __m512d b = two(1, 5);
+  const __m512d c = two(2, 6);
+  const __m512d d = two(3, 7);
+  const __m512d xz = _mm512_unpacklo_pd(a, b);  // x0 x1 z0 z1 x4 x5 z4 z5
+  const __m512d yw = _mm512_unpackhi_pd(a, b);
+  const __m512d xz2 = _mm512_unpacklo_pd(c, d);  // x2 x3 z2 z3 x6 x7 z6 z7
+  const __m512d yw2 = _mm512_unpackhi_pd(c, d);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+  const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  x.v[0] = (Native)_mm512_permutex2var_pd(xz, low, xz2);
+  y.v[0] = (Native)_mm512_permutex2var_pd(yw, low, yw2);
+  z.v[0] = (Native)_mm512_permutex2var_pd(xz, high, xz2);
+  w.v[0] = (Native)_mm512_permutex2var_pd(yw, high, yw2);
+#elif HAMFLOW_NATIVE_BYTES == 32
+  HAMFLOW_EACH {
+    const __m256d a = _mm256_load_pd(row(4 * n));
+    const __m256d b = _mm256_load_pd(row(4 * n + 1));
+    const __m256d c = _mm256_load_pd(row(4 * n + 2));
+    const __m256d d = _mm256_load_pd(row(4 * n + 3));
+    const __m256d xz = _mm256_unpacklo_pd(a, b);  // x0 x1 z0 z1
+    const __m256d yw = _mm256_unpackhi_pd(a, b);
+    const __m256d xz2 = _mm256_unpacklo_pd(c, d);
+    const __m256d yw2 = _mm256_unpackhi_pd(c, d);
+    x.v[n] = (Native)_mm256_permute2f128_pd(xz, xz2, 0x20);
+    y.v[n] = (Native)_mm256_permute2f128_pd(yw, yw2, 0x20);
+    z.v[n] = (Native)_mm256_permute2f128_pd(xz, xz2, 0x31);
+    w.v[n] = (Native)_mm256_permute2f128_pd(yw, yw2, 0x31);
+  }
+#else
+  HAMFLOW_EACH {
+    const __m128d a = _mm_load_pd(row(2 * n));
+    const __m128d a2 = _mm_load_pd(row(2 * n) + 2);
+    const __m128d b = _mm_load_pd(row(2 * n + 1));
+    const __m128d b2 = _mm_load_pd(row(2 * n + 1) + 2);
+    x.v[n] = (Native)_mm_unpacklo_pd(a, b);
+    y.v[n] = (Native)_mm_unpackhi_pd(a, b);
+    z.v[n] = (Native)_mm_unpacklo_pd(a2, b2);
+    w.v[n] = (Native)_mm_unpackhi_pd(a2, b2);
+  }
+#endif
+}

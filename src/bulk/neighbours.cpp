@@ -1,0 +1,332 @@
+#include "neighbours.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace hamflow::bulk {
+
+namespace {
+constexpr std::size_t rows_each = 64;  // of a block, at least
+/// What rounding could move across a limit.
+constexpr double margin = 1e-9;
+constexpr std::size_t worth_sharing = 4096;
+
+/// The nearest whole number of |x| < 2^51, as the kernels round.
+double nearest(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
+
+/// work(worker, block) for each block, by all threads where there are more.
+template <class Work>
+void share(ThreadTeam* team, std::size_t blocks, const Work& work) {
+  if (team == nullptr || blocks < 2) {
+    for (std::size_t b = 0; b < blocks; ++b) work(std::size_t{0}, b);
+    return;
+  }
+  auto job = [&](std::size_t worker, std::uint64_t, std::size_t block) { work(worker, block); };
+  team->share(blocks, job);
+}
+}  // namespace
+
+void Neighbours::prepare(const Box& box, std::size_t particles, std::size_t workers) {
+  box_ = box;
+  particles_ = particles;
+  reach_ = (box.radius + box.skin) * (1 + margin);
+  desks_.resize(workers);
+  for (Desk& desk : desks_) {
+    std::size_t words = particles;
+    for (auto& level : desk.marks) {
+      words = (words + 63) / 64;
+      level.assign(words, 0);
+    }
+  }
+  cell_of_.resize(particles);
+  number_.resize(particles);
+  slot_of_.resize(particles);
+  plain_.resize(particles);
+  at_.resize(4 * particles);
+  for (std::size_t k = 0; k < box.space; ++k) x_[k].resize(particles + 8);
+  made_at_.resize(box.space * particles);
+  made_ = false;
+}
+
+double Neighbours::wrapped(double x, std::size_t k) const {
+  const double edge = box_.edges[k];
+  return edge == 0 ? x : x - nearest(x / edge) * edge;
+}
+
+/// Cells not smaller than the reach of the lists, and not many more than particles.
+void Neighbours::lay_cells(const double* q) {
+  const std::size_t space = box_.space;
+  double most = 1;
+  for (std::size_t k = 0; k < space; ++k) {
+    double low = -box_.edges[k] / 2;
+    double high = box_.edges[k] / 2;
+    if (box_.edges[k] == 0) {
+      low = high = q[k];
+      for (std::size_t i = 0; i < particles_; ++i) {
+        low = std::min(low, q[i * space + k]);
+        high = std::max(high, q[i * space + k]);
+      }
+    }
+    corner_[k] = low;
+    const double across = high - low;
+    const double count = std::min(std::floor(across / reach_), 1e6);
+    cells_[k] = count < 1 ? 1 : static_cast<std::size_t>(count);
+    cell_edge_[k] = across;
+    most *= static_cast<double>(cells_[k]);
+  }
+  const double allowed = static_cast<double>(2 * particles_ + 64);
+  if (most > allowed) {
+    const double shrink = std::pow(allowed / most, 1 / static_cast<double>(space));
+    for (std::size_t k = 0; k < space; ++k) {
+      cells_[k] = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(cells_[k]) * shrink));
+    }
+  }
+  for (std::size_t k = 0; k < space; ++k) cell_edge_[k] /= static_cast<double>(cells_[k]);
+  for (std::size_t k = space; k < 3; ++k) cells_[k] = 1;
+}
+
+/// By counting, so that within a cell numbers ascend.
+void Neighbours::sort_into_cells(const double* q) {
+  const std::size_t space = box_.space;
+  const std::size_t cells = cells_[0] * cells_[1] * cells_[2];
+  cell_begins_.assign(cells + 1, 0);
+  for (std::size_t i = 0; i < particles_; ++i) {
+    std::size_t cell = 0;
+    for (std::size_t k = space; k-- > 0;) {
+      const double place = (wrapped(q[i * space + k], k) - corner_[k]) / cell_edge_[k];
+      const double last = static_cast<double>(cells_[k] - 1);
+      // Where all stand at one coordinate the quotient is none.
+      cell = cell * cells_[k] + (place > 0 ? static_cast<std::size_t>(std::min(place, last)) : 0);
+    }
+    cell_of_[i] = static_cast<std::uint32_t>(cell);
+    ++cell_begins_[cell + 1];
+  }
+  for (std::size_t c = 0; c < cells; ++c) cell_begins_[c + 1] += cell_begins_[c];
+  for (std::size_t i = 0; i < particles_; ++i) {
+    const std::size_t slot = cell_begins_[cell_of_[i]]++;
+    number_[slot] = static_cast<std::uint32_t>(i);
+    slot_of_[i] = static_cast<std::uint32_t>(slot);
+  }
+  for (std::size_t c = cells; c > 0; --c) cell_begins_[c] = cell_begins_[c - 1];
+  cell_begins_[0] = 0;
+}
+
+void Neighbours::divide_rows() {
+  const std::size_t cells = cell_begins_.size() - 1;
+  std::size_t used = 0;
+  std::size_t first_cell = 0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    if (cell_begins_[c + 1] - cell_begins_[first_cell] < rows_each && c + 1 < cells) continue;
+    if (used == blocks_.size()) blocks_.emplace_back();
+    Block& block = blocks_[used++];
+    block.first_cell = first_cell;
+    block.last_cell = c + 1;
+    block.first = cell_begins_[first_cell];
+    block.last = cell_begins_[c + 1];
+    first_cell = c + 1;
+  }
+  // Blocks that are left over keep their memory.
+  for (std::size_t b = used; b < blocks_.size(); ++b) {
+    blocks_[b].first = blocks_[b].last = blocks_[b].first_cell = blocks_[b].last_cell = 0;
+  }
+}
+
+/// The cell itself too, each of them once.
+std::size_t Neighbours::cells_beside(std::size_t cell, std::size_t* beside) const {
+  const std::size_t at[3] = {cell % cells_[0], cell / cells_[0] % cells_[1], cell / cells_[0] / cells_[1]};
+  std::size_t near[3][3];
+  std::size_t count[3] = {0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t all = cells_[k];
+    if (all <= 2) {
+      for (std::size_t c = 0; c < all; ++c) near[k][count[k]++] = c;
+      continue;
+    }
+    const bool periodic = box_.edges[k] != 0;
+    if (at[k] > 0 || periodic) near[k][count[k]++] = (at[k] + all - 1) % all;
+    near[k][count[k]++] = at[k];
+    if (at[k] + 1 < all || periodic) near[k][count[k]++] = (at[k] + 1) % all;
+  }
+  std::size_t found = 0;
+  for (std::size_t c = 0; c < count[2]; ++c) {
+    for (std::size_t b = 0; b < count[1]; ++b) {
+      for (std::size_t a = 0; a < count[0]; ++a) {
+        beside[found++] = (near[2][c] * cells_[1] + near[1][b]) * cells_[0] + near[0][a];
+      }
+    }
+  }
+  return found;
+}
+
+/// The particles in and around a cell in the order of their numbers, by marks that are read in that order; where cells
+/// are small beside the box, those of their images that are nearest to the cell.
+void Neighbours::gather(std::size_t cell, Desk& desk) const {
+  auto& [marks, words, summary] = desk.marks;
+  std::size_t beside[27];
+  const std::size_t cells = cells_beside(cell, beside);
+  std::size_t size = 0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    size += cell_begins_[beside[c] + 1] - cell_begins_[beside[c]];
+    for (std::size_t slot = cell_begins_[beside[c]]; slot < cell_begins_[beside[c] + 1]; ++slot) {
+      const std::size_t number = number_[slot];
+      marks[number / 64] |= std::uint64_t{1} << (number % 64);
+      words[number / 4096] |= std::uint64_t{1} << (number / 64 % 64);
+      summary[number / 262144] |= std::uint64_t{1} << (number / 4096 % 64);
+    }
+  }
+  if (desk.slots.size() < size + 8) {
+    const std::size_t room = std::min(size + size / 2, particles_) + 16;
+    desk.slots.resize(room);
+    desk.found.resize(room);
+    desk.own.resize(room);
+    for (std::size_t k = 0; k < box_.space; ++k) desk.x[k].resize(room);
+  }
+  double middle[3] = {};
+  double inverse[3] = {};
+  std::size_t rest = cell;
+  for (std::size_t k = 0; k < box_.space; ++k) {
+    middle[k] = corner_[k] + (static_cast<double>(rest % cells_[k]) + 0.5) * cell_edge_[k];
+    rest /= cells_[k];
+    inverse[k] = by_shift_ && box_.edges[k] != 0 ? 1 / box_.edges[k] : 0;
+  }
+  std::size_t own = 0;
+  std::size_t found = 0;
+  const auto enter = [&](std::size_t number) {
+    const std::uint32_t slot = slot_of_[number];
+    desk.slots[found] = slot;
+    for (std::size_t k = 0; k < box_.space; ++k) {
+      const double x = x_[k][slot];
+      desk.x[k][found] = x - nearest((x - middle[k]) * inverse[k]) * box_.edges[k];
+    }
+    if (slot >= cell_begins_[cell] && slot < cell_begins_[cell + 1])
+      desk.own[own++] = static_cast<std::uint32_t>(found);
+    ++found;
+  };
+  for (std::size_t a = 0; a < summary.size(); ++a) {
+    for (std::uint64_t& in_a = summary[a]; in_a != 0; in_a &= in_a - 1) {
+      const std::size_t b = 64 * a + static_cast<std::size_t>(std::countr_zero(in_a));
+      for (std::uint64_t& in_b = words[b]; in_b != 0; in_b &= in_b - 1) {
+        const std::size_t c = 64 * b + static_cast<std::size_t>(std::countr_zero(in_b));
+        for (std::uint64_t& in_c = marks[c]; in_c != 0; in_c &= in_c - 1) {
+          enter(64 * c + static_cast<std::size_t>(std::countr_zero(in_c)));
+        }
+      }
+    }
+  }
+  desk.count = found;
+}
+
+/// The rows of a block follow each other like the slots: in a cell both are in the order of numbers.
+void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const {
+  block.slots.clear();
+  block.begins.clear();
+  block.counts.clear();
+  for (std::size_t cell = block.first_cell; cell < block.last_cell; ++cell) {
+    const std::size_t own = cell_begins_[cell + 1] - cell_begins_[cell];
+    if (own == 0) continue;
+    gather(cell, desk);
+    Crowd crowd{};
+    crowd.slots = desk.slots.data();
+    crowd.count = desk.count;
+    crowd.radius_squared = reach_ * reach_;
+    for (std::size_t k = 0; k < box_.space; ++k) {
+      crowd.x[k] = desk.x[k].data();
+      crowd.edge[k] = box_.edges[k];
+      crowd.inverse_edge[k] = box_.edges[k] == 0 ? 0 : 1 / box_.edges[k];
+    }
+    for (std::size_t i = 0; i < own; ++i) {
+      const std::size_t count = near[by_shift_ ? 0 : 1](crowd, desk.own[i], desk.found.data());
+      block.begins.push_back(static_cast<std::uint32_t>(block.slots.size()));
+      block.counts.push_back(static_cast<std::uint32_t>(count));
+      block.slots.insert(block.slots.end(), desk.found.begin(),
+                         desk.found.begin() + static_cast<std::ptrdiff_t>(count));
+      while (block.slots.size() % 8 != 0) block.slots.push_back(desk.slots[desk.own[i]]);
+    }
+  }
+}
+
+void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
+  const std::size_t space = box_.space;
+  lay_cells(q);
+  sort_into_cells(q);
+  divide_rows();
+  // A particle is deep in the box when no image of another one can come within range of it while the lists last.
+  double deep[3] = {};
+  bool any_deep = true;
+  by_shift_ = true;
+  for (std::size_t k = 0; k < space; ++k) {
+    const double edge = box_.edges[k];
+    const double moved = box_.skin * (1 + margin);
+    deep[k] = edge == 0 ? std::numeric_limits<double>::infinity() : edge / 2 * (1 - margin) - moved - reach_;
+    any_deep = any_deep && deep[k] >= 0;
+    by_shift_ = by_shift_ && (edge == 0 || cells_[k] >= 3);
+  }
+  for (std::size_t slot = 0; slot < particles_; ++slot) {
+    bool plain = any_deep;
+    for (std::size_t k = 0; k < space; ++k) {
+      const double x = q[number_[slot] * space + k];
+      x_[k][slot] = wrapped(x, k);
+      made_at_[slot * space + k] = x;
+      plain = plain && std::abs(x_[k][slot]) <= deep[k];
+    }
+    plain_[slot] = plain;
+  }
+  share(team, blocks_.size(), [&](std::size_t worker, std::size_t b) { find_rows(blocks_[b], desks_[worker], near); });
+  longest_ = 0;
+  for (const Block& block : blocks_) {
+    for (const std::uint32_t count : block.counts) longest_ = std::max<std::size_t>(longest_, count);
+  }
+  made_ = true;
+  place(q, team);
+}
+
+void Neighbours::place_slots(const double* q, std::size_t first, std::size_t last, Desk& desk) {
+  const std::size_t space = box_.space;
+  double most = 0;
+  double next = 0;
+  for (std::size_t slot = first; slot < last; ++slot) {
+    double moved = 0;
+    for (std::size_t k = 0; k < space; ++k) {
+      const double x = q[number_[slot] * space + k];
+      const double d = x - made_at_[slot * space + k];
+      moved += d * d;
+      at_[4 * slot + k] = wrapped(x, k);
+    }
+    next = std::max(next, std::min(most, moved));
+    most = std::max(most, moved);
+  }
+  desk.moved[1] = std::max({desk.moved[1], next, std::min(desk.moved[0], most)});
+  desk.moved[0] = std::max(desk.moved[0], most);
+}
+
+bool Neighbours::place(const double* q, ThreadTeam* team) {
+  if (!made_) return false;
+  for (Desk& desk : desks_) desk.moved[0] = desk.moved[1] = 0;
+  const std::size_t pieces = particles_ < worth_sharing ? 1 : particles_ / 1024;
+  share(team, pieces, [&](std::size_t worker, std::size_t piece) {
+    place_slots(q, particles_ * piece / pieces, particles_ * (piece + 1) / pieces, desks_[worker]);
+  });
+  double most = 0;
+  double next = 0;
+  for (const Desk& desk : desks_) {
+    next = std::max({next, desk.moved[1], std::min(most, desk.moved[0])});
+    most = std::max(most, desk.moved[0]);
+  }
+  return std::sqrt(most) + std::sqrt(next) <= box_.skin;
+}
+
+void Neighbours::set_strengths(const std::vector<double>& strengths) {
+  for (std::size_t slot = 0; slot < particles_; ++slot) {
+    at_[4 * slot + 3] = strengths.empty() ? 1 : strengths[number_[slot]];
+  }
+}
+
+void Neighbours::show(Rows& rows) const {
+  rows.at = at_.data();
+  rows.number = number_.data();
+  rows.plain = plain_.data();
+}
+
+}  // namespace hamflow::bulk

@@ -1,0 +1,109 @@
+// Lists of neighbours: of each particle those within the cut-off and a skin, in the order of their numbers. They serve
+// until two particles together have moved by the skin.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hamflow/core/thread_team.hpp"
+#include "kernel.hpp"
+
+namespace hamflow::bulk {
+
+/// Memory for registers of any width; resizing sets all to 0.
+class Numbers {
+ public:
+  void resize(std::size_t size) {
+    memory_.assign(size + 8, 0.0);
+    const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
+    offset_ = (64 - address % 64) % 64 / sizeof(double);
+  }
+  double* data() { return memory_.data() + offset_; }
+  const double* data() const { return memory_.data() + offset_; }
+  double& operator[](std::size_t i) { return data()[i]; }
+  double operator[](std::size_t i) const { return data()[i]; }
+
+ private:
+  std::vector<double> memory_;
+  std::size_t offset_ = 0;
+};
+
+class Neighbours {
+ public:
+  struct Box {
+    std::size_t space = 2;
+    std::array<double, 3> edges{};  // 0: not periodic
+    double radius = 0;              // of the cut-off
+    double skin = 0;
+  };
+  /// Rows that one worker sums at a time.
+  struct Block {
+    std::size_t first = 0;  // slots
+    std::size_t last = 0;
+    std::size_t first_cell = 0;
+    std::size_t last_cell = 0;
+    std::vector<std::uint32_t> slots{};
+    std::vector<std::uint32_t> begins{};
+    std::vector<std::uint32_t> counts{};
+    Candidates candidates() const { return {slots.data(), begins.data(), counts.data()}; }
+  };
+
+  /// @param workers how many threads can make lists at a time
+  void prepare(const Box& box, std::size_t particles, std::size_t workers);
+  /// Copies positions to their slots. @return whether the lists still serve them; never before the first ones are made
+  bool place(const double* q, ThreadTeam* team);
+  /// Makes the lists anew and places. @param near without and with images
+  void make(const double* q, const FindNear* near, ThreadTeam* team);
+
+  std::vector<Block>& blocks() { return blocks_; }
+  std::size_t longest_row() const { return longest_; }
+  void show(Rows& rows) const;
+  /// The fourth number of each slot, after lists are made. @param strengths by particle; empty: 1
+  void set_strengths(const std::vector<double>& strengths);
+
+ private:
+  /// Of one worker.
+  struct Desk {
+    // The particles in and around a cell, in the order of their numbers.
+    Numbers x[3];
+    std::vector<std::uint32_t> slots;
+    std::vector<std::uint32_t> own;  // places of those in the cell
+    std::size_t count = 0;
+    std::vector<std::uint32_t> found;
+    // A bit for each particle, for each word of such bits, for each word of those.
+    std::array<std::vector<std::uint64_t>, 3> marks;
+    double moved[2] = {0, 0};  // the largest two squares of displacements
+  };
+  double wrapped(double x, std::size_t k) const;
+  void lay_cells(const double* q);
+  void sort_into_cells(const double* q);
+  void divide_rows();
+  std::size_t cells_beside(std::size_t cell, std::size_t* beside) const;
+  void gather(std::size_t cell, Desk& desk) const;
+  void find_rows(Block& block, Desk& desk, const FindNear* near) const;
+  void place_slots(const double* q, std::size_t first, std::size_t last, Desk& desk);
+
+  Box box_;
+  std::size_t particles_ = 0;
+  double reach_ = 0;  // of the lists
+  std::array<std::size_t, 3> cells_{1, 1, 1};
+  std::array<double, 3> corner_{};
+  std::array<double, 3> cell_edge_{};
+  std::vector<std::uint32_t> cell_of_;  // by particle
+  std::vector<std::size_t> cell_begins_;
+  std::vector<std::uint32_t> number_;   // by slot
+  std::vector<std::uint32_t> slot_of_;  // by particle
+  std::vector<unsigned char> plain_;    // by slot
+  Numbers at_;                          // by slot
+  Numbers x_[3];                        // by slot, when the lists were made
+  Numbers made_at_;                     // by slot, unwrapped
+  std::vector<Block> blocks_;
+  std::vector<Desk> desks_;
+  std::size_t longest_ = 0;
+  bool by_shift_ = true;  // the images nearest to a cell are those that count
+  bool made_ = false;
+};
+
+}  // namespace hamflow::bulk

@@ -1,0 +1,359 @@
+#include "gas_entry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numeric>
+
+#include "gas_functions.hpp"
+#include "gas_lattice.hpp"
+#include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/gas.hpp"
+#include "hamflow/run/walls.hpp"
+#include "mp_simulation.hpp"
+#include "outside_simulation.hpp"
+#include "recipes.hpp"
+#include "start_of_energy.hpp"
+
+namespace hamflow {
+
+namespace {
+
+using Keys = GasKeys;
+using Words = std::map<std::string, std::string>;
+template <class R>
+using GasState = Start<R, dynamic>;
+
+std::string choice(const Words& choices, const char* key, const char* usual) {
+  const auto found = choices.find(key);
+  return found == choices.end() ? usual : found->second;
+}
+
+ParameterInfo number(const char* name, const char* usual, const char* meaning, Range range,
+                     const char* condition = "") {
+  return {.name = name, .default_value = usual, .meaning = meaning, .range = range, .condition = condition};
+}
+
+/// What the words stand for, and what follows from them for all of the entry's functions.
+struct Kind {
+  GasShape shape;
+  Words choices;
+  Texts typed_parameters;  // of phi, names to "?"
+};
+
+Kind kind_of(const Words& given) {
+  Kind kind;
+  kind.shape.pair = choice(given, Keys::pair, "lennard-jones");
+  const std::string container = choice(given, Keys::container, ContainerNames::circle);
+  const std::string cutoff = choice(given, Keys::cutoff_kind, CutoffNames::none);
+  kind.shape.container = ContainerNames::kind(container);
+  kind.shape.cutoff = CutoffNames::kind(cutoff);
+  kind.choices = {{Keys::pair, kind.shape.pair}, {Keys::container, container}, {Keys::cutoff_kind, cutoff}};
+  if (kind.shape.pair != Keys::typed) return kind;
+  // A central field in which the distance of a pair is the radius.
+  Choices field{{FormulaKeys::coordinates, "cartesian"}};
+  field[FormulaKeys::central_potential] = kind.choices[Keys::phi] = choice(given, Keys::phi, "");
+  field[FormulaKeys::parameters] = kind.choices[Keys::parameters] = choice(given, Keys::parameters, "");
+  const FormulaTexts texts = radial_formula_texts(field);
+  kind.shape.typed = std::make_shared<const formula::Model>(texts);
+  kind.typed_parameters = texts.parameters;
+  kind.typed_parameters.erase(CentralKeys::mass);
+  return kind;
+}
+
+std::string formula_of(const Kind& kind) {
+  std::string phi = "phi(r) = " + choice(kind.choices, Keys::phi, "");
+  for (const ProblemInfo& law : pair_laws()) {
+    if (law.name == kind.shape.pair) phi = law.formula;
+  }
+  std::string h = "H = sum |p_i|^2/(2 m_i) + (1/S^2) sum_{i<j} phi(S r_ij)";
+  if (kind.shape.container == ContainerKind::circle) h += " + 1/(2 S^(2+2e)) sum 1/(radius^2 - |q_i|^2)^e";
+  return h + ", " + phi;
+}
+
+std::vector<ParameterInfo> parameters_of(const Kind& kind) {
+  std::vector<ParameterInfo> all{
+      {.name = Keys::masses,
+       .default_value = "1",
+       .meaning = "of all particles, or one for each",
+       .range = Range::positive,
+       .type = OptionType::number_or_list},
+      number(Keys::dimension, "2", "of space", Range::whole_from(2, 3)),
+      number(Keys::scale, "1", "S, lengths of the potential for one of the coordinates", Range::positive)};
+  for (const ProblemInfo& law : pair_laws()) {
+    if (law.name == kind.shape.pair) all.insert(all.end(), law.parameters.begin(), law.parameters.end());
+  }
+  for (const auto& [name, text] : kind.typed_parameters) {
+    const bool list = text.starts_with("[");
+    all.push_back({.name = name,
+                   .meaning = list ? "a list" : "a number",
+                   .type = list ? OptionType::list : OptionType::number,
+                   .length = list ? list_parts(text).size() : 0,
+                   .required = true});
+  }
+  if (kind.shape.container == ContainerKind::circle) {
+    all.push_back(number(Keys::radius, "1.5", "of the circle, or sphere", Range::positive));
+    all.push_back(number(Keys::exponent, "1", "e of its soft wall", {.least = 1}));
+  }
+  if (kind.shape.container == ContainerKind::periodic || kind.shape.container == ContainerKind::box) {
+    all.push_back({.name = Keys::size,
+                   .meaning = "edges of the box, whose middle is the origin",
+                   .range = Range::positive,
+                   .type = OptionType::list,
+                   .required = true});
+  }
+  if (kind.shape.cutoff != CutoffKind::none) {
+    all.push_back({.name = Keys::cutoff,
+                   .meaning = "R, in lengths of the potential",
+                   .range = Range::positive,
+                   .required = true});
+    if (kind.shape.cutoff == CutoffKind::smooth) {
+      all.push_back(
+          {.name = Keys::inner, .meaning = "from which on phi fades", .range = Range::positive, .required = true});
+    }
+    all.push_back(number(Keys::skin, "0.3", "of lists of neighbours; it changes no bit", Range::positive));
+  }
+  return all;
+}
+
+std::vector<InvariantInfo> invariants_of(ContainerKind container) {
+  std::vector<InvariantInfo> all;
+  if (container == ContainerKind::none || container == ContainerKind::circle) {
+    all.push_back({"angular_momentum", "sum x_i x p_i", Components::rotations, Terms::moments});
+  }
+  if (container == ContainerKind::none || container == ContainerKind::periodic) {
+    all.push_back({"linear_momentum", "P = sum p_i", Components::space, Terms::momenta});
+    all.push_back({"centre_of_mass", "sum m_i x_i/M - P t/M", Components::space, Terms::centre_of_mass});
+  }
+  return all;
+}
+
+std::string refused_size(const Texts& texts, std::size_t size) {
+  const Parameters<double> given(texts);
+  const auto space = static_cast<std::size_t>(given[Keys::dimension]);
+  const std::size_t masses = given.list(Keys::masses).size();
+  if (size == 0 || size % space != 0) return std::to_string(space) + " numbers for each particle";
+  if (masses == 1 || masses * space == size) return {};
+  return std::to_string(masses * space) + " numbers for the " + std::to_string(masses) + " particles of masses";
+}
+
+std::pair<std::string, std::string> refused_parameters(const Kind& kind, const Texts& texts) {
+  const Parameters<double> given(texts);
+  const auto space = static_cast<std::size_t>(given[Keys::dimension]);
+  const auto& [pair, typed, container, cutoff] = kind.shape;
+  const bool has_box = container == ContainerKind::periodic || container == ContainerKind::box;
+  if (has_box && given.list(Keys::size).size() != space) {
+    return {Keys::container, "allowed size = [...] with " + std::to_string(space) + " edges"};
+  }
+  if (cutoff == CutoffKind::smooth && !(given[Keys::inner] < given[Keys::cutoff])) {
+    return {Keys::cutoff, "allowed inner below radius"};
+  }
+  if (container != ContainerKind::periodic) return {};
+  const std::vector<double>& edges = given.list(Keys::size);
+  const double most = *std::min_element(edges.begin(), edges.end()) / 2 * given[Keys::scale];
+  if (cutoff == CutoffKind::none) {
+    return {Keys::container, "allowed with a cutoff of at most " + shortest(most) +
+                                 ", half the shortest edge: a particle meets the nearest image of each other one"};
+  }
+  if (given[Keys::cutoff] <= most) return {};
+  return {Keys::cutoff,
+          "allowed at most " + shortest(most) + ", half the shortest edge of the periodic box (times scale)"};
+}
+
+/// Particles outside, and two at one point, where phi is not defined.
+std::string refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
+  const Parameters<double> given(texts);
+  const auto space = static_cast<std::size_t>(given[Keys::dimension]);
+  const std::size_t particles = q.size() / space;
+  for (std::size_t i = 0; i < particles; ++i) {
+    double square = 0;
+    for (std::size_t k = 0; k < space; ++k) square += q[i * space + k] * q[i * space + k];
+    const bool outside =
+        kind.shape.container == ContainerKind::circle && !(square < given[Keys::radius] * given[Keys::radius]);
+    const std::string who = "particle " + std::to_string(i + 1) + " at ";
+    if (outside) {
+      return who + shortest(std::sqrt(square)) +
+             " from the middle, on the soft wall or beyond it; allowed below radius = " + shortest(given[Keys::radius]);
+    }
+  }
+  if (given.has("softening") && given["softening"] > 0) return {};
+  std::vector<std::size_t> order(particles);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t i) { return q.begin() + static_cast<std::ptrdiff_t>(i * space); };
+  const auto end = [&](std::size_t i) { return place(i) + static_cast<std::ptrdiff_t>(space); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::lexicographical_compare(place(a), end(a), place(b), end(b));
+  });
+  for (std::size_t k = 1; k < particles; ++k) {
+    const auto [a, b] = std::minmax(order[k - 1], order[k]);
+    if (!std::equal(place(a), end(a), place(b))) continue;
+    return "particles " + std::to_string(a + 1) + " and " + std::to_string(b + 1) +
+           " at one point; allowed different positions";
+  }
+  return {};
+}
+
+Vector<double, dynamic> vector_of(const std::vector<double>& x) {
+  Vector<double, dynamic> v(x.size());
+  std::copy(x.begin(), x.end(), v.begin());
+  return v;
+}
+
+template <class R>
+GasState<R> start_of(const Gas<R>& gas, const Request& request) {
+  const StartSpec& spec = request.start;
+  const auto with = [&](const R& free) {
+    const auto read = [&](const std::vector<std::string>& texts) {
+      Vector<R, dynamic> out(gas.size());
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = is_left_to_energy(texts.at(i)) ? free : evaluate_number<R>(texts.at(i));
+      }
+      return out;
+    };
+    GasState<R> s{read(spec.q), read(spec.v.empty() ? spec.p : spec.v)};
+    for (std::size_t i = 0; !spec.v.empty() && i < s.p.size(); ++i) s.p[i] *= gas.model().masses[i / gas.space()];
+    return s;
+  };
+  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), spec));
+}
+
+template <class R>
+std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& request) {
+  const Parameters<R> given(request.parameters);
+  const std::size_t size = request.start.q.size();
+  if (const std::string why_not = refused_size(request.parameters, size); !why_not.empty()) {
+    throw Error("a state of this gas has " + why_not + " for each of q and p, not " + std::to_string(size));
+  }
+  const Gas<R> gas = make_gas<R>(shape, given, size);
+  GasState<R> s = start_of<R>(gas, request);
+  const R h = evaluate_number<R>(request.dt);
+  std::unique_ptr<Simulation> simulation;
+  if constexpr (std::is_same_v<R, double>) {
+    const bool walls = walls_among(request.variant).has_value();  // these are told behind virtual calls
+    if (request.arithmetic == "lattice" && !walls) simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
+  }
+  if (!simulation) {
+    simulation = simulate_erased<R>({gas_functions<R>(shape, given, size), std::move(s.q), std::move(s.p), h}, request);
+  }
+  return shape.container == ContainerKind::circle ? telling_who_is_outside(std::move(simulation))
+                                                  : std::move(simulation);
+}
+
+bool accepts(const GasShape& shape, const MethodSpec& method) {
+  constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
+  return visit_method(method, [&](const auto& recipe) {
+    if (shape.container == ContainerKind::none)
+      return is_accepted<Erased<double, natural | Capability::radial>>(recipe);
+    return is_accepted<Erased<double, natural>>(recipe);
+  });
+}
+
+void add_functions(ProblemEntry& e, const Kind& kind) {
+  const GasShape& shape = kind.shape;
+  const auto gas = [shape](const Texts& parameters, std::size_t size) {
+    return make_gas<double>(shape, Parameters<double>(parameters), size);
+  };
+  e.refused_size = refused_size;
+  e.refused_parameters = [kind](const Texts& parameters) { return refused_parameters(kind, parameters); };
+  e.refused_start = [kind](const Texts& parameters, const std::vector<double>& q) {
+    return refused_start(kind, parameters, q);
+  };
+  e.accepts = [shape](const MethodSpec& method) { return accepts(shape, method); };
+  e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
+  e.simulate_erased = [shape](const Request& request) -> std::unique_ptr<Simulation> {
+    if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(shape, request);
+    if (request.arithmetic == "quad") return simulate_in<Quad>(shape, request);
+    if (const int digits = mp_digits(request.arithmetic); digits > 0) {
+      const MpDigits scope(digits);
+      return with_digits(digits, simulate_in<Mp>(shape, request));
+    }
+    return simulate_in<double>(shape, request);
+  };
+  e.simulate_member = [shape](const Request& request, const Parameters<double>& parameters,
+                              const std::vector<double>& q, const std::vector<double>& p, double h) {
+    return simulate_erased<double>({gas_functions<double>(shape, parameters, q.size()), vector_of(q), vector_of(p), h},
+                                   request);
+  };
+  e.step_map = [shape](const Texts& parameters, const MethodSpec& method,
+                       std::size_t size) -> std::unique_ptr<StepMap> {
+    if (!accepts(shape, method)) return nullptr;
+    return erased_step_map({gas_functions<double>(shape, Parameters<double>(parameters), size),
+                            gas_functions<long double>(shape, Parameters<long double>(parameters), size),
+                            gas_functions<Quad>(shape, Parameters<Quad>(parameters), size)},
+                           method);
+  };
+  e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
+  e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };
+  e.energy = [gas](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    return energy(gas(parameters, q.size()), vector_of(q), vector_of(p));
+  };
+  e.rates = [gas](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    Vector<double, dynamic> v(q.size());
+    gas(parameters, q.size()).velocity(vector_of(p), v);
+    return std::vector<double>(v.begin(), v.end());
+  };
+  e.regular = [gas](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    const Gas<double> problem = gas(parameters, q.size());
+    Vector<double, dynamic> f(q.size());
+    problem.force(vector_of(q), f);
+    double sum = std::abs(energy(problem, vector_of(q), vector_of(p)));
+    for (const double x : f) sum += std::abs(x);
+    return sum <= std::numeric_limits<double>::max();
+  };
+  e.has_pairwise_forces = true;
+  e.invariant_sizes = [gas](const Texts& parameters, std::size_t size) {
+    return gas(parameters, size).invariant_sizes();
+  };
+  e.start = [gas](const Request& request) {
+    const GasState<double> s = start_of<double>(gas(request.parameters, request.start.q.size()), request);
+    Frame frame;
+    frame.q.assign(s.q.begin(), s.q.end());
+    frame.p.assign(s.p.begin(), s.p.end());
+    return frame;
+  };
+  e.total_mass = [gas](const Texts& parameters, std::size_t size) { return gas(parameters, size).total_mass(); };
+}
+
+ProblemEntry entry_of(const Words& choices) {
+  const Kind kind = kind_of(choices);
+  ProblemEntry e;
+  ProblemInfo& info = e.info;
+  info.name = Keys::problem;
+  // That of lists has none: its keys are more than these words.
+  for (const char* key : {Keys::pair, Keys::container, Keys::cutoff_kind, Keys::phi, Keys::parameters}) {
+    const auto found = kind.choices.find(key);
+    if (!choices.empty() && found != kind.choices.end()) info.variant.push_back(*found);
+  }
+  info.formula = formula_of(kind);
+  info.reference = "Sonnleitner2010, ch. 1.7, 3a";
+  info.coordinates = {"x1", "y1", "(z1)", "x2", "..."};
+  info.parameters = parameters_of(kind);
+  info.invariants = invariants_of(kind.shape.container);
+  // Three particles near their distance of equilibrium, away from the wall.
+  info.region = {.parameters = {{Keys::radius, "3"}},
+                 .centre = {0, 0, 1.1, 0.1, 0.4, 1.05, 0.1, 0.15, -0.1, 0.2, 0.1, -0.2},
+                 .spread = 0.03,
+                 .step = 0.011,
+                 .time = 1.3};
+  add_functions(e, kind);
+  return e;
+}
+
+}  // namespace
+
+const std::vector<ProblemInfo>& pair_laws() {
+  static const std::vector<ProblemInfo> laws = built_in_pairs();
+  return laws;
+}
+
+const ProblemEntry& gas_problem(const std::map<std::string, std::string>& choices) {
+  static std::mutex mutex;
+  static std::map<Words, std::shared_ptr<const ProblemEntry>> known;
+  const std::scoped_lock lock(mutex);
+  std::shared_ptr<const ProblemEntry>& entry = known[choices];
+  if (!entry) entry = std::make_shared<const ProblemEntry>(entry_of(choices));
+  return *entry;
+}
+
+}  // namespace hamflow

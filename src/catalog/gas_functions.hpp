@@ -1,0 +1,29 @@
+// The gas in each number type, from its choices and parameters.
+#pragma once
+
+#include "erased.hpp"
+#include "hamflow/formula/model.hpp"
+#include "hamflow/problems/support/pair_system.hpp"
+#include "pair_list.hpp"  // generated from the folder of pair laws
+
+namespace hamflow {
+
+/// What is chosen by words.
+struct GasShape {
+  std::string pair;
+  std::shared_ptr<const formula::Model> typed;  // p_r^2/2 + phi(r), where phi is typed
+  ContainerKind container = ContainerKind::circle;
+  CutoffKind cutoff = CutoffKind::none;
+};
+
+template <class R>
+using Gas = PairSystem<R, PairLaws<R>>;
+
+/// @param size coordinates of all particles
+template <class R>
+Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t size);
+/// The same behind virtual calls. Instantiated for all number types.
+template <class R>
+ErasedFunctions<R> gas_functions(const GasShape& shape, const Parameters<R>& given, std::size_t size);
+
+}  // namespace hamflow

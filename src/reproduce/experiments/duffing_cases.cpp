@@ -1,0 +1,159 @@
+// Gross1999, figures 2.26 to 2.28: the three cases of the Duffing oscillator, V = k/2 (r^2 - lambda)^2, from rest at
+// r0 = 4 with mu = 2. With |lambda_inf| = sqrt(2 E/k), equation 2.182, the outer zero is r0^2 = lambda + |lambda_inf|.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../experiment.hpp"
+#include "../time_panels.hpp"
+#include "../trajectories.hpp"
+
+namespace hamflow::reproduction {
+
+namespace duffing_cases {
+
+struct Case {
+  const char* id;
+  const char* page;
+  const char* title;
+  const char* keys;
+  double k;
+  const char* lambda;  // as printed
+  const char* energy;
+  double t_end;
+  std::vector<double> zeros;  // where the orbit turns, as told
+};
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all{
+      {"G2.26",
+       "70",
+       "Duffing oscillator, case 1: through the origin",
+       "case = 1\nk = 1\nr0 = 4\nspeed = 4",
+       1,
+       "7",
+       "40.5",
+       10,
+       {-4, 4}},
+      {"G2.27", "72", "Duffing oscillator, case 2: the separatrix", "case = 2\nk = 1\nr0 = 4", 1, "8", "32", 10, {}},
+      {"G2.28",
+       "75",
+       "Duffing oscillator, case 3: on one side",
+       "case = 3\nk = 2\nr0 = 4\nspeed = 4",
+       2,
+       "12",
+       "16",
+       10,
+       {std::sqrt(8.0), 4}}};
+  return all;
+}
+
+std::string scenario(const Case& c, const std::string& method, const std::string& dt, long steps, long every) {
+  return fmt::format(
+      "[problem]\nname = \"duffing\"\nmass = 2\n{}\n\n[method]\n{}\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = {}\n",
+      c.keys, method, dt, steps, every);
+}
+
+/// cg(1,5) with dt = 0.02/refinement, sampled every 0.02.
+Trajectory element(Study& study, const Case& c, int refinement) {
+  const long steps = std::lround(c.t_end / 0.02) * refinement;
+  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement),
+                   scenario(c, "name = \"cg\"\nquadrature = 5\ndiagnostics = true",
+                            fmt::format("\"0.02/{}\"", refinement), steps, refinement));
+}
+
+/// The places where the orbit turns, each once: those of a run of order 8 with small steps.
+std::vector<double> turning_points(Study& study, const Case& c) {
+  const Trajectory run =
+      study.run("turning_points", scenario(c, "name = \"rkn8-s19\"", "0.001", std::lround(c.t_end / 0.001), 1));
+  std::vector<double> rate;
+  for (const auto& p : run.p) rate.push_back(p[0] / 2);
+  std::vector<double> all = extrema(run.t, run.coordinate(0), rate);
+  std::sort(all.begin(), all.end());
+  std::vector<double> once;
+  for (const double x : all) {
+    if (once.empty() || x - once.back() > 1e-6) once.push_back(x);
+  }
+  return once;
+}
+
+/// How long |x| stays below a bound, next to how long it takes to come there.
+void claim_dwelling(Study& study, const Trajectory& figure) {
+  constexpr double near = 0.1;
+  double arrival = 0, dwelling = 0;
+  for (std::size_t i = 1; i < figure.size(); ++i) {
+    const bool inside = std::abs(figure.q[i][0]) < near;
+    if (arrival == 0 && inside) arrival = figure.t[i];
+    if (arrival > 0 && inside && dwelling == 0) dwelling = figure.t.back() - arrival;
+    if (arrival > 0 && !inside) {
+      dwelling = figure.t[i] - arrival;
+      break;
+    }
+  }
+  study.claim({"dwelling", "the motion stays near r = 0 for a relatively long time", "relatively long"},
+              at_least(1, "longer than the whole way from r0 took"),
+              {{dwelling / arrival, 0, fmt::format("time with |r| < {} over the time to come there", near)}});
+  // x = r0/cosh(sqrt(2 k lambda/mu) t): the exact separatrix, which comes to r = 0 in infinite time.
+  double distance = 0;
+  for (std::size_t i = 0; i < figure.size() && figure.t[i] <= 1; ++i) {
+    distance = std::max(distance, std::abs(figure.q[i][0] - 4 / std::cosh(std::sqrt(8.0) * figure.t[i])));
+  }
+  study.note(fmt::format("From the exact separatrix 4/cosh(sqrt(8) t) the dots are at most {:.2g} off up to t = 1.",
+                         distance));
+}
+
+void carry_out(const Case& c, Study& study) {
+  const Trajectory figure = element(study, c, 1);
+  const double scale = figure.report.energy_scale;
+  const double energy = figure.report.energy.initial;
+  const double rounding = 64 * 0x1p-53 * scale;
+  study.claim({"energy", "the energy", c.energy}, as_printed(c.energy), {{energy, rounding, "H of the start"}});
+  double furthest = 0;
+  for (const auto& q : figure.q) furthest = std::max(furthest, q[0]);
+  study.claim({"lambda", "the parameter lambda of the potential", c.lambda}, as_printed(c.lambda),
+              {{furthest * furthest - std::sqrt(2 * energy / c.k), 1e-12, "r0^2 - sqrt(2 E/k) of the run"}});
+  study.claim({"kept", "the energy is constant", "constant"},
+              at_most(1e-11 * scale, "1e-11 of the scale of the energy"),
+              {{energy_error(figure), rounding, "largest |H - H0| over every step of cg(1,5), dt = 0.02"}});
+  const double most = *std::max_element(figure.iterations.begin() + 1, figure.iterations.end());
+  study.claim({"iterations", "Newton's method takes at most three iterations", "3"},
+              at_most(3, "counted over every step"), {{most, 0, "cg(1,5), dt = 0.02"}});
+  if (!c.zeros.empty()) {
+    const std::vector<double> found = turning_points(study, c);
+    double gap = found.size() == c.zeros.size() ? 0 : std::nan("");
+    for (std::size_t i = 0; i < std::min(found.size(), c.zeros.size()); ++i) {
+      gap = std::max(gap, std::abs(found[i] - c.zeros[i]));
+    }
+    study.claim({"zeros", "the orbit turns where the phase curve has its zeros",
+                 fmt::format("{:.4g} and {:.4g}", c.zeros[0], c.zeros[1])},
+                at_most(1e-9, "cubic pieces of samples at dt = 0.001"), {{gap, 0, "largest distance, rkn8-s19"}});
+    const Trajectory exact = study.run(
+        "reference", scenario(c, "name = \"taylor\"\ntolerance = 1e-15", "0.02", std::lround(c.t_end / 0.02), 1));
+    claim_second_order(study, {"order", "the dots approach the exact motion as dt becomes smaller", "dots"},
+                       {largest_distance(element(study, c, 4), exact), largest_distance(element(study, c, 8), exact),
+                        1e-11 * furthest});
+  } else {
+    claim_dwelling(study, figure);
+  }
+  std::vector<double> speed;
+  for (const auto& p : figure.p) speed.push_back(p[0] / 2);
+  study.keep({"motion", {{"t", figure.t}, {"r", figure.coordinate(0)}, {"rate", speed}, {"energy", figure.energy}}});
+  study.draw("figure", fmt::format("{}: r and its rate over t, and the phase curve", c.title),
+             {c.title,
+              {over_time("{/:Italic r}", figure.t, figure.coordinate(0)),
+               phase_plane("{/:Italic r}", "d{/:Italic r}/d{/:Italic t}", figure.coordinate(0), speed, {}, {}),
+               over_time("{/:Italic E}", figure.t, figure.energy)}});
+}
+
+}  // namespace duffing_cases
+
+std::vector<Experiment> duffing_cases_experiments() {
+  std::vector<Experiment> all;
+  for (const auto& c : duffing_cases::cases()) {
+    all.push_back({{c.id, gross, c.page, c.title}, [&c](Study& study) { duffing_cases::carry_out(c, study); }});
+  }
+  return all;
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,153 @@
+// Gross1999, figures 2.5, 2.14, 2.18, 2.23: the effective potential V'(r) = V(r) + l^2/(2 mu r^2), equation 2.40. Its
+// crossings with E are the turning points of the orbit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../experiment.hpp"
+#include "../trajectories.hpp"
+#include "axis.hpp"
+#include "panels.hpp"
+
+namespace hamflow::reproduction {
+
+namespace effective_potentials {
+
+constexpr double mu = 2;
+
+struct Level {
+  const char* name;
+  const char* keys;  // of the potential
+  std::function<double(double)> V;
+  double energy;
+  double l;
+  double start;   // r, inward bound
+  double t_end;   // so that each turning point is passed
+  int crossings;  // as drawn and told
+};
+
+struct Case {
+  const char* id;
+  const char* page;
+  const char* title;
+  std::vector<Level> levels;
+};
+
+const std::vector<Case>& cases() {
+  const auto kepler = [](double r) { return -1 / r; };
+  const auto hooke = [](double k) { return [k](double r) { return -k * r * r / 2; }; };
+  const auto linear = [](double k) { return [k](double r) { return k * r; }; };
+  const auto binomial = [](double r) { return (r * r - 1) * (r * r - 1) / 2; };
+  static const std::vector<Case> all{
+      {"G2.5",
+       "25",
+       "effective potential of Kepler",
+       {{"E above 0", "potential = \"kepler\"\nk = 1", kepler, 0.25, std::sqrt(12.0), 6, 20, 1},
+        {"E below 0", "potential = \"kepler\"\nk = 1", kepler, -0.25, std::sqrt(3.0), 2, 40, 2}}},
+      {"G2.14",
+       "52",
+       "effective potential of Hooke",
+       {{"k below 0", "potential = \"hooke\"\nk = -0.2", hooke(-0.2), 1, 3 * std::sqrt(0.4), 2, 20, 2},
+        {"k = 0", "potential = \"hooke\"\nk = 0", hooke(0), 1, 4, 5, 20, 1},
+        {"k above 0", "potential = \"hooke\"\nk = 0.1", hooke(0.1), 0.1, 2 * std::sqrt(1.2), 5, 20, 1}}},
+      {"G2.18",
+       "57",
+       "effective potential of the linear potential",
+       {{"k above 0", "potential = \"linear\"\nk = 1", linear(1), 3.25, 3, 2, 20, 2},
+        {"k below 0", "potential = \"linear\"\nk = -0.1", linear(-0.1), -0.1, 2 * std::sqrt(0.4), 5, 30, 1}}},
+      {"G2.23",
+       "63",
+       "effective potential of the binomial potential",
+       {{"k above 0", "potential = \"binomial\"\nk = 1\nlambda = 1", binomial, 36, 12, 2, 10, 2}}}};
+  return all;
+}
+
+double effective(const Level& level, double r) { return level.V(r) + level.l * level.l / (2 * mu * r * r); }
+
+/// The turning radii of an integrated orbit, increasing, each once.
+std::vector<double> turning_radii(Study& study, const Level& level, std::size_t number) {
+  const double p_r = -std::sqrt(2 * mu * (level.energy - effective(level, level.start)));
+  const double dt = 0.001;
+  const auto steps = static_cast<long>(std::lround(level.t_end / dt));
+  const Trajectory run = study.run(
+      "level_" + std::to_string(number),
+      fmt::format("[problem]\nname = \"central-force\"\nmass = {}\n{}\ninitial = {{ q = [{:.17g}, 0], p = [{:.17g}, "
+                  "{:.17g}] }}\n\n[method]\nname = \"rkn8-s19\"\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = 1\n",
+                  mu, level.keys, level.start, p_r, level.l / level.start, dt, steps));
+  std::vector<double> r, rate;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    r.push_back(std::hypot(run.q[i][0], run.q[i][1]));
+    rate.push_back((run.q[i][0] * run.p[i][0] + run.q[i][1] * run.p[i][1]) / (mu * r.back()));
+  }
+  std::vector<double> all = extrema(run.t, r, rate);
+  std::sort(all.begin(), all.end());
+  std::vector<double> once;
+  for (const double x : all) {
+    if (once.empty() || x - once.back() > 1e-6) once.push_back(x);
+  }
+  study.breathe();
+  if (study.curves().empty()) study.keep({"radius", {{"t", run.t}, {"r", r}}});
+  return once;
+}
+
+figures::Page page_of(const Case& c) {
+  figures::Panel panel;
+  figures::Extent x, y;
+  std::size_t shape = 0;
+  constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73"};
+  for (const Level& level : c.levels) {
+    figures::Curve curve;
+    const auto grid = geometric_grid(0.2, 3 * level.start, 600);
+    const double room = 2 * std::max(std::abs(level.energy), 0.3);
+    for (const double r : grid) {
+      if (std::abs(effective(level, r) - level.energy) < room) curve.add(r, effective(level, r));
+    }
+    x.include(curve.x);
+    y.include(curve.y);
+    const figures::Mark mark{.colour = colours[shape++ % 3]};
+    panel.series.push_back(
+        {figures::Ink::level, "", {{curve.x.front(), curve.x.back()}, {level.energy, level.energy}}});
+    panel.series.push_back({figures::Ink::line, level.name, curve, mark});
+  }
+  panel.x = figures::fit_axis(x, 0.02, {7, 40});
+  panel.y = figures::fit_axis(y, 0.06, {6});
+  panel.x_label = "{/:Italic r}";
+  panel.y_label = "{/:Italic V}'({/:Italic r}), {/:Italic E} dashed";
+  return {c.title, {panel}};
+}
+
+void carry_out(const Case& c, Study& study) {
+  for (std::size_t n = 0; n < c.levels.size(); ++n) {
+    const Level& level = c.levels[n];
+    const std::vector<double> crossings =
+        roots([&](double r) { return effective(level, r) - level.energy; }, geometric_grid(1e-3, 1e3, 4000));
+    const std::string where = std::string(level.name) + ": ";
+    study.claim({"crossings_" + std::to_string(n + 1), where + "how often the energy meets the effective potential",
+                 std::to_string(level.crossings)},
+                as_printed(std::to_string(level.crossings)),
+                {{static_cast<double>(crossings.size()), 0, "changes of sign between r = 0.001 and 1000"}});
+    const std::vector<double> radii = turning_radii(study, level, n + 1);
+    double gap = crossings.size() == radii.size() ? 0 : std::nan("");
+    for (std::size_t i = 0; i < std::min(crossings.size(), radii.size()); ++i) {
+      gap = std::max(gap, std::abs(crossings[i] - radii[i]));
+    }
+    study.claim({"turning_points_" + std::to_string(n + 1), where + "the crossings are the turning points of the orbit",
+                 "at the crossings"},
+                at_most(1e-10, "cubic pieces of samples at dt = 0.001"),
+                {{gap, 0, "largest distance of a crossing and a turning point of the orbit (rkn8-s19)"}});
+  }
+  study.draw("figure", std::string(c.title) + " (lines) and energies (dashed)", page_of(c));
+}
+
+}  // namespace effective_potentials
+
+std::vector<Experiment> effective_potentials_experiments() {
+  std::vector<Experiment> all;
+  for (const auto& c : effective_potentials::cases()) {
+    all.push_back({{c.id, gross, c.page, c.title}, [&c](Study& study) { effective_potentials::carry_out(c, study); }});
+  }
+  return all;
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,254 @@
+// Gross1999, Sect. 3.1: the linear double pendulum, m = 0.25, l = 0.5, in absolute and in relative angles, against
+// its modal solution q(t) = l1 A1 cos(w1 t) + l2 A2 cos(w2 t) with w^2 = (4 +- sqrt(13)) g/l, equations 3.64, 3.65.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "../experiment.hpp"
+#include "../time_panels.hpp"
+#include "../trajectories.hpp"
+
+namespace hamflow::reproduction {
+
+namespace linear_pendulum {
+
+const double root = std::sqrt(13.0);
+const double w1 = std::sqrt((4 + root) * 9.81 / 0.5);
+const double w2 = std::sqrt((4 - root) * 9.81 / 0.5);
+constexpr double t_end = 5;
+
+using Pair = std::array<double, 2>;
+struct Motion {
+  const char* name;
+  bool absolute;
+  const char* start;  // of the tables, number expressions
+  Pair q0;
+  int mode;  // 1, 2: an eigenform; 0: both
+};
+
+const std::array<Motion, 6> motions{{{"eigenform_1", true, "[\"1-sqrt(13)\", 6]", {1 - root, 6}, 1},
+                                     {"eigenform_2", true, "[\"1+sqrt(13)\", 6]", {1 + root, 6}, 2},
+                                     {"both", true, "[0.1, -0.01]", {0.1, -0.01}, 0},
+                                     {"eigenform_1", false, "[-2, \"3+sqrt(13)\"]", {-2, 3 + root}, 1},
+                                     {"eigenform_2", false, "[-2, \"3-sqrt(13)\"]", {-2, 3 - root}, 2},
+                                     {"both", false, "[0.1, -0.11]", {0.1, -0.11}, 0}}};
+
+Pair eigenform(bool absolute, int mode) {
+  const double sign = mode == 1 ? 1 : -1;
+  if (absolute) return {(1 - sign * root) / 6, 1};
+  return {1, -(3 + sign * root) / 2};  // of the angles q1, q2 - q1
+}
+
+/// A1, A2 of q0 = l1 A1 + l2 A2.
+Pair amplitudes(bool absolute, const Pair& q0) {
+  const Pair a = eigenform(absolute, 1), b = eigenform(absolute, 2);
+  const double determinant = a[0] * b[1] - b[0] * a[1];
+  return {(q0[0] * b[1] - b[0] * q0[1]) / determinant, (a[0] * q0[1] - q0[0] * a[1]) / determinant};
+}
+
+std::vector<std::vector<double>> modal(const Motion& motion, const std::vector<double>& t) {
+  const Pair A = amplitudes(motion.absolute, motion.q0);
+  const Pair a = eigenform(motion.absolute, 1), b = eigenform(motion.absolute, 2);
+  std::vector<std::vector<double>> q(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const double at : t) q[i].push_back(a[i] * A[0] * std::cos(w1 * at) + b[i] * A[1] * std::cos(w2 * at));
+  }
+  return q;
+}
+
+Trajectory run(Study& study, const Motion& motion, int refinement) {
+  return study.run(
+      refinement == 1 ? "figure" : "finer_" + std::to_string(refinement),
+      fmt::format("[problem]\nname = \"double-pendulum\"\nmodel = \"linear\"\nangles = \"{}\"\nmasses = [0.25, "
+                  "0.25]\nhalf_lengths = [0.5, 0.5]\ninitial = {{ q = {}, p = [0, 0] }}\n\n[method]\nname = "
+                  "\"cg\"\nquadrature = 5\n\n[run]\ndt = \"0.01/{}\"\nsteps = {}\nrecord_every = {}\n",
+                  motion.absolute ? "absolute" : "relative", motion.start, refinement,
+                  std::lround(t_end * 100) * refinement, refinement));
+}
+
+double distance(const Trajectory& run, const Motion& motion) {
+  const auto exact = modal(motion, run.t);
+  double largest = 0;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    for (std::size_t i = 0; i < 2; ++i) largest = std::max(largest, std::abs(run.q[k][i] - exact[i][k]));
+  }
+  return largest;
+}
+
+/// How far the points (q_i, p_i) of an eigenform are from an ellipse with the half axes that they reach.
+double off_ellipse(const Trajectory& run) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    // q^2/a^2 + p^2/b^2 = 1 is linear in 1/a^2, 1/b^2: least squares over all points.
+    double qq = 0, qp = 0, pp = 0, q1 = 0, p1 = 0;
+    double a = 0, b = 0;
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      a = std::max(a, std::abs(run.q[k][i]));
+      b = std::max(b, std::abs(run.p[k][i]));
+    }
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      const double x = std::pow(run.q[k][i] / a, 2), y = std::pow(run.p[k][i] / b, 2);
+      qq += x * x;
+      qp += x * y;
+      pp += y * y;
+      q1 += x;
+      p1 += y;
+    }
+    const double determinant = qq * pp - qp * qp;
+    const double u = (q1 * pp - p1 * qp) / determinant, v = (qq * p1 - qp * q1) / determinant;
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      largest = std::max(largest, std::abs(u * std::pow(run.q[k][i] / a, 2) + v * std::pow(run.p[k][i] / b, 2) - 1));
+    }
+  }
+  return largest;
+}
+
+void over_t(Study& study, const Motion& motion) {
+  const Trajectory figure = run(study, motion, 1);
+  const double size = std::max(std::abs(motion.q0[0]), std::abs(motion.q0[1]));
+  claim_second_order(study, {"order", "the numerical solution (dots) is the analytical one", "dots on the line"},
+                     {distance(run(study, motion, 2), motion), distance(run(study, motion, 4), motion), 1e-11 * size});
+  study.claim({"kept", "the energy is constant", "constant"},
+              at_most(1e-11, "rounding over the run, relative to the scale of the energy"),
+              {{energy_error(figure) / figure.report.energy_scale, 64 * 0x1p-53,
+                "largest |H - H0|/scale over every step of cg(1,5), dt = 0.01"}});
+  const auto exact = modal(motion, figure.t);
+  study.keep({"motion",
+              {{"t", figure.t},
+               {"q1", figure.coordinate(0)},
+               {"q2", figure.coordinate(1)},
+               {"exact_q1", exact[0]},
+               {"exact_q2", exact[1]},
+               {"energy", figure.energy}}});
+  study.draw("figure", study.info().title + ": angles with dt = 0.01 (dots) and exact (line), and the energy, over t",
+             {study.info().title,
+              {over_time("{/:Italic q}_1", figure.t, figure.coordinate(0), exact[0]),
+               over_time("{/:Italic q}_2", figure.t, figure.coordinate(1), exact[1]),
+               over_time("{/:Italic E}", figure.t, figure.energy)}});
+}
+
+/// How near w1/w2 turns come to whole ones within so many turns.
+double nearest_common_period(int turns) {
+  double nearest = 0.5;
+  for (int k = 1; k <= turns; ++k) {
+    const double x = k * w1 / w2;
+    nearest = std::min(nearest, std::abs(x - std::round(x)));
+  }
+  return nearest;
+}
+
+void in_phase_planes(Study& study, const Motion& motion) {
+  const Trajectory figure = run(study, motion, 1);
+  if (motion.mode == 0) {
+    study.claim({"open", "the phase curves are open", "open"},
+                at_least(1e-6, "w1/w2 = sqrt((29 + 8 sqrt(13))/3) is no ratio of whole numbers up to 1000"),
+                {{nearest_common_period(1000), 1e-12, "nearest k w1/w2 to a whole number, k up to 1000"}});
+  } else {
+    study.claim({"ellipses", "the phase curves are closed: ellipses", "ellipses"},
+                at_most(1e-10, "rounding over 500 steps: an element keeps the energy of each mode of a linear problem"),
+                {{off_ellipse(figure), 0, "largest deviation of points (q, p) from an ellipse, cg(1,5), dt = 0.01"}});
+  }
+  study.draw("figure", study.info().title + ": the phase planes of both angles",
+             {study.info().title,
+              {phase_plane("{/:Italic q}_1", "{/:Italic p}_1", figure.coordinate(0), figure.momentum(0), {}, {}),
+               phase_plane("{/:Italic q}_2", "{/:Italic p}_2", figure.coordinate(1), figure.momentum(1), {}, {})}});
+}
+
+/// Both amplitudes of equation 3.85 or 3.115 against q0 = l1 A1 + l2 A2.
+void claim_amplitudes(Study& study, const Motion& motion, const Pair& printed, const char* texts, const char* page,
+                      const char* equation) {
+  const Pair a = eigenform(motion.absolute, 1), b = eigenform(motion.absolute, 2);
+  const Pair right = amplitudes(motion.absolute, motion.q0);
+  double off = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    off = std::max(off, std::abs(a[i] * printed[0] + b[i] * printed[1] - motion.q0[i]));
+  }
+  study.claim(
+      {"amplitudes", fmt::format("the amplitudes of equation {}", equation), texts, page},
+      at_most(1e-9, "they have to give the start q0 = l1 A1 + l2 A2, to the digits printed"),
+      {{off, 1e-10,
+        fmt::format("largest component of l1 A1 + l2 A2 - q0; right are {:.12g}, {:.12g}", right[0], right[1])}},
+      Grounds::identity);
+}
+
+/// Whether two starts, in absolute and in relative angles, are one motion.
+void claim_identical(Study& study, std::size_t row) {
+  const Pair absolute = motions[row].q0, relative = motions[row + 3].q0;
+  const Pair converted{absolute[0], absolute[1] - absolute[0]};
+  const double off = std::max(std::abs(converted[0] - relative[0]), std::abs(converted[1] - relative[1]));
+  study.claim(
+      {"identical_" + std::to_string(row + 1),
+       fmt::format("row {} of tables 3.1 and 3.2 is the same motion in both coordinates", row + 1), "identical"},
+      at_most(1e-12, "relative angles are q1, q2 - q1 of the absolute ones"),
+      {{off, 1e-14,
+        fmt::format("largest difference; the start of table 3.1 is ({:.6g}, {:.6g}) in relative angles", converted[0],
+                    converted[1])}},
+      Grounds::identity);
+}
+
+void starts(Study& study, bool absolute) {
+  for (std::size_t row = 0; row < 2; ++row) {
+    const Motion& motion = motions[row + (absolute ? 0 : 3)];
+    const Pair A = amplitudes(absolute, motion.q0);
+    study.claim({"eigenform_" + std::to_string(row + 1), fmt::format("row {} is an eigenform of its own", row + 1),
+                 "eigenform"},
+                at_most(1e-13, "rounding of the amplitudes"),
+                {{std::abs(A[motion.mode == 1 ? 1 : 0] / A[motion.mode == 1 ? 0 : 1]), 0,
+                  "amplitude of the other eigenform over its own"}});
+  }
+  if (absolute) return;
+  for (std::size_t row = 0; row < 3; ++row) claim_identical(study, row);
+}
+
+}  // namespace linear_pendulum
+
+std::vector<Experiment> linear_pendulum_experiments() {
+  using namespace linear_pendulum;
+  std::vector<Experiment> all{{{"T3.1", gross, "88", "starts of the linear double pendulum, absolute angles"},
+                               [](Study& study) { starts(study, true); }},
+                              {{"T3.2", gross, "98", "starts of the linear double pendulum, relative angles"},
+                               [](Study& study) { starts(study, false); }}};
+  struct Pages {
+    const char* over_t;
+    const char* planes;
+    const char* page;
+    const char* page_of_planes;
+  };
+  constexpr std::array<Pages, 6> pages{{{"G3.4", "G3.6", "89", "91"},
+                                        {"G3.7", "G3.8", "92", "93"},
+                                        {"G3.9", "G3.10", "94", "95"},
+                                        {"G3.13", "G3.14", "100", "101"},
+                                        {"G3.15", "G3.16", "102", "103"},
+                                        {"G3.17", "G3.18", "104", "105"}}};
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const Motion& motion = motions[i];
+    const std::string what =
+        fmt::format("linear double pendulum, {} angles, {}", motion.absolute ? "absolute" : "relative",
+                    motion.mode == 0   ? "a small start"
+                    : motion.mode == 1 ? "first eigenform"
+                                       : "second eigenform");
+    all.push_back({{pages[i].over_t, gross, pages[i].page, what}, [&motion](Study& study) {
+                     over_t(study, motion);
+                     if (motion.mode != 0) return;
+                     if (motion.absolute) {
+                       claim_amplitudes(study, motion, {-0.8959177992, 0.7959177992}, "-0.8959177992, +0.7959177992",
+                                        "94", "3.85");
+                     } else {
+                       claim_amplitudes(study, motion, {0.03890599608, 0.06109400392}, "0.03890599608, 0.06109400392",
+                                        "104", "3.115");
+                       study.claim(
+                           {"caption", "the caption of the figure names the start of table 3.2", "(0.1, -0.01)"},
+                           at_most(5e-3, "two printed numbers, each to two decimals"),
+                           {{std::abs(-0.01 - (-0.11)), 0, "the caption says -0.01, the table -0.11"}},
+                           Grounds::identity);
+                     }
+                   }});
+    all.push_back({{pages[i].planes, gross, pages[i].page_of_planes, what + ", phase planes"},
+                   [&motion](Study& study) { in_phase_planes(study, motion); }});
+  }
+  return all;
+}
+
+}  // namespace hamflow::reproduction

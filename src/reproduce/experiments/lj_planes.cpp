@@ -1,0 +1,252 @@
+// Sonnleitner 2010, figures 2.1 to 2.5: the Lennard-Jones oscillator in the phase plane, H = p^2/2 + 1/q^12 - 2/q^6
+// from rest at q = 1.5. Levels of a modified H, Euler against EulerA, and the way back.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../experiment.hpp"
+#include "../time_panels.hpp"
+#include "../trajectories.hpp"
+
+namespace hamflow::reproduction {
+
+namespace lj_planes {
+
+std::string scenario(const std::string& method, const std::string& dt, long steps, long every) {
+  return fmt::format(
+      "[problem]\nname = \"lennard-jones-oscillator\"\ninitial = {{ q = [1.5], p = [0] }}\n\n[method]\nname = "
+      "\"{}\"\n\n[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = {}\n",
+      method, dt, steps, every);
+}
+
+/// u = q^-6, of which V = u^2 - 2 u, V' = -12 (u^2 - u)/q and V'' = (156 u^2 - 84 u)/q^2.
+double modified_part(double q, double p) {
+  const double u = std::pow(q, -6);
+  const double V1 = -12 * (u * u - u) / q, V2 = (156 * u * u - 84 * u) / (q * q);
+  return p * p * V2 / 12 - V1 * V1 / 24;
+}
+
+/// 2 times the integral of 1/sqrt(2 (E - V)) between the turning points, where E - V = (u_a - u)(u - u_b), by Gauss and
+/// Chebyshev.
+double period(int points) {
+  const double u_b = std::pow(1.5, -6), u_a = 2 - u_b;
+  const double a = std::pow(u_a, -1.0 / 6), b = 1.5;
+  double sum = 0;
+  for (int i = 0; i < points; ++i) {
+    const double q = (a + b) / 2 - (b - a) / 2 * std::cos(std::numbers::pi * (i + 0.5) / points);
+    const double u = std::pow(q, -6);
+    sum += 1 / std::sqrt(2 * (u_a - u) * (u - u_b) / ((q - a) * (b - q)));
+  }
+  return 2 * sum * std::numbers::pi / points;
+}
+
+/// The largest departures of verlet's points from the level of H and from that of H + dt^2 H_3.
+struct Levels {
+  double of_h = 0;
+  double of_modified = 0;
+};
+Levels departures(const Trajectory& run, double dt) {
+  const auto modified = [&](std::size_t i) {
+    return run.energy[i] + dt * dt * modified_part(run.q[i][0], run.p[i][0]);
+  };
+  Levels levels;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    levels.of_h = std::max(levels.of_h, std::abs(run.energy[i] - run.energy[0]));
+    levels.of_modified = std::max(levels.of_modified, std::abs(modified(i) - modified(0)));
+  }
+  return levels;
+}
+
+void neighbouring_levels(Study& study) {
+  const Trajectory coarse = study.run("figure", scenario("verlet", "0.01/2", 466, 1));
+  const Trajectory fine = study.run("finer", scenario("verlet", "0.01/4", 932, 1));
+  const Trajectory late = study.run("late", scenario("verlet", "0.01/2", 466 * 200, 1));
+  const Levels at_coarse = departures(coarse, 0.005), at_fine = departures(fine, 0.0025),
+               at_late = departures(late, 0.005);
+  study.claim({"modified", "the points of a symplectic method follow a level of a modified H", "a level of H-bar"},
+              within(16, 1, "what H + dt^2 H_3 leaves is of order dt^4: halving dt divides it by 16"),
+              {{at_coarse.of_modified / at_fine.of_modified, 0,
+                fmt::format("largest departures {:.3g}, {:.3g} of verlet, dt = 0.005 and 0.0025", at_coarse.of_modified,
+                            at_fine.of_modified)}});
+  study.claim({"neighbouring", "H-bar differs from H by O(dt^r)", "O(dt^r), r = 2 for Stoermer-Verlet"},
+              within(4, 0.3, "halving dt divides it by 4"),
+              {{at_coarse.of_h / at_fine.of_h, 0,
+                fmt::format("largest |H - H0| {:.3g} and {:.3g}", at_coarse.of_h, at_fine.of_h)}});
+  study.claim({"long", "they do so for a long time", "long"},
+              at_most(1.05, "the departure over 200 periods over that of the first; samples fall on other phases"),
+              {{at_late.of_modified / at_coarse.of_modified, 0, "verlet, dt = 0.005"}});
+  std::vector<double> modified;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    modified.push_back(coarse.energy[i] + 0.005 * 0.005 * modified_part(coarse.q[i][0], coarse.p[i][0]));
+  }
+  study.keep({"levels", {{"t", coarse.t}, {"energy", coarse.energy}, {"modified_energy", modified}}});
+  study.draw("figure", "H (line) and H + dt^2 H_3 (below) over one period of verlet with dt = 0.005",
+             {study.info().title,
+              {over_time("{/:Italic H}", coarse.t, coarse.energy),
+               over_time("{/:Italic H} + {/:Italic h}^2{/:Italic H}_3", coarse.t, modified)}});
+}
+
+/// The times at which p turns from positive to negative: each ends a period.
+std::vector<double> ends_of_periods(const Trajectory& run) {
+  std::vector<double> ends;
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const double before = run.p[i - 1][0], now = run.p[i][0];
+    if (before > 0 && now <= 0) ends.push_back(run.t[i - 1] + (run.t[i] - run.t[i - 1]) * before / (before - now));
+  }
+  return ends;
+}
+
+double off_start(const Trajectory& run) { return std::hypot(run.q.back()[0] - 1.5, run.p.back()[0]); }
+
+void draw_plane(Study& study, const Trajectory& run) {
+  const Trajectory exact = study.run("reference", scenario("taylor", "0.005", 466, 1));
+  study.keep({"plane", {{"t", run.t}, {"q", run.coordinate(0)}, {"p", run.momentum(0)}, {"energy", run.energy}}});
+  study.draw("figure", study.info().title + ": steps (dots), exact (line)",
+             {study.info().title,
+              {phase_plane("{/:Italic q}", "{/:Italic p}", run.coordinate(0), run.momentum(0), exact.coordinate(0),
+                           exact.momentum(0))}});
+}
+
+void claim_period(Study& study, const std::string& printed, double dt) {
+  study.claim({"period", "the time of one circulation", printed + " sec"},
+              within(std::stod(printed), dt, "a time of whole steps: to one step"),
+              {{period(160), std::abs(period(160) - period(80)) + 1e-14, "quadrature"}});
+}
+
+void euler(Study& study) {
+  claim_period(study, "2.325", 0.001);
+  const Trajectory once = study.run("figure", scenario("euler", "0.001", 2325, 1));
+  const Trajectory symplectic = study.run("symplectic", scenario("euler-a", "0.01", 233, 1));
+  study.claim(
+      {"open", "Euler's curve with dt = 0.001 ends further from its start than EulerA's with dt = 0.01", "open"},
+      at_least(1, "distance from the start over that of EulerA, after one circulation"),
+      {{off_start(once) / off_start(symplectic), 0,
+        fmt::format("distances {:.3g} and {:.3g}", off_start(once), off_start(symplectic))}});
+  const Trajectory longer = study.run("longer", scenario("euler", "0.001", 12000, 1));
+  const std::vector<double> ends = ends_of_periods(longer);
+  double before = longer.energy[0];
+  int shrinking = 0;
+  for (const double end : ends) {
+    const double now = longer.energy[static_cast<std::size_t>(end / 0.001)];
+    shrinking += now <= before;
+    before = now;
+  }
+  study.claim({"spiral", "it runs apart in a spiral", "spiral"},
+              none_of("circulations in which the energy did not grow"),
+              {{static_cast<double>(shrinking), 0,
+                fmt::format("{} circulations, energy {:.4g} to {:.4g}", ends.size(), longer.energy[0], before)}});
+  draw_plane(study, once);
+}
+
+void euler_a(Study& study) {
+  claim_period(study, "2.33", 0.01);
+  const Trajectory once = study.run("figure", scenario("euler-a", "0.01", 233, 1));
+  const Trajectory longer =
+      study.run("longer", scenario("euler-a", "0.01", 233 * study.sized(1000L, 10000L, 100000L), 1));
+  const double first = energy_error(once), late = energy_error(longer);
+  study.claim(
+      {"stays", "EulerA does not leave its curve, for longer times neither", "does not leave it"},
+      at_most(1.1, "largest |H - H0| of all periods over that of the first; samples fall on other phases"),
+      {{late / first, 0, fmt::format("{} periods, {:.4g} and {:.4g}", longer.report.final.step / 233, late, first)}});
+  draw_plane(study, once);
+}
+
+/// Where 100 steps, a turn of the momentum and 100 steps lead, the momentum turned back.
+struct Return {
+  double q = 0;
+  double p = 0;
+};
+Return there_and_back(const std::string& method, const std::string& arithmetic, double dt) {
+  Request request;
+  request.problem = "lennard-jones-oscillator";
+  request.start.q = {"1.5"};
+  request.start.p = {"0"};
+  request.method = parse_method(method);
+  request.dt = fmt::format("{:.17g}", dt);
+  request.arithmetic = arithmetic;
+  request.watch = false;
+  request.record = false;
+  const auto simulation = make_simulation(request);
+  Outcome outcome = simulation->advance(100);
+  simulation->negate_momenta();
+  if (outcome == Outcome::done) outcome = simulation->advance(100);
+  Frame frame;
+  if (outcome != Outcome::done) return {std::nan(""), std::nan("")};
+  simulation->look(frame);
+  return {frame.q[0], -frame.p[0]};
+}
+
+/// From the printed point, whichever sign its momentum was printed with.
+double off_printed(const std::string& arithmetic, double dt) {
+  const Return end = there_and_back("euler-a", arithmetic, dt);
+  return std::max(std::abs(end.q - 1.3356), std::abs(std::abs(end.p) - 0.3426));
+}
+
+/// The dt in (0, 0.05] that comes nearest: a scan, then ever finer around the best.
+double nearest_dt(const Study& study) {
+  double best = 0, least = 1e9, low = 1e-5, high = 0.05;
+  int points = study.sized(20000, 50000, 500000);
+  for (int round = 0; round < 6; ++round) {
+    const double spacing = (high - low) / points;
+    for (int i = 0; i <= points; ++i) {
+      const double dt = low + i * spacing, off = off_printed("double", dt);
+      if (off < least) least = off, best = dt;
+      if (i % 1000 == 0) study.breathe();
+    }
+    low = best - 2 * spacing;
+    high = best + 2 * spacing;
+    points = 100;
+  }
+  return best;
+}
+
+void way_back_of_euler_a(Study& study) {
+  const double dt = nearest_dt(study);
+  const Return end = there_and_back("euler-a", "double", dt);
+  study.claim(
+      {"return", "where EulerA returns to, from 100 steps there and 100 back", "(1.3356, -0.3426)"},
+      at_most(0.5e-4 * (1 + 1e-6), "half a unit of the last digit printed, at the step length that comes nearest"),
+      {{off_printed("double", dt), 1e-9,
+        fmt::format("dt = {:.8f} leads to ({:.6f}, {:.6f}), in double", dt, end.q, end.p)},
+       {off_printed("double-double", dt), 1e-9, "in double-double"}},
+      Grounds::ways);
+  const Return usual = there_and_back("euler-a", "double", 0.01);
+  study.claim({"not_reversible", "EulerA does not return to its start", "not (1.5, -0)"},
+              at_least(1e-6, "far above rounding"),
+              {{std::hypot(usual.q - 1.5, usual.p), 1e-12,
+                fmt::format("dt = 0.01 leads to ({:.4f}, {:.4f})", usual.q, usual.p)}});
+  study.note(
+      fmt::format("With dt = 0.01, the step of figure 2.3, EulerA returns to ({:.4f}, {:.4f}).", usual.q, usual.p));
+  draw_plane(study, study.run("figure", scenario("euler-a", fmt::format("{:.8f}", dt), 100, 1)));
+}
+
+void way_back_of_stv4(Study& study) {
+  double largest = 0;
+  for (const double dt : {0.0005, 0.001, 0.005, 0.01, 0.02}) {
+    const Return end = there_and_back("stv4", "double", dt);
+    largest = std::max({largest, std::abs(end.q - 1.5), std::abs(end.p)});
+  }
+  const double rounding = 0x1p-53;
+  // 200 steps, each of 9 additions that round q or p; the motion may spread each by the stretching of the orbit.
+  study.claim(
+      {"return", "StV4 returns to its start up to machine precision", "(1.5, 0) to machine precision"},
+      at_most(200 * 9 * 100 * rounding, "1800 roundings, each stretched by at most 100 along the orbit"),
+      {{largest, 0, fmt::format("largest of five step lengths: {:.0f} units of rounding", largest / rounding)}});
+  draw_plane(study, study.run("figure", scenario("stv4", "0.01", 100, 1)));
+}
+
+}  // namespace lj_planes
+
+std::vector<Experiment> lj_planes_experiments() {
+  using namespace lj_planes;
+  return {{{"S2.1", sonnleitner, "37", "levels of neighbouring Hamiltonians, Lennard-Jones oscillator"},
+           neighbouring_levels},
+          {{"S2.2", sonnleitner, "38", "Lennard-Jones oscillator: Euler's method"}, euler},
+          {{"S2.3", sonnleitner, "38", "Lennard-Jones oscillator: EulerA"}, euler_a},
+          {{"S2.4", sonnleitner, "39", "the way back of EulerA"}, way_back_of_euler_a},
+          {{"S2.5", sonnleitner, "40", "the way back of StV4"}, way_back_of_stv4}};
+}
+
+}  // namespace hamflow::reproduction

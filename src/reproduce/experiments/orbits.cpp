@@ -1,0 +1,170 @@
+// Gross1999, figures 2.8 to 2.24: orbits in central potentials with cg(1,5), cartesian coordinates, mu = 2, dt = 0.1.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "../experiment.hpp"
+#include "../panels_of_orbit.hpp"
+#include "../trajectories.hpp"
+
+namespace hamflow::reproduction {
+
+namespace orbits {
+
+struct Case {
+  const char* id;
+  const char* page;
+  const char* title;
+  const char* problem;  // lines of [problem] beside name and mass
+  const char* energy;   // as printed
+  double t_end;
+  std::function<double(double)> V;
+  bool open = false;  // said never to close
+};
+
+const std::vector<Case>& cases() {
+  const auto kepler = [](double r) { return -1 / r; };
+  const auto hooke = [](double k) { return [k](double r) { return -k * r * r / 2; }; };
+  const auto linear = [](double k) { return [k](double r) { return k * r; }; };
+  static const std::vector<Case> all{
+      {"G2.8", "42", "Kepler potential, circle", "potential = \"kepler\"\nk = 1\norbit = { kind = \"circle\", r0 = 2 }",
+       "-0.25", 25, kepler},
+      {"G2.9", "44", "Kepler potential, ellipse",
+       "potential = \"kepler\"\nk = 1\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3 }", "-0.25", 25, kepler},
+      {"G2.10", "45", "Kepler potential, parabola",
+       "potential = \"kepler\"\nk = 1\norbit = { kind = \"parabola\", r_per = 2 }", "0", 20, kepler},
+      {"G2.11", "46", "Kepler potential, hyperbola",
+       "potential = \"kepler\"\nk = 1\norbit = { kind = \"hyperbola\", r_per = 2, angular_momentum = \"sqrt(12)\" }",
+       "0.25", 20, kepler},
+      {"G2.13", "51", "Hooke potential, circle",
+       "potential = \"hooke\"\norbit = { kind = \"circle\", r0 = 2, energy = 1 }", "1", 20, hooke(-0.25)},
+      {"G2.15", "53", "Hooke potential, ellipse",
+       "potential = \"hooke\"\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3, energy = 1 }", "1", 20, hooke(-0.2)},
+      {"G2.16", "54", "Hooke potential, straight line",
+       "potential = \"hooke\"\norbit = { kind = \"line\", r_per = 2, energy = 1 }", "1", 20, hooke(0)},
+      {"G2.17", "55", "Hooke potential, hyperbola",
+       "potential = \"hooke\"\nk = 0.1\norbit = { kind = \"hyperbola\", r_per = 2, energy = 0.1 }", "0.1", 10,
+       hooke(0.1)},
+      {"G2.19", "58", "linear potential, circle",
+       "potential = \"linear\"\nk = 1\norbit = { kind = \"circle\", r0 = 2 }", "3", 20, linear(1)},
+      {"G2.20", "59", "linear potential, bounded orbit",
+       "potential = \"linear\"\nk = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }", "3.25", 40, linear(1),
+       true},
+      {"G2.21", "60", "linear potential, unbounded orbit",
+       "potential = \"linear\"\nk = -0.1\norbit = { kind = \"unbounded\", r_per = 2, energy = -0.1 }", "-0.1", 20,
+       linear(-0.1)},
+      {"G2.24", "64", "binomial potential, bounded orbit, k = lambda = 1",
+       "potential = \"binomial\"\nk = 1\nlambda = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }", "", 20,
+       [](double r) { return (r * r - 1) * (r * r - 1) / 2; }}};
+  return all;
+}
+
+std::string scenario(const Case& c, const std::string& method, const std::string& dt, int steps, int every) {
+  return fmt::format(
+      "[problem]\nname = \"central-force\"\nmass = 2\n{}\n\n[method]\n{}\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = "
+      "{}\n",
+      c.problem, method, dt, steps, every);
+}
+
+const char* const element = "name = \"cg\"\nquadrature = 5";
+const char* const reference = "name = \"taylor\"\ntolerance = 1e-15";
+
+/// cg(1,5) with dt = 0.1/refinement, sampled every 0.1.
+Trajectory with_step(Study& study, const Case& c, int refinement) {
+  const int steps = static_cast<int>(std::lround(c.t_end * 10)) * refinement;
+  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement),
+                   scenario(c, element, fmt::format("\"0.1/{}\"", refinement), steps, refinement));
+}
+
+/// 2 l/mu times the integral of 1/(r^2 rdot) from one turning point to the other, equation 2.43, by Gauss and
+/// Chebyshev: with r = (r1 + r2)/2 - (r2 - r1)/2 cos(x) the integrand is smooth and periodic, so that the sums converge
+/// faster than any power.
+double apsidal_angle(const Case& c, double r1, double r2, double l, double energy, int points) {
+  constexpr double mu = 2;
+  double sum = 0;
+  for (int i = 0; i < points; ++i) {
+    const double x = std::numbers::pi * (i + 0.5) / points;
+    const double r = (r1 + r2) / 2 - (r2 - r1) / 2 * std::cos(x);
+    // (r - r1)(r2 - r) = ((r2 - r1)/2)^2 sin(x)^2 is taken out of the radicand.
+    const double radicand = 2 / mu * (energy - c.V(r) - l * l / (2 * mu * r * r));
+    sum += 1 / (r * r * std::sqrt(radicand / ((r - r1) * (r2 - r))));
+  }
+  return 2 * l / mu * sum * std::numbers::pi / points;
+}
+
+/// How near to a closed orbit the angle comes within so many radial periods.
+double nearest_return(double angle, int periods) {
+  double nearest = std::numbers::pi;
+  for (int k = 1; k <= periods; ++k)
+    nearest = std::min(nearest, std::abs(std::remainder(k * angle, 2 * std::numbers::pi)));
+  return nearest;
+}
+
+void claim_open(Study& study, const Case& c, const Trajectory& run) {
+  const double l = run.q[0][0] * run.p[0][1] - run.q[0][1] * run.p[0][0];
+  const double angle = apsidal_angle(c, 1, 3, l, run.energy[0], 40);
+  const double coarser = apsidal_angle(c, 1, 3, l, run.energy[0], 30);
+  constexpr int periods = 1000;
+  study.claim({"open", "the orbit does not close", "never"},
+              at_least(1e-6, "a closed orbit returns to its direction; of 1000 radial periods none does"),
+              {{nearest_return(angle, periods), periods * (std::abs(angle - coarser) + 1e-14),
+                fmt::format("angle of a radial period {:.12f} by quadrature", angle)}});
+}
+
+void carry_out(const Case& c, Study& study) {
+  const Trajectory figure = with_step(study, c, 1);
+  const Trajectory coarse = with_step(study, c, 4);
+  const Trajectory fine = with_step(study, c, 8);
+  const int samples = static_cast<int>(std::lround(c.t_end * 10));
+  const Trajectory exact = study.run("reference", scenario(c, reference, "0.1", samples, 1));
+  const double scale = figure.report.energy_scale;
+  const double rounding = 64 * 0x1p-53;
+  if (*c.energy != '\0') {
+    study.claim({"energy", "the energy of the orbit", c.energy}, as_printed(c.energy),
+                {{figure.report.energy.initial, rounding * scale, "H of the start"}});
+  } else {
+    study.note(fmt::format("E = {:.10g}; the figure prints no number.", figure.report.energy.initial));
+  }
+  study.claim({"kept", "the energy is constant", "constant"},
+              at_most(1e-11, "rounding over the run, of energies of size 1"),
+              {{energy_error(figure), rounding * scale, "largest |H - H0| over every step of cg(1,5), dt = 0.1"}});
+  double size = 0;
+  for (const auto& q : exact.q) size = std::max({size, std::abs(q[0]), std::abs(q[1])});
+  claim_second_order(study,
+                     {"order", "the dots lie on the exact orbit, the nearer the smaller dt is", "dots cover the line"},
+                     {largest_distance(coarse, exact), largest_distance(fine, exact), 1e-11 * size});
+  if (c.open) claim_open(study, c, figure);
+  double lost = 0;
+  for (const auto& invariant : figure.invariants) {
+    lost = std::max(lost, std::abs(invariant[0] - figure.invariants[0][0]));
+  }
+  study.note(
+      fmt::format("At dt = 0.1 the dots are at most {:.2g} from the exact orbit at the same time. Angular momentum, of "
+                  "which the thesis says nothing here, is kept to {:.2g} of {:.4g}.",
+                  largest_distance(figure, exact), lost, figure.invariants[0][0]));
+  study.keep({"orbit",
+              {{"t", figure.t},
+               {"x", figure.coordinate(0)},
+               {"y", figure.coordinate(1)},
+               {"energy", figure.energy},
+               {"exact_x", exact.coordinate(0)},
+               {"exact_y", exact.coordinate(1)}}});
+  study.draw(
+      "figure",
+      fmt::format("Orbit with dt = 0.1 (dots) and exact (line); energy E over t and effective potential over r. {}",
+                  study.info().title),
+      orbit_page(study.info().title, figure, exact, c.V, 2));
+}
+
+}  // namespace orbits
+
+std::vector<Experiment> orbits_experiments() {
+  std::vector<Experiment> all;
+  for (const orbits::Case& c : orbits::cases()) {
+    all.push_back({{c.id, gross, c.page, c.title}, [&c](Study& study) { orbits::carry_out(c, study); }});
+  }
+  return all;
+}
+
+}  // namespace hamflow::reproduction

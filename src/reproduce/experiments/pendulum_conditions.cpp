@@ -1,0 +1,156 @@
+// Gross 1999, section 3.2.3: figures 3.27 and 3.28: conditions of the tangent K_T and of M^-1, and det K_T, over time,
+// in absolute and in relative angles. Iterations: G-C.
+#include <algorithm>
+
+#include "../experiment.hpp"
+#include "../pendulum_runs.hpp"
+#include "../time_panels.hpp"
+#include "../trajectories.hpp"
+
+namespace hamflow::reproduction {
+
+namespace pendulum_conditions {
+
+const char* const watched = "name = \"cg\"\nquadrature = 5\ndiagnostics = true";
+
+Trajectory run(Study& study, bool absolute) {
+  return pendulum_run(study, absolute ? "absolute" : "relative", absolute, watched, "0.01", 2600, 1);
+}
+
+/// The steps at which a quantity is larger than at both neighbours and above the middle of its range.
+std::vector<std::size_t> peaks(const std::vector<double>& x) {
+  double low = x[1], high = x[1];  // the start has no step before it
+  for (std::size_t k = 1; k < x.size(); ++k) {
+    low = std::min(low, x[k]);
+    high = std::max(high, x[k]);
+  }
+  std::vector<std::size_t> all;
+  for (std::size_t k = 2; k + 1 < x.size(); ++k) {
+    if (x[k] > (low + high) / 2 && x[k] >= x[k - 1] && x[k] > x[k + 1]) all.push_back(k);
+  }
+  return all;
+}
+
+double range(const std::vector<double>& x) {
+  const auto [low, high] = std::minmax_element(x.begin() + 1, x.end());
+  return *high / *low;
+}
+
+/// The largest distance, in steps, of one of some peaks from the nearest of others.
+double apart(const std::vector<std::size_t>& some, const std::vector<std::size_t>& others) {
+  if (some.empty() || others.empty()) return std::nan("");
+  double most = 0;
+  for (const std::size_t k : some) {
+    double nearest = 1e9;
+    for (const std::size_t j : others) nearest = std::min(nearest, std::abs(double(k) - double(j)));
+    most = std::max(most, nearest);
+  }
+  return most;
+}
+
+/// Passages of the rods through one line, where sin(q1 - q2) = 0: M is worst conditioned there.
+double passages(const Trajectory& absolute) {
+  double count = 0;
+  for (std::size_t k = 1; k < absolute.size(); ++k) {
+    const auto sine = [&](std::size_t j) { return std::sin(absolute.q[j][0] - absolute.q[j][1]); };
+    if ((sine(k) < 0) != (sine(k - 1) < 0)) ++count;
+  }
+  return count;
+}
+
+void carry_out(Study& study, bool absolute) {
+  const Trajectory own = run(study, absolute), other = run(study, !absolute);
+  const Trajectory& in_absolute = absolute ? own : other;
+  const Trajectory& in_relative = absolute ? other : own;
+  const auto of_mass = peaks(own.condition_inverse_mass);
+  const double count = static_cast<double>(of_mass.size());
+  study.claim({"peaks", "the condition rises almost by jumps at two times, if the window is that of the other figures",
+               "2", "124"},
+              as_printed("2"),
+              {{count, 0, "peaks of cond(M^-1) up to t = 26"},
+               {passages(in_absolute), 0, "passages of the rods through one line, sin(q1 - q2) = 0"}});
+  if (count > 2) {
+    study.note(
+        fmt::format("The peaks of cond(M^-1) are at t = {:.4g}, {:.4g}, {:.4g}, ...: a window with two ends "
+                    "before the third.",
+                    own.t[of_mass[0]], own.t[of_mass[1]], own.t[of_mass[2]]));
+  }
+  if (absolute) {
+    const auto of_tangent = peaks(own.condition_tangent);
+    study.claim(
+        {"same_times", "both conditions rise at the same times", "same times", "124"},
+        at_most(1, "one step: K_T is an average over the step that ends at that time"),
+        {{apart(of_mass, of_tangent), 0, "largest distance in steps of a peak of cond(M^-1) from those of cond(K_T)"}});
+    study.note(
+        fmt::format("cond(K_T) has {} peaks above the middle of its range: beside most of those {} it shares with "
+                    "cond(M^-1) stand two lower ones, about 0.1 before and after.",
+                    of_tangent.size(), of_mass.size()));
+    study.claim({"damped", "the condition of K_T rises less than that of M^-1", "lower", "124"},
+                at_most(1, "ratio of both rises, largest over smallest value"),
+                {{range(own.condition_tangent) / range(own.condition_inverse_mass), 1e-6, "up to t = 26"}});
+  } else {
+    const double rise = range(own.condition_tangent);
+    study.claim({"rises_less", "the condition of K_T rises less than in absolute angles: hardly", "hardly", "125"},
+                at_most(1, "ratio of both rises, largest over smallest value; \"hardly\" has no number"),
+                {{rise / range(other.condition_tangent), 1e-6,
+                  fmt::format("rises by {:.3g}, in absolute angles by {:.3g}", rise, range(other.condition_tangent))}});
+    study.claim({"mass_rises_more", "the condition of M^-1 rises more than in absolute angles", "more", "125"},
+                at_least(1, "ratio of both largest values"),
+                {{*std::max_element(own.condition_inverse_mass.begin() + 1, own.condition_inverse_mass.end()) /
+                      *std::max_element(other.condition_inverse_mass.begin() + 1, other.condition_inverse_mass.end()),
+                  1e-6, "up to t = 26"}});
+    double worse = 0;
+    for (std::size_t k = 1; k < own.size(); ++k) worse += own.condition_tangent[k] > other.condition_tangent[k] ? 1 : 0;
+    study.claim(
+        {"better", "the linear system of Newton's method is better conditioned in relative angles", "better", "125"},
+        at_most(1, "ratio of the largest cond(K_T) in relative and in absolute angles"),
+        {{*std::max_element(own.condition_tangent.begin() + 1, own.condition_tangent.end()) /
+              *std::max_element(other.condition_tangent.begin() + 1, other.condition_tangent.end()),
+          1e-6, "largest values up to t = 26"}});
+    study.note(
+        fmt::format("In {:.3g} of the steps cond(K_T) is larger in relative angles: it is the peaks that are lower.",
+                    worse / static_cast<double>(own.size() - 1)));
+  }
+  double gap = 0, least = 1e300, largest = 0;
+  for (std::size_t k = 1; k < own.size(); ++k) {
+    gap = std::max(gap, std::abs(in_absolute.determinant_tangent[k] / in_relative.determinant_tangent[k] - 1));
+    least = std::min(least, own.determinant_tangent[k]);
+    largest = std::max(largest, own.determinant_tangent[k]);
+  }
+  study.claim({"same_determinant", "the determinants of K_T are the same in both coordinates", "identical", "126"},
+              at_most(1e-9, "K_T in one is similar to that in the other: rounding"),
+              {{gap, 1e-14, "largest relative difference over every step"}});
+  std::vector<double> depth;
+  for (const double det : own.determinant_tangent) depth.push_back(-det);
+  // The range of -det is negative; peaks() takes the middle of it.
+  const auto falls = peaks(depth);
+  study.claim({"determinant_falls", "det K_T falls where the conditions rise", "falls", "126"},
+              at_most(1, "one step: K_T is an average over the step that ends at that time"),
+              {{apart(of_mass, falls), 0,
+                fmt::format("largest distance in steps of {} falls from {} peaks; det K_T from {:.6g} to {:.6g}",
+                            falls.size(), of_mass.size(), least, largest)}});
+  const std::vector<double> t(own.t.begin() + 1, own.t.end());
+  const auto tail = [](const std::vector<double>& x) { return std::vector<double>(x.begin() + 1, x.end()); };
+  study.keep({"conditions",
+              {{"t", t},
+               {"condition_tangent", tail(own.condition_tangent)},
+               {"condition_inverse_mass", tail(own.condition_inverse_mass)},
+               {"determinant_tangent", tail(own.determinant_tangent)},
+               {"iterations", tail(own.iterations)}}});
+  study.draw("figure", study.info().title + ": condition of K_T, condition of M^-1 and det K_T at every step",
+             {study.info().title,
+              {over_time("cond({/:Italic K}_T)", t, tail(own.condition_tangent)),
+               over_time("cond({/:Italic M}^{-1})", t, tail(own.condition_inverse_mass)),
+               over_time("det({/:Italic K}_T)", t, tail(own.determinant_tangent))}});
+}
+
+}  // namespace pendulum_conditions
+
+std::vector<Experiment> pendulum_conditions_experiments() {
+  return {{{"G3.27", gross, "125", "condition of the nonlinear double pendulum, absolute angles"},
+           [](Study& study) { pendulum_conditions::carry_out(study, true); }},
+          {{"G3.28", gross, "126", "condition of the nonlinear double pendulum, relative angles"},
+           [](Study& study) { pendulum_conditions::carry_out(study, false); }}};
+}
+
+}  // namespace hamflow::reproduction

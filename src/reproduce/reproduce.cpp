@@ -1,0 +1,188 @@
+#include "hamflow/reproduce/reproduce.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "gnuplot.hpp"
+#include "hamflow/core/error.hpp"
+#include "report.hpp"
+#include "run_folder.hpp"
+#include "store.hpp"
+
+namespace hamflow {
+
+namespace {
+namespace fs = std::filesystem;
+using namespace reproduction;
+using Json = nlohmann::ordered_json;
+
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
+
+/// @throws FileError
+void prepare(const ReproduceRequest& request) {
+  std::error_code error;
+  const bool there = is_there(request.folder);
+  if (there && request.existing == Existing::refuse && !fs::is_empty(request.folder, error)) {
+    throw FileError("found " + request.folder.string() +
+                    ", which exists; allowed --resume, which does only what is not done, --force, or --out another");
+  }
+  if (there && !is_there(request.folder / "verdicts.json") && !fs::is_empty(request.folder, error) &&
+      !is_there(request.folder / "reproduction")) {
+    throw FileError("found in " + request.folder.string() +
+                    " no reproduction; allowed the folder of one, or a new one");
+  }
+  fs::create_directories(request.folder / "reproduction", error);
+  if (error) throw FileError("cannot make the folder " + request.folder.string() + ": " + error.message());
+}
+
+/// A folder of an experiment holds nothing but its own files: it can be made anew.
+void clear(const fs::path& folder) {
+  std::error_code error;
+  if (is_there(folder) && !is_there(folder / "begun.txt")) {
+    throw FileError("found the folder " + folder.string() + ", which is not hamflow's; allowed --out another");
+  }
+  fs::remove_all(folder, error);
+  if (error) throw FileError("cannot remove " + folder.string() + ": " + error.message());
+}
+
+std::string contents_of(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// The folder of an experiment that is to be carried out: new, or as a kill of the same experiment has left it, with
+/// long runs that go on.
+void begin_in(const fs::path& folder, const std::string& print, bool resume) {
+  const fs::path mark = folder / "begun.txt";
+  if (resume && contents_of(mark) == print) return;
+  clear(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+  write_text(mark, print);
+}
+
+class Run {
+ public:
+  Run(const ReproduceRequest& request, const std::function<bool(std::size_t, std::size_t)>& pulse)
+      : request_(request), pulse_(pulse), reports_(request.ids.size()) {}
+
+  ReproduceReport all() {
+    std::vector<std::thread> others;
+    const int most = std::min<int>(request_.threads, static_cast<int>(request_.ids.size()));
+    for (int i = 1; i < most; ++i) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& other : others) other.join();
+    if (trouble_) std::rethrow_exception(trouble_);
+    return finished();
+  }
+
+ private:
+  bool go_on() {
+    if (stopped_) return false;
+    const std::lock_guard one(mutex_);
+    if (pulse_ && !pulse_(done_, reports_.size())) stopped_ = true;
+    return !stopped_;
+  }
+  /// Takes the next experiment until there is none. Results stand at their places, whoever computed them.
+  void work() {
+    const figures::WhileDrawing asks([this] { return go_on(); });
+    for (std::size_t i = next_++; i < reports_.size(); i = next_++) {
+      try {
+        reports_[i] = carried_out(experiment_of(request_.ids[i]));
+      } catch (...) {  // of files: nothing more can be kept
+        const std::lock_guard one(mutex_);
+        if (!trouble_) trouble_ = std::current_exception();
+        stopped_ = true;
+      }
+      ++done_;
+    }
+  }
+  ExperimentReport carried_out(const Experiment& experiment) {
+    ExperimentReport report{.info = experiment.info, .status = "done"};
+    const fs::path folder = request_.folder / "reproduction" / experiment.info.id;
+    const std::string print = fingerprint(experiment, request_.extent);
+    if (request_.existing == Existing::resume) {
+      if (const auto kept = kept_in(folder, print)) {
+        report.claims = kept->claims;
+        report.seconds = kept->seconds;
+        report.was_done = true;
+        return report;
+      }
+    }
+    if (!go_on()) {
+      report.status = "interrupted";
+      return report;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    begin_in(folder, print, request_.existing == Existing::resume);
+    Study study(
+        experiment.info, request_.extent, [this] { return go_on(); }, folder);
+    try {
+      experiment.carry_out(study);
+      report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      const bool quick = request_.extent == WorkExtent::quick;
+      keep(folder, study, print, report.seconds,
+           quick ? std::vector<std::string>{"svg"} : std::vector<std::string>{"svg", "pdf", "png"});
+      report.claims = study.claims();
+    } catch (const Stopped&) {
+      report.status = "interrupted";
+    } catch (const figures::DrawingStopped&) {
+      report.status = "interrupted";
+    } catch (const FileError&) {
+      throw;
+    } catch (const std::exception& error) {
+      report.status = "failed";
+      report.message = error.what();
+    }
+    return report;
+  }
+
+  ReproduceReport finished() {
+    ReproduceReport report{.status = "done", .experiments = reports_};
+    for (const ExperimentReport& one : reports_) {
+      if (one.status == "interrupted") report.status = "interrupted";
+    }
+    if (report.status == "done" && std::any_of(reports_.begin(), reports_.end(),
+                                               [](const ExperimentReport& one) { return one.status == "failed"; })) {
+      report.status = "failed";
+    }
+    report.json = verdicts_json(report);
+    report.text = verdicts_text(report);
+    write_text(request_.folder / "verdicts.json", report.json);
+    write_text(request_.folder / "index.html", page_of(report, request_));
+    return report;
+  }
+
+  const ReproduceRequest& request_;
+  const std::function<bool(std::size_t, std::size_t)>& pulse_;
+  std::vector<ExperimentReport> reports_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  std::exception_ptr trouble_;
+};
+
+}  // namespace
+
+ReproduceReport reproduce(const ReproduceRequest& request,
+                          const std::function<bool(std::size_t done, std::size_t all)>& pulse) {
+  prepare(request);
+  const FolderLock lock(request.folder);
+  return Run(request, pulse).all();
+}
+
+}  // namespace hamflow

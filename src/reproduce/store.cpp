@@ -1,0 +1,156 @@
+#include "store.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "hamflow/core/error.hpp"
+#include "hamflow/core/text.hpp"
+#include "hdf5_text.hpp"
+#include "run_folder.hpp"
+#include "whole_file.hpp"
+
+namespace hamflow::reproduction {
+
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+double number_in(const Json& json) { return json.is_number() ? json.get<double>() : std::nan(""); }
+
+ClaimVerdict verdict_in(const std::string& word) {
+  for (const ClaimVerdict verdict : all_claim_verdicts) {
+    if (name(verdict) == word) return verdict;
+  }
+  throw Error("no verdict: " + word);
+}
+
+Claim claim_in(const Json& json) {
+  Claim claim{.id = json.at("id"),
+              .thesis = json.at("thesis"),
+              .page = json.at("page"),
+              .statement = json.at("statement"),
+              .printed = json.at("printed"),
+              .rule = {json.at("rule")}};
+  for (const Json& one : json.at("measurements")) {
+    claim.measured.push_back({number_in(one.at("value")), number_in(one.at("uncertainty")), one.at("how")});
+  }
+  claim.judgement = {verdict_in(json.at("verdict")), json.at("reason")};
+  return claim;
+}
+
+void write_csv(const fs::path& file, const Curves& curves) {
+  std::string text = joined(
+                         curves.columns, [](const auto& column) { return column.first; }, ",") +
+                     "\n";
+  std::size_t rows = 0;
+  for (const auto& [name, numbers] : curves.columns) rows = std::max(rows, numbers.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    text += joined(
+                curves.columns,
+                [row](const auto& column) {
+                  return row < column.second.size() ? fmt::format("{:.17g}", column.second[row]) : std::string();
+                },
+                ",") +
+            "\n";
+  }
+  write_text(file, text);
+}
+
+void write_h5(const fs::path& file, const Study& study) {
+  silence_hdf5();
+  WholeFile whole(file, next_name(file));
+  Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+                "create " + file.string());
+  write_attribute(id, "experiment", study.info().id);
+  for (const KeptScenario& scenario : study.scenarios()) {
+    write_text_dataset(id, "scenario_" + scenario.name, scenario.text);
+  }
+  for (const Curves& curves : study.curves()) {
+    const Hdf5Handle group = make_group(id, curves.name);
+    for (const auto& [name, numbers] : curves.columns) {
+      const hsize_t size = numbers.size();
+      const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "describe " + name);
+      const Hdf5Handle set(
+          H5Dcreate2(group, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+          "create " + name);
+      check_hdf5(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()), "write " + name);
+    }
+  }
+  id.close_now("write " + file.string() + " (is the disk full?)");
+  whole.put_in_place();
+}
+}  // namespace
+
+Json json_of(const Claim& claim) {
+  Json all{{"id", claim.id},
+           {"thesis", claim.thesis},
+           {"page", claim.page},
+           {"statement", claim.statement},
+           {"printed", claim.printed},
+           {"measured", claim.measured.empty() ? Json(nullptr) : Json(claim.measured.front().value)},
+           {"uncertainty", claim.measured.empty() ? Json(nullptr) : Json(claim.measured.front().uncertainty)},
+           {"rule", claim.rule.text},
+           {"verdict", std::string(name(claim.judgement.verdict))},
+           {"reason", claim.judgement.reason},
+           {"measurements", Json::array()}};
+  for (const Measured& one : claim.measured) {
+    all["measurements"].push_back({{"value", one.value}, {"uncertainty", one.uncertainty}, {"how", one.how}});
+  }
+  return all;
+}
+
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+std::string fingerprint(const Experiment& experiment, WorkExtent extent) {
+  constexpr const char* names[] = {"quick", "usual", "full"};
+  return std::string(HAMFLOW_VERSION) + " " + names[static_cast<int>(extent)] + " " + experiment.source;
+}
+
+std::string fingerprint_of(const std::string& id, WorkExtent extent) { return fingerprint(experiment_of(id), extent); }
+
+void keep(const fs::path& folder, const Study& study, const std::string& print, double seconds,
+          const std::vector<std::string>& formats) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+  Json all{{"fingerprint", print},   {"seconds", seconds},         {"claims", Json::array()},
+           {"notes", study.notes()}, {"scenarios", Json::array()}, {"figures", Json::array()}};
+  for (const Claim& claim : study.claims()) all["claims"].push_back(json_of(claim));
+  for (const KeptScenario& scenario : study.scenarios()) {
+    write_text(folder / (scenario.name + ".toml"), scenario.text);
+    all["scenarios"].push_back(scenario.name);
+  }
+  for (const Curves& curves : study.curves()) write_csv(folder / (curves.name + ".csv"), curves);
+  if (!study.curves().empty()) write_h5(folder / "curves.h5", study);
+  for (const Drawn& drawn : study.drawn()) {
+    for (const std::string& format : formats) figures::draw(drawn.page, folder / (drawn.name + "." + format));
+    all["figures"].push_back({drawn.name, drawn.caption});
+  }
+  write_text(folder / "result.json", text_of(all));
+}
+
+std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
+  std::ifstream in(folder / "result.json");
+  if (!in) return {};
+  std::stringstream text;
+  text << in.rdbuf();
+  const Json all = Json::parse(text.str(), nullptr, false);
+  if (all.is_discarded() || !all.is_object() || all.value("fingerprint", "") != print) return {};
+  try {
+    Kept kept;
+    for (const Json& claim : all.at("claims")) kept.claims.push_back(claim_in(claim));
+    kept.notes = all.at("notes").get<std::vector<std::string>>();
+    kept.scenarios = all.at("scenarios").get<std::vector<std::string>>();
+    for (const Json& figure : all.at("figures")) kept.drawings.emplace_back(figure.at(0), figure.at(1));
+    kept.seconds = all.at("seconds");
+    return kept;
+  } catch (const std::exception&) {  // of another form: carried out again
+    return {};
+  }
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,38 @@
+// What is kept of an experiment in its folder: result.json with its claims, scenarios, curves as CSV and HDF5, figures.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment.hpp"
+
+namespace hamflow::reproduction {
+
+/// What the report needs of an experiment that is done.
+struct Kept {
+  std::vector<Claim> claims;
+  std::vector<std::string> notes;
+  std::vector<std::string> scenarios;                         // their names
+  std::vector<std::pair<std::string, std::string>> drawings;  // name, caption
+  double seconds = 0;
+};
+
+nlohmann::ordered_json json_of(const Claim& claim);
+/// Text of a document; numbers that are none become null, broken UTF-8 is replaced.
+std::string text_of(const nlohmann::ordered_json& json);
+
+/// What decides whether an experiment has to be carried out again: version, extent, and the text of its file.
+std::string fingerprint(const Experiment& experiment, WorkExtent extent);
+std::string fingerprint_of(const std::string& id, WorkExtent extent);
+
+/// Writes everything; result.json is the last, so that what a kill interrupts is not taken for done.
+/// @param formats of figures   @throws FileError
+void keep(const std::filesystem::path& folder, const Study& study, const std::string& fingerprint, double seconds,
+          const std::vector<std::string>& formats);
+/// Nothing where the folder holds no such result, or one of another fingerprint.
+std::optional<Kept> kept_in(const std::filesystem::path& folder, const std::string& fingerprint);
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,119 @@
+#include "hamflow/scenario/gas_start.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/option_info.hpp"
+#include "hamflow/core/text.hpp"
+
+namespace hamflow {
+
+namespace {
+
+/// Calls put(k, i) for the k-th coordinate of each particle, i its place on that side from 0.
+template <class Put>
+void each_place(std::int64_t n, std::size_t space, const Put& put) {
+  std::int64_t all = 1;
+  for (std::size_t k = 0; k < space; ++k) all *= n;
+  for (std::int64_t particle = 0; particle < all; ++particle) {
+    std::int64_t rest = particle;
+    for (std::size_t k = 0; k < space; ++k) {
+      put(rest % n);
+      rest /= n;
+    }
+  }
+}
+
+/// 2e-5 m - 1 as a decimal with five places.
+std::string fifty_thousandths(std::uint64_t m) {
+  const auto hundred_thousandths = static_cast<std::int64_t>(2 * m) - 100000;
+  const std::int64_t size = std::abs(hundred_thousandths);
+  std::string digits = std::to_string(size % 100000);
+  digits.insert(0, 5 - digits.size(), '0');
+  return (hundred_thousandths < 0 ? "-" : "") + std::to_string(size / 100000) + "." + digits;
+}
+
+std::vector<std::string> cells_of(std::string line) {
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  std::vector<std::string> cells{""};
+  for (const char c : line) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else if (c != ' ' && c != '\t' && c != '"') {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed) {
+  GasStart start;
+  const std::string intervals = std::to_string(n - 1);
+  // One quotient each: as symmetric about 0 as numbers are.
+  each_place(n, space, [&](std::int64_t i) { start.q.push_back(std::to_string(2 * i - (n - 1)) + "/" + intervals); });
+  for (std::size_t k = 0; k < start.q.size(); ++k) {
+    const double u = static_cast<double>(counter_bits(seed, k) >> 11) * 0x1p-53;
+    start.p.push_back(fifty_thousandths(static_cast<std::uint64_t>(1e5 * u)));
+  }
+  return start;
+}
+
+GasStart gas_in_corner(std::int64_t n, std::size_t space) {
+  GasStart start;
+  const std::string intervals = std::to_string(n - 1);
+  each_place(n, space, [&](std::int64_t i) { start.q.push_back(std::to_string(i) + "/" + intervals); });
+  start.p.assign(start.q.size(), "0");
+  return start;
+}
+
+GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
+  std::ifstream in(file);
+  if (!in) throw Error("found no file " + file.string() + " that can be read; allowed a CSV of particles");
+  std::vector<std::string> names;
+  for (const char* const p : {"", "p_"}) {
+    for (std::size_t k = 0; k < space; ++k) names.push_back(p + std::string(1, "xyz"[k]));
+  }
+  const std::string allowed = "; allowed a first row with " + joined(names) + ", and mass if there is one for each";
+  std::string line;
+  if (!std::getline(in, line)) throw Error("found the empty file " + file.string() + allowed);
+  const std::vector<std::string> head = cells_of(line);
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) {
+    const auto place = std::find(head.begin(), head.end(), name);
+    if (place == head.end()) throw Error("found no column " + name + " in " + file.string() + allowed);
+    places.push_back(static_cast<std::size_t>(place - head.begin()));
+  }
+  const auto mass = std::find(head.begin(), head.end(), "mass");
+  for (const std::string& name : head) {
+    if (name == "mass" || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw Error("found the column '" + name + "' in " + file.string() + suggestion(name, names) + allowed);
+  }
+  GasStart start;
+  for (std::size_t row = 2; std::getline(in, line); ++row) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() == 1 && cells[0].empty()) continue;
+    const std::string where = " in line " + std::to_string(row) + " of " + file.string();
+    if (cells.size() != head.size()) {
+      throw Error("found " + std::to_string(cells.size()) + " numbers" + where + "; allowed " +
+                  std::to_string(head.size()) + ", as many as the first row has names");
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::string wrong = refused_value({.name = head[i]}, cells[i]);
+      if (!wrong.empty()) throw Error(wrong + where);
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) (i < space ? start.q : start.p).push_back(cells[places[i]]);
+    if (mass != head.end()) {
+      const std::string& m = cells[static_cast<std::size_t>(mass - head.begin())];
+      if (!(number_value(m) > 0)) throw Error("found mass " + m + where + "; allowed a positive number");
+      start.masses.push_back(m);
+    }
+  }
+  if (start.q.empty()) throw Error("found no particle in " + file.string() + "; allowed a row for each");
+  return start;
+}
+
+}  // namespace hamflow

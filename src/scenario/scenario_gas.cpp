@@ -1,0 +1,289 @@
+// [problem] with the gas: words that choose its entry of the catalogue, its parameters, and where the particles begin.
+#include <cmath>
+
+#include "gas_options.hpp"
+#include "hamflow/problems/support/container.hpp"
+#include "hamflow/problems/support/cutoff.hpp"
+#include "hamflow/run/gas.hpp"
+#include "hamflow/run/state_names.hpp"
+#include "hamflow/scenario/gas_start.hpp"
+#include "scenario_reader.hpp"
+
+namespace hamflow {
+
+namespace {
+
+/// { kind, radius, exponent } or { kind, size }; without it a circle.
+void read_container(TomlTable& table, Choices& choices, Texts& parameters) {
+  const GasOptions& o = gas_options();
+  choices[GasKeys::container] = ContainerNames::circle;
+  table.know(o.container.name);
+  if (!table.has(o.container.name)) return;
+  TomlTable container = table.table(o.container.name);
+  if (!container.exists()) return;
+  const std::string kind = container.text(o.of_container.kind).value_or(ContainerNames::circle);
+  choices[GasKeys::container] = kind;
+  const auto take = [&](const OptionInfo& option, bool belongs) {
+    if (!belongs && container.has(option.name)) {
+      container.complain(option.name,
+                         container.found(option.name) + " with kind = \"" + kind + "\"; allowed " + option.condition);
+      container.know(option.name);
+    } else if (const auto text = container.text(option); text && belongs) {
+      parameters[option.name] = *text;
+    }
+  };
+  take(o.of_container.radius, kind == ContainerNames::circle);
+  take(o.of_container.exponent, kind == ContainerNames::circle);
+  const bool has_edges = kind == ContainerNames::box || kind == ContainerNames::periodic;
+  take(o.of_container.size, has_edges);
+  if (has_edges && !container.has(o.of_container.size.name)) {
+    container.missing(o.of_container.size.name, "a list of the edges of the box");
+  }
+  container.finish();
+}
+
+/// A number, or { radius, kind, inner, skin }.
+void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
+  const GasOptions& o = gas_options();
+  choices[GasKeys::cutoff_kind] = CutoffNames::none;
+  table.know(o.cutoff.name);
+  const toml::node* const node = table.node().get(o.cutoff.name);
+  if (node == nullptr) return;
+  choices[GasKeys::cutoff_kind] = CutoffNames::shifted;
+  if (!node->is_table()) {
+    const OptionInfo number{.name = o.cutoff.name, .range = Range::positive};
+    parameters[GasKeys::cutoff] = table.text(number, ", or a table with radius, kind, inner, skin").value_or("1");
+    return;
+  }
+  TomlTable cutoff = table.table(o.cutoff.name);
+  parameters[GasKeys::cutoff] = cutoff.text(o.of_cutoff.radius).value_or("1");
+  const std::string kind = cutoff.text(o.of_cutoff.kind).value_or(CutoffNames::shifted);
+  choices[GasKeys::cutoff_kind] = kind;
+  const bool smooth = kind == CutoffNames::smooth;
+  const bool has_inner = cutoff.has(o.of_cutoff.inner.name);
+  if (const auto inner = cutoff.text(o.of_cutoff.inner); inner && smooth) parameters[GasKeys::inner] = *inner;
+  if (smooth && !has_inner) {
+    cutoff.missing(o.of_cutoff.inner.name, "a number below radius, from which on phi fades");
+  } else if (!smooth && has_inner) {
+    cutoff.complain(o.of_cutoff.inner.name,
+                    cutoff.found(o.of_cutoff.inner.name) + "; allowed " + o.of_cutoff.inner.condition);
+  }
+  if (const auto skin = cutoff.text(o.of_cutoff.skin)) parameters[GasKeys::skin] = *skin;
+  cutoff.finish();
+}
+
+/// The number of coordinates that `initial` gives; 0: none, or it is not readable, which is complained about with it.
+std::size_t size_of_initial(const TomlTable& table) {
+  const toml::node* const initial = table.node().get("initial");
+  const toml::table* const state = initial != nullptr ? initial->as_table() : nullptr;
+  const toml::node* const q = state != nullptr ? state->get("q") : nullptr;
+  return q != nullptr && q->is_array() ? q->as_array()->size() : 0;
+}
+
+}  // namespace
+
+void ScenarioReader::read_gas(TomlTable& table) {
+  const GasOptions& o = gas_options();
+  Request& request = scenario_.request;
+  const std::size_t before = complaints_.size();
+  Texts parameters;
+  const auto take = [&](const OptionInfo& option) {
+    if (const auto text = table.text(option)) parameters[option.name] = *text;
+  };
+  take(o.dimension);
+  take(o.masses);
+  request.variant[GasKeys::pair] = table.text(o.pair).value_or(o.pair.default_value);
+  if (request.variant[GasKeys::pair] == GasKeys::typed) {
+    read_typed_pair(table, parameters);
+  } else {
+    for (const OptionInfo* key : {&o.phi, &o.parameters}) {
+      table.know(key->name);
+      if (table.has(key->name)) table.complain(key->name, table.found(key->name) + "; allowed " + key->condition);
+    }
+  }
+  read_container(table, request.variant, parameters);
+  read_cutoff(table, request.variant, parameters);
+  const std::int64_t n = table.whole(o.particles_per_side).value_or(0);
+  GasStart start = read_gas_start(table, n,
+                                  number_value(parameters.contains(GasKeys::dimension) ? parameters[GasKeys::dimension]
+                                                                                       : o.dimension.default_value) == 3
+                                      ? 3
+                                      : 2);
+  if (!start.masses.empty()) {
+    if (table.has(o.masses.name)) {
+      table.complain(o.masses.name, table.found(o.masses.name) + " beside masses in the file; allowed one of them");
+    }
+    parameters[GasKeys::masses] = "[" + joined(start.masses) + "]";
+  }
+  const std::size_t size = table.has("initial") ? size_of_initial(table) : start.q.size();
+  read_scale(table, n, size, parameters);
+  if (!table.has("initial")) {
+    request.start.q = std::move(start.q);
+    request.start.p = std::move(start.p);
+  }
+  if (complaints_.size() != before) {
+    for (const OptionInfo& option : all_gas_options()) table.know(option.name);
+    table.know_all({"name", "initial", wall_keys().wall_rule.name, wall_keys().walls.name, wall_keys().strength.name,
+                    wall_keys().exponent.name});
+    table.finish();
+    return;
+  }
+  try {
+    scenario_.problem = &find_problem(GasKeys::problem, request.variant);
+  } catch (const Error& error) {
+    table.complain(GasKeys::pair, error.what());
+    return;
+  }
+  for (const ParameterInfo& parameter : scenario_.problem->info.parameters) {
+    const auto is_own = [&](const char* name) { return parameter.name == name; };
+    const bool own = is_own(GasKeys::masses) || is_own(GasKeys::dimension) || is_own(GasKeys::scale) ||
+                     is_own(GasKeys::radius) || is_own(GasKeys::exponent) || is_own(GasKeys::size) ||
+                     is_own(GasKeys::cutoff) || is_own(GasKeys::inner) || is_own(GasKeys::skin);
+    if (!own && !parameters.contains(parameter.name)) {
+      if (const auto text = table.text(parameter)) parameters[parameter.name] = *text;
+    }
+  }
+  request.parameters = complete(scenario_.problem->info, parameters);
+}
+
+/// phi = "..." and its parameters.
+void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
+  const GasOptions& o = gas_options();
+  if (!table.has(o.phi.name)) table.missing(o.phi.name, "phi of r and the parameters, such as \"r^-9 - r^-6\"");
+  const auto phi = table.text(o.phi);
+  const Texts typed = read_typed_parameters(table);
+  if (!phi) return;
+  for (const auto& [name, text] : typed) {
+    const auto taken = [&](const OptionInfo& option) { return option.name == name; };
+    for (const OptionInfo& option : all_gas_options()) {
+      if (taken(option) || name == GasKeys::radius || name == GasKeys::exponent || name == GasKeys::size ||
+          name == GasKeys::inner || name == GasKeys::skin) {
+        table.complain_in(std::string(GasKeys::parameters) + "." + name,
+                          "found the name " + name + ", which the gas has itself; allowed another name");
+        return;
+      }
+    }
+  }
+  try {
+    const Choices field = central_formula_choices(*phi, typed, "cartesian");
+    scenario_.request.variant[GasKeys::phi] = *phi;
+    scenario_.request.variant[GasKeys::parameters] = field.at(FormulaKeys::parameters);
+    parameters.insert(typed.begin(), typed.end());
+  } catch (const FormulaError& error) {
+    table.complain_in(error.key == FormulaKeys::central_potential ? GasKeys::phi : error.key, error.what());
+  }
+}
+
+GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::size_t space) {
+  const GasOptions& o = gas_options();
+  const std::string kind = table.text(o.start).value_or(o.start.default_value);
+  const auto file = table.text(o.file);
+  const auto seed = table.whole(o.seed);
+  if (table.has("initial")) return {};  // which overrides it
+  if (kind == GasStarts::file) {
+    if (!file) {
+      if (!table.has(o.file.name)) table.missing(o.file.name, o.file.meaning);
+      return {};
+    }
+    try {
+      return gas_from_file(std::filesystem::path(scenario_.file).parent_path() / *file, space);
+    } catch (const Error& error) {
+      table.complain(o.file.name, error.what());
+      return {};
+    }
+  }
+  if (table.has(o.file.name)) {
+    table.complain(o.file.name, table.found(o.file.name) + "; allowed " + o.file.condition);
+  }
+  if (n == 0) {
+    if (!table.has(o.particles_per_side.name)) {
+      table.missing(o.particles_per_side.name, "a whole number from 2, or start = \"file\", or initial = { q, p }");
+    }
+    return {};
+  }
+  constexpr double most_particles = 2e7;
+  if (std::pow(static_cast<double>(n), static_cast<double>(space)) > most_particles) {
+    table.complain(o.particles_per_side.name,
+                   table.found(o.particles_per_side.name) + "; allowed at most 2e7 particles together");
+    return {};
+  }
+  if (kind == GasStarts::corner) return gas_in_corner(n, space);
+  return gas_on_lattice(n, space, static_cast<std::uint64_t>(seed.value_or(1)));
+}
+
+/// S, as a text that every arithmetic reads.
+void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters) {
+  const GasOptions& o = gas_options();
+  const std::string word = table.text(o.scale).value_or(n == 0 ? "1" : GasScales::per_side);
+  const bool corner = table.plain_string(o.start.name) == GasStarts::corner && !table.has("initial");
+  if (word == GasScales::per_side) {
+    if (n == 0) {
+      table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else a number");
+    }
+    parameters[GasKeys::scale] = corner ? std::to_string(n - 1) : std::to_string(n - 1) + "/2";
+  } else if (word == GasScales::listing) {
+    const std::size_t space =
+        parameters.contains(GasKeys::dimension) && number_value(parameters[GasKeys::dimension]) == 3 ? 3 : 2;
+    const std::size_t particles = size / space;
+    if (particles == 1)
+      table.complain(o.scale.name, table.found(o.scale.name) + " with one particle; allowed a number");
+    parameters[GasKeys::scale] = std::to_string(particles > 1 ? particles - 1 : 1) + "/2";
+  } else {
+    parameters[GasKeys::scale] = word;
+  }
+}
+
+/// Hard walls at +-size/2 of every coordinate. Mirrors by default: with the rule `event` the bounce of one particle
+/// would split the step of all.
+void ScenarioReader::read_box(TomlTable& table) {
+  const WallKeys& keys = wall_keys();
+  OptionInfo rule = keys.wall_rule;
+  rule.default_value = wall_rules()[static_cast<std::size_t>(WallRule::mirror)];
+  rule.words = {wall_rules()[0], wall_rules()[1], wall_rules()[2]};  // hard ones
+  const std::string word = table.text(rule).value_or(rule.default_value);
+  for (const OptionInfo* key : {&keys.walls, &keys.strength, &keys.exponent}) {
+    table.know(key->name);
+    if (table.has(key->name)) {
+      table.complain(key->name, table.found(key->name) + " beside a box; allowed container = { kind = \"none\" }");
+    }
+  }
+  const Texts& parameters = scenario_.request.parameters;
+  const std::size_t size = scenario_.request.start.q.size();
+  const std::vector<std::string> edges = list_parts(parameters.at(GasKeys::size));
+  if (size == 0 || !scenario_.problem->refused_size(parameters, size).empty()) return;
+  if (!scenario_.problem->refused_parameters(parameters).second.empty()) return;  // complained about with the others
+  Walls walls;
+  for (std::size_t k = 0; k < wall_rules().size(); ++k) {
+    if (wall_rules()[k] == word) walls.rule = static_cast<WallRule>(k);
+  }
+  const std::vector<std::string> names = state_names(*scenario_.problem, parameters, size).q;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::string half = "(" + edges[i % edges.size()] + ")/2";
+    walls.intervals.push_back({names[i], i, "-" + half, half});
+  }
+  put_among(walls, scenario_.request.variant);
+  scenario_.problem = &find_problem(GasKeys::problem, scenario_.request.variant);
+}
+
+/// The Hessian of many particles is a matrix that does not fit: methods and measures that need it whole are refused.
+void ScenarioReader::check_gas() {
+  constexpr std::size_t most_with_hessian = 3000;
+  const std::size_t size = scenario_.start_q.size();
+  if (scenario_.request.problem != GasKeys::problem || size <= most_with_hessian) return;
+  const std::string many = " with " + std::to_string(size) +
+                           " coordinates, whose Hessian is needed as a matrix; allowed up to " +
+                           std::to_string(most_with_hessian) + " coordinates, above them ";
+  if (has_method()) {
+    const std::string& name = scenario_.request.method.name;
+    TomlTable method = root_.table("method");
+    if (name == "chin4a" || name == "chin4b" || name == "discrete-gradient") {
+      method.complain("name", "found " + name + many +
+                                  "a splitting, e.g. stv4, blanes-moan-s6, or cg with iteration = \"fixed-point\"");
+    }
+  }
+  TomlTable run = root_.table(run_table);
+  if (scenario_.lyapunov > 0) run.complain(run_keys().lyapunov.name, "found it" + many + "none");
+  if (scenario_.eigenvalues) run.complain(run_keys().eigenvalues.name, "found it" + many + "none");
+}
+
+}  // namespace hamflow

@@ -1,0 +1,233 @@
+"""The gas: starts, containers, cut-offs, what a wrong key is told, and the way there and back."""
+
+import csv
+import json
+import math
+import unittest
+
+from command import EXAMPLES, CommandCase
+
+GAS = """
+[problem]
+name = "gas"
+particles_per_side = 4
+%s
+[method]
+name = "stv4"
+[run]
+dt = 0.0005
+steps = 20
+"""
+
+
+class Gas(CommandCase):
+    def gas(self, keys="", *arguments, status=0):
+        self.write("gas.toml", GAS % keys)
+        return self.summary("gas.toml", *arguments, status=status)
+
+    def errors(self, keys, *arguments):
+        """What is told of a wrong key, in one text."""
+        self.write("gas.toml", GAS % keys)
+        return self.hamflow("run", "gas.toml", "--out", "none", *arguments, status=2).stderr
+
+    def reverse(self, scenario, *arguments):
+        return json.loads(self.hamflow("reverse", scenario, *arguments, "--json").stdout)
+
+    def test_defaults(self):
+        s = self.gas()
+        self.assertEqual(s["parameters"]["scale"], 1.5)  # (4 - 1)/2: neighbours at 2/3 are one length apart
+        self.assertEqual((s["parameters"]["radius"], s["parameters"]["exponent"]), (1.5, 1))
+        self.assertEqual(list(s["invariants"]), ["angular_momentum"])
+        self.assertEqual(s["evaluations"]["force"], 61)
+        self.assertEqual(len(s["final"]["q"]), 32)
+
+    def test_starts(self):
+        zero = ("--set", "run.steps=0")
+        lattice = self.gas("", *zero)["final"]
+        self.assertEqual(lattice["q"][:4], [-1, -1, -1 / 3, -1])
+        for p in lattice["p"]:
+            self.assertEqual(round(p * 1e5) % 2, 0)
+            self.assertAlmostEqual(p * 5e4, round(p * 5e4), delta=1e-10)
+            self.assertTrue(-1 <= p < 1)
+        self.assertEqual(lattice, self.gas("seed = 1", *zero)["final"])
+        self.assertNotEqual(lattice["p"], self.gas("seed = 2", *zero)["final"]["p"])
+        corner = self.gas('start = "corner"', *zero)
+        self.assertEqual(corner["final"]["q"][:4], [0, 0, 1 / 3, 0])
+        self.assertEqual(set(corner["final"]["p"]), {0})
+        self.assertEqual(corner["parameters"]["scale"], 3)  # n - 1
+        self.assertEqual(self.gas('scale = "listing"', *zero)["parameters"]["scale"], 7.5)  # (16 - 1)/2
+        space = self.gas('dimension = 3\ncontainer = { kind = "circle", radius = 2 }', *zero)
+        self.assertEqual(len(space["final"]["q"]), 3 * 64)
+        self.assertEqual(len(space["invariants"]["angular_momentum"]["initial"]), 3)
+
+    def test_a_file(self):
+        rows = [("mass", "y", "x", "p_x", "p_y"), (1, 0, 0, 0.1, 0), (2, 0.1, 1, 0, "1/4"), (3, 1, 0.2, 0, 0)]
+        with (self.folder / "start.csv").open("w") as out:
+            csv.writer(out).writerows(rows)
+        text = (GAS % 'start = "file"\nfile = "start.csv"').replace("particles_per_side = 4\n", "")
+        self.write("file.toml", text)
+        s = self.summary("file.toml", "--set", "run.steps=0")
+        self.assertEqual(s["final"]["q"], [0, 0, 1, 0.1, 0.2, 1])
+        self.assertEqual(s["final"]["p"], [0.1, 0, 0, 0.25, 0, 0])
+        self.assertEqual(s["parameters"]["masses"], [1, 2, 3])
+        self.assertEqual(s["parameters"]["scale"], 1)
+        for wrong, said in (("x,y,p_x\n0,0,0\n", "no column p_y"), ("x,y,p_x,p_y\n0,0,0\n", "3 numbers in line 2"),
+                            ("x,y,p_x,p_y\n0,a,0,0\n", "line 2"), ("", "empty file"),
+                            ("x,y,p_x,p_y,masss\n0,0,0,0,1\n", "masss"), ("x,y,p_x,p_y\n", "no particle")):
+            self.write("start.csv", wrong)
+            self.assertIn(said, self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
+        (self.folder / "start.csv").unlink()
+        self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
+
+    def test_initial_overrides(self):
+        s = self.gas('masses = [1, 2]\ninitial = { q = [0, 0, 1, 0], v = [0, 0.5, 0, 0.5] }', "--set", "run.steps=0")
+        self.assertEqual(s["final"]["p"], [0, 0.5, 0, 1])
+
+    def test_containers(self):
+        none = self.gas('container = { kind = "none" }')
+        self.assertEqual(list(none["invariants"]), ["angular_momentum", "linear_momentum", "centre_of_mass"])
+        for name in none["invariants"]:
+            self.assertLess(none["invariants"][name]["max_error"], 1e-13)
+        periodic = self.gas('cutoff = 1.5\ncontainer = { kind = "periodic", size = [2.7, 2.7] }')
+        self.assertEqual(list(periodic["invariants"]), ["linear_momentum", "centre_of_mass"])
+        for name in periodic["invariants"]:
+            self.assertLess(periodic["invariants"][name]["max_error"], 1e-13)
+        box = self.gas('container = { kind = "box", size = [2.1, 2.1] }', "--set", "run.steps=400")
+        self.assertEqual(box["parameters"]["wall_rule"], "mirror")
+        self.assertEqual(box["parameters"]["size"], [2.1, 2.1])
+        self.assertEqual(set(box["events"]), {"wall:x:min", "wall:x:max", "wall:y:min", "wall:y:max"})
+        self.assertGreater(sum(box["events"].values()), 0)
+        self.assertLessEqual(max(map(abs, box["final"]["q"])), 1.05)
+        self.assertEqual(box["invariants"], {})
+
+    def test_typed_pairs(self):
+        """The same potential, typed: its forces differ by rounding alone."""
+        built_in = self.gas()
+        typed = self.gas('pair = "formula"\nphi = "r^-12 - b*r^-6"\nparameters = { b = 2 }')
+        self.assertEqual(typed["parameters"]["b"], 2)
+        for a, b in zip(typed["final"]["q"] + typed["final"]["p"], built_in["final"]["q"] + built_in["final"]["p"]):
+            self.assertAlmostEqual(a, b, delta=1e-13)
+        usual = self.gas(f"epsilon = 1\nsigma = '2^(-1/6)'")  # 4 ((s/r)^12 - (s/r)^6) with the minimum at r = 1
+        self.assertAlmostEqual(usual["energy"]["initial"], built_in["energy"]["initial"], delta=1e-13)
+
+    def test_newton(self):
+        s = self.gas('pair = "newton"\nsoftening = 0.1\nscale = 1')
+        q, p = s["final"]["q"], s["final"]["p"]
+        wall = sum(1 / (2.25 - q[i] ** 2 - q[i + 1] ** 2) for i in range(0, 32, 2)) / 2
+        pairs = sum(1 / math.sqrt(math.dist(q[2 * i:2 * i + 2], q[2 * j:2 * j + 2]) ** 2 + 0.01)
+                    for i in range(16) for j in range(i))
+        self.assertAlmostEqual(s["energy"]["final"], sum(x * x for x in p) / 2 - pairs + wall, delta=1e-11)
+
+    def test_wrong_keys(self):
+        for keys, said in (
+                ('scale = "per_side"', 'did you mean per-side'),
+                ("scale = 0", "positive"),
+                ("dimension = 4", "from 2 to 3"),
+                ('start = "corners"', "corner"),
+                ('start = "file"', "file"),
+                ('file = "x.csv"', 'with start = "file"'),
+                ('pair = "lennard_jones"', 'did you mean lennard-jones'),
+                ('pair = "formula"', "phi"),
+                ('pair = "formula"\nphi = "r^-2 - s"', "s"),
+                ('phi = "1/r"', 'with pair = "formula"'),
+                ('pair = "newton"\nepsilon = 1', "epsilon"),
+                ("softening = 0.1", "softening"),
+                ('container = { kind = "round" }', "circle"),
+                ('container = { kind = "circle", size = [1, 1] }', "periodic"),
+                ('container = { kind = "box" }', "size"),
+                ('container = { kind = "box", size = [3] }', "2 edges"),
+                ('container = { exponent = 0.5 }', "a number from 1"),
+                ("container = { radius = 1.2 }", "particle 1 "),
+                ('container = { kind = "box", size = [1.9, 3] }', "x1 = -1 beyond the wall"),
+                ('container = { kind = "periodic", size = [3, 3] }', "with a cutoff of at most 2.25"),
+                ('cutoff = 2.5\ncontainer = { kind = "periodic", size = [3, 4] }', "at most 2.25"),
+                ("cutoff = -1", "positive"),
+                ('cutoff = { radius = 2, kind = "smooth" }', "inner"),
+                ('cutoff = { radius = 2, kind = "smooth", inner = 2 }', "inner below radius"),
+                ('cutoff = { radius = 2, inner = 1 }', "smooth"),
+                ('cutoff = { kind = "shifted" }', "radius"),
+                ("masses = [1, 2, 3]", "3 particles"),
+                ("masses = -1", "positive"),
+                ("seed = -1", "whole number"),
+                ('wall_rule = "mirror"', "walls"),
+                ("initial = { q = [0, 0, 0, 0], p = [0, 0, 0, 0] }", "particles 1 and 2 at one point"),
+                ("particle = 3", "did you mean")):
+            with self.subTest(keys):
+                self.assertIn(said, self.errors(keys))
+        self.assertIn("particles_per_side", self.errors("", "--set", "problem.particles_per_side=1"))
+
+    def test_who_is_outside(self):
+        """In every arithmetic, by name and number; the state is the last good one."""
+        for arithmetic in ("double", "compensated", "double-double", "quad", "mp(40)", "lattice"):
+            s = self.gas("container = { radius = 1.45 }", "--set", "run.dt=0.1", "--set", "run.steps=50", "--set",
+                         f"run.arithmetic={arithmetic}", status=1)
+            self.assertEqual((s["status"], s["error"]["kind"]), ("failed", "outside"), arithmetic)
+            self.assertRegex(s["error"]["message"], r"step \d+, from t = \S+: particle \d+ stood on the soft wall")
+            self.assertIn("exponent", s["error"]["hint"])
+            self.assertIn("dt", s["error"]["hint"])
+        for method in ("rk4", "gauss(2)", "cg(2,4)"):
+            s = self.gas("container = { radius = 1.45 }", "--set", "run.dt=0.3", "--set", "run.steps=50", "--set",
+                         f"method={{name='{method}'}}", status=1)
+            self.assertEqual(s["error"]["kind"], "outside", method)
+
+    def test_there_and_back(self):
+        s = self.reverse(str(EXAMPLES / "gas_121.toml"), "--set", "run.steps=20")
+        self.assertEqual(s["pair_evaluations"], (61 + 61) * 121 * 120 // 2)
+        differences = [[a - b for a, b in zip(s["returned"][x], s["start"][x])] for x in ("q", "p")]
+        for difference, name in zip(differences, ("position", "momentum")):
+            length = math.sqrt(sum(d * d for d in difference))
+            self.assertAlmostEqual(s["return_error"][name], length / 121, delta=1e-12 * length)
+            self.assertAlmostEqual(s["return_error"][name + "_rms"], length / 11, delta=1e-12 * length)
+        self.assertAlmostEqual(s["digits_lost"], math.log10(s["relative_distance"] * 2**53), delta=1e-12)
+
+    def test_every_bit_comes_back(self):
+        for keys in ("", 'container = { kind = "none" }', 'container = { kind = "box", size = [2.1, 2.1] }',
+                     'cutoff = { radius = 1.6, kind = "smooth", inner = 1.2 }\ncontainer = { kind = "periodic", size = [2.7, 3] }',
+                     "cutoff = 1.4", 'pair = "newton"\nsoftening = 0.1'):
+            self.write("gas.toml", GAS % keys)
+            s = self.reverse("gas.toml", "--set", "run.arithmetic=lattice", "--set", "run.steps=300")
+            self.assertTrue(s["bit_exact"] and s["expected_bit_exact"], keys)
+            self.assertEqual((s["digits_lost"], s["return_error"]["position"]), (0, 0))
+            self.assertEqual(s["hash"]["start"], s["hash"]["end"])
+            self.assertNotEqual(s["hash"]["start"], s["hash"]["turn"])
+
+    def test_threads_change_no_bit(self):
+        turns = [self.reverse(str(EXAMPLES / "gas_121.toml"), "--set", "run.arithmetic=lattice", "--set",
+                              "run.steps=10", "--set", f"run.threads={n}")["hash"] for n in (1, 2, 4)]
+        self.assertEqual(turns[0], turns[1])
+        self.assertEqual(turns[0], turns[2])
+
+    def test_kept_states(self):
+        h5 = ("reverse", str(EXAMPLES / "gas_corner.toml"), "--set", "run.steps=5", "--out", "kept")
+        self.hamflow(*h5)
+        self.assertTrue(json.loads((self.folder / "kept/reverse.json").read_text())["bit_exact"])
+        self.assertIn("kept", self.hamflow(*h5, status=3).stderr)
+        self.hamflow(*h5, "--force")
+        try:
+            import h5py
+        except ImportError:
+            self.skipTest("no h5py")
+        with h5py.File(self.folder / "kept/reverse.h5") as file:
+            self.assertEqual(list(file["start/q"]), list(file["end/q"]))
+            self.assertNotEqual(list(file["start/q"]), list(file["turn/q"]))
+            self.assertEqual(file["turn"].attrs["step"], 5)
+            self.assertIn("corner", bytes(file["scenario"][()]).decode())
+
+    def test_many_coordinates(self):
+        """Above 10^4 coordinates the summary names where they are."""
+        text = (GAS % 'container = { kind = "none" }\ncutoff = 1.2\ndimension = 3').replace("side = 4", "side = 15")
+        self.write("many.toml", text)
+        s = self.summary("many.toml", "--set", "run.steps=0")
+        self.assertEqual(set(s["final"]), {"t", "dataset"})
+
+    def test_shown(self):
+        shown = self.hamflow("show", "gas").stdout
+        for key in ("particles_per_side", "container", "cutoff", "epsilon", "softening", "phi", "seed"):
+            self.assertIn(key, shown)
+        self.write("new.toml", self.hamflow("new", "gas").stdout)
+        self.assertEqual(self.summary("new.toml")["status"], "done")
+        self.assertIn("gas", self.hamflow("list", "problems").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

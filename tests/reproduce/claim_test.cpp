@@ -1,0 +1,56 @@
+// A verdict is what the numbers and the rule make of it, and nothing else.
+#include "hamflow/reproduce/claim.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace hamflow {
+namespace {
+
+ClaimVerdict verdict_of(const Rule& rule, std::vector<Measured> measured, Grounds grounds = Grounds::program) {
+  return judge(rule, measured, grounds).verdict;
+}
+
+TEST(Claim, HoldsWhereAllThatTheNumberMayBeIsWithinTheRule) {
+  const Rule rule = within(4, 0.3, "order 2");
+  EXPECT_EQ(verdict_of(rule, {{4.1, 0.1}}), ClaimVerdict::holds);
+  EXPECT_EQ(verdict_of(rule, {{4.1, 0.25}}), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_of(rule, {{4.5, 0.25}}), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_of(rule, {{4.5, 0.15}}), ClaimVerdict::differs);
+}
+
+TEST(Claim, AsPrintedAllowsHalfAUnitOfTheLastDigit) {
+  EXPECT_EQ(verdict_of(as_printed("-0.25"), {{-0.2549}}), ClaimVerdict::holds);
+  EXPECT_EQ(verdict_of(as_printed("-0.25"), {{-0.2551}}), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_of(as_printed("3"), {{3.49}}), ClaimVerdict::holds);
+  EXPECT_EQ(verdict_of(as_printed("3"), {{2.49}}), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_of(as_printed("-3.747e-15"), {{-3.7474e-15}}), ClaimVerdict::holds);
+  EXPECT_EQ(verdict_of(as_printed("-3.747e-15"), {{-3.7476e-15}}), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_of(as_printed("1e3"), {{1400.0}}), ClaimVerdict::holds);
+}
+
+TEST(Claim, WhatIsNoNumberIsUndecided) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const Rule& rule : {at_most(1, ""), at_least(1, ""), none_of("rows"), as_printed("0.5")}) {
+    EXPECT_EQ(verdict_of(rule, {{nothing}}), ClaimVerdict::undecided);
+    EXPECT_EQ(verdict_of(rule, {{0.5, nothing}}), ClaimVerdict::undecided);
+    EXPECT_EQ(verdict_of(rule, {{0.5, std::numeric_limits<double>::infinity()}}), ClaimVerdict::undecided);
+    EXPECT_EQ(verdict_of(rule, {}), ClaimVerdict::undecided);
+  }
+}
+
+TEST(Claim, OneProgramAloneRefutesNothing) {
+  const Rule rule = none_of("counter-examples");
+  const Measured found{2, 0, "first way"}, again{3, 0, "second way"}, none{0, 0, "second way"};
+  EXPECT_EQ(verdict_of(rule, {found}), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_of(rule, {found}, Grounds::ways), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_of(rule, {found, again}, Grounds::ways), ClaimVerdict::cannot_hold);
+  EXPECT_EQ(verdict_of(rule, {found, none}, Grounds::ways), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_of(rule, {found}, Grounds::identity), ClaimVerdict::cannot_hold);
+  EXPECT_EQ(verdict_of(rule, {none}, Grounds::identity), ClaimVerdict::holds);
+}
+
+}  // namespace
+}  // namespace hamflow

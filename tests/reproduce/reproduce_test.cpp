@@ -1,0 +1,98 @@
+// All experiments, as `hamflow reproduce all --quick` has them.
+#include "hamflow/reproduce/reproduce.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace hamflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// A number that the rule does not allow, beyond its uncertainty.
+Measured violation(const Rule& rule) {
+  if (std::isfinite(rule.high)) return {rule.high + std::abs(rule.high) + 1, 0, "violation"};
+  return {rule.low - std::abs(rule.low) - 1, 0, "violation"};
+}
+/// One that it allows.
+Measured agreement(const Rule& rule) {
+  if (std::isfinite(rule.low) && std::isfinite(rule.high)) return {(rule.low + rule.high) / 2, 0, "agreement"};
+  return {std::isfinite(rule.high) ? rule.high - std::abs(rule.high) : rule.low + std::abs(rule.low), 0, "agreement"};
+}
+
+void expect_all_computed(const ReproduceReport& report) {
+  EXPECT_EQ(report.status, "done");
+  for (const ExperimentReport& one : report.experiments) {
+    EXPECT_EQ(one.status, "done") << one.info.id << ": " << one.message;
+    EXPECT_FALSE(one.claims.empty()) << one.info.id;
+  }
+}
+
+void expect_rules_notice_violations(const ReproduceReport& report) {
+  std::set<std::string> ids;
+  for (const ExperimentReport& one : report.experiments) {
+    for (const Claim& claim : one.claims) {
+      EXPECT_TRUE(ids.insert(claim.id).second) << claim.id << " twice";
+      if (claim.judgement.verdict == ClaimVerdict::nothing_to_test) continue;
+      ASSERT_TRUE(std::isfinite(claim.rule.low) || std::isfinite(claim.rule.high)) << claim.id;
+      EXPECT_EQ(judge(claim.rule, claim.measured, claim.grounds).verdict, claim.judgement.verdict) << claim.id;
+      const std::vector<Measured> wrong(std::max<std::size_t>(1, claim.measured.size()), violation(claim.rule));
+      const ClaimVerdict fed = judge(claim.rule, wrong, claim.grounds).verdict;
+      EXPECT_TRUE(fed == ClaimVerdict::differs || fed == ClaimVerdict::cannot_hold) << claim.id;
+      EXPECT_EQ(judge(claim.rule, std::vector{agreement(claim.rule)}, claim.grounds).verdict, ClaimVerdict::holds)
+          << claim.id;
+    }
+  }
+}
+
+void expect_page_alone(const ReproduceReport& report, const fs::path& folder) {
+  const std::string page = text_of(folder / "index.html");
+  for (const char* outside : {"http://", "https://", "<script", "@import", "<link"}) {
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  }
+  for (const ExperimentReport& one : report.experiments) {
+    EXPECT_NE(page.find("id=\"" + one.info.id + "\""), std::string::npos) << one.info.id;
+  }
+}
+
+/// What is done is not done again, and the verdicts stay.
+void expect_nothing_to_resume(ReproduceRequest request) {
+  const std::string verdicts = text_of(request.folder / "verdicts.json");
+  request.existing = Existing::resume;
+  request.threads = 1;
+  const ReproduceReport second = reproduce(request);
+  for (const ExperimentReport& one : second.experiments) EXPECT_TRUE(one.was_done) << one.info.id;
+  EXPECT_EQ(text_of(request.folder / "verdicts.json"), verdicts);
+}
+
+TEST(Experiments, AllOfThemQuickly) {  // one test: they are carried out once
+  const fs::path folder = fs::temp_directory_path() / ("hamflow_reproduce_" + std::to_string(::getpid()));
+  fs::remove_all(folder);
+  const ReproduceRequest request{named_experiments({"all"}), WorkExtent::quick, folder, Existing::refuse, 2};
+  const ReproduceReport report = reproduce(request);
+  expect_all_computed(report);
+  expect_rules_notice_violations(report);
+  expect_page_alone(report, folder);
+  expect_nothing_to_resume(request);
+  fs::remove_all(folder);
+}
+
+TEST(Experiments, AreNamedByIdOrThesis) {
+  EXPECT_EQ(named_experiments({"G2.9", "G2.8", "G2.9"}), (std::vector<std::string>{"G2.8", "G2.9"}));
+  EXPECT_THROW(named_experiments({"G2.99"}), Error);
+}
+
+}  // namespace
+}  // namespace hamflow
