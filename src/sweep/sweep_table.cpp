@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "bounce_names.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/state_names.hpp"
-#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -76,9 +75,15 @@ void add_events(const Sweep& sweep, std::vector<SweepColumn>& columns) {
     for (const MemberRow& row : sweep.rows()) column.counts.push_back(count(row));
     columns.push_back(std::move(column));
   };
-  for (const WallCount& wall : hard_walls(common)) {
-    add(wall_name(common, wall), [&](const MemberRow& row) { return bounces_of(row, wall); });
+  const std::vector<std::string> walls = bounce_names(common);
+  std::vector<SweepColumn> of_walls;
+  for (const EventCount& wall : bounces_of({}, walls)) of_walls.push_back({"events/" + wall.name});
+  for (const MemberRow& row : sweep.rows()) {
+    if (of_walls.empty()) break;
+    const std::vector<EventCount> counts = bounces_of(row, walls);
+    for (std::size_t k = 0; k < counts.size(); ++k) of_walls[k].counts.push_back(counts[k].count);
   }
+  columns.insert(columns.end(), of_walls.begin(), of_walls.end());
   for (std::size_t i = 0; i < common.events.size(); ++i) {
     add("user:" + common.events[i].name,
         [i](const MemberRow& row) { return i < row.events.size() ? row.events[i] : 0; });
@@ -148,24 +153,19 @@ void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& col
 
 }  // namespace
 
-std::vector<WallCount> hard_walls(const Scenario& scenario) {
-  const auto walls = walls_among(scenario.request.variant);
-  std::vector<WallCount> all;
-  if (!walls || !walls->hard()) return all;
-  for (const WallSide<double>& side : wall_sides<double>(*walls)) all.push_back({side.coordinate, side.side, 0});
+std::vector<EventCount> bounces_of(const MemberRow& row, const std::vector<std::string>& walls) {
+  std::vector<EventCount> all;
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    const std::int64_t bounces = k < row.walls.size() ? row.walls[k].bounces : 0;
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const EventCount& each) { return each.name == walls[k]; });
+    if (same == all.end()) {
+      all.push_back({walls[k], bounces});
+    } else {
+      same->count += bounces;
+    }
+  }
   return all;
-}
-
-std::string wall_name(const Scenario& scenario, const WallCount& wall) {
-  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
-  return "wall:" + names.q.at(wall.coordinate) + (wall.side < 0 ? ":min" : ":max");
-}
-
-std::int64_t bounces_of(const MemberRow& row, const WallCount& wall) {
-  const auto same = std::find_if(row.walls.begin(), row.walls.end(), [&](const WallCount& each) {
-    return each.coordinate == wall.coordinate && each.side == wall.side;
-  });
-  return same == row.walls.end() ? 0 : same->bounces;
 }
 
 std::vector<SweepColumn> columns_of(const Sweep& sweep) {

@@ -40,11 +40,12 @@ struct SweepTable {
 };
 inline SweepTable table_of(const Sweep& sweep) { return {columns_of(sweep), section_columns_of(sweep)}; }
 
-/// The hard walls that members have, without bounces; the name of one among the events, "wall:q1:max"; and how often a
-/// member has met it.
-std::vector<WallCount> hard_walls(const Scenario& scenario);
-std::string wall_name(const Scenario& scenario, const WallCount& wall);
-std::int64_t bounces_of(const MemberRow& row, const WallCount& wall);
+/// How often a member has met its hard walls; those of one name together.   @param walls see bounce_names()
+struct EventCount {
+  std::string name;
+  std::int64_t count = 0;
+};
+std::vector<EventCount> bounces_of(const MemberRow& row, const std::vector<std::string>& walls);
 
 /// What is the same for all rows.
 struct SweepDescription {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "bounce_names.hpp"
 #include "certificate_json.hpp"
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
@@ -16,7 +17,6 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
-#include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
@@ -288,13 +288,11 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
         {"min", effort.solves_min}, {"mean", mean}, {"max", effort.solves_max}, {"stagnated", effort.stagnated}};
   }
   s["events"] = Json::object();
-  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
-  const bool gas = scenario.request.problem == GasKeys::problem;  // whose particles are counted together: "wall:x:max"
+  const std::vector<std::string> walls = bounce_names(scenario);
   std::map<std::string, std::int64_t> together;
-  for (const WallCount& wall : simulation.wall_counts()) {
-    const std::string& name = names.q.at(wall.coordinate);
-    const std::string key = "wall:" + (gas ? name.substr(0, 1) : name) + (wall.side < 0 ? ":min" : ":max");
-    s["events"][key] = together[key] += wall.bounces;
+  for (std::size_t k = 0; const WallCount& wall : simulation.wall_counts()) {
+    const std::string& name = walls.at(k++);
+    s["events"][name] = together[name] += wall.bounces;
   }
   if (effort.halved > 0) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);

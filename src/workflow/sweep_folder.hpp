@@ -12,6 +12,7 @@
 #include "hamflow/workflow/sweep.hpp"
 #include "run_folder.hpp"
 #include "sweep_journal.hpp"
+#include "sweep_table.hpp"
 
 namespace hamflow {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bounce_names.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
 #include "sweep_table.hpp"
@@ -117,9 +118,7 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
     json["invariants"][declared[i].name] = invariant_json(declared[i], row.invariants[i]);
   }
   json["events"] = Json::object();
-  for (const WallCount& wall : hard_walls(sweep.common())) {
-    json["events"][wall_name(sweep.common(), wall)] = bounces_of(row, wall);
-  }
+  for (const EventCount& wall : bounces_of(row, bounce_names(sweep.common()))) json["events"][wall.name] = wall.count;
   const std::vector<UserEvent>& events = sweep.common().events;
   for (std::size_t i = 0; i < row.events.size(); ++i) json["events"]["user:" + events[i].name] = row.events[i];
   if (row.halved > 0) json["events"]["halved"] = row.halved;

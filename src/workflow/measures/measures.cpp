@@ -14,9 +14,7 @@ std::span<const MeasureKind> measure_kinds() {
 
 StepMapSource step_map_of(const Scenario& scenario) {
   const std::size_t n = scenario.start_q.size();
-  return {n, [&scenario, n] {
-            return scenario.problem->step_map(scenario.request, n);
-          }};
+  return {n, [&scenario, n] { return scenario.problem->step_map(scenario.request, n); }};
 }
 
 Measures::Measures(const Scenario& scenario, const Simulation& simulation, Recorder* recorder) {
