@@ -329,7 +329,8 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   };
   e.has_pairwise_forces = true;
   e.invariant_sizes = [gas](const Texts& parameters, std::size_t size) {
-    return gas(parameters, size).invariant_sizes();
+    const auto sizes = gas(parameters, size).invariant_sizes();
+    return std::vector<std::size_t>(sizes.begin(), sizes.end());
   };
   e.start = [gas](const Request& request) {
     const GasState<double> s = start_of<double>(gas(request.parameters, request.start.q.size()), request);
