@@ -169,8 +169,6 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
     return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + joined(all) +
            " with arithmetic = \"lattice\")";
   }
-  const bool in_double = request.arithmetic == "double" || request.arithmetic == "compensated";
-  if (in_double && has_bulk_forces(problem)) return {};
   if (request.arithmetic != "lattice") {
     return "in " + request.arithmetic +
            " threads would change the order of floating-point sums, and with it the bits; " +

@@ -6,7 +6,6 @@
 #include <mutex>
 #include <numeric>
 
-#include "bulk_functions.hpp"
 #include "gas_functions.hpp"
 #include "gas_lattice.hpp"
 #include "hamflow/formula/problem_texts.hpp"
@@ -219,15 +218,6 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), spec));
 }
 
-/// Bulk forces have bits of their own, which a recorded step would not have: nothing is recorded.
-void as_requested(ErasedFunctions<double>& functions, Request& request) {
-  if (!has_bulk_forces(*functions.plain)) return;
-  request.record = false;
-  const BulkKernel kernel = request.kernel == "fast" ? BulkKernel::fast : BulkKernel::exact;
-  if (kernel == BulkKernel::exact && request.threads == 1) return;
-  functions.plain = with_bulk_kernel(functions.plain, kernel, static_cast<std::size_t>(request.threads));
-}
-
 template <class R>
 std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& request) {
   const Parameters<R> given(request.parameters);
@@ -244,10 +234,7 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
     if (request.arithmetic == "lattice" && !walls) simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
   }
   if (!simulation) {
-    ErasedFunctions<R> functions = gas_functions<R>(shape, given, size);
-    Request asked = request;
-    if constexpr (std::is_same_v<R, double>) as_requested(functions, asked);
-    simulation = simulate_erased<R>({std::move(functions), std::move(s.q), std::move(s.p), h}, asked);
+    simulation = simulate_erased<R>({gas_functions<R>(shape, given, size), std::move(s.q), std::move(s.p), h}, request);
   }
   return shape.container == ContainerKind::circle ? telling_who_is_outside(std::move(simulation))
                                                   : std::move(simulation);
@@ -285,10 +272,8 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   };
   e.simulate_member = [shape](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {
-    ErasedFunctions<double> functions = gas_functions<double>(shape, parameters, q.size());
-    Request asked = request;
-    as_requested(functions, asked);
-    return simulate_erased<double>({std::move(functions), vector_of(q), vector_of(p), h}, asked);
+    return simulate_erased<double>({gas_functions<double>(shape, parameters, q.size()), vector_of(q), vector_of(p), h},
+                                   request);
   };
   e.step_map = [shape](const Texts& parameters, const MethodSpec& method,
                        std::size_t size) -> std::unique_ptr<StepMap> {
@@ -359,12 +344,6 @@ ProblemEntry entry_of(const Words& choices) {
 const std::vector<ProblemInfo>& pair_laws() {
   static const std::vector<ProblemInfo> laws = built_in_pairs();
   return laws;
-}
-
-bool has_bulk_forces(const ProblemEntry& problem) {
-  if (problem.info.name != Keys::problem) return false;
-  return std::none_of(problem.info.variant.begin(), problem.info.variant.end(),
-                      [](const auto& choice) { return choice.first == Keys::pair && choice.second == Keys::typed; });
 }
 
 const ProblemEntry& gas_problem(const std::map<std::string, std::string>& choices) {

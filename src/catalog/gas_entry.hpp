@@ -10,7 +10,4 @@ namespace hamflow {
 /// @throws FormulaError when a typed phi is wrong
 const ProblemEntry& gas_problem(const std::map<std::string, std::string>& choices);
 
-/// Whether forces in double are bulk forces, whose bits do not depend on threads.
-bool has_bulk_forces(const ProblemEntry& problem);
-
 }  // namespace hamflow

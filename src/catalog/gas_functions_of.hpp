@@ -1,7 +1,6 @@
 // The definitions of gas_functions.hpp, instantiated in one file for double and in one for all other number types.
 #pragma once
 
-#include "bulk_functions.hpp"
 #include "gas_functions.hpp"
 
 namespace hamflow {
@@ -50,10 +49,7 @@ ErasedFunctions<R> gas_functions(const GasShape& shape, const Parameters<R>& giv
   if (shape.container != ContainerKind::none) {
     all.capability = Capability::separable | Capability::quadratic_kinetic;
   }
-  if constexpr (std::is_same_v<R, double>) {
-    all.dual = functions_of<Dual<double, 1>>(gas);
-    all.plain = with_bulk_forces(gas, all.plain, given.has("skin") ? given["skin"] : 0);
-  }
+  if constexpr (std::is_same_v<R, double>) all.dual = functions_of<Dual<double, 1>>(gas);
   return all;
 }
 
