@@ -83,9 +83,8 @@ std::string typed_problem(const ProblemEntry& example) {
 std::string problem(const ProblemEntry& entry) {
   if (entry.structure) return typed_problem(entry);
   const ProblemInfo& info = entry.info;
-  const std::string variant = info.name == GasKeys::problem ? "" : joined(info.variant, [](const auto& choice) {
-    return choice.first + " = \"" + choice.second + "\"";
-  });
+  const std::string variant =
+      joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
   std::string text = fmt::format("### {}{}\n\n{}\n\n", info.name, variant.empty() ? "" : ", " + variant, info.formula);
   text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n", degrees_of_freedom(entry),
                       joined(info.coordinates), info.reference);

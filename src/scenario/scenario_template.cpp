@@ -238,7 +238,7 @@ class TemplateWriter {
       write_option(option, is(o.particles_per_side) || is(o.start) || is(o.seed) || is(o.pair) || is(o.scale));
     }
     page_.off("initial = { q = [...], p = [...] }", "q = [" + joined(info_.coordinates) + "], in place of start");
-    write_option(wall_keys().wall_rule, false);
+    write_walls();
   }
 
   void write_parameter(const ParameterInfo& parameter) {
