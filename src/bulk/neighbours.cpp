@@ -231,8 +231,10 @@ void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const
       while (block.slots.size() % 8 != 0) block.slots.push_back(desk.slots[desk.own[i]]);
     }
   }
-  const auto make_room = [](std::vector<std::uint32_t>& list) {  // later lists are a little longer
-    if (list.capacity() < list.size() + list.size() / 16) list.reserve(list.size() + list.size() / 4 + 64);
+  if (made_) return;
+  // Later lists may be longer: layers of particles cross into the cells of a block. What is never used costs nothing.
+  const auto make_room = [](std::vector<std::uint32_t>& list) {
+    if (list.capacity() < list.size() + list.size() / 2) list.reserve(2 * list.size() + 64);
   };
   make_room(block.slots);
   make_room(block.begins);
