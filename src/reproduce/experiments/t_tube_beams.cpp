@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "../experiment.hpp"
 #include "../t_tube_runs.hpp"
@@ -35,7 +36,7 @@ TubeRun beam_run(double eps, const std::string& v1) {
 
 Beam beam(Study& study, double eps, const std::string& v1) {
   const TubeRun run = beam_run(eps, v1);
-  const int members = study.sized(1000, 10000, 10000);
+  const int members = study.sized(400, 10000, 10000);
   Beam all;
   const double v = std::stod(v1);
   all.angle_before = std::atan2(1, std::abs(v));
@@ -64,18 +65,23 @@ double median(std::vector<double> numbers) {
 void claim_beam(Study& study, const Beam& all, const std::string& name, const std::string& what, int sign) {
   const Spread angle = spread_of(all.angle), slope = spread_of(all.slope), kinetic = spread_of(all.kinetic1);
   const std::string word = sign < 0 ? "flatter" : "steeper";
+  // Where v1 changes its sign within the beam, slopes have no mean: the largest alone is a good part of their sum.
+  const double largest = *std::max_element(all.slope.begin(), all.slope.end());
+  const bool has_mean = largest < 0.01 * slope.mean * slope.members;
   study.claim({"angle_" + name, what + ": the mean angle of the slope after reflection", word},
               at_least(0, "the mean change of the angle, in the direction told, is beyond 3 standard errors of 0"),
               {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
                 fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members,
                             all.angle_before, angle.mean, angle.standard_error())}});
-  study.claim({"slope_" + name, what + ": the mean slope after reflection", word},
-              at_least(0, "the mean change of the slope, in the direction told, is beyond 3 standard errors of 0"),
-              {{sign * (slope.mean - all.slope_before), 3 * slope.standard_error(),
-                fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
-                            slope.standard_error(), median(all.slope))}},
-              Grounds::program,
-              "none: where v1 changes its sign within the beam slopes have no mean, as 1/v1 has none; take the angle");
+  study.claim(
+      {"slope_" + name, what + ": the mean slope after reflection", word},
+      at_least(0, "the mean change of the slope, in the direction told, is beyond 3 standard errors of 0"),
+      {{sign * (slope.mean - all.slope_before),
+        has_mean ? 3 * slope.standard_error() : std::numeric_limits<double>::max(),
+        fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
+                    slope.standard_error(), median(all.slope))}},
+      Grounds::program,
+      "more trajectories; none, where v1 changes its sign within the beam: 1/v1 then has no mean, take the angle");
   study.claim({"energy_" + name, what + ": the mean kinetic energy of the light body", sign < 0 ? "grows" : "falls"},
               at_least(0, "the mean change, in the direction told, is beyond 3 standard errors of 0"),
               {{-sign * (kinetic.mean - all.kinetic1_before), 3 * kinetic.standard_error(),
@@ -107,10 +113,10 @@ void beams(Study& study) {
 
 /// Figure 3.6: a single trajectory from near the middle.
 void single(Study& study) {
-  const auto one = [&](double eps, const std::string& v1, const std::string& side, int sign) {
+  const auto one = [&](double eps, const std::string& v1, double q1, const std::string& side, int sign) {
     TubeRun run = beam_run(eps, v1);
     run.record_every = 1;
-    const Trajectory path = study.run(side, tube_scenario(run), {"problem.initial.q[0]=0.05"});
+    const Trajectory path = study.run(side, tube_scenario(run), {fmt::format("problem.initial.q[0]={}", q1)});
     const double before = std::atan2(1, std::stod(v1));
     const double after = std::atan2(std::abs(path.p.back()[1] / 100), std::abs(path.p.back()[0]));
     study.claim(
@@ -118,13 +124,13 @@ void single(Study& study) {
          sign < 0 ? "flatter" : "steeper"},
         at_least(0, "the change of its angle in the direction told"),
         {{sign * (after - before), 1e-6,
-          fmt::format("from Q1 = 0.05 with v = ({}, -1): {:.4f} to {:.4f}", v1, before, after)}});
+          fmt::format("from Q1 = {} with v = ({}, -1): {:.4f} to {:.4f}", q1, v1, before, after)}});
     study.draw(side, fmt::format("The trajectory, {}", side),
                {study.info().title,
                 {phase_plane("{/:Italic Q}_1", "{/:Italic Q}_2", path.coordinate(0), path.coordinate(1), {}, {})}});
   };
-  one(-0.6, "0.1", "repelling", -1);
-  one(0.6, "5", "attracting", 1);
+  one(-0.6, "0.1", -0.05, "repelling", -1);
+  one(0.6, "5", -0.95, "attracting", 1);
 }
 
 /// The share of all turning that is near, with 3 standard errors of a ratio of sums.

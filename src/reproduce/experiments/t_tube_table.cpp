@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "../experiment.hpp"
 #include "../t_tube_runs.hpp"
@@ -79,25 +80,26 @@ Changes changes_of(Study& study, TubeRun run, int members) {
   return whole;
 }
 
-/// How many standard deviations of single runs lie between the printed pair and the mean of the starts.
-void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const Changes& changes) {
-  const auto& [first, second, both, moved1, moved2] = changes;
-  const double z1 = std::abs(std::stod(pair.change1) - first.mean) / first.deviation;
-  const double z2 = std::abs(std::stod(pair.change2) - second.mean) / second.deviation;
-  const double z = std::max(z1, z2);
-  const double moved = z1 > z2 ? moved1 / first.deviation : moved2 / second.deviation;
-  const double unsure = z / std::sqrt(2.0 * (first.members - 1)) + 3 / std::sqrt(first.members) + moved;
+/// The number of a pair that is farther from its printed value than it is uncertain: a run may lie 3 standard
+/// deviations of single starts from their mean, which may still move as far as it did in its later half, twice.
+void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const std::optional<Changes>& changes) {
+  std::vector<Measured> worst;
+  if (changes) {
+    const auto off = [&](const char* printed, const Spread& spread, double moved) {
+      return Measured{std::abs(std::stod(printed) - spread.mean), 3 * spread.deviation + 2 * moved,
+                      fmt::format("{} starts, {} steps: {:+.4f} and {:+.4f}", spread.members, run.steps,
+                                  changes->first.mean, changes->second.mean)};
+    };
+    const Measured one = off(pair.change1, changes->first, changes->moved1);
+    const Measured two = off(pair.change2, changes->second, changes->moved2);
+    worst.push_back(one.value - one.uncertainty > two.value - two.uncertainty ? one : two);
+  }
   study.claim({fmt::format("pair_{}_{}_{}", pair.name, run.rule, run.dt),
                fmt::format("changes of both kinetic energies, {} with v = ({}, 1), {}, dt = {}", pair.name, pair.v1,
                            run.rule, run.dt),
                fmt::format("{}, {}", pair.change1, pair.change2)},
-              at_most(3, "distance from the mean of the starts, in standard deviations of one start"),
-              {{z, unsure,
-                fmt::format("{} starts, {} steps: {:+.4f} +- {:.4f}, {:+.4f} +- {:.4f}; later half moved the means by "
-                            "{:.4f}, {:.4f}",
-                            first.members, run.steps, first.mean, first.deviation, second.mean, second.deviation,
-                            moved1, moved2)}},
-              Grounds::program, "longer runs: --full");
+              at_most(5e-5, "distance from the printed number, half a unit of its last digit"), worst, Grounds::program,
+              "runs of more than 1000 time units: the default size, --full");
 }
 
 void compare_starts(Study& study) {
@@ -109,12 +111,17 @@ void compare_starts(Study& study) {
       ++rule_number;
       for (const Pair& pair : columns) {
         TubeRun run{.eps = pair.eps, .v1 = pair.v1, .rule = rule, .dt = dt};
-        run.steps = study.sized<std::int64_t>(4000, 200000, 10000000);
-        const Changes changes = changes_of(study, run, members);
-        const auto& [one, two, both, moved1, moved2] = changes;
+        run.steps = study.sized<std::int64_t>(10000, run.dt == "0.01" ? 200000 : 500000, 10000000);
+        const bool is_usual = run.rule == "reject" && run.dt == "0.01";
+        std::optional<Changes> changes;
+        // Nothing follows from averages over less than some hundred bounces of the heavy body.
+        const bool is_long = static_cast<double>(run.steps) * std::stod(run.dt) > 400;
+        if (is_long || is_usual) changes = changes_of(study, run, members);
+        claim_pair(study, pair, run, is_long ? changes : std::nullopt);
+        if (!changes) continue;
+        const auto& [one, two, both, moved1, moved2] = *changes;
         study.keep_scenario(name_of(run), tube_scenario(run));
-        claim_pair(study, pair, run, changes);
-        if (run.rule == "reject" && run.dt == "0.01") claim_sum(study, pair, both);
+        if (is_usual) claim_sum(study, pair, both);
         of_eps.push_back(pair.eps), of_v1.push_back(std::stod(pair.v1)), of_dt.push_back(std::stod(run.dt));
         of_rule.push_back(rule_number), mean1.push_back(one.mean), mean2.push_back(two.mean);
         deviation1.push_back(one.deviation), deviation2.push_back(two.deviation);
@@ -135,12 +142,14 @@ void compare_starts(Study& study) {
 /// A single run as the thesis' program takes it, in double, and how far its mean depends on rounding.
 void the_thesis_own_run(Study& study) {
   TubeRun run{.eps = -0.6, .v1 = "6"};
+  run.steps = 1000000;
+  const auto short_runs = ensemble(study, run, {"run.arithmetic=double,compensated"});
   run.steps = 10000000;
-  const auto members = ensemble(study, run, {"run.arithmetic=double,compensated"});
+  const TubeMember whole = ensemble(study, run, {"run.arithmetic=double"}).at(0);
   study.keep_scenario("own_run", tube_scenario(run));
   const auto measured = [&](double TubeMember::*change) {
-    return Measured{members[0].*change, std::abs(members[0].*change - members[1].*change),
-                    "v = (6, 1), reject, dt = 0.01: mean of 10^7 steps in double, against compensated"};
+    return Measured{whole.*change, 10 * std::abs(short_runs[0].*change - short_runs[1].*change) + 1e-10,
+                    "v = (6, 1), reject, dt = 0.01: mean of 10^7 steps; of 10^6 also in compensated arithmetic"};
   };
   study.claim({"own_dKx", "dkinEnKx of Sim-0.6III", "+0.8575"}, as_printed("0.8575"), {measured(&TubeMember::change1)});
   study.claim({"own_dKy", "dkinEnKy of Sim-0.6III, as printed in its column", "-2.4128"}, as_printed("-2.4128"),
