@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "../experiment.hpp"
@@ -22,6 +23,7 @@ namespace capture {
 
 constexpr std::int64_t block_steps = 1000000;
 constexpr std::size_t least_blocks = 20;
+constexpr double unknown = std::numeric_limits<double>::infinity();  // an uncertainty: nothing follows
 
 /// What is seen of one run.
 struct Watch {
@@ -269,7 +271,7 @@ void claim_of_others(Study& study, const Counts& reject, const Counts& others, c
        "physics"},
       at_least(0.5, "captures over those expected at reject's rate, at least 10 of them"),
       {{expected > 0 ? others.captures / expected : 0,
-        expected >= 10 ? (others.captures == 0 ? bound : 3.3 * std::sqrt(others.captures)) / expected : 1e3, how}},
+        expected >= 10 ? (others.captures == 0 ? bound : 3.3 * std::sqrt(others.captures)) / expected : unknown, how}},
       Grounds::program, "runs until at least 10 captures are expected: --full, or longer");
 }
 
@@ -280,7 +282,7 @@ void carry_out(Study& study) {
   const Counts reject = all_of(study, "reject", "stv4", starts, blocks);
   study.claim({"captured", "after long transients the motion becomes regular for good", "symmetric time"},
               at_least(0.5, "runs that became regular by the rule of block means"),
-              {{static_cast<double>(reject.captures), blocks < 2 * least_blocks ? 1e3 : 0.0,
+              {{static_cast<double>(reject.captures), blocks < 2 * least_blocks ? unknown : 0.0,
                 fmt::format("{} of {} runs of {} blocks with reject", reject.captures, reject.runs, blocks)}},
               Grounds::program, "runs of some 10^7 steps: the default size");
   double without = 0;
@@ -292,7 +294,7 @@ void carry_out(Study& study) {
   }
   study.claim({"cause", "captures follow a rejection that is two-to-one", "artefact"},
               none_of("captures without a two-to-one rejection before"),
-              {{without, reject.captures == 0 ? 1e3 : 0.0,
+              {{without, reject.captures == 0 ? unknown : 0.0,
                 fmt::format("{} captures, blocks from the last such rejection to each:{}", reject.captures, gaps)}},
               Grounds::program, "runs in which reject captures: the default size");
   if (!reject.of_captured.empty()) {

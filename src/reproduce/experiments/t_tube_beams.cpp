@@ -77,7 +77,7 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
       {"slope_" + name, what + ": the mean slope after reflection", word},
       at_least(0, "the mean change of the slope, in the direction told, is beyond 3 standard errors of 0"),
       {{sign * (slope.mean - all.slope_before),
-        has_mean ? 3 * slope.standard_error() : std::numeric_limits<double>::max(),
+        has_mean ? 3 * slope.standard_error() : std::numeric_limits<double>::infinity(),
         fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
                     slope.standard_error(), median(all.slope))}},
       Grounds::program,
