@@ -295,13 +295,13 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
                                                 make_gas<double>(shape, parameters, q.size()), parameters, asked);
     return simulate_erased<double>({std::move(functions), vector_of(q), vector_of(p), h}, asked);
   };
-  e.step_map = [shape](const Texts& parameters, const MethodSpec& method,
-                       std::size_t size) -> std::unique_ptr<StepMap> {
-    if (!accepts(shape, method)) return nullptr;
+  e.step_map = [shape](const Request& request, std::size_t size) -> std::unique_ptr<StepMap> {
+    if (!accepts(shape, request.method)) return nullptr;
+    const Texts& parameters = request.parameters;
     return erased_step_map({gas_functions<double>(shape, Parameters<double>(parameters), size),
                             gas_functions<long double>(shape, Parameters<long double>(parameters), size),
                             gas_functions<Quad>(shape, Parameters<Quad>(parameters), size)},
-                           method);
+                           request);
   };
   e.derived = [](const Texts& parameters, const StartSpec&) { return parameters; };
   e.conditions = [](const Texts&, const StartSpec&) { return std::vector<Condition>(); };
