@@ -169,7 +169,10 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
     return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + joined(all) +
            " with arithmetic = \"lattice\")";
   }
-  if (request.arithmetic != "lattice") {
+  const auto pair = request.variant.find(GasKeys::pair);
+  const bool in_bulk = problem.info.name == GasKeys::problem && digits_beyond_double(request.arithmetic) == 0 &&
+                       (pair == request.variant.end() || pair->second != GasKeys::typed);
+  if (request.arithmetic != "lattice" && !in_bulk) {
     return "in " + request.arithmetic +
            " threads would change the order of floating-point sums, and with it the bits; " +
            "allowed 1, or arithmetic = \"lattice\", whose integer sums have no order";

@@ -84,10 +84,14 @@ class Study {
   void draw(std::string name, std::string caption, figures::Page page) {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
+  /// A scenario that was carried out by other means than run().
+  void keep_scenario(std::string name, std::string text) { scenarios_.push_back({std::move(name), std::move(text)}); }
   void note(std::string text) { notes_.push_back(std::move(text)); }
+  /// Of work of the experiment's own, for what asks rather than being told.
+  bool goes_on() const { return !go_on_ || go_on_(); }
   /// Between pieces of work of the experiment's own.   @throws Stopped
   void breathe() const {
-    if (go_on_ && !go_on_()) throw Stopped{};
+    if (!goes_on()) throw Stopped{};
   }
 
   const std::vector<Claim>& claims() const { return claims_; }

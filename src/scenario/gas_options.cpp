@@ -24,11 +24,14 @@ GasOptions declared() {
              .type = OptionType::word,
              .words = {GasStarts::lattice, GasStarts::corner, GasStarts::file},
              .condition = "without initial"};
-  o.file = {.name = "file",
-            .meaning = "a CSV whose first row names x, y(, z), p_x, p_y(, p_z)(, mass)",
-            .type = OptionType::text,
-            .condition = "with start = \"file\"",
-            .example = "start.csv"};
+  o.file = {
+      .name = "file",
+      .meaning =
+          "beside the scenario: a CSV whose first row names x, y(, z), p_x, p_y(, p_z)(, mass), or a run.h5, whose "
+          "last sample it is",
+      .type = OptionType::text,
+      .condition = "with start = \"file\"",
+      .example = "start.csv"};
   o.seed = {.name = "seed",
             .default_value = "1",
             .meaning = "of the momenta",

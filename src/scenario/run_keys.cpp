@@ -122,7 +122,7 @@ const RunKeys& run_keys() {
                   .default_value = "1",
                   .meaning = "for the forces of one step; they change no bit",
                   .range = Range::whole_from(1, most_threads),
-                  .condition = "more than 1 for bodies with arithmetic = \"lattice\"",
+                  .condition = "more than 1 for bodies with arithmetic = \"lattice\", and for the gas in double",
                   .example = "2",
                   .free_on_resume = true},
       .lyapunov = {.name = "lyapunov",

@@ -186,7 +186,8 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
       return {};
     }
     try {
-      return gas_from_file(std::filesystem::path(scenario_.file).parent_path() / *file, space);
+      const std::filesystem::path path = std::filesystem::path(scenario_.file).parent_path() / *file;
+      return path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
     } catch (const Error& error) {
       table.complain(o.file.name, error.what());
       return {};

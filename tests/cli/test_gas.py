@@ -79,6 +79,18 @@ class Gas(CommandCase):
         (self.folder / "start.csv").unlink()
         self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
 
+    def test_the_last_sample_of_a_run(self):
+        self.write("gas.toml", GAS % "")
+        self.hamflow("run", "gas.toml")
+        end = json.loads((self.folder / "gas.run/summary.json").read_text())["final"]
+        self.write("on.toml", (GAS % 'start = "file"\nfile = "gas.run/run.h5"').replace("steps = 20", "steps = 0"))
+        s = self.summary("on.toml")
+        self.assertEqual((s["final"]["q"], s["final"]["p"]), (end["q"], end["p"]))
+        self.write("on.toml", GAS % 'start = "file"\nfile = "gas.run/run.h5"\ndimension = 3')
+        self.assertIn("3 for each particle", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)
+        (self.folder / "gas.run/run.h5").write_bytes(b"no file")
+        self.assertIn("run.h5", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)
+
     def test_initial_overrides(self):
         s = self.gas('masses = [1, 2]\ninitial = { q = [0, 0, 1, 0], v = [0, 0.5, 0, 0.5] }', "--set", "run.steps=0")
         self.assertEqual(s["final"]["p"], [0, 0.5, 0, 1])
@@ -196,6 +208,36 @@ class Gas(CommandCase):
                               "run.steps=10", "--set", f"run.threads={n}")["hash"] for n in (1, 2, 4)]
         self.assertEqual(turns[0], turns[1])
         self.assertEqual(turns[0], turns[2])
+
+        ends = [self.summary(str(EXAMPLES / "gas_121.toml"), "--set", "run.steps=10", "--set", f"run.threads={n}")
+                for n in (1, 2, 4)]
+        self.assertEqual(ends[0]["final"], ends[1]["final"])
+        self.assertEqual(ends[0]["final"], ends[2]["final"])
+        self.assertEqual(ends[0]["energy"], ends[2]["energy"])
+        self.assertIn("order", self.errors('pair = "formula"\nphi = "1/r"', "--set", "run.threads=2"))
+
+    def test_resumed(self):
+        """The same bits as in one go, though lists of neighbours are made anew."""
+        self.write("gas.toml", GAS % "cutoff = { radius = 1.4, skin = 0.01 }")
+        whole = self.summary("gas.toml")
+        self.hamflow("run", "gas.toml", "--set", "run.steps=7")
+        parts = json.loads(self.hamflow("run", "gas.toml", "--resume", "--json").stdout)
+        for key in ("final", "energy", "invariants"):
+            self.assertEqual(parts[key], whole[key])
+        other = self.summary("gas.toml", "--set", "problem.cutoff.skin=0.5")
+        self.assertEqual(other["final"], whole["final"])
+
+    def test_the_engine_and_more_digits(self):
+        """Pairs all at once, against the loop over pairs in quad: rounding alone."""
+        for keys in ("", "epsilon = 1", 'pair = "newton"\nsoftening = 0.1', "cutoff = 1.4",
+                     'cutoff = { radius = 2, kind = "force-shifted" }', 'dimension = 3\ncontainer = { radius = 2 }',
+                     'cutoff = { radius = 1.6, kind = "smooth", inner = 1.2 }\n'
+                     'container = { kind = "periodic", size = [2.7, 3] }'):
+            ends = [self.gas(keys, "--set", f"run.arithmetic={a}")["final"] for a in ("double", "quad")]
+            for x in ("q", "p"):
+                for a, b in zip(ends[0][x], ends[1][x]):
+                    # 61 kicks of some ten roundings each, of momenta up to 1, grown tenfold over 20 steps at most.
+                    self.assertAlmostEqual(a, float(b), delta=61 * 10 * 2.0**-52, msg=keys)
 
     def test_kept_states(self):
         h5 = ("reverse", str(EXAMPLES / "gas_corner.toml"), "--set", "run.steps=5", "--out", "kept")

@@ -31,7 +31,7 @@ struct MemberFamily {
         member.p.push_back(region.centre[n + k] / nudge);
       }
       for (const auto& [name, size] : shape) {
-        const bool is_whole = name == "n";  // of fput
+        const bool is_whole = name == "n" || name == "exponent";  // of fput; of the gas: else its steps are others
         for (const double x : parameters.list(name)) {
           member.parameters.push_back(i % 2 == 0 || is_whole ? x : x * nudge);
         }

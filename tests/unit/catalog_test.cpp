@@ -6,6 +6,7 @@
 #include <set>
 
 #include "../support/near.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/splitting_named.hpp"
 #include "hamflow/run/state_names.hpp"
 
@@ -49,7 +50,8 @@ TEST(Catalog, ProblemsAreTheFilesOfTheFolders) {
       for (const auto& [key, value] : entry.info.variant) {
         if (key == "potential") potentials.insert(value);
       }
-    } else if (entry.info.name != "formula" && entry.constraint_form.empty()) {  // texts, not files
+    } else if (entry.info.name != "formula" && entry.info.name != GasKeys::problem &&
+               entry.constraint_form.empty()) {  // texts, not files
       std::string name = entry.info.name;
       for (const auto& [key, value] : entry.info.variant) {
         if (value != "generalised") name += "-" + value;  // beside Cartesian coordinates, which are texts
@@ -59,6 +61,9 @@ TEST(Catalog, ProblemsAreTheFilesOfTheFolders) {
   }
   EXPECT_EQ(found, files_of("problems"));
   EXPECT_EQ(potentials, files_of("problems/potentials"));
+  std::set<std::string> pairs;
+  for (const ProblemInfo& law : pair_laws()) pairs.insert(law.name);
+  EXPECT_EQ(pairs, files_of("problems/pairs"));
 }
 
 TEST(Catalog, EveryEntryIsComplete) {

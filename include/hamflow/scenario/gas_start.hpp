@@ -25,4 +25,7 @@ GasStart gas_in_corner(std::int64_t n, std::size_t space);
 /// @throws Error with the line, what was found and what is allowed
 GasStart gas_from_file(const std::filesystem::path& file, std::size_t space);
 
+/// The last sample of a run.h5, in double.   @throws Error where there is none, or it is no state of particles
+GasStart gas_from_run(const std::filesystem::path& file, std::size_t space);
+
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-// Sonnleitner 2010, figures 2.6 and 2.7: the energy of the Lennard-Jones oscillator over one period, by Runge-Kutta,
+// [Sonnleitner2010], figures 2.6 and 2.7: the energy of the Lennard-Jones oscillator over one period, by Runge-Kutta,
 // Stoermer-Verlet and StV4. The thesis gives no step length; the claims are measured for six.
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Sonnleitner 2010, figures 2.1 to 2.5: the Lennard-Jones oscillator in the phase plane, H = p^2/2 + 1/q^12 - 2/q^6
+// [Sonnleitner2010], figures 2.1 to 2.5: the Lennard-Jones oscillator in the phase plane, H = p^2/2 + 1/q^12 - 2/q^6
 // from rest at q = 1.5. Levels of a modified H, Euler against EulerA, and the way back.
 #include <fmt/format.h>
 

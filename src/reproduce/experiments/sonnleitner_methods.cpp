@@ -1,4 +1,4 @@
-// Sonnleitner 2010, chapter 2: the table of properties (page 64), the variant of Stoermer-Verlet (53), five factors
+// [Sonnleitner2010], chapter 2: the table of properties (page 64), the variant of Stoermer-Verlet (53), five factors
 // and order 6 (64), and the force evaluations of a step (70). What verify measures of a method is put beside the text.
 #include <fmt/format.h>
 

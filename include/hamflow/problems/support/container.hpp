@@ -76,6 +76,9 @@ class SoftWall {
   S room(const S* q, std::size_t space, std::size_t particle) const {
     S g(square_);
     for (std::size_t k = 0; k < space; ++k) g -= q[k] * q[k];
+    if constexpr (requires { g.is_exact(); }) {
+      if (!g.is_exact()) return g;  // a Taylor series knows no branches; where its steps end there are numbers again
+    }
     if (S(R(0)) < g) return g;
     OutsideNote::note(particle);
     return S(std::numeric_limits<R>::quiet_NaN());

@@ -230,10 +230,19 @@ class PairSystem {
   bool moves_freely() const {
     return model_->container == ContainerKind::none || model_->container == ContainerKind::periodic;
   }
-  std::vector<std::size_t> invariant_sizes() const {
-    std::vector<std::size_t> sizes;
-    if (turns_freely()) sizes.push_back(space() == 2 ? 1 : 3);
-    if (moves_freely()) sizes.insert(sizes.end(), {space(), space()});
+  /// In place: they are asked for at every step.
+  struct Sizes {
+    std::array<std::size_t, 3> entry{};
+    std::size_t count = 0;
+    const std::size_t* begin() const { return entry.data(); }
+    const std::size_t* end() const { return entry.data() + count; }
+    std::size_t size() const { return count; }
+    std::size_t operator[](std::size_t i) const { return entry[i]; }
+  };
+  Sizes invariant_sizes() const {
+    Sizes sizes;
+    if (turns_freely()) sizes.entry[sizes.count++] = space() == 2 ? 1 : 3;
+    for (int i = 0; moves_freely() && i < 2; ++i) sizes.entry[sizes.count++] = space();
     return sizes;
   }
   template <class S>

@@ -1,0 +1,105 @@
+// Gross 1999, appendix B: the program of the Duffing oscillator, statement by statement. Its first call of the residual
+// in each step has lambda and k in each other's place; the calls of the iteration have not.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../experiment.hpp"
+#include "hamflow/numerics/gauss_legendre.hpp"
+
+namespace hamflow::reproduction {
+
+namespace duffing_listing {
+
+constexpr double mass = 2, r0 = 4, dt = 0.02;
+struct Case {
+  const char* figure;
+  double k, lambda;
+  int steps;
+};
+constexpr Case cases[] = {{"2.26", 1, 7, 500}, {"2.27", 1, 8, 150}, {"2.28", 2, 12, 500}};
+
+struct Correction {
+  double residual;
+  double tangent;
+};
+/// Equations 2.189, 2.190.
+Correction resinum(double k, double lambda, double q1, double p1, double q2) {
+  const auto& rule = gauss_rule<double>(5);
+  double residual = 0, tangent = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double q = q1 * (1 - rule.c[i]) + q2 * rule.c[i];
+    residual += 2 * k * q * (q * q - lambda) * rule.b[i];
+    tangent += (2 * k * (q * q - lambda) + 4 * k * q * q) * rule.c[i] * rule.b[i];
+  }
+  const double half = dt / mass * dt / 2;
+  return {q2 - q1 - dt / mass * p1 + half * residual, 1 + half * tangent};
+}
+
+struct Motion {
+  std::vector<double> r;
+  int most = 0;
+  int total = 0;
+  double energy_error = 0;
+  bool converged = true;
+};
+Motion motion(const Case& c, bool swapped) {
+  Motion all;
+  const auto V = [&](double r) { return c.k / 2 * (r * r - c.lambda) * (r * r - c.lambda); };
+  const double E = V(r0);
+  double q = r0, p = 0;
+  for (int step = 0; step < c.steps && all.converged; ++step) {
+    double next = q;
+    Correction now = swapped ? resinum(c.lambda, c.k, q, p, next) : resinum(c.k, c.lambda, q, p, next);
+    int iteration = 0;
+    while (std::abs(now.residual) > 1e-13) {
+      if (++iteration > 15) {
+        all.converged = false;
+        break;
+      }
+      next -= now.residual / now.tangent;
+      now = resinum(c.k, c.lambda, q, p, next);
+    }
+    p = 2 * mass / dt * (next - q) - p;
+    q = next;
+    all.most = std::max(all.most, iteration);
+    all.total += iteration;
+    all.energy_error = std::max(all.energy_error, std::abs(p * p / (2 * mass) + V(q) - E));
+    all.r.push_back(q);
+  }
+  return all;
+}
+
+void carry_out(Study& study) {
+  for (const Case& c : cases) {
+    const Motion printed = motion(c, true), right = motion(c, false);
+    const std::string of = std::string("figure ") + c.figure;
+    study.claim({std::string("iterations_printed_") + c.figure,
+                 of + ": the program as printed takes at most three iterations", "3"},
+                at_most(3, "counted over every step, as the figure shows them"),
+                {{static_cast<double>(printed.most), 0,
+                  fmt::format("{} in all; with the arguments in their order {} and {} in all", printed.total,
+                              right.most, right.total)}});
+    double apart = 0;
+    for (std::size_t i = 0; i < std::min(printed.r.size(), right.r.size()); ++i) {
+      apart = std::max(apart, std::abs(printed.r[i] - right.r[i]));
+    }
+    // Either order ends at |R| <= 1e-13: a step of Newton's leaves r to that, and p = 2 mu/dt of it.
+    study.claim({std::string("same_root_") + c.figure,
+                 of + ": the motion does not depend on the order of the arguments", "not stated"},
+                at_most(1e-6, "two roots to 1e-13 at each of 500 steps, which grow where the motion is unstable"),
+                {{apart, 0, "largest difference of r"}});
+    study.note(fmt::format("Figure {}: |H - H0| at most {:.2g} as printed, {:.2g} with the arguments in their order.",
+                           c.figure, printed.energy_error, right.energy_error));
+  }
+}
+
+}  // namespace duffing_listing
+
+std::vector<Experiment> duffing_listing_experiments() {
+  return {{{"G-B", gross, "135-141", "the program of appendix B, both orders of its arguments"},
+           duffing_listing::carry_out}};
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,190 @@
+// [Sonnleitner2010], figures 3.6 to 3.8: beams of parallel trajectories that fall on the x axis and are reflected
+// there. Slope is |dQ2/dt / dQ1/dt|; its angle to the x axis is atan of it. A beam starts at Q2 = 1.1, which it reaches
+// again.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../experiment.hpp"
+#include "../t_tube_runs.hpp"
+#include "../time_panels.hpp"
+
+namespace hamflow::reproduction {
+
+namespace t_tube_beams {
+
+/// Of each trajectory of a beam: where it starts, and the slope before and after the bounce.
+struct Beam {
+  std::vector<double> q1;
+  std::vector<double> angle;  // after, in radians
+  std::vector<double> slope;
+  std::vector<double> kinetic1;
+  double angle_before = 0;
+  double slope_before = 0;
+  double kinetic1_before = 0;
+};
+
+/// 2 time units: down from 1.1 to the wall at 0.1 and up again.
+TubeRun beam_run(double eps, const std::string& v1) {
+  TubeRun run{.eps = eps, .v1 = v1, .rule = "event", .dt = "0.01"};
+  run.v2 = "-1";
+  run.steps = 200;
+  return run;
+}
+
+Beam beam(Study& study, double eps, const std::string& v1) {
+  const TubeRun run = beam_run(eps, v1);
+  const int members = study.sized(400, 10000, 10000);
+  Beam all;
+  const double v = std::stod(v1);
+  all.angle_before = std::atan2(1, std::abs(v));
+  all.slope_before = 1 / std::abs(v);
+  all.kinetic1_before = v * v / 2;
+  int number = 0;
+  for (const TubeMember& member : ensemble(study, run, {fmt::format("problem.initial.q[0]=-0.99:0.99:{}", members)})) {
+    const double start = -0.99 + 1.98 * number++ / (members - 1);
+    if (!member.done) continue;
+    const double a = std::abs(member.p[0]), b = std::abs(member.p[1] / 100);
+    all.q1.push_back(start);
+    all.angle.push_back(std::atan2(b, a));
+    all.slope.push_back(b / a);
+    all.kinetic1.push_back(a * a / 2);
+  }
+  study.keep_scenario(fmt::format("beam_{:+.1f}_{}", eps, v1), tube_scenario(run));
+  return all;
+}
+
+double median(std::vector<double> numbers) {
+  std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2), numbers.end());
+  return numbers[numbers.size() / 2];
+}
+
+/// @param sign -1: flatter, 1: steeper
+void claim_beam(Study& study, const Beam& all, const std::string& name, const std::string& what, int sign) {
+  const Spread angle = spread_of(all.angle), slope = spread_of(all.slope), kinetic = spread_of(all.kinetic1);
+  const std::string word = sign < 0 ? "flatter" : "steeper";
+  // Where v1 changes its sign within the beam, slopes have no mean: the largest alone is a good part of their sum.
+  const double largest = *std::max_element(all.slope.begin(), all.slope.end());
+  const bool has_mean = largest < 0.01 * slope.mean * slope.members;
+  study.claim({"angle_" + name, what + ": the mean angle of the slope after reflection", word},
+              at_least(0, "the mean change of the angle, in the direction told, is beyond 3 standard errors of 0"),
+              {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
+                fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members,
+                            all.angle_before, angle.mean, angle.standard_error())}});
+  study.claim(
+      {"slope_" + name, what + ": the mean slope after reflection", word},
+      at_least(0, "the mean change of the slope, in the direction told, is beyond 3 standard errors of 0"),
+      {{sign * (slope.mean - all.slope_before),
+        has_mean ? 3 * slope.standard_error() : std::numeric_limits<double>::infinity(),
+        fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
+                    slope.standard_error(), median(all.slope))}},
+      Grounds::program,
+      "more trajectories; none, where v1 changes its sign within the beam: 1/v1 then has no mean, take the angle");
+  study.claim({"energy_" + name, what + ": the mean kinetic energy of the light body", sign < 0 ? "grows" : "falls"},
+              at_least(0, "the mean change, in the direction told, is beyond 3 standard errors of 0"),
+              {{-sign * (kinetic.mean - all.kinetic1_before), 3 * kinetic.standard_error(),
+                fmt::format("{:.4f} before, {:.4f} +- {:.4f} after", all.kinetic1_before, kinetic.mean,
+                            kinetic.standard_error())}});
+}
+
+void draw_beam(Study& study, const Beam& all) {
+  study.keep({"beam", {{"q1", all.q1}, {"angle_after", all.angle}, {"slope_after", all.slope}}});
+  figures::Panel panel =
+      phase_plane("{/:Italic Q}_1 of the start", "angle of the slope after", all.q1, all.angle, {}, {});
+  study.draw("figure",
+             fmt::format("Angle of the slope after the bounce over the start of a trajectory; before: {:.4f}",
+                         all.angle_before),
+             {study.info().title, {panel}});
+}
+
+void beams(Study& study) {
+  for (const char* const v1 : {"0.1", "0.5"}) {
+    claim_beam(study, beam(study, -0.6, v1), fmt::format("repelled_{}", v1),
+               fmt::format("repelling, steep start v = ({}, -1)", v1), -1);
+  }
+  for (const char* const v1 : {"2", "5", "9"}) {
+    const Beam all = beam(study, 0.6, v1);
+    claim_beam(study, all, fmt::format("attracted_{}", v1), fmt::format("attracting, flat start v = ({}, -1)", v1), 1);
+    if (std::string(v1) == "5") draw_beam(study, all);
+  }
+}
+
+/// Figure 3.6: a single trajectory from near the middle.
+void single(Study& study) {
+  const auto one = [&](double eps, const std::string& v1, double q1, const std::string& side, int sign) {
+    TubeRun run = beam_run(eps, v1);
+    run.record_every = 1;
+    const Trajectory path = study.run(side, tube_scenario(run), {fmt::format("problem.initial.q[0]={}", q1)});
+    const double before = std::atan2(1, std::stod(v1));
+    const double after = std::atan2(std::abs(path.p.back()[1] / 100), std::abs(path.p.back()[0]));
+    study.claim(
+        {side, fmt::format("{}: the trajectory is {} after its reflection", side, sign < 0 ? "flatter" : "steeper"),
+         sign < 0 ? "flatter" : "steeper"},
+        at_least(0, "the change of its angle in the direction told"),
+        {{sign * (after - before), 1e-6,
+          fmt::format("from Q1 = {} with v = ({}, -1): {:.4f} to {:.4f}", q1, v1, before, after)}});
+    study.draw(side, fmt::format("The trajectory, {}", side),
+               {study.info().title,
+                {phase_plane("{/:Italic Q}_1", "{/:Italic Q}_2", path.coordinate(0), path.coordinate(1), {}, {})}});
+  };
+  one(-0.6, "0.1", -0.05, "repelling", -1);
+  one(0.6, "5", -0.95, "attracting", 1);
+}
+
+/// The share of all turning that is near, with 3 standard errors of a ratio of sums.
+Measured share(const std::vector<double>& near, const std::vector<double>& all, const std::string& how) {
+  const double ratio = spread_of(near).mean / spread_of(all).mean;
+  std::vector<double> off;
+  for (std::size_t i = 0; i < near.size(); ++i) off.push_back(near[i] - ratio * all[i]);
+  return {ratio, 3 * spread_of(off).standard_error() / spread_of(all).mean, how};
+}
+
+/// How much of the turning of a trajectory happens within a distance of the origin.
+void near_the_origin(Study& study) {
+  const int members = study.sized(20, 60, 200);
+  for (const double eps : {-0.6, 0.6}) {
+    const std::string side = eps < 0 ? "repelling" : "attracting";
+    std::vector<double> near, all;
+    double furthest = 0;
+    for (int i = 0; i < members; ++i) {
+      TubeRun run = beam_run(eps, eps < 0 ? "0.1" : "5");
+      run.record_every = 1;
+      const double q1 = -0.97 + 1.94 * i / (members - 1);
+      const Trajectory path =
+          study.run(fmt::format("{}_{}", side, i), tube_scenario(run), {fmt::format("problem.initial.q[0]={}", q1)});
+      double before = 0, turned_near = 0, turned = 0, turned_far = 0;
+      for (std::size_t k = 0; k < path.size(); ++k) {
+        const double angle = std::atan2(std::abs(path.p[k][1] / 100), std::abs(path.p[k][0]));
+        const double turn = k == 0 ? 0 : std::abs(angle - before);
+        const double r = std::hypot(path.q[k][0], path.q[k][1]);
+        turned += turn;
+        if (r < 0.5) turned_near += turn;
+        if (r > 1) turned_far += turn;
+        before = angle;
+      }
+      near.push_back(turned_near);
+      all.push_back(turned);
+      furthest = std::max(furthest, turned_far);
+    }
+    study.claim({"near_" + side, side + ": slopes change only near the origin", "only there"},
+                at_least(0.9, "share of all turning, in angle, at distances below 0.5 of the origin"),
+                {share(near, all, fmt::format("{} trajectories", members))});
+    study.claim({"straight_" + side, side + ": outside trajectories are straight", "straight"},
+                at_most(0.01, "largest turning at distances above 1, in radians: no eye sees it"),
+                {{furthest, 0, "largest of the beam"}});
+    study.keep({"turning_" + side, {{"near", near}, {"all", all}}});
+  }
+}
+
+}  // namespace t_tube_beams
+
+std::vector<Experiment> t_tube_beams_experiments() {
+  using namespace t_tube_beams;
+  return {{{"S3.6", sonnleitner, "95, 96", "T-tube: a trajectory repelled and one attracted"}, single},
+          {{"S3.7", sonnleitner, "97", "T-tube: where slopes change"}, near_the_origin},
+          {{"S3.8", sonnleitner, "98", "T-tube: beams before and after the bounce"}, beams}};
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,210 @@
+// [Sonnleitner2010], figures 3.4 and 3.5: momenta and positions of the T-tube soon after the start and late, with the
+// ranges that are printed in their titles, for each wall rule.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "../experiment.hpp"
+#include "../t_tube_runs.hpp"
+#include "../time_panels.hpp"
+
+namespace hamflow::reproduction {
+
+namespace t_tube_motion {
+
+constexpr std::array<const char*, 3> rules{"reject", "mirror", "event"};
+
+/// The first 600 time units, ten minutes in the thesis' seconds.
+Trajectory early(Study& study, const std::string& rule, double eps = -0.6) {
+  TubeRun run{.eps = eps, .rule = rule};
+  run.steps = 60000;
+  run.record_every = 1;
+  return study.run(fmt::format("early_{}_{:+.1f}", rule, eps), tube_scenario(run));
+}
+
+double largest(const std::vector<double>& numbers) {
+  double all = 0;
+  for (const double x : numbers) all = std::max(all, std::abs(x));
+  return all;
+}
+
+/// How far the largest of a quantity depends on when one looks: its difference between both halves.
+Measured range(const std::vector<double>& numbers, const std::string& how) {
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  const double first = largest({numbers.begin(), middle}), second = largest({middle, numbers.end()});
+  return {std::max(first, second), std::abs(first - second), how};
+}
+
+/// No |P2| is larger than that with P1 = 0 at the place of least potential energy.
+double bound_of_heavy(double eps) {
+  const double start = 50 - eps / std::hypot(0.01, 1.1);
+  const double r = eps < 0 ? std::hypot(1, 2.1) : 0.1;
+  return std::sqrt(200 * (start + eps / r));
+}
+
+/// Blocks of a run: means of kinetic1, each continued from the end of the one before.
+std::vector<double> block_means(Study& study, TubeRun run, std::size_t blocks) {
+  std::vector<double> means;
+  std::vector<double> q{0.01, 1.1}, p{std::stod(run.v1), 100};
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const TubeMember member =
+        ensemble(study, run,
+                 {fmt::format("problem.initial.q[0]={:.17g}", q[0]), fmt::format("problem.initial.q[1]={:.17g}", q[1]),
+                  fmt::format("problem.initial.v[0]={:.17g}", p[0]),
+                  fmt::format("problem.initial.v[1]={:.17g}", p[1] / 100)})
+            .at(0);
+    if (!member.done) break;
+    means.push_back(member.kinetic1 + member.change1);
+    q = member.q;
+    p = member.p;
+  }
+  return means;
+}
+
+/// Of cells x cells of the rectangle of positions, those that the points of a trajectory visit.
+int visited_cells(const std::vector<double>& x, const std::vector<double>& y, int cells) {
+  constexpr double x_size = 1, y_low = 0.1, y_high = 2.1;
+  std::set<int> visited;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const int a = std::clamp(static_cast<int>((x[i] + x_size) / (2 * x_size) * cells), 0, cells - 1);
+    const int b = std::clamp(static_cast<int>((y[i] - y_low) / (y_high - y_low) * cells), 0, cells - 1);
+    visited.insert(a * cells + b);
+  }
+  return static_cast<int>(visited.size());
+}
+
+/// For a figure: every tenth.
+std::vector<double> thinned(const std::vector<double>& numbers) {
+  std::vector<double> some;
+  for (std::size_t i = 0; i < numbers.size(); i += 10) some.push_back(numbers[i]);
+  return some;
+}
+
+void momenta(Study& study) {
+  Measured heavy_attracted;
+  for (const char* const rule : rules) {
+    const Trajectory path = early(study, rule);
+    study.claim(
+        {fmt::format("heavy_{}", rule),
+         fmt::format("P2 stays within its start value, up to a small deviation, {}", rule), "[-100, 100]", "85, 89"},
+        at_most(101, "100 and a deviation of 1 %"), {range(path.momentum(1), "eps = -0.6, first 600 time units")});
+    if (std::string(rule) == "reject") {
+      study.keep(
+          {"early", {{"t", thinned(path.t)}, {"P1", thinned(path.momentum(0))}, {"P2", thinned(path.momentum(1))}}});
+      study.draw("figure", "P1 and P2 during the first 600 time units, reject",
+                 {study.info().title,
+                  {over_time("{/:Italic P}_1", thinned(path.t), thinned(path.momentum(0))),
+                   over_time("{/:Italic P}_2", thinned(path.t), thinned(path.momentum(1)))}});
+    }
+    const Trajectory attracted = early(study, rule, 0.6);
+    heavy_attracted = range(attracted.momentum(1), fmt::format("eps = 0.6, first 600 time units, {}", rule));
+    study.claim({fmt::format("late_light_{}", rule),
+                 fmt::format("P1 of Sim+0.6I lies between -4.29 and 4.29, {}", rule), "4.29", "88"},
+                as_printed("4.29"), {range(attracted.momentum(0), "first 600 time units; the thesis looks at day 6")},
+                Grounds::program, "a run that is captured in the same motion: S-capture");
+  }
+  study.claim({"heavy_bound", "P2 stays within its start value, up to a small deviation: what the energy allows",
+               "[-100, 100]", "85, 89"},
+              at_most(101, "100 and a deviation of 1 %"),
+              {{bound_of_heavy(-0.6), 1e-10, "eps = -0.6, with P1 = 0 at (1, 2.1)"}});
+  study.claim({"heavy_attracted", "P2 stays within its start value also where the force attracts", "[-100, 100]", "85"},
+              at_most(101, "100 and a deviation of 1 %"),
+              {heavy_attracted, {bound_of_heavy(0.6), 1e-10, "what the energy allows: with P1 = 0 at (0, 0.1)"}},
+              Grounds::program);
+  // Whether the motion becomes regular: S-capture has the rule; here block means as they come.
+  TubeRun run{.eps = -0.6, .v1 = "6"};
+  run.steps = study.sized<std::int64_t>(20000, 500000, 5000000);
+  for (const char* const rule : rules) {
+    run.rule = rule;
+    const std::vector<double> means = block_means(study, run, 20);
+    const double scatter = spread_of(means).deviation / spread_of(means).mean;
+    study.claim({fmt::format("regular_{}", rule), fmt::format("late motion is regular: Sim-0.6III, {}", rule),
+                 "regular", "87, 88"},
+                at_most(0.002, "scatter of 20 block means over their mean; a wandering energy is not regular"),
+                {{scatter, scatter * 3 / std::sqrt(40.0), fmt::format("blocks of {} steps", run.steps)}},
+                Grounds::program, "longer blocks: --full");
+  }
+}
+
+/// A late motion, by a state on it: those of +-0.6I with reject as experiment S-capture finds them, after 3 10^7 and
+/// 4.5 10^7 steps; Sim-0.6III, which reproduces the table, is regular from its start.
+struct Late {
+  const char* name;
+  double eps;
+  const char* start;
+  bool regular = true;
+};
+constexpr Late late_motions[] = {
+    {"+0.6I", 0.6, "{ q = [0.15814625933256049, 0.10189244782580631], p = [4.2452748414207893, -93.438382498693628] }"},
+    {"-0.6I", -0.6, "{ q = [0.55143152800538775, 1.9976493956883772], p = [-3.9788341526566837, 92.038549055583402] }"},
+    {"-0.6III", -0.6, "{ q = [0.01, 1.1], p = [6, 100] }"},
+    {"early", -0.6, "{ q = [0.01, 1.1], p = [0, 100] }", false}};
+
+/// A curve that is run through again and again visits no new place.
+void claim_discrete(Study& study, const Late& late) {
+  const auto follow = [&](std::int64_t steps, const std::string& name) {
+    TubeRun run{.eps = late.eps};
+    run.steps = steps;
+    run.record_every = 1;
+    return study.run(fmt::format("{}_{}", late.name, name), tube_scenario(run),
+                     {fmt::format("problem.initial={}", late.start)});
+  };
+  const Trajectory path = follow(40000, "once"), longer = follow(160000, "longer");
+  const int once = visited_cells(path.coordinate(0), path.coordinate(1), 200);
+  const int later = visited_cells(longer.coordinate(0), longer.coordinate(1), 200);
+  const Measured growth{static_cast<double>(later) / once, 0,
+                        fmt::format("cells of 200 x 200: {} in 400, {} in 1600 time units, reject", once, later)};
+  if (!late.regular) {
+    study.claim({"no_curve", "in the transient positions fill the rectangle, no curve", "filling the area", "90"},
+                at_least(1.1, "new cells in four times the time"), {growth});
+    return;
+  }
+  study.claim(
+      {fmt::format("discrete_{}", late.name),
+       fmt::format("late positions are a discrete curve, run through periodically: a late motion of {}", late.name),
+       "discrete", "92"},
+      at_most(1.01, "no new cells in four times the time"), {growth});
+  study.draw(late.name, fmt::format("Positions and momenta of a late motion of {}, reject", late.name),
+             {study.info().title,
+              {phase_plane("{/:Italic Q}_1", "{/:Italic Q}_2", path.coordinate(0), path.coordinate(1), {}, {}),
+               phase_plane("{/:Italic P}_1", "{/:Italic P}_2", path.momentum(0), path.momentum(1), {}, {})}});
+}
+
+void curves(Study& study) {
+  for (const char* const rule : rules) {
+    const Trajectory path = early(study, rule);
+    const double heavy = largest(path.momentum(1));
+    study.claim(
+        {fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
+        as_printed("100.3"),
+        {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; up to what the energy allows"}});
+    study.claim({fmt::format("light_{}", rule), fmt::format("range of P1 during the transient, {}", rule), "4.5"},
+                as_printed("4.5"), {range(path.momentum(0), "first 600 time units, and how its halves differ")},
+                Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
+    const double of_positions = visited_cells(path.coordinate(0), path.coordinate(1), 30) / 900.0;
+    study.claim({fmt::format("dense_{}", rule), fmt::format("the curve of positions fills the rectangle, {}", rule),
+                 "densely", "90"},
+                at_least(0.99, "share of 30 x 30 cells that are visited in 600 time units"),
+                {{of_positions, 0, "cells"}});
+    if (std::string(rule) == "reject") {
+      study.draw("figure", "Positions and momenta, first 600 time units, reject",
+                 {study.info().title,
+                  {phase_plane("{/:Italic Q}_1", "{/:Italic Q}_2", path.coordinate(0), path.coordinate(1), {}, {}),
+                   phase_plane("{/:Italic P}_1", "{/:Italic P}_2", path.momentum(0), path.momentum(1), {}, {})}});
+    }
+  }
+  for (const Late& late : late_motions) claim_discrete(study, late);
+}
+
+}  // namespace t_tube_motion
+
+std::vector<Experiment> t_tube_motion_experiments() {
+  using namespace t_tube_motion;
+  return {{{"S3.4", sonnleitner, "86 to 89", "T-tube: momenta over time"}, momenta},
+          {{"S3.5", sonnleitner, "90 to 92", "T-tube: curves of positions and of momenta"}, curves}};
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,71 @@
+// Gross 1999: what the text says of its figures of chapter 2 that can be measured, by page.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "../experiment.hpp"
+
+namespace hamflow::reproduction {
+
+namespace text_two_bodies {
+
+Trajectory run(Study& study, const char* name, const char* problem, int steps) {
+  return study.run(name,
+                   fmt::format("[problem]\nname = \"central-force\"\nmass = 2\n{}\n\n[method]\nname = \"taylor\"\n"
+                               "tolerance = 1e-14\n\n[run]\ndt = 0.01\nsteps = {}\nrecord_every = 1\n",
+                               problem, steps));
+}
+
+/// The length of the path from pericentre, where it starts, to the second apocentre less that to the first.
+double length_between_touches(const Trajectory& t) {
+  double length = 0, first = 0;
+  int touches = 0;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    length += std::hypot(t.q[i][0] - t.q[i - 1][0], t.q[i][1] - t.q[i - 1][1]);
+    const auto rate = [&](std::size_t k) { return t.q[k][0] * t.p[k][0] + t.q[k][1] * t.p[k][1]; };
+    if (rate(i - 1) > 0 && rate(i) <= 0) {
+      if (++touches == 2) return length - first;
+      first = length;
+    }
+  }
+  return std::nan("");
+}
+
+void carry_out(Study& study) {
+  const char* const same = "orbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }";
+  const Trajectory linear = run(study, "linear", fmt::format("potential = \"linear\"\nk = 1\n{}", same).c_str(), 4000);
+  const Trajectory binomial =
+      run(study, "binomial", fmt::format("potential = \"binomial\"\nk = 1\nlambda = 1\n{}", same).c_str(), 4000);
+  const double a = length_between_touches(linear), b = length_between_touches(binomial);
+  study.claim(
+      {"shorter", "between two touches of the outer circle the orbit of figure 2.24 is shorter than that of 2.20",
+       "shorter", "65"},
+      at_most(1, "ratio of both lengths"),
+      {{b / a, 1e-2, fmt::format("lengths {:.4g} and {:.4g} by Taylor series", b, a)}});
+  study.claim({"larger_energy", "and its energy is larger, of the same geometry", "larger", "65"},
+              at_least(1, "ratio of both energies"),
+              {{binomial.energy[0] / linear.energy[0], 1e-12,
+                fmt::format("E = {:.6g} and {:.6g}", binomial.energy[0], linear.energy[0])}});
+  const auto slope = [](const Trajectory& t) { return t.p.back()[1] / t.p.back()[0]; };
+  const Trajectory hooke =
+      run(study, "hooke", "potential = \"hooke\"\nk = 0.1\norbit = { kind = \"hyperbola\", r_per = 2, energy = 0.1 }",
+          4000);
+  const Trajectory kepler = run(study, "kepler",
+                                "potential = \"kepler\"\nk = 1\norbit = { kind = \"hyperbola\", r_per = 2, "
+                                "angular_momentum = \"sqrt(12)\" }",
+                                40000);
+  study.claim(
+      {"slope_hooke", "the asymptote of the Hooke hyperbola of figure 2.17 has a positive slope", "positive", "56"},
+      at_least(0, "slope"), {{slope(hooke), 1e-3, "direction of p at t = 40"}});
+  study.claim({"slope_kepler", "that of the Kepler hyperbola of figure 2.11 a negative one", "negative", "56"},
+              at_most(0, "slope"), {{slope(kepler), 1e-2, "direction of p at t = 400"}});
+}
+
+}  // namespace text_two_bodies
+
+std::vector<Experiment> text_two_bodies_experiments() {
+  return {{{"G-C56", gross, "56, 65", "what the text says of figures 2.11, 2.17, 2.20 and 2.24"},
+           text_two_bodies::carry_out}};
+}
+
+}  // namespace hamflow::reproduction

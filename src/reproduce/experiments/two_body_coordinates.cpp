@@ -1,0 +1,225 @@
+// Gross 1999, appendix D: the questions of the task. Cartesian against polar coordinates on the two-body problems of
+// chapter 2, and the stiff binomial potential, k = 1000 and 10^6.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../experiment.hpp"
+#include "../time_panels.hpp"
+#include "../trajectories.hpp"
+
+namespace hamflow::reproduction {
+
+namespace two_body_coordinates {
+
+/// What a run came to; not a number where it ended early.
+struct Row {
+  bool done = false;
+  double reached = 0;  // t
+  double iterations = 0;
+  double most = 0;
+  double energy = 0;   // largest |H - H0| over the scale
+  double angular = 0;  // largest |l - l0| over |l0|, at the samples
+  double error = 0;    // distance in the plane from the reference
+  double seconds = 0;
+  std::string message;
+};
+
+std::array<double, 2> place(const std::vector<double>& q, bool polar) {
+  if (!polar) return {q[0], q[1]};
+  return {q[0] * std::cos(q[1]), q[0] * std::sin(q[1])};
+}
+
+Row measured(const Trajectory& run, bool polar, const Trajectory* reference) {
+  Row row{.done = run.report.status == "done",
+          .reached = run.t.back(),
+          .energy = run.report.energy.max_error,
+          .seconds = run.report.wall_seconds,
+          .message = run.report.message};
+  row.energy /= run.report.energy_scale;
+  for (std::size_t k = 1; k < run.size(); ++k) {
+    row.iterations += run.iterations[k] / static_cast<double>(run.size() - 1);
+    row.most = std::max(row.most, run.iterations[k]);
+    row.angular = std::max(row.angular, std::abs(run.invariants[k][0] / run.invariants[0][0] - 1));
+    if (reference == nullptr || k >= reference->size()) continue;
+    const auto a = place(run.q[k], polar), b = place(reference->q[k], false);
+    row.error = std::max(row.error, std::hypot(a[0] - b[0], a[1] - b[1]));
+  }
+  return row;
+}
+
+std::string scenario(const std::string& problem, const char* coordinates, const std::string& method,
+                     const std::string& dt, long steps) {
+  return fmt::format(
+      "[problem]\nname = \"central-force\"\nmass = 2\ncoordinates = \"{}\"\n{}\n\n[method]\n{}\n\n[run]\ndt "
+      "= {}\nsteps = {}\nrecord_every = 1\n",
+      coordinates, problem, method, dt, steps);
+}
+const char* const element = "name = \"cg\"\nquadrature = 5\ndiagnostics = true";
+const char* const exact = "name = \"taylor\"\ntolerance = 1e-15";
+
+struct Orbit {
+  const char* figure;
+  const char* problem;
+  long steps;
+};
+constexpr std::array<Orbit, 12> orbits{
+    {{"2.8", "potential = \"kepler\"\norbit = { kind = \"circle\", r0 = 2 }", 250},
+     {"2.9", "potential = \"kepler\"\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3 }", 250},
+     {"2.10", "potential = \"kepler\"\norbit = { kind = \"parabola\", r_per = 2 }", 200},
+     {"2.11", "potential = \"kepler\"\norbit = { kind = \"hyperbola\", r_per = 2, angular_momentum = \"sqrt(12)\" }",
+      200},
+     {"2.13", "potential = \"hooke\"\norbit = { kind = \"circle\", r0 = 2, energy = 1 }", 200},
+     {"2.15", "potential = \"hooke\"\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3, energy = 1 }", 200},
+     {"2.16", "potential = \"hooke\"\norbit = { kind = \"line\", r_per = 2, energy = 1 }", 200},
+     {"2.17", "potential = \"hooke\"\nk = 0.1\norbit = { kind = \"hyperbola\", r_per = 2, energy = 0.1 }", 100},
+     {"2.19", "potential = \"linear\"\nk = 1\norbit = { kind = \"circle\", r0 = 2 }", 200},
+     {"2.20", "potential = \"linear\"\nk = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }", 400},
+     {"2.21", "potential = \"linear\"\nk = -0.1\norbit = { kind = \"unbounded\", r_per = 2, energy = -0.1 }", 200},
+     {"2.24", "potential = \"binomial\"\nk = 1\nlambda = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }",
+      200}}};
+
+void compare(Study& study) {
+  std::vector<double> figure, columns[8];
+  double lost_polar = 0, lost_cartesian = 0, energy = 0, most_polar = 0, most_cartesian = 0;
+  int better = 0, fewer = 0, aborted = 0;
+  std::string which;
+  for (const Orbit& orbit : orbits) {
+    const std::string name = std::string("figure_") + orbit.figure;
+    const auto run = [&](const char* end, const char* coordinates, const std::string& method) {
+      return study.run(name + end, scenario(orbit.problem, coordinates, method, "0.1", orbit.steps));
+    };
+    const Trajectory reference = run("_reference", "cartesian", exact);
+    const Row cartesian = measured(run("_cartesian", "cartesian", element), false, &reference);
+    const Row polar = measured(run("_polar", "polar", element), true, &reference);
+    // As printed: an absolute tolerance of 1e-13.
+    const Trajectory as_printed_there = run("_tolerance", "cartesian", std::string(element) + "\ncriterion = \"seed\"");
+    if (as_printed_there.report.status != "done") {
+      ++aborted;
+      which += fmt::format("{}{} at t = {:.3g}", which.empty() ? "" : ", ", orbit.figure, as_printed_there.t.back());
+    }
+    figure.push_back(std::stod(orbit.figure));
+    const std::array<double, 8> values{cartesian.iterations, polar.iterations, cartesian.error,   polar.error,
+                                       cartesian.energy,     polar.energy,     cartesian.angular, polar.angular};
+    for (std::size_t i = 0; i < 8; ++i) columns[i].push_back(values[i]);
+    lost_polar = std::max(lost_polar, polar.angular);
+    lost_cartesian = std::max(lost_cartesian, cartesian.angular);
+    energy = std::max({energy, cartesian.energy, polar.energy});
+    most_polar = std::max(most_polar, polar.most);
+    most_cartesian = std::max(most_cartesian, cartesian.most);
+    better += polar.error < cartesian.error ? 1 : 0;
+    fewer += polar.iterations < cartesian.iterations ? 1 : 0;
+    study.note(fmt::format(
+        "Figure {}: iterations a step {:.3g} Cartesian, {:.3g} polar; distance from the exact orbit "
+        "{:.2g}, {:.2g}; energy {:.1g}, {:.1g}; angular momentum lost {:.2g}, {:.2g}; seconds {:.2g}, "
+        "{:.2g}.",
+        orbit.figure, cartesian.iterations, polar.iterations, cartesian.error, polar.error, cartesian.energy,
+        polar.energy, cartesian.angular, polar.angular, cartesian.seconds, polar.seconds));
+  }
+  study.claim({"angular_polar", "the element keeps p_phi in polar coordinates, equation 2.97", "p2 - p1 = 0", "35"},
+              at_most(1e-15, "one equation has no other term: at most rounding"),
+              {{lost_polar, 0, "largest relative loss over the twelve orbits"}});
+  study.claim({"angular_cartesian",
+               "it keeps the angular momentum in Cartesian coordinates as well, a constant of the "
+               "motion by equation 2.22",
+               "constant", "20"},
+              at_most(1e-10, "rounding over 400 steps"),
+              {{lost_cartesian, 1e-12, "largest relative loss over the twelve orbits, cg(1,5), dt = 0.1"}});
+  study.claim({"energy", "the element keeps the energy, in both coordinates", "constant", "10"},
+              at_most(1e-11, "rounding over the runs, relative to the scale of the energy"),
+              {{energy, 1e-14, "largest over the twelve orbits and both coordinates"}});
+  study.claim({"one_unknown", "to iterate in one unknown is an advantage of polar coordinates: fewer iterations",
+               "advantage", "37"},
+              at_least(6, "of the twelve orbits at least half take fewer iterations a step"),
+              {{static_cast<double>(fewer), 0,
+                fmt::format("orbits with fewer in polar coordinates; at most {:g} a step, Cartesian {:g}", most_polar,
+                            most_cartesian)}});
+  study.claim({"accuracy", "the reduced description has numerical advantages: a smaller error", "advantages?", "164"},
+              at_least(6, "of the twelve orbits at least half are nearer to the exact one at the same time"),
+              {{static_cast<double>(better), 0, "orbits nearer in polar coordinates, dt = 0.1"}});
+  study.claim(
+      {"tolerance", "Newton's method reaches |R| <= 1e-13 in all twelve figures", "1e-13", "30"},
+      none_of("figures whose run aborts"),
+      {{static_cast<double>(aborted), 0,
+        fmt::format("residual of equation 2.63, absolute tolerance; aborts: {}", which.empty() ? "none" : which)}});
+  study.keep({"comparison",
+              {{"figure", figure},
+               {"iterations_cartesian", columns[0]},
+               {"iterations_polar", columns[1]},
+               {"error_cartesian", columns[2]},
+               {"error_polar", columns[3]},
+               {"energy_cartesian", columns[4]},
+               {"energy_polar", columns[5]},
+               {"angular_cartesian", columns[6]},
+               {"angular_polar", columns[7]}}});
+}
+
+void stiff(Study& study) {
+  std::vector<double> of_k, of_dt, of_polar, reached, iterations, energies, angular;
+  double kept = 0, lost = 0, lost_cartesian = 0, ended = 0;
+  for (const char* k : {"1000", "1e6"}) {
+    const double period = 1 / std::sqrt(2 * std::stod(k));  // of V'' = 4 k at r = 1 with mu = 2: 2 pi times this
+    for (const char* dt : {"0.1", "0.01", "0.001"}) {
+      for (const char* coordinates : {"cartesian", "polar"}) {
+        study.breathe();
+        const bool polar = coordinates == std::string("polar");
+        const std::string problem = fmt::format(
+            "potential = \"binomial\"\nk = {}\nlambda = 1\norbit = {{ kind = \"bounded\", r_per = 1, r_aph = "
+            "1.1 }}",
+            k);
+        const Trajectory run = study.run(fmt::format("k_{}_dt_{}_{}", k, dt, coordinates),
+                                         scenario(problem, coordinates, element, dt, 1000));
+        const Trajectory seed =
+            study.run(fmt::format("k_{}_dt_{}_{}_tolerance", k, dt, coordinates),
+                      scenario(problem, coordinates, std::string(element) + "\ncriterion = \"seed\"", dt, 1000));
+        const Row row = measured(run, polar, nullptr);
+        if (!polar && seed.report.status != "done" && std::stod(k) > 1e5) ++ended;
+        if (run.size() > 1) kept = std::max(kept, row.energy);
+        (polar ? lost : lost_cartesian) = std::max(polar ? lost : lost_cartesian, row.angular);
+        of_k.push_back(std::stod(k));
+        of_dt.push_back(std::stod(dt));
+        of_polar.push_back(polar ? 1 : 0);
+        reached.push_back(row.reached);
+        iterations.push_back(row.iterations);
+        energies.push_back(row.energy);
+        angular.push_back(row.angular);
+        study.note(fmt::format(
+            "k = {}, dt = {} ({:.3g} of the radial period), {}: {} iterations a step {:.3g} (at most {:g}), energy "
+            "{:.1g} of "
+            "its scale, angular momentum {:.2g}, {:.2g} s. Tolerance 1e-13: {}.",
+            k, dt, std::stod(dt) / (6.283185 * period), coordinates,
+            row.done ? "converges;" : fmt::format("ends at t = {:.4g}: {};", row.reached, row.message), row.iterations,
+            row.most, row.energy, row.angular, row.seconds,
+            seed.report.status == "done" ? std::string("reached") : fmt::format("ends at t = {:.4g}", seed.t.back())));
+      }
+    }
+  }
+  study.nothing_to_test("results", "announced for k = 1000 and 10^6; the thesis prints no result of them");
+  study.claim({"energy", "the element keeps the energy, however stiff, as long as it converges", "constant", "10"},
+              at_most(1e-10, "rounding over 1000 steps, relative to the scale of the energy"),
+              {{kept, 1e-14, "largest over both k, three dt, both coordinates, r from 1 to 1.1"}});
+  study.claim({"angular_polar", "p_phi is kept in polar coordinates", "p2 - p1 = 0", "35"},
+              at_most(1e-15, "one equation has no other term"),
+              {{lost, 0, fmt::format("largest relative loss; in Cartesian coordinates {:.3g}", lost_cartesian)}});
+  study.claim({"tolerance", "Newton's method reaches the tolerance 1e-13 of the programs for k = 10^6", "1e-13", "30"},
+              none_of("runs that end"),
+              {{ended, 0, "of three dt, Cartesian coordinates, as the programs are written"}});
+  study.keep({"runs",
+              {{"k", of_k},
+               {"dt", of_dt},
+               {"polar", of_polar},
+               {"t_reached", reached},
+               {"iterations", iterations},
+               {"energy_error", energies},
+               {"angular_momentum_error", angular}}});
+}
+
+}  // namespace two_body_coordinates
+
+std::vector<Experiment> two_body_coordinates_experiments() {
+  return {{{"C-polar", gross, "37, 164", "Cartesian against polar coordinates"}, two_body_coordinates::compare},
+          {{"G-D", gross, "164", "the stiff binomial potential, k = 1000 and 10^6"}, two_body_coordinates::stiff}};
+}
+
+}  // namespace hamflow::reproduction
