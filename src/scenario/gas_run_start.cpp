@@ -6,6 +6,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/gas_start.hpp"
+#include "hdf5_alone.hpp"
 
 namespace hamflow {
 
@@ -48,6 +49,7 @@ std::vector<double> row_of(hid_t file, const char* name, hsize_t row, hsize_t wi
 }  // namespace
 
 GasStart gas_from_run(const std::filesystem::path& file, std::size_t space) {
+  const auto alone = alone_with_hdf5();
   (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what failed is said below
   const auto open = [&](unsigned flags) { return H5Fopen(file.c_str(), flags, H5P_DEFAULT); };
   const hid_t plain = open(H5F_ACC_RDONLY);

@@ -5,6 +5,7 @@
 
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
+#include "hdf5_alone.hpp"
 #include "hdf5_text.hpp"
 #include "sweep_table.hpp"
 #include "whole_file.hpp"
@@ -58,6 +59,7 @@ void write_column(hid_t file, const SweepColumn& column) {
 
 void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTable& table,
                     const SweepDescription& description) {
+  const auto alone = alone_with_hdf5();
   silence_hdf5();
   WholeFile whole(file, next_name(file));
   Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,

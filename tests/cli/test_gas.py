@@ -108,6 +108,9 @@ class Gas(CommandCase):
         self.assertEqual(box["parameters"]["wall_rule"], "mirror")
         self.assertEqual(box["parameters"]["size"], [2.1, 2.1])
         self.assertEqual(set(box["events"]), {"wall:x:min", "wall:x:max", "wall:y:min", "wall:y:max"})
+        done = self.hamflow("sweep", "gas.toml", "--vary", "problem.wall_rule=mirror,reject", "--set", "run.steps=400", "--out",
+                            "none", "--json")
+        self.assertEqual(json.loads(done.stdout)["rows"][0]["events"], box["events"])
         self.assertGreater(sum(box["events"].values()), 0)
         self.assertLessEqual(max(map(abs, box["final"]["q"])), 1.05)
         self.assertEqual(box["invariants"], {})
