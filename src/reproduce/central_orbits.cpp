@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "hamflow/arithmetic/plain.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/methods/dop853.hpp"
-#include "hamflow/verify/counter_random.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
 
 namespace hamflow::reproduction {

@@ -14,8 +14,8 @@
 #include "../experiment.hpp"
 #include "../t_tube_runs.hpp"
 #include "../time_panels.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/error.hpp"
-#include "hamflow/verify/counter_random.hpp"
 
 namespace hamflow::reproduction {
 
