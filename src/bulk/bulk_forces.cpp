@@ -144,6 +144,7 @@ class BulkForces::Workspace {
     energy_.resize(room);
     rows_.energy = energy_.data();
     known_at_.resize(system.space * system.particles);
+    unused_.resize(known_at_.size());
     if (lists()) {
       prepare_lists();
     } else {
@@ -186,7 +187,6 @@ class BulkForces::Workspace {
     if (forces_since_potential_ > 0) usual_forces_ = at_last_force ? forces_since_potential_ : 0;
     forces_since_potential_ = 0;
     if (knows_ && at_last_force) return known_;
-    unused_.resize(system_.space * system_.particles);
     return pass(q, unused_.data(), true);
   }
   Counts counts() {
@@ -256,7 +256,7 @@ class BulkForces::Workspace {
     const auto law = static_cast<std::size_t>(system_.law);
     const auto cut = static_cast<std::size_t>(system_.cutoff) - 1;
     const bulk::SumRows sum = kernels_->listed[law][cut][system_.space - 2][with_energy];
-    const auto& blocks = neighbours_.blocks();
+    const auto blocks = neighbours_.blocks();
     run(blocks.size(), [&](std::size_t worker, std::size_t b) {
       const auto& block = blocks[b];
       return sum(rows_, block.first, block.last, block.candidates(), scratch_[worker]);

@@ -113,23 +113,18 @@ void Neighbours::sort_into_cells(const double* q) {
   cell_begins_[0] = 0;
 }
 
+/// As many cells to a block as hold some rows on average. Blocks keep their memory.
 void Neighbours::divide_rows() {
   const std::size_t cells = cell_begins_.size() - 1;
-  std::size_t used = 0;
-  std::size_t first_cell = 0;
-  for (std::size_t c = 0; c < cells; ++c) {
-    if (cell_begins_[c + 1] - cell_begins_[first_cell] < rows_each && c + 1 < cells) continue;
-    if (used == blocks_.size()) blocks_.emplace_back();
-    Block& block = blocks_[used++];
-    block.first_cell = first_cell;
-    block.last_cell = c + 1;
-    block.first = cell_begins_[first_cell];
-    block.last = cell_begins_[c + 1];
-    first_cell = c + 1;
-  }
-  // Blocks that are left over keep their memory.
-  for (std::size_t b = used; b < blocks_.size(); ++b) {
-    blocks_[b].first = blocks_[b].last = blocks_[b].first_cell = blocks_[b].last_cell = 0;
+  const std::size_t each = std::min(cells, rows_each * cells / particles_ + 1);
+  used_blocks_ = (cells + each - 1) / each;
+  if (blocks_.size() < used_blocks_) blocks_.resize(used_blocks_);
+  for (std::size_t b = 0; b < used_blocks_; ++b) {
+    Block& block = blocks_[b];
+    block.first_cell = b * each;
+    block.last_cell = std::min(cells, (b + 1) * each);
+    block.first = cell_begins_[block.first_cell];
+    block.last = cell_begins_[block.last_cell];
   }
 }
 
@@ -166,22 +161,13 @@ void Neighbours::gather(std::size_t cell, Desk& desk) const {
   auto& [marks, words, summary] = desk.marks;
   std::size_t beside[27];
   const std::size_t cells = cells_beside(cell, beside);
-  std::size_t size = 0;
   for (std::size_t c = 0; c < cells; ++c) {
-    size += cell_begins_[beside[c] + 1] - cell_begins_[beside[c]];
     for (std::size_t slot = cell_begins_[beside[c]]; slot < cell_begins_[beside[c] + 1]; ++slot) {
       const std::size_t number = number_[slot];
       marks[number / 64] |= std::uint64_t{1} << (number % 64);
       words[number / 4096] |= std::uint64_t{1} << (number / 64 % 64);
       summary[number / 262144] |= std::uint64_t{1} << (number / 4096 % 64);
     }
-  }
-  if (desk.slots.size() < size + 8) {
-    const std::size_t room = std::min(size + size / 2, particles_) + 16;
-    desk.slots.resize(room);
-    desk.found.resize(room);
-    desk.own.resize(room);
-    for (std::size_t k = 0; k < box_.space; ++k) desk.x[k].resize(room);
   }
   double middle[3] = {};
   double inverse[3] = {};
@@ -245,6 +231,31 @@ void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const
       while (block.slots.size() % 8 != 0) block.slots.push_back(desk.slots[desk.own[i]]);
     }
   }
+  if (made_) return;
+  // Later lists may be longer: layers of particles cross into the cells of a block. What is never used costs nothing.
+  const auto make_room = [](std::vector<std::uint32_t>& list) {
+    if (list.capacity() < list.size() + list.size() / 2) list.reserve(2 * list.size() + 64);
+  };
+  make_room(block.slots);
+  make_room(block.begins);
+  make_room(block.counts);
+}
+
+/// For what stands in and around any cell.
+void Neighbours::clear_desks() {
+  std::size_t most = 0;
+  for (std::size_t c = 0; c + 1 < cell_begins_.size(); ++c) {
+    most = std::max(most, cell_begins_[c + 1] - cell_begins_[c]);
+  }
+  const std::size_t needed = std::min(particles_, 27 * most) + 8;
+  for (Desk& desk : desks_) {
+    if (desk.slots.size() >= needed) continue;
+    const std::size_t room = needed + needed / 4;
+    desk.slots.resize(room);
+    desk.found.resize(room);
+    desk.own.resize(room);
+    for (std::size_t k = 0; k < box_.space; ++k) desk.x[k].resize(room);
+  }
 }
 
 void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
@@ -252,6 +263,7 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
   lay_cells(q);
   sort_into_cells(q);
   divide_rows();
+  clear_desks();
   // A particle is deep in the box when no image of another one can come within range of it while the lists last.
   double deep[3] = {};
   bool any_deep = true;
@@ -273,9 +285,9 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
     }
     plain_[slot] = plain;
   }
-  share(team, blocks_.size(), [&](std::size_t worker, std::size_t b) { find_rows(blocks_[b], desks_[worker], near); });
+  share(team, used_blocks_, [&](std::size_t worker, std::size_t b) { find_rows(blocks_[b], desks_[worker], near); });
   longest_ = 0;
-  for (const Block& block : blocks_) {
+  for (const Block& block : blocks()) {
     for (const std::uint32_t count : block.counts) longest_ = std::max<std::size_t>(longest_, count);
   }
   made_ = true;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hamflow/core/thread_team.hpp"
@@ -57,7 +58,7 @@ class Neighbours {
   /// Makes the lists anew and places. @param near without and with images
   void make(const double* q, const FindNear* near, ThreadTeam* team);
 
-  std::vector<Block>& blocks() { return blocks_; }
+  std::span<const Block> blocks() const { return {blocks_.data(), used_blocks_}; }
   std::size_t longest_row() const { return longest_; }
   void show(Rows& rows) const;
   /// The fourth number of each slot, after lists are made. @param strengths by particle; empty: 1
@@ -80,6 +81,7 @@ class Neighbours {
   void lay_cells(const double* q);
   void sort_into_cells(const double* q);
   void divide_rows();
+  void clear_desks();
   std::size_t cells_beside(std::size_t cell, std::size_t* beside) const;
   void gather(std::size_t cell, Desk& desk) const;
   void find_rows(Block& block, Desk& desk, const FindNear* near) const;
@@ -100,6 +102,7 @@ class Neighbours {
   Numbers x_[3];                        // by slot, when the lists were made
   Numbers made_at_;                     // by slot, unwrapped
   std::vector<Block> blocks_;
+  std::size_t used_blocks_ = 0;
   std::vector<Desk> desks_;
   std::size_t longest_ = 0;
   bool by_shift_ = true;  // the images nearest to a cell are those that count

@@ -8,7 +8,8 @@ namespace hamflow {
 
 namespace {
 
-/// Energies watched at each step cost no second pass over the pairs: a force comes with the potential at its place.
+/// Energies watched at each step cost no second pass over the pairs: the bulk forces learn after which force the
+/// potential is asked for.
 class BulkGas final : public ForwardingFunctions<double> {
  public:
   BulkGas(Pointer functions, Gas<double> gas, BulkForces bulk)
@@ -17,7 +18,7 @@ class BulkGas final : public ForwardingFunctions<double> {
   double energy(const V& q, const V& p) const override { return gas_.kinetic(p) + potential(q); }
   double potential(const V& q) const override { return bulk_.potential(q.begin()) + gas_.container_potential(q); }
   void force(const V& q, V& f) const override {
-    (void)bulk_.force_and_potential(q.begin(), f.begin());
+    bulk_.force(q.begin(), f.begin());
     gas_.add_container_forces(q, f);
   }
   void gradient(const V& q, const V& p, V& dq, V& dp) const override {

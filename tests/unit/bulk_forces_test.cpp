@@ -351,17 +351,21 @@ TEST(BulkForces, LearnAfterWhichForceThePotentialIsWanted) {
 }
 
 TEST(BulkForces, AllocateNothingAfterTheFirstList) {
-  const BulkPairSystem s = melt(3, 6);
-  auto q = lattice(3, 6, 0.1, 0);
+  const BulkPairSystem s = melt(3, 9);
+  const auto places = lattice(3, 9, 0, 0);
+  std::vector<double> q = places;
   std::vector<double> f(q.size());
+  std::mt19937_64 random(3);
   for (const std::size_t threads : {1u, 2u}) {
     const BulkForces forces(s);
     forces.use_threads(threads);
     double v = forces.force_and_potential(q.data(), f.data());
     const long before = allocations;
     const auto lists = forces.counts().lists;
-    for (int n = 0; n < 50; ++n) {
-      for (double& x : q) x += 0.05;
+    for (int n = 0; n < 20; ++n) {
+      for (std::size_t i = 0; i < q.size(); ++i) {
+        q[i] = places[i] + 0.15 * (static_cast<double>(random() >> 11) * 0x1p-52 - 1);
+      }
       forces.force(q.data(), f.data());
       v += forces.potential(q.data());
       v += forces.force_and_potential(q.data(), f.data());
