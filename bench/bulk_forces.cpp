@@ -205,10 +205,8 @@ void melts() {
   }
 }
 
-void threads_and_sizes(bool large) {
+void threads_and_sizes(const std::vector<std::size_t>& sizes) {
   std::printf("W10 melt, 3-D, exact: wall time in ns an atom and step\n");
-  std::vector<std::size_t> sizes{20, 32};
-  if (large) sizes.push_back(63);
   for (const std::size_t cells : sizes) {
     Melt melt(3, cells);
     const BulkForces bulk(melt.system);
@@ -234,17 +232,17 @@ void threads_and_sizes(bool large) {
 }  // namespace
 }  // namespace bench
 
-/// @param large as first argument: a million atoms too
+/// @param one of: pairs, melt, threads, large (a million atoms); without, the first three
 int main(int count, char** arguments) {
   using namespace bench;
   const std::string which = count > 1 ? arguments[1] : "";
-  if (which != "threads") {
-    all_pairs<LennardJonesPair, 2>("W3 Lennard-Jones, 2-D, all pairs of 121", 11,
-                                   hamflow::BulkPairSystem::Law::lennard_jones);
-    all_pairs<LennardJonesPair, 2>("W3 Lennard-Jones, 2-D, all pairs of 441", 21,
-                                   hamflow::BulkPairSystem::Law::lennard_jones);
-    all_pairs<NewtonPair, 3>("W6 gravity, 3-D, all pairs of 1000", 10, hamflow::BulkPairSystem::Law::newton);
-    melts();
+  if (which.empty() || which == "pairs") {
+    using Law = hamflow::BulkPairSystem::Law;
+    all_pairs<LennardJonesPair, 2>("W3 Lennard-Jones, 2-D, all pairs of 121", 11, Law::lennard_jones);
+    all_pairs<LennardJonesPair, 2>("W3 Lennard-Jones, 2-D, all pairs of 441", 21, Law::lennard_jones);
+    all_pairs<NewtonPair, 3>("W6 gravity, 3-D, all pairs of 1000", 10, Law::newton);
   }
-  threads_and_sizes(which == "large");
+  if (which.empty() || which == "melt") melts();
+  if (which.empty() || which == "threads") threads_and_sizes({20, 32});
+  if (which == "large") threads_and_sizes({20, 63});
 }
