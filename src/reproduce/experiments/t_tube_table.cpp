@@ -111,7 +111,7 @@ void compare_starts(Study& study) {
       ++rule_number;
       for (const Pair& pair : columns) {
         TubeRun run{.eps = pair.eps, .v1 = pair.v1, .rule = rule, .dt = dt};
-        run.steps = study.sized<std::int64_t>(10000, run.dt == "0.01" ? 200000 : 500000, 10000000);
+        run.steps = study.sized<std::int64_t>(10000, run.dt == "0.01" ? 100000 : 420000, 10000000);
         const bool is_usual = run.rule == "reject" && run.dt == "0.01";
         std::optional<Changes> changes;
         // Nothing follows from averages over less than some hundred bounces of the heavy body.
