@@ -1,0 +1,42 @@
+"""hamflow reproduce: what is known to be wrong in [Sonnleitner2010] comes out as a verdict, and what is right does too."""
+
+import json
+import unittest
+
+from command import CommandCase
+
+EXPECTED = {
+    # S-C64: five real factors have no order 6; seven have.
+    "S-C64/order_6": "cannot hold",
+    "S-C64/seven": "holds",
+    # S-C24: momenta of generalised coordinates without the masses; right for the T-tube.
+    "S-C24/momentum": "cannot hold",
+    "S-C24/t_tube": "holds",
+    # S2.7: 1/1000 of Runge-Kutta's error is true of the end of a period at dt = 0.001, of nothing else.
+    "S2.7/final_0.001": "holds",
+    "S2.7/largest_0.001": "differs",
+    "S2.7/stv4_final_0.001": "holds",
+    "S2.7/stv4_largest_0.001": "cannot hold",
+    # Found beyond the errata.
+    "S-C17/past": "cannot hold",
+    "S-C55/third": "cannot hold",
+    "S-C107/kinetic": "cannot hold",
+    "S-C102/sign": "cannot hold",
+    "S-C41/conserves": "cannot hold",
+    # The late motions of the T-tube are curves.
+    "S3.5/discrete_+0.6I": "holds",
+    "S3.5/discrete_-0.6I": "holds",
+    "S3.5/no_curve": "holds",
+}
+
+
+class Errata(CommandCase):
+    def test_verdicts(self):
+        ids = sorted({claim.split("/")[0] for claim in EXPECTED})
+        done = self.hamflow("reproduce", *ids, "--quick", "--out", "reproduction", "--json")
+        found = {claim["id"]: claim["verdict"] for claim in json.loads(done.stdout)["claims"]}
+        self.assertEqual({claim: found.get(claim) for claim in EXPECTED}, EXPECTED)
+
+
+if __name__ == "__main__":
+    unittest.main()
