@@ -32,6 +32,7 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   bool is_recorded() const override { return extended_->is_recorded(); }
   std::vector<WallCount> wall_counts() const override { return extended_->wall_counts(); }
   void tell_bounces(std::function<void(const Bounce&)> told) override {
+    if (!told) return extended_->tell_bounces({});
     extended_->tell_bounces([told = std::move(told)](const Bounce& extended) {
       Bounce bounce = extended;
       bounce.q.pop_back();

@@ -16,13 +16,30 @@ namespace {
 template <class R>
 struct RunWalls {
   WallRule rule = WallRule::event;
+  bool in_steps = false;  // a recorded step can take a bounce
   std::vector<WallSide<R>> sides;
   std::vector<std::string> names;  // of their coordinates
   std::shared_ptr<const Functions<R>> functions;
 };
 
+/// Whether a bounce is p_i -> -p_i and nothing else: T quadratic with an M^-1 that is diagonal there.
 template <class R>
-class WalledSimulation final : public Simulation {
+bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& functions) {
+  if (!includes(functions.capability, Capability::separable | Capability::quadratic_kinetic)) return false;
+  for (const WallSide<R>& wall : walls.sides) {
+    for (std::size_t j = 0; j < functions.size; ++j) {
+      auto p = zeros<R, dynamic>(functions.size);
+      auto v = p;
+      p[j] = R(1);
+      functions.plain->velocity(p, v);
+      if (j != wall.coordinate && v[wall.coordinate] != R(0)) return false;
+    }
+  }
+  return true;
+}
+
+template <class R>
+class WalledSimulation : public Simulation {
   using Parts = StepsInParts<R>;
   using Place = typename Parts::Place;
   static constexpr int most_bounces = 1000;  // in one step
@@ -36,12 +53,12 @@ class WalledSimulation final : public Simulation {
     if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
   }
 
-  Outcome advance(std::int64_t steps) override {
+  Outcome advance(std::int64_t steps) final {
     why_.clear();
     outside_.reset();
     const OutsideNote note(outside_);
     while (steps > 0) {
-      const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps);
+      const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps, counted());
       steps -= recorded;
       if (steps == 0) break;
       const std::int64_t some = walls_->rule == WallRule::soft ? steps : 1;
@@ -114,7 +131,7 @@ class WalledSimulation final : public Simulation {
     return show_after(part, parts_->present_time() + part, frame);
   }
 
- private:
+ protected:
   /// Within a rejected step a sample is the flight that was given up; soft walls are a term of H.
   bool bounces_within_parts() const { return walls_->rule == WallRule::event || walls_->rule == WallRule::mirror; }
   std::unique_ptr<WalledSimulation> copy() const {
@@ -155,6 +172,12 @@ class WalledSimulation final : public Simulation {
     if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
     tell();
     return Outcome::done;
+  }
+
+  /// Where nobody is told of bounces recorded steps take them, and count.
+  std::span<std::int64_t> counted() {
+    if (told_ || !walls_->in_steps) return {};
+    return counts_;
   }
 
   using V = Vector<R, dynamic>;
@@ -199,7 +222,7 @@ class WalledSimulation final : public Simulation {
     }
     WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
     if (!events.reflect(last)) return no_other_root(last);
-    parts_->forget();
+    parts_->forget_momenta();
     for (Met& met : met_) keep_state(met);
     return parts_->complete_step();
   }
@@ -214,6 +237,7 @@ class WalledSimulation final : public Simulation {
       if (wall == walls_->sides.end()) return true;
       parts_->mirror_position(wall->coordinate, R(2) * wall->at);
       parts_->negate_momentum(wall->coordinate);
+      parts_->forget_mirrored(wall->coordinate);
       met_.push_back({static_cast<std::size_t>(wall - walls_->sides.begin()), R(0)});
       keep_state(met_.back());
     }
@@ -225,7 +249,6 @@ class WalledSimulation final : public Simulation {
       why_ = "the step went out of the walls further than they are apart " + std::to_string(most_bounces) + " times";
       return Outcome::wall;
     }
-    parts_->forget();
     return Outcome::done;
   }
 
@@ -345,6 +368,38 @@ class WalledSimulation final : public Simulation {
   std::function<void(const Bounce&)> told_;
 };
 
+/// A member of an ensemble. What recorded steps have counted is taken with their values.
+class WalledMember final : public WalledSimulation<double>, public RecordedMember {
+ public:
+  WalledMember(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<double>> walls)
+      : WalledSimulation<double>(std::move(inner), std::move(walls)),
+        member_(dynamic_cast<RecordedMember*>(inner_.get())) {}
+
+  std::shared_ptr<const RecordedStep> recorded_step(AtWalls /*at_walls*/) override {
+    if (member_ == nullptr) return nullptr;
+    const auto step = walls_->in_steps ? member_->recorded_step(AtWalls::bounce) : nullptr;
+    return step ? step : member_->recorded_step(AtWalls::stop);
+  }
+  /// Vectors are carried through bounces one by one.
+  std::shared_ptr<const RecordedStep> tangent_step(RecordedAt /*at*/) override { return nullptr; }
+  void make_ready() override { member_->make_ready(); }
+  bool read_values(const RecordedStep& step, std::span<double> values) const override {
+    return member_->read_values(step, values);
+  }
+  void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
+    add_bounces(step, values, counts_);
+    member_->take_values(step, values, steps);
+  }
+  Outcome step_ordinarily() override {
+    const Outcome outcome = take_step();
+    return outcome == Outcome::done ? outcome : explained(outcome);
+  }
+  double time_after(std::int64_t steps) const override { return member_->time_after(steps); }
+
+ private:
+  RecordedMember* member_;  // the same simulation
+};
+
 }  // namespace
 
 template <class R>
@@ -367,10 +422,17 @@ std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const
   behind->functions = other.functions.plain;
   if constexpr (std::is_same_v<R, double>) {
     if (walls.hard()) {
-      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule == WallRule::event});
+      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule});
+      // Compensated positions are mirrored as sums of two numbers, forces of the first alone.
+      behind->in_steps = (walls.rule == WallRule::reject && turn_single_momenta(*behind, other.functions)) ||
+                         (walls.rule == WallRule::mirror && request.arithmetic == "double");
     }
   }
-  return std::make_unique<WalledSimulation<R>>(simulate(other, request), std::move(behind));
+  if constexpr (std::is_same_v<R, double>) {
+    return std::make_unique<WalledMember>(simulate(other, request), std::move(behind));
+  } else {
+    return std::make_unique<WalledSimulation<R>>(simulate(other, request), std::move(behind));
+  }
 }
 
 #define HAMFLOW_BEHIND_WALLS(R)                                                                                    \

@@ -243,6 +243,7 @@ class Sweep::Worker {
       sweep_.steps_taken_ += steps * static_cast<std::int64_t>(task.count);
       if (Clock::now() - begin < std::chrono::milliseconds(10)) chunk = std::min(chunk * 2, std::int64_t{1} << 40);
     }
+    run.take_sums();
     for (std::size_t lane = 0; lane < task.count; ++lane) {
       finish_lane(members[lane], block->look(lane), run.taken(), group.steps,
                   is_watched ? watched[lane].get() : nullptr);
@@ -259,7 +260,7 @@ class Sweep::Worker {
     std::vector<LaneObservers> all;
     for (const auto& one : watched) {
       LaneObservers& observers = all.emplace_back();
-      if (one->watch) observers = {one->watch->observers(), one->watch->tangents()};
+      if (one->watch) observers = {one->watch->observers(), one->watch->tangents(), nullptr, one->watch->sums()};
       if (one->section) observers.section = &*one->section;
     }
     return all;
@@ -289,6 +290,7 @@ class Sweep::Worker {
     row.energy = end.energy;
     row.energy_scale = end.energy_scale;
     row.invariants = std::move(end.invariants);
+    row.walls = std::move(end.walls);
     if (watched != nullptr && watched->section) row.section_residual = watched->section->max_residual();
     if (row.status != Outcome::done) return;
     if (watched != nullptr && watched->watch) row.observables = watched->watch->row();

@@ -49,6 +49,8 @@ class MemberWatch {
   virtual std::vector<Observer*> observers() = 0;
   /// Those of them that follow tangent vectors.
   virtual std::vector<TangentWatch*> tangents() { return {}; }
+  /// The one of them that needs sums over the steps alone.
+  virtual SummedSteps* sums() { return nullptr; }
   /// What was seen of a run that is done: a number for each of MemberObservables::names.
   virtual std::vector<double> row() const = 0;
 };

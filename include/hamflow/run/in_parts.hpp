@@ -47,6 +47,22 @@ class InParts : public Base {
       method_.invalidate();
     }
   }
+  void forget_momenta() override {
+    if constexpr (!remembers_positions_alone<typename Base::Stepper>()) InParts::forget();
+  }
+  void forget_mirrored(std::size_t i) override {
+    // The last bit of a force is that of its mirror image where the position is one number.
+    if constexpr (std::is_same_v<decltype(z_.arithmetic), Plain<Real>> && requires { method_.mirror_kept(i); }) {
+      method_.mirror_kept(i);
+    } else {
+      InParts::forget();
+    }
+  }
+  void prepare() override {
+    if constexpr (requires { method_.prepare(Base::problem(), clock_.step_length(), z_); }) {
+      if (!Base::varies_steps()) method_.prepare(Base::problem(), clock_.step_length(), z_);
+    }
+  }
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<InParts>(*this); }
 
  private:

@@ -64,6 +64,12 @@ class MeasuredMember final : public MemberWatch {
     }
     return all;
   }
+  SummedSteps* sums() override {
+    for (const auto& measure : measures_) {
+      if (SummedSteps* const sums = measure->sums()) return sums;
+    }
+    return nullptr;
+  }
   std::vector<double> row() const override {
     std::vector<double> all;
     for (const auto& measure : measures_) {

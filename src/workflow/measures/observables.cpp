@@ -1,10 +1,10 @@
 // output.observables: expressions of the user, averaged over every step; in a sweep three columns each.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/step_sums.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
@@ -16,23 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The values of one expression over a run. The sum keeps what it loses, so that the mean of 10^9 steps has the digits
-/// of the values.
+/// The values of one expression over a run.
 struct Seen {
   double initial = 0;
   double final = 0;
-  double sum = 0;
-  double lost = 0;
-
-  void add(double x) {
-    final = x;
-    const double next = sum + x;
-    lost += std::abs(sum) >= std::abs(x) ? (sum - next) + x : (x - next) + sum;
-    sum = next;
-  }
+  StepSum sum;
 };
 
-class ObservablesMeasure final : public Measure, public Observer {
+class ObservablesMeasure final : public Measure, public Observer, public SummedSteps {
  public:
   explicit ObservablesMeasure(const std::vector<NamedExpression>& observables)
       : observables_(observables), seen_(observables.size()) {}
@@ -44,13 +35,23 @@ class ObservablesMeasure final : public Measure, public Observer {
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       const double x = observables_[i].expression(frame);
       if (frame.step > 0) {
-        seen_[i].add(x);
+        seen_[i].final = x;
+        seen_[i].sum.add(x);
       } else {
         seen_[i].initial = seen_[i].final = x;
       }
     }
     steps_ = frame.step;
     return Verdict::go_on;
+  }
+  SummedSteps* sums() override { return this; }
+  std::span<const NamedExpression> summed() const override { return observables_; }
+  void take_sums(const Frame& last, std::span<const StepSum> sums) override {
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      seen_[i].final = observables_[i].expression(last);
+      seen_[i].sum = sums[i];
+    }
+    steps_ = last.step;
   }
   void archive(Writer& ar) override { fields(ar); }
   void archive(Reader& ar) override { fields(ar); }
@@ -59,7 +60,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   std::vector<double> row() const override {
     std::vector<double> all;
     for (const Seen& seen : seen_) {
-      const double mean = steps_ > 0 ? (seen.sum + seen.lost) / static_cast<double>(steps_) : seen.initial;
+      const double mean = steps_ > 0 ? seen.sum.value() / static_cast<double>(steps_) : seen.initial;
       all.insert(all.end(), {seen.initial, mean, seen.final});
     }
     return all;
@@ -77,7 +78,7 @@ class ObservablesMeasure final : public Measure, public Observer {
   template <class Archive>
   void fields(Archive& ar) {
     ar(steps_);
-    for (Seen& seen : seen_) ar(seen.initial, seen.final, seen.sum, seen.lost);
+    for (Seen& seen : seen_) ar(seen.initial, seen.final, seen.sum);
   }
 
   const std::vector<NamedExpression>& observables_;
