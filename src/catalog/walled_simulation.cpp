@@ -48,6 +48,7 @@ class WalledSimulation : public Simulation {
   WalledSimulation(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<R>> walls)
       : inner_(std::move(inner)),
         parts_(dynamic_cast<Parts*>(inner_.get())),
+        recorded_(dynamic_cast<RecordedMember*>(inner_.get())),
         walls_(std::move(walls)),
         counts_(walls_->sides.size()) {
     if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
@@ -60,6 +61,7 @@ class WalledSimulation : public Simulation {
     while (steps > 0) {
       const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps, counted());
       steps -= recorded;
+      looks_closer_ = recorded_ != nullptr && recorded_->stopped_at_wall();
       if (steps == 0) break;
       const std::int64_t some = walls_->rule == WallRule::soft ? steps : 1;
       const Outcome outcome = some == 1 ? take_step() : inner_->advance(some);
@@ -157,6 +159,9 @@ class WalledSimulation : public Simulation {
 
   Outcome take_step() {
     parts_->mark(Place::step);
+    // A loop that has ended for it says the same as stays_inside.
+    if (walls_->rule == WallRule::event && std::exchange(looks_closer_, false))
+      return after_walls(bounce(Outcome::done));
     const Effort before = inner_->effort();
     const V q0 = parts_->present_positions();
     const V v0 = walls_->rule == WallRule::event ? velocity(q0, parts_->present_momenta()) : V();
@@ -168,8 +173,11 @@ class WalledSimulation : public Simulation {
     outcome = walls_->rule == WallRule::reject   ? reject()
               : walls_->rule == WallRule::mirror ? mirror()
                                                  : bounce(outcome);
+    if (outcome == Outcome::done && walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
+    return after_walls(outcome);
+  }
+  Outcome after_walls(Outcome outcome) {
     if (outcome != Outcome::done) return back_with(outcome);
-    if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
     tell();
     return Outcome::done;
   }
@@ -279,13 +287,16 @@ class WalledSimulation : public Simulation {
       WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
       typename WallEvents<R>::Hit hit;
       const auto found = events.first(left, hit);
-      parts_->back(Place::flight);
       if (found == WallEvents<R>::Found::failed) return events.outcome();
       if (found == WallEvents<R>::Found::stuck) return stays_on(hit.side);
-      const R part = found == WallEvents<R>::Found::hit ? R(hit.part * left) : left;
-      if (part != R(0)) {
-        const Outcome outcome = parts_->take_part(part);
-        if (outcome != Outcome::done) return outcome;
+      const bool is_hit = found == WallEvents<R>::Found::hit;
+      const R part = is_hit ? R(hit.part * left) : left;
+      if (!events.stands_at(is_hit ? hit.part : R(1))) {
+        parts_->back(Place::flight);
+        if (part != R(0)) {
+          const Outcome outcome = parts_->take_part(part);
+          if (outcome != Outcome::done) return outcome;
+        }
       }
       if (found == WallEvents<R>::Found::none) return Outcome::done;
       left -= part;
@@ -358,11 +369,13 @@ class WalledSimulation : public Simulation {
   }
 
   std::unique_ptr<Simulation> inner_;
-  Parts* parts_;  // the same
+  Parts* parts_;              // the same
+  RecordedMember* recorded_;  // the same; null where it is none
   std::shared_ptr<const RunWalls<R>> walls_;
   std::vector<std::int64_t> counts_;  // of each side
   Effort given_up_;                   // by the search for bounces and by steps that were rejected
   std::vector<Met> met_;              // in the present step
+  bool looks_closer_ = false;         // the next step may meet a wall
   std::string why_;
   std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
   std::function<void(const Bounce&)> told_;
@@ -372,32 +385,29 @@ class WalledSimulation : public Simulation {
 class WalledMember final : public WalledSimulation<double>, public RecordedMember {
  public:
   WalledMember(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<double>> walls)
-      : WalledSimulation<double>(std::move(inner), std::move(walls)),
-        member_(dynamic_cast<RecordedMember*>(inner_.get())) {}
+      : WalledSimulation<double>(std::move(inner), std::move(walls)) {}
 
   std::shared_ptr<const RecordedStep> recorded_step(AtWalls /*at_walls*/) override {
-    if (member_ == nullptr) return nullptr;
-    const auto step = walls_->in_steps ? member_->recorded_step(AtWalls::bounce) : nullptr;
-    return step ? step : member_->recorded_step(AtWalls::stop);
+    if (recorded_ == nullptr) return nullptr;
+    const auto step = walls_->in_steps ? recorded_->recorded_step(AtWalls::bounce) : nullptr;
+    return step ? step : recorded_->recorded_step(AtWalls::stop);
   }
   /// Vectors are carried through bounces one by one.
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt /*at*/) override { return nullptr; }
-  void make_ready() override { member_->make_ready(); }
+  void make_ready() override { recorded_->make_ready(); }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {
-    return member_->read_values(step, values);
+    return recorded_->read_values(step, values);
   }
   void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
     add_bounces(step, values, counts_);
-    member_->take_values(step, values, steps);
+    recorded_->take_values(step, values, steps);
   }
   Outcome step_ordinarily() override {
+    looks_closer_ = true;
     const Outcome outcome = take_step();
     return outcome == Outcome::done ? outcome : explained(outcome);
   }
-  double time_after(std::int64_t steps) const override { return member_->time_after(steps); }
-
- private:
-  RecordedMember* member_;  // the same simulation
+  double time_after(std::int64_t steps) const override { return recorded_->time_after(steps); }
 };
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(WalledSteps, InCornersAndBetweenManyWalls) {
   for (const WallRule rule : hard_rules) {
     SCOPED_TRACE(named(rule));
     expect_same_as_ordinary(
-        behind_walls(request, {{"x", 0, "-1", "1"}, {"y", 1, "-1", "1"}, {"z", 2, "-0.5", "2"}}, rule), 1500, 60);
+        behind_walls(request, {{"x", 0, "-1", "1"}, {"y", 1, "-1", "1"}, {"z", 2, "-0.5", "2"}}, rule), 1500, 50);
   }
 }
 
@@ -120,6 +120,18 @@ TEST(WalledSteps, WhoIsToldOfBouncesHearsOfAll) {
       EXPECT_EQ(told[0][i].q, told[1][i].q);
       EXPECT_EQ(told[0][i].p, told[1][i].p);
     }
+  }
+}
+
+/// A partial step is four forces, since nothing is kept. The goal is twelve of them.
+TEST(WalledSteps, ALocatedBounceTakesFewPartialSteps) {
+  for (const char* dt : {"0.01", "0.001"}) {
+    const auto simulation = make_simulation(t_tube("stv4", WallRule::event, dt));
+    constexpr std::int64_t steps = 10000;
+    ASSERT_EQ(simulation->advance(steps), Outcome::done);
+    const double more = static_cast<double>(simulation->effort().force) - 3.0 * steps;
+    EXPECT_GT(bounces(*simulation), 30);
+    EXPECT_LE(more / 4, 12.0 * static_cast<double>(bounces(*simulation))) << "dt = " << dt;
   }
 }
 

@@ -31,10 +31,10 @@ class InParts : public Base {
   void back(Place place) override { take(*marks_.kept[static_cast<std::size_t>(place)]); }
   Outcome take_part(const Real& h) override {
     InParts::forget();
-    auto probe = probe_;
-    std::int64_t taken = 0;
     const Effort before = method_.effort();
-    const Outcome outcome = this->march(1, h, taken, method_, z_, probe);
+    Outcome outcome = method_.step(this->problem_, h, z_);
+    if (outcome == Outcome::done && z_.arithmetic.lost()) outcome = Outcome::lattice_overflow;
+    if (outcome == Outcome::done && !Base::is_finite(this->problem_, z_)) outcome = Outcome::non_finite;
     add_evaluations(effort_of_parts_, method_.effort(), before);
     InParts::forget();
     return outcome;

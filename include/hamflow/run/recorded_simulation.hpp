@@ -70,9 +70,11 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   /// Blocks grow, so that little is taken twice where a check fails.
   std::int64_t take_recorded(std::int64_t steps, std::span<std::int64_t> bounces) override {
     behind_walls_ = true;
+    stopped_ = false;
     const double h = clock_.step_length();
     const Loop* loop = bounces.empty() ? nullptr : loop_for(h, steps, AtWalls::bounce);
-    if (loop == nullptr) loop = loop_for(h, steps, AtWalls::stop);
+    const bool is_none = loop == nullptr && (bounces.empty() || asked_ >= worth_recording);
+    if (is_none) loop = loop_for(h, steps, AtWalls::stop);
     if (loop == nullptr) return 0;
     const RecordedStep& step = *loop->step;
     values_.resize(step.program.values());
@@ -80,8 +82,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     if (!read_values(step, values_)) return 0;  // one step by the ordinary road mends it
     std::int64_t taken = 0;
     std::int64_t block = 32;
-    bool stopped = false;
-    while (taken < steps && block > 0 && !stopped) {
+    while (taken < steps && block > 0 && !stopped_) {
       block = std::min(block, steps - taken);
       kept_values_ = values_;
       const std::int64_t some = loop->steps->take(values_, block);
@@ -92,14 +93,15 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       }
       add_bounces(step, values_, bounces);
       for (std::size_t k = 0; k < step.words; ++k) values_[step.first_word() + k] = 0;
-      stopped = step.stops && values_[step.stop()] != 0;
-      taken += stopped ? some - 1 : some;
+      stopped_ = step.stops && values_[step.stop()] != 0;
+      taken += stopped_ ? some - 1 : some;
       block = std::min(2 * block, BounceWord::most_steps);
     }
     take_values(step, values_, taken);
     return taken;
   }
 
+  bool stopped_at_wall() const override { return stopped_; }
   /// Lanes take equal steps.
   std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls) override {
     return Base::varies_steps() ? nullptr : record(at_walls);
@@ -209,7 +211,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::vector<double> kept_values_;
   std::int64_t asked_ = 0;
   bool behind_walls_ = false;
-  int failures_ = 0;  // of recording
+  bool stopped_ = false;  // the last recorded steps, at a wall
+  int failures_ = 0;      // of recording
 };
 
 }  // namespace hamflow

@@ -56,6 +56,8 @@ class RecordedMember {
   virtual std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls = AtWalls::stop) = 0;
   /// What the next step begins with is computed now, where a method keeps it and has forgotten it.
   virtual void make_ready() = 0;
+  /// Whether the last recorded steps ended for the next one, which may meet a wall.
+  virtual bool stopped_at_wall() const { return false; }
   /// One step by the ordinary road.
   virtual Outcome step_ordinarily() = 0;
   /// The step that tangent vectors take from the present state, without a probe; null where there is none.
