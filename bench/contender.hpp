@@ -74,6 +74,8 @@ std::vector<Workload> element_workloads(const Task& task);
 std::vector<Workload> order_eight_workloads(const Task& task);
 /// N bodies of run-time size; of a task of their own.
 std::vector<Workload> body_workloads();
+/// Masses on crossed rails between walls.
+std::vector<Workload> tube_workloads();
 /// For verlet, stv4 and kahan-li8.
 void add_fast_contenders(Workload& workload, const Task& task);
 /// For stv4 and kahan-li8, after the plain contenders.

@@ -60,7 +60,7 @@ int main(int argc, char** argv) try {
   CLI::App app("Times hamflow beside hand-written loops; ratios of medians of interleaved rounds.", "hamflow_bench");
   app.add_flag("--json", json, "write JSON instead of a table");
   app.add_flag("--quick", quick, "few and short rounds: a first look, not a measurement");
-  app.add_option("--only", only, "only this method, e.g. stv4, or bodies, equal-error, ellipse, planets");
+  app.add_option("--only", only, "only this method, e.g. stv4, or bodies, t-tube, equal-error, ellipse, planets");
   const auto* rounds = app.add_option("--rounds", plan.rounds, "rounds")->check(CLI::Range(1, 10000));
   CLI11_PARSE(app, argc, argv);
   if (quick) {
@@ -80,6 +80,9 @@ int main(int argc, char** argv) try {
   }
   for (const bench::Workload& workload : bench::body_workloads()) {
     if (only.empty() || only == "bodies") workloads.push_back(workload);
+  }
+  for (const bench::Workload& workload : bench::tube_workloads()) {
+    if (only.empty() || only == workload.method) workloads.push_back(workload);
   }
   std::vector<bench::Course> courses;
   if (only.empty() || only == "equal-error" || only == "ellipse") courses.push_back(bench::ellipse());

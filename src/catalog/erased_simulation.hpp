@@ -34,10 +34,10 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool est
   using TA = typename TracedArithmetic<A>::type;
   return [problem = Traced(run.functions.size, run.functions.trace), recipe, estimated, walls = run.walls](
              const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
-             bool watch, RecordedAt at) {
+             bool watch, RecordedAt at, AtWalls at_walls) {
     const auto recorded = [&](double length) {
       return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, length, time, watch, at, nullptr,
-                             walls.get());
+                             walls.get(), at_walls);
     };
     auto step = recorded(h);
     // A step that leaves the finite numbers is recorded as little as one that is too long.
@@ -67,7 +67,7 @@ StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, 
     return [problem = Traced(run.functions.size, run.functions.trace), recipe,
             monitor = step_monitor(Monitored(run.functions.size, run.functions.trace), control)](
                const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h, const RecordedTime& time,
-               bool watch, RecordedAt at) {
+               bool watch, RecordedAt at, AtWalls /*at_walls*/) {
       return record_step<TA>(problem, recipe.template bind<Traced, TA>(problem), q, p, h, time, watch, at, &monitor);
     };
   }

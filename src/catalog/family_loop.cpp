@@ -15,7 +15,8 @@ bool alike(const RecordedStep& a, const RecordedStep& b) {
     return x.kind == y.kind && (x.kind == CarriedField::Kind::kept || x.bits == y.bits);  // a kept number depends on h
   };
   return a.program.operations == b.program.operations && a.program.outputs == b.program.outputs &&
-         a.program.checks == b.program.checks && a.program.constants.size() == b.program.constants.size() &&
+         a.program.checks == b.program.checks && a.program.ends_at == b.program.ends_at && a.words == b.words &&
+         a.program.constants.size() == b.program.constants.size() &&
          std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(), same_field);
 }
 

@@ -26,8 +26,9 @@ class FamilyLoop {
   bool load(const Steps& steps, const Make& make = {});
   std::size_t lanes() const { return lanes_; }
   /// @param carried values of the program that was made x lanes(), as LaneLoop has them
-  void run(LaneNumbers& carried, std::int64_t steps, std::span<bool> failed) const {
-    loop_->run(carried, constants_, steps, failed);
+  /// @return how many steps were taken, see LaneLoop
+  std::int64_t run(LaneNumbers& carried, std::int64_t steps, std::span<bool> failed) const {
+    return loop_->run(carried, constants_, steps, failed);
   }
   /// For lanes with other members of those that were loaded.
   LaneNumbers constants(const Steps& steps) const;

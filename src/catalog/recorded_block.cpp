@@ -38,10 +38,11 @@ class RecordedBlock final : public EnsembleBlock {
     }
     if (!loop_.load(steps)) return false;
     carried_.assign(step().program.values() * lanes(), 0.0);
+    summed_.clear();
     failed_ = std::make_unique<bool[]>(lanes());
     values_.resize(step().program.values());
     before_.clear();
-    taken_ = 0;
+    taken_ = settled_ = 0;
     return true;
   }
 
@@ -49,12 +50,21 @@ class RecordedBlock final : public EnsembleBlock {
     if (steps > 0 && taken_ == 0) {
       for (Member& member : members_) member.lost = member.simulation->advance(1) != Outcome::done;
       for (std::size_t lane = 0; lane < lanes(); ++lane) read(lane);
+      for (std::size_t lane = 0; lane < members_.size(); ++lane) add_to_sums(lane);
       --steps;
       taken_ = 1;
     }
-    if (steps == 0) return;
-    loop_.run(carried_, steps, {failed_.get(), lanes()});
-    taken_ += steps;
+    while (steps > 0) {
+      std::int64_t some = steps;
+      if (step().words > 0) {
+        if (taken_ - settled_ == BounceWord::most_steps) settle();
+        some = std::min(some, BounceWord::most_steps - (taken_ - settled_));
+      }
+      some = (summed_.empty() ? loop_ : summing_loop_).run(carried_, some, {failed_.get(), lanes()});
+      taken_ += some;
+      steps -= some;
+      if (step().stops) take_alone();
+    }
   }
 
   std::int64_t steps_in_lanes() const override { return taken_ * static_cast<std::int64_t>(members_.size()); }
@@ -102,16 +112,57 @@ class RecordedBlock final : public EnsembleBlock {
     if (taken_ == 0) {
       for (Member& member : members_) member.start = member.simulation->clone();
     } else {
+      if (step().words > 0 && taken_ - settled_ == BounceWord::most_steps) settle();
       before_ = carried_;
     }
+    keeps_start_ = true;
     advance(1);
+    keeps_start_ = false;
   }
   const double* numbers(std::size_t k) const override { return carried_.data() + step().state[k] * lanes(); }
   const Simulation& before_step(std::size_t lane) override {
     Member& member = members_[lane];
-    if (taken_ == 1) return *member.start;
+    if (member.start && member.start->step() == taken_ - 1) return *member.start;
+    for (std::size_t k = 0; k < step().words; ++k) word(carried_, k, lane) -= word(before_, k, lane);
     bring(member, lane, before_, taken_ - 1);
     return *member.simulation;
+  }
+
+  bool expect_sums(std::span<const std::span<const NamedExpression>> of_lanes) override {
+    if (taken_ > 0) return false;
+    const auto with = [&](const Program& program, std::span<const NamedExpression> expressions) {
+      const std::optional<std::size_t> undone = step().stops ? std::optional(step().stop()) : std::nullopt;
+      return with_sums(program, step().state, undone, expressions);
+    };
+    const std::optional<Program> first = with(step().program, of_lanes[0]);
+    if (!first) return false;
+    // Numbers of the expressions have to be the same in all lanes, and for a loop that is there already.
+    const auto like_first = [&](const Program& other) {
+      return other.operations == first->operations && other.outputs == first->outputs &&
+             other.constants.size() == first->constants.size() &&
+             std::equal(other.constants.begin() + static_cast<std::ptrdiff_t>(step().program.constants.size()),
+                        other.constants.end(),
+                        first->constants.begin() + static_cast<std::ptrdiff_t>(step().program.constants.size()));
+    };
+    for (const auto expressions : of_lanes) {
+      const std::optional<Program> other = with(step().program, expressions);
+      if (!other || !like_first(*other)) return false;
+    }
+    if (!last_summing_ || !like_first(*last_summing_)) summing_loop_ = FamilyLoop(set_);
+    last_summing_ = first;
+    FamilyLoop::Steps steps;
+    for (const Member& member : members_) steps.push_back(member.step);
+    if (!summing_loop_.load(steps, [&](const Program& program) { return with(program, of_lanes[0]); })) return false;
+    summed_.assign(of_lanes.begin(), of_lanes.end());
+    carried_.resize((step().program.values() + 2 * summed_[0].size()) * lanes(), 0.0);
+    return true;
+  }
+  std::vector<StepSum> sums(std::size_t lane) const override {
+    std::vector<StepSum> all;
+    for (std::size_t i = 0; i < summed_[lane].size(); ++i) {
+      all.push_back({carried_[place_of_sum(i) * lanes() + lane], carried_[(place_of_sum(i) + 1) * lanes() + lane]});
+    }
+    return all;
   }
 
   bool expect_tangents(std::size_t vectors) override {
@@ -125,8 +176,8 @@ class RecordedBlock final : public EnsembleBlock {
  private:
   struct Member {
     std::unique_ptr<Simulation> simulation;  // at the first step, or at one that was looked at since
-    std::unique_ptr<Simulation> start;
-    RecordedMember* recorded = nullptr;  // the same
+    std::unique_ptr<Simulation> start;       // before its first step, or before the last one that it took alone
+    RecordedMember* recorded = nullptr;      // the same
     std::shared_ptr<const RecordedStep> step;
     bool has_step_of_last = false;  // parameters and step length are those of the last member
     bool lost = false;
@@ -141,12 +192,69 @@ class RecordedBlock final : public EnsembleBlock {
     for (std::size_t k = 0; k < values_.size(); ++k) carried_[k * lanes() + lane] = values_[k];
   }
 
+  std::size_t place_of_sum(std::size_t i) const { return step().program.values() + 2 * i; }
+  /// Of a step that the member took alone.
+  void add_to_sums(std::size_t lane) {
+    if (summed_.empty() || members_[lane].lost) return;
+    Frame frame;
+    members_[lane].simulation->look(frame);
+    std::vector<StepSum> all = sums(lane);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].add(summed_[lane][i].expression(frame));
+      carried_[place_of_sum(i) * lanes() + lane] = all[i].sum;
+      carried_[(place_of_sum(i) + 1) * lanes() + lane] = all[i].lost;
+    }
+  }
+
   /// The member's simulation, which is behind, to where a lane is.
-  void bring(Member& member, std::size_t lane, const LaneNumbers& carried, std::int64_t taken) {
+  void bring(Member& member, std::size_t lane, LaneNumbers& carried, std::int64_t taken) {
     const std::int64_t steps = taken - member.simulation->step();
     if (steps == 0) return;
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k] = carried[k * lanes() + lane];
     member.recorded->take_values(*member.step, values_, steps);
+    for (std::size_t k = 0; k < step().words; ++k) word(carried, k, lane) = 0;  // it has them now
+  }
+  double& word(LaneNumbers& carried, std::size_t k, std::size_t lane) const {
+    return carried[(step().first_word() + k) * lanes() + lane];
+  }
+  /// The bounces of all lanes go to their members, before a word overflows.
+  void settle() {
+    for (std::size_t lane = 0; lane < lanes(); ++lane) {
+      if (lane < members_.size() && !is_lost(lane)) bring(members_[lane], lane, carried_, taken_);
+      for (std::size_t k = 0; k < step().words; ++k) word(carried_, k, lane) = 0;
+    }
+    settled_ = taken_;
+  }
+
+  /// The last step of a lane was left undone where it may meet a wall: the member takes it by itself, and gives its
+  /// numbers back.
+  void take_alone() {
+    double* const stop = carried_.data() + step().stop() * lanes();
+    for (std::size_t lane = 0; lane < lanes(); ++lane) {
+      const bool stands_for_last = lane >= members_.size();
+      Member& member = members_[std::min(lane, members_.size() - 1)];
+      if (member.lost || (!stands_for_last && failed_[lane])) {
+        give_up(lane);
+      } else if (stop[lane] != 0) {
+        if (!stands_for_last) step_alone(member, lane);
+        read(lane);
+        if (member.lost) give_up(lane);
+      }
+    }
+  }
+  void step_alone(Member& member, std::size_t lane) {
+    bring(member, lane, carried_, taken_ - 1);
+    if (keeps_start_) member.start = member.simulation->clone();
+    member.lost = member.recorded->step_ordinarily() != Outcome::done;
+    if (!member.lost) member.recorded->make_ready();
+    add_to_sums(lane);
+  }
+  /// Nothing stops for it any more.
+  void give_up(std::size_t lane) {
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      carried_[k * lanes() + lane] = std::numeric_limits<double>::quiet_NaN();
+    }
+    carried_[step().stop() * lanes() + lane] = 0;
   }
 
   FamilyLoop::Steps tangent_steps(RecordedAt at) {
@@ -167,7 +275,12 @@ class RecordedBlock final : public EnsembleBlock {
   std::unique_ptr<bool[]> failed_;
   std::vector<double> values_;  // of one lane
   std::int64_t taken_ = 0;
-  std::map<std::size_t, BlockTangents> tangents_;  // by the number of vectors
+  std::int64_t settled_ = 0;  // behind which step words were 0 in all lanes
+  bool keeps_start_ = false;
+  FamilyLoop summing_loop_{LaneSet::none};
+  std::optional<Program> last_summing_;                   // of that loop
+  std::vector<std::span<const NamedExpression>> summed_;  // in each lane; empty: nothing is
+  std::map<std::size_t, BlockTangents> tangents_;         // by the number of vectors
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   bool is_recorded() const override { return extended_->is_recorded(); }
   std::vector<WallCount> wall_counts() const override { return extended_->wall_counts(); }
   void tell_bounces(std::function<void(const Bounce&)> told) override {
+    if (!told) return extended_->tell_bounces({});
     extended_->tell_bounces([told = std::move(told)](const Bounce& extended) {
       Bounce bounce = extended;
       bounce.q.pop_back();
@@ -53,8 +54,8 @@ class TimedSimulation final : public Simulation, public RecordedMember {
     return outcome;
   }
 
-  std::shared_ptr<const RecordedStep> recorded_step() override {
-    const auto extended = recorded_ != nullptr ? recorded_->recorded_step() : nullptr;
+  std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls) override {
+    const auto extended = recorded_ != nullptr ? recorded_->recorded_step(at_walls) : nullptr;
     if (!extended) return nullptr;
     auto step = std::make_shared<RecordedStep>(*extended);
     const auto end_of_q = step->state.begin() + static_cast<std::ptrdiff_t>(step->state.size() / 2);
@@ -62,6 +63,9 @@ class TimedSimulation final : public Simulation, public RecordedMember {
     step->state.erase(end_of_q - 1);
     return step;
   }
+  void make_ready() override { recorded_->make_ready(); }
+  Outcome step_ordinarily() override { return recorded_->step_ordinarily(); }
+  bool stopped_at_wall() const override { return recorded_ != nullptr && recorded_->stopped_at_wall(); }
   /// Steps of H(q, p, t) are not differentiated.
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt) override { return nullptr; }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {

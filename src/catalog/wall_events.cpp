@@ -32,7 +32,7 @@ template <class R>
 bool WallEvents<R>::fly(const R& part, Point& point) {
   parts_.back(Parts::Place::flight);
   outcome_ = parts_.take_part(part * length_);
-  ++taken_;
+  flown_ = part;
   if (outcome_ != Outcome::done) return false;
   point = here(part);
   return true;
@@ -47,6 +47,7 @@ R WallEvents<R>::rounding(std::size_t k) const {
 template <class R>
 typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit) {
   length_ = length;
+  flown_ = R(0);
   parts_.back(Parts::Place::flight);
   const Point start = here(R(0));
   start_ = start.q;

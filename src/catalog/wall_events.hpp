@@ -29,8 +29,8 @@ class WallEvents {
   /// stuck: the motion stays on a wall, however often it is thrown back; failed: outcome() says how.
   Found first(const R& length, Hit& hit);
   Outcome outcome() const { return outcome_; }
-  /// Partial steps that were taken.
-  std::int64_t parts_taken() const { return taken_; }
+  /// Whether the state is the one behind this part of the flight.
+  bool stands_at(const R& part) const { return flown_ == part; }
 
   /// Turns the normal velocity at a wall round. @return false where no other momentum has the same energy
   bool reflect(std::size_t coordinate);
@@ -63,7 +63,7 @@ class WallEvents {
   R length_{};
   V start_;  // q
   Outcome outcome_ = Outcome::done;
-  std::int64_t taken_ = 0;
+  R flown_{};  // the part behind which the state is
 };
 
 }  // namespace hamflow

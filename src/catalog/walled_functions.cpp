@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hamflow/run/carried.hpp"
 #include "hamflow/run/forwarding_functions.hpp"
 #include "walled_problem.hpp"
 
@@ -41,7 +42,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     if (walls_->mirrors.empty()) return with_walls(exact_->energy(q, p), q);
     V x = q;
     V y = p;
-    const std::vector<bool> turned = folded(x);
+    const Turned turned = folded(x);
     turn(turned, y);
     return exact_->energy(x, y);
   }
@@ -52,7 +53,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   }
   void force(const V& q, V& f) const override {
     V x = q;
-    const std::vector<bool> turned = folded(x);
+    const Turned turned = folded(x);
     exact_->force(x, f);
     turn(turned, f);
     add_forces(x, f, nullptr);
@@ -60,14 +61,14 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   bool has_scaled_force() const override { return walls_->soft.empty() && exact_->has_scaled_force(); }
   void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
     V x = q;
-    const std::vector<bool> turned = folded(x);
+    const Turned turned = folded(x);
     exact_->scaled_force(factor, x, f);
     turn(turned, f);
   }
   void gradient(const V& q, const V& p, V& dq, V& dp) const override {
     V x = q;
     V y = p;
-    const std::vector<bool> turned = folded(x);
+    const Turned turned = folded(x);
     turn(turned, y);
     exact_->gradient(x, y, dq, dp);
     turn(turned, dq);
@@ -77,7 +78,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override {
     V x = q;
     V y = p;
-    const std::vector<bool> turned = folded(x);
+    const Turned turned = folded(x);
     turn(turned, y);
     exact_->hessian(x, y, qq, qp, pp);
     for (M* m : {&qq, &qp, &pp}) turn(turned, *m);
@@ -85,7 +86,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
   }
   void force_and_hessian(const V& q, V& f, M& h) const override {
     V x = q;
-    const std::vector<bool> turned = folded(x);
+    const Turned turned = folded(x);
     exact_->force_and_hessian(x, f, h);
     turn(turned, f);
     turn(turned, h);
@@ -161,11 +162,37 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     }
   }
 
-  /// Back between the mirrors. @return which coordinates are turned round there
-  std::vector<bool> folded(V& q) const {
-    std::vector<bool> turned;
+  static constexpr bool is_traced = detail::IsTrace<S>::value;
+  /// Which coordinates are turned round; of traces numbers, that are so above 0.
+  using Turned = std::vector<std::conditional_t<is_traced, S, bool>>;
+
+  /// Back between the mirrors.
+  Turned folded(V& q) const {
+    Turned turned;
     if (walls_->mirrors.empty()) return turned;
-    turned.assign(q.size(), false);
+    if constexpr (is_traced) {
+      return folded_once(q);
+    } else {
+      return folded_often(q);
+    }
+  }
+  /// What is beyond a wall afterwards still is no step of this recording.
+  Turned folded_once(V& q) const {
+    Turned turned(q.size(), S(B(0)));
+    for (const WallSide<B>& wall : walls_->mirrors) {
+      const std::size_t i = wall.coordinate;
+      const S beyond = wall.side > 0 ? S(q[i] - S(wall.at)) : S(S(wall.at) - q[i]);
+      q[i] = choose(beyond, S(S(B(B(2) * wall.at)) - q[i]), q[i]);
+      turned[i] = choose(beyond, S(S(B(1)) - turned[i]), turned[i]);
+    }
+    for (const WallSide<B>& wall : walls_->mirrors) {
+      const S& x = q[wall.coordinate];
+      if (wall.side > 0 ? S(wall.at) < x : x < S(wall.at)) throw CannotRecord("a mirrored step goes far beyond a wall");
+    }
+    return turned;
+  }
+  Turned folded_often(V& q) const {
+    Turned turned(q.size(), false);
     constexpr int most = 1000;
     bool beyond = true;
     for (int n = 0; beyond && n < most; ++n) {
@@ -180,15 +207,24 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     }
     return turned;
   }
-  static void turn(const std::vector<bool>& turned, V& x) {
+  static void turn(const Turned& turned, V& x) {
     for (std::size_t i = 0; i < turned.size(); ++i) {
-      if (turned[i]) x[i] = -x[i];
+      if constexpr (is_traced) {
+        x[i] = choose(turned[i], S(-x[i]), x[i]);
+      } else if (turned[i]) {
+        x[i] = -x[i];
+      }
     }
   }
-  static void turn(const std::vector<bool>& turned, M& m) {
+  static void turn(const Turned& turned, M& m) {
     for (std::size_t i = 0; i < turned.size(); ++i) {
       for (std::size_t j = 0; j < turned.size(); ++j) {
-        if (turned[i] != turned[j]) m[i][j] = -m[i][j];
+        if constexpr (is_traced) {
+          const S differ = turned[i] - turned[j];
+          m[i][j] = choose(S(differ * differ), S(-m[i][j]), m[i][j]);
+        } else if (turned[i] != turned[j]) {
+          m[i][j] = -m[i][j];
+        }
       }
     }
   }

@@ -108,7 +108,6 @@ ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
   e.from_reference = nullptr;
   // Kernels that are compiled with a problem know no walls.
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
-  e.simulate_member = nullptr;
   e.refused_start = [inner = problem.refused_start, walls](const Texts& parameters, const std::vector<double>& q) {
     const std::string beyond = beyond_walls(walls, q);
     return beyond.empty() ? inner(parameters, q) : beyond;

@@ -16,13 +16,30 @@ namespace {
 template <class R>
 struct RunWalls {
   WallRule rule = WallRule::event;
+  bool in_steps = false;  // a recorded step can take a bounce
   std::vector<WallSide<R>> sides;
   std::vector<std::string> names;  // of their coordinates
   std::shared_ptr<const Functions<R>> functions;
 };
 
+/// Whether a bounce is p_i -> -p_i and nothing else: T quadratic with an M^-1 that is diagonal there.
 template <class R>
-class WalledSimulation final : public Simulation {
+bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& functions) {
+  if (!includes(functions.capability, Capability::separable | Capability::quadratic_kinetic)) return false;
+  for (const WallSide<R>& wall : walls.sides) {
+    for (std::size_t j = 0; j < functions.size; ++j) {
+      auto p = zeros<R, dynamic>(functions.size);
+      auto v = p;
+      p[j] = R(1);
+      functions.plain->velocity(p, v);
+      if (j != wall.coordinate && v[wall.coordinate] != R(0)) return false;
+    }
+  }
+  return true;
+}
+
+template <class R>
+class WalledSimulation : public Simulation {
   using Parts = StepsInParts<R>;
   using Place = typename Parts::Place;
   static constexpr int most_bounces = 1000;  // in one step
@@ -31,18 +48,20 @@ class WalledSimulation final : public Simulation {
   WalledSimulation(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<R>> walls)
       : inner_(std::move(inner)),
         parts_(dynamic_cast<Parts*>(inner_.get())),
+        recorded_(dynamic_cast<RecordedMember*>(inner_.get())),
         walls_(std::move(walls)),
         counts_(walls_->sides.size()) {
     if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
   }
 
-  Outcome advance(std::int64_t steps) override {
+  Outcome advance(std::int64_t steps) final {
     why_.clear();
     outside_.reset();
     const OutsideNote note(outside_);
     while (steps > 0) {
-      const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps);
+      const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps, counted());
       steps -= recorded;
+      looks_closer_ = recorded_ != nullptr && recorded_->stopped_at_wall();
       if (steps == 0) break;
       const std::int64_t some = walls_->rule == WallRule::soft ? steps : 1;
       const Outcome outcome = some == 1 ? take_step() : inner_->advance(some);
@@ -114,7 +133,7 @@ class WalledSimulation final : public Simulation {
     return show_after(part, parts_->present_time() + part, frame);
   }
 
- private:
+ protected:
   /// Within a rejected step a sample is the flight that was given up; soft walls are a term of H.
   bool bounces_within_parts() const { return walls_->rule == WallRule::event || walls_->rule == WallRule::mirror; }
   std::unique_ptr<WalledSimulation> copy() const {
@@ -140,6 +159,9 @@ class WalledSimulation final : public Simulation {
 
   Outcome take_step() {
     parts_->mark(Place::step);
+    // A loop that has ended for it says the same as stays_inside.
+    if (walls_->rule == WallRule::event && std::exchange(looks_closer_, false))
+      return after_walls(bounce(Outcome::done));
     const Effort before = inner_->effort();
     const V q0 = parts_->present_positions();
     const V v0 = walls_->rule == WallRule::event ? velocity(q0, parts_->present_momenta()) : V();
@@ -151,10 +173,19 @@ class WalledSimulation final : public Simulation {
     outcome = walls_->rule == WallRule::reject   ? reject()
               : walls_->rule == WallRule::mirror ? mirror()
                                                  : bounce(outcome);
+    if (outcome == Outcome::done && walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
+    return after_walls(outcome);
+  }
+  Outcome after_walls(Outcome outcome) {
     if (outcome != Outcome::done) return back_with(outcome);
-    if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
     tell();
     return Outcome::done;
+  }
+
+  /// Where nobody is told of bounces recorded steps take them, and count.
+  std::span<std::int64_t> counted() {
+    if (told_ || !walls_->in_steps) return {};
+    return counts_;
   }
 
   using V = Vector<R, dynamic>;
@@ -199,7 +230,7 @@ class WalledSimulation final : public Simulation {
     }
     WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
     if (!events.reflect(last)) return no_other_root(last);
-    parts_->forget();
+    parts_->forget_momenta();
     for (Met& met : met_) keep_state(met);
     return parts_->complete_step();
   }
@@ -214,6 +245,7 @@ class WalledSimulation final : public Simulation {
       if (wall == walls_->sides.end()) return true;
       parts_->mirror_position(wall->coordinate, R(2) * wall->at);
       parts_->negate_momentum(wall->coordinate);
+      parts_->forget_mirrored(wall->coordinate);
       met_.push_back({static_cast<std::size_t>(wall - walls_->sides.begin()), R(0)});
       keep_state(met_.back());
     }
@@ -225,7 +257,6 @@ class WalledSimulation final : public Simulation {
       why_ = "the step went out of the walls further than they are apart " + std::to_string(most_bounces) + " times";
       return Outcome::wall;
     }
-    parts_->forget();
     return Outcome::done;
   }
 
@@ -256,13 +287,16 @@ class WalledSimulation final : public Simulation {
       WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
       typename WallEvents<R>::Hit hit;
       const auto found = events.first(left, hit);
-      parts_->back(Place::flight);
       if (found == WallEvents<R>::Found::failed) return events.outcome();
       if (found == WallEvents<R>::Found::stuck) return stays_on(hit.side);
-      const R part = found == WallEvents<R>::Found::hit ? R(hit.part * left) : left;
-      if (part != R(0)) {
-        const Outcome outcome = parts_->take_part(part);
-        if (outcome != Outcome::done) return outcome;
+      const bool is_hit = found == WallEvents<R>::Found::hit;
+      const R part = is_hit ? R(hit.part * left) : left;
+      if (!events.stands_at(is_hit ? hit.part : R(1))) {
+        parts_->back(Place::flight);
+        if (part != R(0)) {
+          const Outcome outcome = parts_->take_part(part);
+          if (outcome != Outcome::done) return outcome;
+        }
       }
       if (found == WallEvents<R>::Found::none) return Outcome::done;
       left -= part;
@@ -335,14 +369,45 @@ class WalledSimulation final : public Simulation {
   }
 
   std::unique_ptr<Simulation> inner_;
-  Parts* parts_;  // the same
+  Parts* parts_;              // the same
+  RecordedMember* recorded_;  // the same; null where it is none
   std::shared_ptr<const RunWalls<R>> walls_;
   std::vector<std::int64_t> counts_;  // of each side
   Effort given_up_;                   // by the search for bounces and by steps that were rejected
   std::vector<Met> met_;              // in the present step
+  bool looks_closer_ = false;         // the next step may meet a wall
   std::string why_;
   std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
   std::function<void(const Bounce&)> told_;
+};
+
+/// A member of an ensemble. What recorded steps have counted is taken with their values.
+class WalledMember final : public WalledSimulation<double>, public RecordedMember {
+ public:
+  WalledMember(std::unique_ptr<Simulation> inner, std::shared_ptr<const RunWalls<double>> walls)
+      : WalledSimulation<double>(std::move(inner), std::move(walls)) {}
+
+  std::shared_ptr<const RecordedStep> recorded_step(AtWalls /*at_walls*/) override {
+    if (recorded_ == nullptr) return nullptr;
+    const auto step = walls_->in_steps ? recorded_->recorded_step(AtWalls::bounce) : nullptr;
+    return step ? step : recorded_->recorded_step(AtWalls::stop);
+  }
+  /// Vectors are carried through bounces one by one.
+  std::shared_ptr<const RecordedStep> tangent_step(RecordedAt /*at*/) override { return nullptr; }
+  void make_ready() override { recorded_->make_ready(); }
+  bool read_values(const RecordedStep& step, std::span<double> values) const override {
+    return recorded_->read_values(step, values);
+  }
+  void take_values(const RecordedStep& step, std::span<const double> values, std::int64_t steps) override {
+    add_bounces(step, values, counts_);
+    recorded_->take_values(step, values, steps);
+  }
+  Outcome step_ordinarily() override {
+    looks_closer_ = true;
+    const Outcome outcome = take_step();
+    return outcome == Outcome::done ? outcome : explained(outcome);
+  }
+  double time_after(std::int64_t steps) const override { return recorded_->time_after(steps); }
 };
 
 }  // namespace
@@ -367,10 +432,17 @@ std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const
   behind->functions = other.functions.plain;
   if constexpr (std::is_same_v<R, double>) {
     if (walls.hard()) {
-      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule == WallRule::event});
+      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule});
+      // Compensated positions are mirrored as sums of two numbers, forces of the first alone.
+      behind->in_steps = (walls.rule == WallRule::reject && turn_single_momenta(*behind, other.functions)) ||
+                         (walls.rule == WallRule::mirror && request.arithmetic == "double");
     }
   }
-  return std::make_unique<WalledSimulation<R>>(simulate(other, request), std::move(behind));
+  if constexpr (std::is_same_v<R, double>) {
+    return std::make_unique<WalledMember>(simulate(other, request), std::move(behind));
+  } else {
+    return std::make_unique<WalledSimulation<R>>(simulate(other, request), std::move(behind));
+  }
 }
 
 #define HAMFLOW_BEHIND_WALLS(R)                                                                                    \

@@ -30,6 +30,7 @@ constexpr int arity(Instruction instruction) {
     case Instruction::arctangent2:
     case Instruction::power:
       return 2;
+    case Instruction::choose:
     case Instruction::fused_add:
     case Instruction::fused_subtract:
       return 3;
@@ -76,6 +77,8 @@ inline double applied(Instruction instruction, double a, double b, double c = 0)
       return a < b ? b : a;
     case Instruction::square_root:
       return std::sqrt(a);
+    case Instruction::choose:
+      return a > 0 ? b : c;
     case Instruction::inverse_root_estimate:
       return detail::has_estimate() ? detail::inverse_root_estimate(a) : 1 / std::sqrt(a);
     case Instruction::fused_add:

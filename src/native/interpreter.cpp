@@ -8,7 +8,8 @@ namespace {
 
 class Interpreter final : public StepLoop {
  public:
-  explicit Interpreter(const Program& program) : values_(program.values()), constants_(program.constants) {
+  explicit Interpreter(const Program& program)
+      : values_(program.values()), constants_(program.constants), ends_at_(program.ends_at) {
     const auto place = [&](const Operand& operand) -> std::uint32_t {
       switch (operand.kind) {
         case Operand::Kind::carried:
@@ -28,24 +29,26 @@ class Interpreter final : public StepLoop {
     for (const Operand& output : program.outputs) outputs_.push_back(place(output));
   }
 
-  bool run(std::span<double> carried, std::int64_t steps) const override {
+  std::int64_t take(std::span<double> carried, std::int64_t steps) const override {
     const std::size_t first = values_ + constants_.size();
     std::vector<double> x(first + lines_.size() + values_);
     std::copy_n(carried.begin(), values_, x.begin());
     std::copy(constants_.begin(), constants_.end(), x.begin() + static_cast<std::ptrdiff_t>(values_));
     double* const results = x.data() + first;
     double* const next = results + lines_.size();
-    for (std::int64_t step = 0; step < steps; ++step) {
+    std::int64_t step = 0;
+    for (bool ended = false; step < steps && !ended; ++step) {
       double* result = results;
       for (const Line& line : lines_) *result++ = native::applied(line.instruction, x[line.a], x[line.b], x[line.c]);
       for (const Check& check : checks_) {
-        if (!native::holds(check.kind, x[check.a], x[check.b])) return false;
+        if (!native::holds(check.kind, x[check.a], x[check.b])) return -1;
       }
       for (std::size_t k = 0; k < values_; ++k) next[k] = x[outputs_[k]];  // outputs may exchange what is carried
       std::copy_n(next, values_, x.data());
+      for (const std::uint32_t k : ends_at_) ended = ended || x[k] != 0;
     }
     std::copy_n(x.data(), values_, carried.begin());
-    return true;
+    return step;
   }
 
  private:
@@ -62,6 +65,7 @@ class Interpreter final : public StepLoop {
   std::vector<Line> lines_;
   std::vector<Check> checks_;
   std::vector<std::uint32_t> outputs_;
+  std::vector<std::uint32_t> ends_at_;
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ class LaneAssembler final : public LoopAssembler {
         return x86::ptr(x86::rsp, static_cast<std::int32_t>(arguments) + offset(place.index));
       case Place::Kind::constant:
         if (!is_uniform(place)) return x86::ptr(x86::r13, offset(place.index - uniform_));
-        return in_table(place.index + 2);
+        return in_table(place.index + table_head);
       default:
         throw std::logic_error("machine code: a place that is not in memory");
     }
@@ -85,13 +85,38 @@ class LaneAssembler final : public LoopAssembler {
     } else if (line.a.kind == Place::Kind::reg) {
       a_.vmovapd(reg(line.to), reg(line.a));
     } else if (wide && is_uniform(line.a)) {
-      a_.vbroadcastsd(reg(line.to), x86::qword_ptr(table_, static_cast<std::int32_t>(8 * (line.a.index + 2))));
+      a_.vbroadcastsd(reg(line.to), x86::qword_ptr(table_, static_cast<std::int32_t>(8 * (line.a.index + table_head))));
     } else {
       a_.vmovupd(reg(line.to), memory(line.a));
     }
   }
 
+  /// The mask stays for the lines that choose by the same number.
+  void choose(const Line& line) {
+    const Register to = reg(line.to), mask = Register(15);  // of AVX2 alone, which places nothing there
+    if (chosen_by_ != line.a) {
+      constexpr int greater = 0x1e;  // quiet
+      if constexpr (wide) {
+        a_.vcmppd(x86::k2, reg(line.a), in_table(2), Imm(greater));
+      } else {
+        a_.vcmppd(mask, reg(line.a), in_table(2), Imm(greater));
+      }
+      chosen_by_ = line.to == line.a ? Place{} : line.a;
+    }
+    with(line.b, [&](const auto& b) {
+      if constexpr (wide) {
+        a_.k(x86::k2).vblendmpd(to, to, b);
+      } else {
+        a_.vblendvpd(to, to, b, mask);
+      }
+    });
+  }
+  void before(const Line& next) override {
+    if (next.kind == Line::Kind::call || next.to == chosen_by_) chosen_by_ = {};
+  }
+
   void operation(const Line& line) override {
+    if (line.instruction == Instruction::choose) return choose(line);
     const Register to = reg(line.to), a = reg(line.a);
     switch (line.instruction) {
       case Instruction::of_lane: {
@@ -202,18 +227,43 @@ class LaneAssembler final : public LoopAssembler {
     a_.or_(x86::dword_ptr(x86::r14, static_cast<std::int32_t>(8 * (line.index % registers_))), x86::eax);
   }
 
+  void leave_unless_zero(const Place& place, const Label& after) override {
+    constexpr int unequal = 0x04;          // or not ordered
+    if (place.kind != Place::Kind::reg) {  // no register is free
+      for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(width); ++lane) {
+        const x86::Mem number = x86::qword_ptr(x86::rbx, offset(place.index) + 8 * lane);
+        if (lane == 0) {
+          a_.mov(x86::rax, number);
+        } else {
+          a_.or_(x86::rax, number);
+        }
+      }
+      a_.add(x86::rax, x86::rax);  // without the sign of a zero
+    } else if constexpr (wide) {
+      a_.vcmppd(x86::k1, reg(place), in_table(2), Imm(unequal));
+      a_.kortestw(x86::k1, x86::k1);
+    } else {
+      a_.vcmppd(Register(15), reg(place), in_table(2), Imm(unequal));
+      a_.vptest(Register(15), Register(15));
+    }
+    a_.jnz(after);
+  }
+
+  static constexpr std::uint32_t table_head = 3;  // numbers of the table before the constants
   void embed_table() override {
     constexpr std::uint64_t sign = 1ull << 63;
     std::vector<std::uint64_t> words;
     const auto add = [&](std::uint64_t word) { words.insert(words.end(), wide ? 1 : width, word); };
     add(sign);
     add(~sign);
+    add(0);
     for (std::size_t c = 0; c < uniform_; ++c) add(std::bit_cast<std::uint64_t>(constants_[c]));
     embed(words);
   }
 
   const std::vector<double>& constants_;
   std::size_t uniform_, registers_;
+  Place chosen_by_{};  // of whose sign the mask is
 };
 
 }  // namespace

@@ -43,8 +43,8 @@ void apply(Instruction instruction, std::size_t lanes, double* y, const double* 
 
 }  // namespace
 
-void interpret_lanes(const Program& program, std::size_t uniform, std::size_t lanes, double* carried,
-                     const double* varying, std::int64_t steps, bool* failed) {
+std::int64_t interpret_lanes(const Program& program, std::size_t uniform, std::size_t lanes, double* carried,
+                             const double* varying, std::int64_t steps, bool* failed) {
   const std::size_t values = program.values(), operations = program.operations.size();
   std::vector<double> results(operations * lanes), constants(uniform * lanes), next(values * lanes);
   for (std::size_t c = 0; c < uniform; ++c) std::fill_n(&constants[c * lanes], lanes, program.constants[c]);
@@ -62,7 +62,8 @@ void interpret_lanes(const Program& program, std::size_t uniform, std::size_t la
     }
     return nullptr;
   };
-  for (std::int64_t step = 0; step < steps; ++step) {
+  std::int64_t step = 0;
+  for (bool ended = false; step < steps && !ended; ++step) {
     for (std::size_t i = 0; i < operations; ++i) {
       const auto& operation = program.operations[i];
       const double *a = at(operation.a), *b = at(operation.b), *c = at(operation.c);
@@ -74,7 +75,11 @@ void interpret_lanes(const Program& program, std::size_t uniform, std::size_t la
     }
     for (std::size_t k = 0; k < values; ++k) std::copy_n(at(program.outputs[k]), lanes, &next[k * lanes]);
     std::copy(next.begin(), next.end(), carried);
+    for (const std::uint32_t k : program.ends_at) {
+      ended = ended || std::any_of(carried + k * lanes, carried + (k + 1) * lanes, [](double x) { return x != 0; });
+    }
   }
+  return step;
 }
 
 }  // namespace hamflow::native

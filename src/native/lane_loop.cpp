@@ -27,16 +27,18 @@ class LaneLoopOf final : public LaneLoop {
     return all;
   }
 
-  void run(LaneNumbers& carried, const LaneNumbers& constants, std::int64_t steps,
-           std::span<bool> failed) const override {
+  std::int64_t run(LaneNumbers& carried, const LaneNumbers& constants, std::int64_t steps,
+                   std::span<bool> failed) const override {
     if (!function_) {
-      interpret_lanes(program_.step, program_.uniform, lanes_, carried.data(), constants.data(), steps, failed.data());
-      return;
+      return interpret_lanes(program_.step, program_.uniform, lanes_, carried.data(), constants.data(), steps,
+                             failed.data());
     }
     std::array<std::uint64_t, most_registers> flags{};
-    function_->entry()(carried.data(), steps, constants.data(), flags.data());
-    if (std::all_of(flags.begin(), flags.end(), [](std::uint64_t lanes) { return lanes == 0; })) return;
-    for (std::size_t i = 0; i < lanes_; ++i) failed[i] |= (flags[i / width_] >> (i % width_) & 1) != 0;
+    const std::int64_t left = function_->entry()(carried.data(), steps, constants.data(), flags.data());
+    if (std::any_of(flags.begin(), flags.end(), [](std::uint64_t lanes) { return lanes != 0; })) {
+      for (std::size_t i = 0; i < lanes_; ++i) failed[i] |= (flags[i / width_] >> (i % width_) & 1) != 0;
+    }
+    return steps - left;
   }
 
  private:
@@ -64,8 +66,9 @@ std::unique_ptr<const LaneLoop> make_lane_loop(const Program& program, std::span
   if (const unsigned available = native::lane_registers(lanes);
       available > 0 && native::has_instructions(program) && native::is_asked()) {
     const Program step = native::with_both(native::interleaved(ready, registers, native::run_of_one));
-    function = native::assembled_lanes(native::placed(step, available, steps), step.constants, ready.uniform, registers,
-                                       lanes);
+    const unsigned masks = lanes == LaneSet::avx2 && native::needs_masks(step) ? 1 : 0;
+    function = native::assembled_lanes(native::placed(step, available - masks, steps), step.constants, ready.uniform,
+                                       registers, lanes);
   }
   const std::size_t count = registers * (lanes == LaneSet::avx512 ? 8 : 4);
   return std::make_unique<native::LaneLoopOf>(std::move(ready), count, registers, std::move(function));

@@ -78,6 +78,7 @@ LaneProgram lane_program(const Program& program, std::span<const bool> differs) 
   }
   for (std::size_t k = 0; k < values; ++k) result.step.outputs.push_back(step(all.outputs[k]));
   for (const auto& check : all.checks) result.step.checks.push_back({check.kind, step(check.a), step(check.b)});
+  result.step.ends_at = all.ends_at;
   return result;
 }
 
@@ -122,6 +123,9 @@ Program interleaved(const LaneProgram& program, std::size_t registers, std::size
   }
   for (const Operand& output : step.outputs) {
     for (r = 0; r < count; ++r) result.outputs.push_back(part(output));
+  }
+  for (const std::uint32_t value : step.ends_at) {
+    for (r = 0; r < count; ++r) result.ends_at.push_back(value * count + r);
   }
   return result;
 }

@@ -31,8 +31,8 @@ std::unique_ptr<const Function> assembled_lanes(const PlacedProgram& program, co
                                                 std::size_t uniform, std::size_t registers, LaneSet lanes);
 
 /// Repeats a program on arrays, operation by operation; constants from `uniform` on are read from `varying`.
-/// @param lanes how many numbers each is; a multiple of 4
-void interpret_lanes(const Program& program, std::size_t uniform, std::size_t lanes, double* carried,
-                     const double* varying, std::int64_t steps, bool* failed);
+/// @param lanes how many numbers each is; a multiple of 4   @return how many steps were taken
+std::int64_t interpret_lanes(const Program& program, std::size_t uniform, std::size_t lanes, double* carried,
+                             const double* varying, std::int64_t steps, bool* failed);
 
 }  // namespace hamflow::native

@@ -16,15 +16,18 @@ void LoopAssembler::run() {
   a_.align(AlignMode::kCode, 32);
   a_.bind(loop);
   for (const Line& line : program_.body) emit(line);
+  before({});
   a_.dec(x86::r12);
+  for (const Place& place : program_.ends_at) leave_unless_zero(place, after);
+  if (!program_.ends_at.empty()) a_.test(x86::r12, x86::r12);
   a_.jnz(loop);
   a_.bind(after);
   for (const Line& line : program_.exit) emit(line);
-  a_.mov(x86::eax, 1);
+  a_.mov(x86::rax, x86::r12);
   a_.bind(leave);
   exit();
   a_.bind(failed_);
-  a_.xor_(x86::eax, x86::eax);
+  a_.mov(x86::rax, -1);
   a_.jmp(leave);
   a_.align(AlignMode::kData, 64);
   a_.bind(table_);
@@ -51,6 +54,7 @@ void LoopAssembler::exit() {
 }
 
 void LoopAssembler::emit(const Line& line) {
+  before(line);
   switch (line.kind) {
     case Line::Kind::move:
       return move(line);

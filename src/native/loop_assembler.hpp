@@ -25,13 +25,16 @@ class LoopAssembler {
   virtual void call(Instruction instruction) = 0;
   virtual void check(const Line& line) = 0;
   virtual void leave_lanes() {}  // before the function returns
+  virtual void before(const Line& /*next*/) {}
+  /// Goes to `after` where the number is not 0.
+  virtual void leave_unless_zero(const Place& place, const asmjit::Label& after) = 0;
   virtual void embed_table() = 0;
 
   void embed(const std::vector<std::uint64_t>& words) { a_.embed(words.data(), 8 * words.size()); }
 
   asmjit::x86::Assembler a_;
   asmjit::Label table_;   // of constants, behind the code
-  asmjit::Label failed_;  // ends with 0
+  asmjit::Label failed_;  // ends with -1
 
  private:
   void enter();

@@ -299,6 +299,9 @@ class Allocator {
     }
     append_moves(result_.body, std::move(moves), static_cast<std::uint32_t>(in_register_.size()) - 1,
                  [this] { return new_slot(); });
+    for (const std::uint32_t k : program_.ends_at) {
+      result_.ends_at.push_back(register_home_[k] != never ? reg(register_home_[k]) : home(k));
+    }
   }
 
   const Program& program_;

@@ -24,12 +24,12 @@ struct Line {
   enum class Kind : std::uint8_t {
     move,       // to <- a; one of the two is a register
     operation,  // to <- instruction(a, b): registers, but that b may be anywhere. larger(a, b) is a > b ? a : b; of
-                // fused operations c is what `to` was; of of_lane a is a home, b the constant
+                // fused operations and of choose c is what `to` was; of of_lane a is a home, b the constant
     call,       // register 0 <- instruction(register 0, register 1); no register keeps its number. Of sine_of_both
                 // register 1 <- the cosine
     check,      // of the register a, with b anywhere; `to` is a register that it may use
   };
-  Kind kind;
+  Kind kind = Kind::move;
   Instruction instruction{};
   Program::Check::Kind check{};
   Place to, a, b;
@@ -39,6 +39,7 @@ struct Line {
 /// What is done once before the steps, in every step, and once after the last.
 struct PlacedProgram {
   std::vector<Line> entry, body, exit;
+  std::vector<Place> ends_at;  // numbers behind a step, see Program::ends_at
   std::uint32_t slots = 0;
 };
 

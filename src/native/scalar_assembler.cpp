@@ -51,7 +51,29 @@ class ScalarAssembler final : public LoopAssembler {
     }
   }
 
+  /// A branch: what is chosen seldom is foreseen by the processor, and nobody waits for it. Lines that choose by one
+  /// number, one behind the other, share it.
+  void choose(const Line& line) {
+    if (chosen_by_ != line.a) {
+      close();
+      unchanged_ = a_.newLabel();
+      a_.vucomisd(xmm(line.a), x86::qword_ptr(table_, zero));
+      a_.jbe(unchanged_);  // or not ordered
+      chosen_by_ = line.a;
+    }
+    move({Line::Kind::move, {}, {}, line.to, line.b, {}});
+    if (line.to == line.a) close();
+  }
+  void before(const Line& next) override {
+    if (next.kind != Line::Kind::operation || next.instruction != Instruction::choose) close();
+  }
+  void close() {
+    if (chosen_by_ != Place{}) a_.bind(unchanged_);
+    chosen_by_ = {};
+  }
+
   void operation(const Line& line) override {
+    if (line.instruction == Instruction::choose) return choose(line);
     const x86::Xmm to = xmm(line.to), a = xmm(line.a);
     switch (line.instruction) {
       case Instruction::add:
@@ -127,14 +149,28 @@ class ScalarAssembler final : public LoopAssembler {
     a_.bind(holds);
   }
 
-  static constexpr std::int32_t sign_mask = 0, magnitude_mask = 16, masks = 32;  // bytes
+  void leave_unless_zero(const Place& place, const Label& after) override {
+    if (place.kind == Place::Kind::reg) {
+      a_.vucomisd(xmm(place), x86::qword_ptr(table_, zero));
+      a_.jp(after);
+      a_.jne(after);
+      return;
+    }
+    a_.mov(x86::rax, memory(place));  // +0 and -0 but for the sign
+    a_.add(x86::rax, x86::rax);
+    a_.jnz(after);
+  }
+
+  static constexpr std::int32_t sign_mask = 0, magnitude_mask = 16, zero = 32, masks = 48;  // bytes
   void embed_table() override {
     constexpr std::uint64_t sign = 1ull << 63;
-    embed({sign, sign, ~sign, ~sign});
+    embed({sign, sign, ~sign, ~sign, 0, 0});
     if (!constants_.empty()) a_.embed(constants_.data(), 8 * constants_.size());
   }
 
   const std::vector<double>& constants_;
+  Label unchanged_;    // where lines go on that were not chosen
+  Place chosen_by_{};  // the number that decides on the lines here, if one does
 };
 
 }  // namespace
@@ -151,6 +187,12 @@ bool has_instructions(const Program& program) {
            return operation.instruction >= Instruction::inverse_root_estimate &&
                   operation.instruction < Instruction::exponential;
          });
+}
+
+bool needs_masks(const Program& program) {
+  return !program.ends_at.empty() ||
+         std::any_of(program.operations.begin(), program.operations.end(),
+                     [](const Program::Operation& operation) { return operation.instruction == Instruction::choose; });
 }
 
 std::unique_ptr<const Function> assembled(const PlacedProgram& program, const std::vector<double>& constants) {

@@ -21,6 +21,7 @@ int latency(Instruction instruction) {
     case Instruction::negate:
     case Instruction::absolute:
     case Instruction::larger:
+    case Instruction::choose:
       return 1;
     case Instruction::divide:
       return 13;

@@ -51,6 +51,7 @@ class Simplifier {
           std::find(new_.checks.begin(), new_.checks.end(), here) == new_.checks.end())
         new_.checks.push_back(here);
     }
+    new_.ends_at = program.ends_at;
   }
 
   Program take() && { return std::move(new_); }
@@ -78,6 +79,10 @@ class Simplifier {
 
   Operand result(const Operation& operation) {
     const auto [instruction, a, b, c] = operation;
+    if (instruction == Instruction::choose) {
+      if (b == c) return b;
+      if (const auto x = value(a)) return *x > 0 ? b : c;
+    }
     if (c.kind != Kind::none) return numbered(operation);
     const auto x = value(a), y = value(b);
     if (x && (y || b.kind == Kind::none)) return constant(applied(instruction, *x, y.value_or(0)));
@@ -176,6 +181,7 @@ Program without_dead_code(const Program& program) {
     kept.operations.push_back({operation.instruction, moved(operation.a), moved(operation.b), moved(operation.c)});
   }
   for (const Operand& output : program.outputs) kept.outputs.push_back(moved(output));
+  kept.ends_at = program.ends_at;
   for (const auto& check : program.checks) kept.checks.push_back({check.kind, moved(check.a), moved(check.b)});
   return kept;
 }

@@ -29,7 +29,7 @@ std::map<Number, Asked> asked_of(const Program& program) {
 Program with_both(const Program& program) {
   const std::map<Number, Asked> asked = asked_of(program);
   if (asked.empty()) return program;
-  Program result{{}, program.constants, {}, {}};
+  Program result{{}, program.constants, {}, {}, program.ends_at};
   std::vector<std::optional<std::uint32_t>> places(program.operations.size());
   const auto moved = [&](const Operand& operand) {
     return operand.kind == Kind::result ? Operand{Kind::result, *places[operand.index]} : operand;

@@ -10,8 +10,9 @@ class MachineCode final : public StepLoop {
  public:
   explicit MachineCode(std::unique_ptr<const Function> function)
       : function_(std::move(function)), entry_(function_->entry()) {}
-  bool run(std::span<double> carried, std::int64_t steps) const override {
-    return entry_(carried.data(), steps, nullptr, nullptr) != 0;
+  std::int64_t take(std::span<double> carried, std::int64_t steps) const override {
+    const std::int64_t left = entry_(carried.data(), steps, nullptr, nullptr);
+    return left < 0 ? -1 : steps - left;
   }
 
  private:

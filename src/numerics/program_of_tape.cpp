@@ -30,7 +30,7 @@ class Translation {
     return operation == Operation::add || operation == Operation::subtract || operation == Operation::multiply ||
            operation == Operation::divide || operation == Operation::larger || operation == Operation::arctangent2 ||
            operation == Operation::power_of_two || operation == Operation::inverse_cube ||
-           operation == Operation::inverse_root;
+           operation == Operation::inverse_root || operation == Operation::choose;
   }
   void mark_needed() {
     needed_.assign(tape_.nodes.size(), false);
@@ -41,6 +41,7 @@ class Translation {
       if (!needed_[i]) continue;
       if (n.a >= 0) needed_[static_cast<std::size_t>(n.a)] = true;
       if (has_second_operand(n.operation)) needed_[static_cast<std::size_t>(n.b)] = true;
+      if (n.c >= 0) needed_[static_cast<std::size_t>(n.c)] = true;
     }
     for (std::size_t i = 0; i < tape_.inputs; ++i) needed_[i] = true;  // they are the first nodes
   }
@@ -56,9 +57,9 @@ class Translation {
 
   void translate(std::size_t i) {
     const TapeNode& n = tape_.nodes[i];
-    const auto result = [&](Instruction instruction, Operand a, Operand b = {}) {
+    const auto result = [&](Instruction instruction, Operand a, Operand b = {}, Operand c = {}) {
       place_[i] = {Operand::Kind::result, static_cast<std::uint32_t>(program_.operations.size())};
-      program_.operations.push_back({instruction, a, b});
+      program_.operations.push_back({instruction, a, b, c});
     };
     const auto of_one = [&](Instruction instruction) { result(instruction, at(n.a)); };
     const auto of_two = [&](Instruction instruction) { result(instruction, at(n.a), at(n.b)); };
@@ -116,6 +117,8 @@ class Translation {
         return of_one(Instruction::absolute);
       case Operation::larger:
         return of_two(Instruction::larger);
+      case Operation::choose:
+        return result(Instruction::choose, at(n.a), at(n.b), at(n.c));
       case Operation::arcsine:
         return of_one(Instruction::arcsine);
       case Operation::arccosine:

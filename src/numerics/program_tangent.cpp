@@ -26,6 +26,10 @@ class Differentiation {
     }
     for (std::size_t i = 0; i < in_.operations.size(); ++i) {
       const auto& operation = in_.operations[i];
+      if (operation.instruction == Instruction::choose) {  // the slope of what is chosen
+        choose(i);
+        continue;
+      }
       if (operation.c.kind != Operand::Kind::none) return std::nullopt;  // of estimates, which are no functions
       const Operand a = moved(operation.a);
       const Operand b = moved(operation.b);
@@ -50,6 +54,7 @@ class Differentiation {
       check.b = moved(check.b);
       out_.checks.push_back(check);
     }
+    out_.ends_at = in_.ends_at;
     return std::move(out_);
   }
 
@@ -84,6 +89,21 @@ class Differentiation {
   Operand minus(Operand a, Operand b) {
     if (is_zero(b)) return a;
     return is_zero(a) ? apply(Instruction::negate, b) : apply(Instruction::subtract, a, b);
+  }
+
+  void choose(std::size_t i) {
+    const auto& operation = in_.operations[i];
+    const auto made = [&](const Operand& b, const Operand& c) -> Operand {
+      out_.operations.push_back({Instruction::choose, moved(operation.a), b, c});
+      return {Operand::Kind::result, static_cast<std::uint32_t>(out_.operations.size() - 1)};
+    };
+    place_[i] = made(moved(operation.b), moved(operation.c));
+    for (std::size_t j = 0; j < vectors_; ++j) {
+      const Operand db = slope(j, operation.b);
+      const Operand dc = slope(j, operation.c);
+      if (is_zero(db) && is_zero(dc)) continue;
+      slopes_[j][i] = made(is_zero(db) ? constant(0.0) : db, is_zero(dc) ? constant(0.0) : dc);
+    }
   }
 
   /// dy of y = instruction(a, b). False where it has none.
@@ -157,6 +177,7 @@ class Differentiation {
       case I::fused_subtract:
       case I::sine_of_both:
       case I::cosine_of_both:
+      case I::choose:  // above
       case I::of_lane:
         return false;
     }

@@ -75,6 +75,41 @@ bool StateExpression::uses_time() const {
   return read_->formula.uses(static_cast<int>((read_->numbered ? 4 : 2) * read_->size));
 }
 
+std::optional<Operand> StateExpression::append_to(Program& program, std::span<const Operand> state) const {
+  if (uses_time()) return std::nullopt;
+  const std::size_t of_state = (read_->numbered ? 4 : 2) * read_->size;
+  const auto constant = [&](double c) -> Operand {
+    program.constants.push_back(c);
+    return {Operand::Kind::constant, static_cast<std::uint32_t>(program.constants.size() - 1)};
+  };
+  const Program own = formula::program_of(read_->code.code(), read_->code.constants());
+  std::vector<Operand> symbols;
+  for (const int symbol : read_->code.code().symbols) {
+    const auto k = static_cast<std::size_t>(symbol);
+    symbols.push_back(k > of_state ? constant(read_->parameters[k - of_state - 1]) : state[k % (2 * read_->size)]);
+  }
+  std::vector<Operand> results;
+  const auto moved = [&](const Operand& x) -> Operand {
+    switch (x.kind) {
+      case Operand::Kind::carried:
+        return symbols[x.index];
+      case Operand::Kind::result:
+        return results[x.index];
+      case Operand::Kind::constant:
+        return constant(own.constants[x.index]);
+      case Operand::Kind::none:
+        break;
+    }
+    return x;
+  };
+  for (const Program::Operation& operation : own.operations) {
+    const Program::Operation here{operation.instruction, moved(operation.a), moved(operation.b), moved(operation.c)};
+    program.operations.push_back(here);
+    results.push_back({Operand::Kind::result, static_cast<std::uint32_t>(program.operations.size() - 1)});
+  }
+  return moved(own.outputs.back());
+}
+
 double StateExpression::operator()(const Frame& frame) const {
   const std::size_t n = read_->size;
   const std::size_t of_state = (read_->numbered ? 4 : 2) * n;

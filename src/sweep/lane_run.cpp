@@ -11,6 +11,7 @@ LaneRun::LaneRun(EnsembleBlock& block, std::vector<LaneObservers> observers)
     return;
   }
   wake();
+  spare_summed_steps();
   for (TangentWatch* watch : observers_[0].tangents) {
     const std::optional<TangentsUnderWay> vectors = watch->under_way();
     go_in_lanes_.push_back(vectors && block_.expect_tangents(vectors->vectors->size()));
@@ -32,6 +33,29 @@ void LaneRun::advance(std::int64_t steps) {
       taken_ = next;
     }
     if (taken_ == due_) wake();
+  }
+}
+
+/// Where the block adds by itself, observers that need sums alone have seen the start, and nothing more.
+void LaneRun::spare_summed_steps() {
+  std::vector<std::span<const NamedExpression>> summed;
+  for (const LaneObservers& observers : observers_) {
+    if (observers.sums == nullptr) return;
+    summed.push_back(observers.sums->summed());
+  }
+  has_sums_ = block_.expect_sums(summed);
+  if (!has_sums_) return;
+  for (LaneObservers& observers : observers_) {
+    std::erase_if(observers.all, [&](Observer* each) { return dynamic_cast<SummedSteps*>(each) == observers.sums; });
+  }
+  due_ = next_due();
+}
+
+void LaneRun::take_sums() {
+  for (std::size_t lane = 0; has_sums_ && taken_ > 0 && lane < observers_.size(); ++lane) {
+    if (block_.is_lost(lane)) continue;
+    block_.show(lane, frame_);
+    observers_[lane].sums->take_sums(frame_, block_.sums(lane));
   }
 }
 

@@ -17,6 +17,7 @@ struct LaneObservers {
   std::vector<Observer*> all{};
   std::vector<TangentWatch*> tangents{};  // those of them that follow tangent vectors
   SectionSearch* section = nullptr;
+  SummedSteps* sums = nullptr;  // that of them which sums can spare the steps
 };
 
 class LaneRun {
@@ -24,6 +25,8 @@ class LaneRun {
   /// @param block loaded   @param observers of the lanes with members, equally many of each kind; empty: of none
   LaneRun(EnsembleBlock& block, std::vector<LaneObservers> observers);
   void advance(std::int64_t steps);
+  /// What was summed of the steps so far goes to the observers that were spared them.
+  void take_sums();
   std::int64_t taken() const { return taken_; }
 
  private:
@@ -31,6 +34,7 @@ class LaneRun {
   void wake();
   void carry_tangents();
   void look_for_sections();
+  void spare_summed_steps();
   double section_distance(std::size_t lane);
 
   EnsembleBlock& block_;
@@ -38,6 +42,7 @@ class LaneRun {
   std::vector<bool> go_in_lanes_;  // of each kind of tangent vectors
   std::vector<LaneTangents> jobs_;
   bool has_sections_;
+  bool has_sums_ = false;          // the block adds
   std::vector<double> distances_;  // x - value of each lane's section, at the last step
   std::int64_t taken_ = 0;
   std::int64_t due_ = 0;

@@ -82,6 +82,7 @@ class Sweep::Worker {
       sweep_.steps_taken_ += steps * static_cast<std::int64_t>(task.count);
       if (Clock::now() - begin < std::chrono::milliseconds(10)) chunk = std::min(chunk * 2, std::int64_t{1} << 40);
     }
+    run.take_sums();
     for (std::size_t lane = 0; lane < task.count; ++lane) {
       if (!is_watched) watched.push_back(std::make_unique<Watched>());
       finish_lane(members[lane], block->look(lane), run.taken(), group.steps, *watched[lane]);
@@ -98,7 +99,7 @@ class Sweep::Worker {
     std::vector<LaneObservers> all;
     for (const auto& one : watched) {
       LaneObservers& observers = all.emplace_back();
-      if (one->watch) observers = {one->watch->observers(), one->watch->tangents()};
+      if (one->watch) observers = {one->watch->observers(), one->watch->tangents(), nullptr, one->watch->sums()};
       if (one->section) observers.section = &*one->section;
     }
     return all;

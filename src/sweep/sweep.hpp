@@ -14,7 +14,7 @@
 #include "hamflow/core/archive.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/step_mean.hpp"
+#include "hamflow/run/step_sums.hpp"
 #include "hamflow/verify/lyapunov.hpp"
 #include "member_reader.hpp"
 #include "varied.hpp"
@@ -68,8 +68,8 @@ class MemberWatch {
   virtual std::vector<Observer*> observers() = 0;
   /// Those of them that follow tangent vectors.
   virtual std::vector<TangentWatch*> tangents() { return {}; }
-  /// Those of them that take means over every step.
-  virtual std::vector<MeanWatch*> means() { return {}; }
+  /// The one of them that needs sums over the steps alone.
+  virtual SummedSteps* sums() { return nullptr; }
   /// What was seen of a run that is done: a number for each of MemberObservables::names.
   virtual std::vector<double> row() const = 0;
   /// How often each event of the scenario was met, and which of them has ended the run.

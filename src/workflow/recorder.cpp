@@ -69,7 +69,10 @@ void Recorder::append(const SectionPoint& point) {
 }
 
 void Recorder::append(const Bounce& bounce) {
-  if (h5_ && h5_->wall_rows() < static_cast<std::uint64_t>(scenario_.record_events)) h5_->append(bounce);
+  if (wants_bounces()) h5_->append(bounce);
+}
+bool Recorder::wants_bounces() const {
+  return h5_ && h5_->wall_rows() < static_cast<std::uint64_t>(scenario_.record_events);
 }
 
 void Recorder::append(std::size_t event, std::int64_t step, const SectionPoint& point) {

@@ -25,6 +25,8 @@ class Recorder final : public Observer {
   void append(const SectionPoint& point);
   /// As long as the scenario wants more rows.
   void append(const Bounce& bounce);
+  /// Whether there is room for more of them.
+  bool wants_bounces() const;
   void append(std::size_t event, std::int64_t step, const SectionPoint& point);
 
   /// The state in which a run by steps ended early is a sample too.

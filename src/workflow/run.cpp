@@ -168,6 +168,7 @@ class ScenarioRun {
         if (recorder_) {
           recorder_->flush_if_due();
           checkpoints_->write_if_due();
+          if (!recorder_->wants_bounces()) simulation_->tell_bounces({});  // its steps then bounce by themselves
         }
         return !settings_.pulse || settings_.pulse(step);
       });

@@ -158,6 +158,7 @@ inline RandomCase random_case(Draw& draw, const RandomForm& form) {
       program.outputs.push_back(operand());
     }
   }
+  if (form.values > 0 && draw.chance(0.1)) program.ends_at.push_back(draw.below(form.values));
   const std::int64_t steps[] = {0, 1, 1, 2, 2, 3, 5, 17};
   result.steps = steps[draw.below(std::size(steps))];
   return result;

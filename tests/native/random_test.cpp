@@ -18,7 +18,7 @@ std::uint64_t setting(const char* name, std::uint64_t otherwise) {
 }
 
 struct Tally {
-  std::uint64_t programs = 0, operations = 0, failed = 0, values = 0, finite = 0, longest = 0;
+  std::uint64_t programs = 0, operations = 0, failed = 0, values = 0, finite = 0, longest = 0, ended = 0;
 };
 
 /// `made(program)` runs a program in the way that is tested; null skips it.
@@ -31,8 +31,9 @@ Tally compare(std::uint64_t seed, std::uint64_t count, const Form& form, const M
     const auto loop = made(random.program);
     if (!loop) return tally;
     std::vector<double> expected = random.start, found = random.start;
-    const bool held = make_interpreter(random.program)->run(expected, random.steps);
-    EXPECT_EQ(loop->run(found, random.steps), held) << "program " << i << " of seed " << seed;
+    const std::int64_t taken = make_interpreter(random.program)->take(expected, random.steps);
+    const bool held = taken >= 0;
+    EXPECT_EQ(loop->take(found, random.steps), taken) << "program " << i << " of seed " << seed;
     for (std::size_t k = 0; held && k < expected.size(); ++k) {
       EXPECT_TRUE(same_bits(found[k], expected[k])) << "program " << i << " of seed " << seed << ", value " << k << ": "
                                                     << found[k] << " instead of " << expected[k];
@@ -43,6 +44,7 @@ Tally compare(std::uint64_t seed, std::uint64_t count, const Form& form, const M
     tally.operations += random.program.operations.size();
     tally.longest = std::max<std::uint64_t>(tally.longest, random.program.operations.size());
     tally.failed += !held;
+    tally.ended += held && taken < random.steps;
     if (testing::Test::HasFailure()) break;
   }
   return tally;
@@ -88,8 +90,9 @@ TEST(RandomPrograms, RegistersHoldWhatTheyShouldHoweverFewThereAre) {
    public:
     Loop(const Program& program, unsigned registers)
         : function_(native::assembled(native::placed(program, registers), program.constants)) {}
-    bool run(std::span<double> carried, std::int64_t steps) const override {
-      return function_->entry()(carried.data(), steps, nullptr, nullptr) != 0;
+    std::int64_t take(std::span<double> carried, std::int64_t steps) const override {
+      const std::int64_t left = function_->entry()(carried.data(), steps, nullptr, nullptr);
+      return left < 0 ? -1 : steps - left;
     }
 
    private:

@@ -39,4 +39,10 @@ constexpr R larger(R a, R b) {
   return a < b ? b : a;
 }
 
+/// a > 0 ? b : c. Recordings have it without a branch (core/tape.hpp).
+template <class S>
+S choose(const S& a, const S& b, const S& c) {
+  return S(0) < a ? b : c;
+}
+
 }  // namespace hamflow

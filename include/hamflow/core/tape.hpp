@@ -55,6 +55,7 @@ enum class Operation {
   power,       // a^c
   absolute,    // |a|, in exact recordings, as what follows
   larger,      // a < b ? b : a
+  choose,      // a > 0 ? b : c
   arcsine,
   arccosine,
   arctangent2,   // atan2(a, b)
@@ -69,6 +70,7 @@ struct TapeNode {
   int a = -1;         // nodes
   int b = -1;         // may stand later on the tape where only lower coefficients of it are used
   int constant = -1;  // its place among the constants
+  int c = -1;         // a third node
 };
 
 /// The operations that lead from the inputs, which are the first nodes, to the outputs.
@@ -265,6 +267,10 @@ class Recorder {
   [[gnu::noinline]] Trace<R> of_any_two(Operation operation, const Trace<R>& a, const Trace<R>& b, const R& value) {
     return of_two(operation, node_of(a), node_of(b), value);
   }
+  /// a > 0 ? b : c, of a node a.
+  [[gnu::noinline]] Trace<R> choice(int a, const Trace<R>& b, const Trace<R>& c, const R& value) {
+    return once({.operation = Operation::choose, .a = a, .b = node_of(b), .constant = -1, .c = node_of(c)}, value);
+  }
   [[gnu::noinline]] void guard(int node, const R& value, bool holds, typename Tape<R>::Relation relation) {
     tape_.guards.push_back({node, value, holds, relation});
   }
@@ -303,7 +309,8 @@ class Recorder {
     for (; known_[at] != 0; at = (at + 1) & (known_.size() - 1)) {
       const int i = known_[at] - 1;
       const TapeNode& old = node(i);
-      if (old.operation == n.operation && old.a == n.a && (companion || old.b == n.b) && old.constant == n.constant) {
+      if (old.operation == n.operation && old.a == n.a && (companion || old.b == n.b) && old.constant == n.constant &&
+          old.c == n.c) {
         return {values_[static_cast<std::size_t>(i)], this, i};
       }
     }
@@ -356,6 +363,7 @@ class Recorder {
       place[static_cast<std::size_t>(i)] = 0;
       open.push_back(node(i).a);
       open.push_back(node(i).b);
+      open.push_back(node(i).c);
     }
     int kept = 0;
     for (int& at : place) {
@@ -367,6 +375,7 @@ class Recorder {
       TapeNode n = tape_.nodes[i];
       n.a = moved(n.a);
       n.b = moved(n.b);
+      n.c = moved(n.c);
       node(place[i]) = n;
     }
     tape_.nodes.resize(static_cast<std::size_t>(kept));
@@ -562,6 +571,14 @@ template <class R>
 Trace<R> larger(const Trace<R>& a, const Trace<R>& b) {
   if (a.is_exact() || b.is_exact()) return detail::recorded(Operation::larger, a, b, larger(a.value, b.value));
   return a < b ? b : a;
+}
+/// a > 0 ? b : c, which an exact recording has without a branch: it computes both.
+template <class R>
+Trace<R> choose(const Trace<R>& a, const Trace<R>& b, const Trace<R>& c) {
+  const bool first = R(0) < a.value;
+  if (a.is_constant()) return first ? b : c;
+  if (!a.is_exact()) Trace<R>::refuse();
+  return a.recorder->choice(a.node, b, c, first ? b.value : c.value);
 }
 // Of exact recordings and of constants; Taylor series have no such coefficients, and compose them of others
 // (formula/operations.hpp).

@@ -97,6 +97,11 @@ class ForceGradientStep {
     return Outcome::done;
   }
 
+  static constexpr bool remembers_positions_alone = true;
+  /// The i-th position was mirrored, and so is what is kept of it.
+  void mirror_kept(std::size_t i) {
+    if (i < force_.size()) force_[i] = -force_[i];
+  }
   /// To be called when the state was changed from outside.
   void invalidate() { force_is_current_ = false; }
   /// How many threads compute the forces; the bits are the same for any number.

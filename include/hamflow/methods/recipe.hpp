@@ -60,6 +60,12 @@ constexpr bool has_typed_kernel() {
   }
 }
 
+/// Whether what a stepper keeps for the next step depends on the positions alone: a momentum may then be turned round.
+template <class Stepper>
+constexpr bool remembers_positions_alone() {
+  return requires { Stepper::remembers_positions_alone; };
+}
+
 /// Whether a step in double can be recorded (run/recorded_step.hpp).
 template <class M>
 constexpr bool is_recorded() {

@@ -105,6 +105,7 @@ class RungeKutta {
     return Outcome::done;
   }
 
+  static constexpr bool remembers_positions_alone = true;
   void invalidate() {}
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
   template <class Archive>

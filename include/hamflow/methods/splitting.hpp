@@ -231,6 +231,22 @@ class Splitting {
   /// factor, which no other step has.
   void take_any_steps() { force_takes_factor_ = velocity_takes_factor_ = false; }
 
+  /// Has the kick with which the next step begins, where it is kept.
+  void prepare(const P& problem, const Length& h, PhasePoint<A, n>& z) {
+    const Length factor = h * leading_kick_;
+    if (!(leading() && trailing()) || (kick_is_current_ && kept_factor_ == within(factor))) return;
+    if constexpr (n == dynamic) {
+      if (kick_.size() == 0) kick_ = zeros<Increment, n>(z.p.size());
+    }
+    evaluate(problem, factor, z, kick_);
+    kept_factor_ = within(factor);
+    kick_is_current_ = true;
+  }
+  static constexpr bool remembers_positions_alone = true;
+  /// The i-th position was mirrored, and so is what is kept of it.
+  void mirror_kept(std::size_t i) {
+    if (i < kick_.size()) kick_[i] = -kick_[i];
+  }
   /// To be called when the state was changed from outside.
   void invalidate() { kick_is_current_ = false; }
   /// How many threads compute the forces; the bits are the same for any number.

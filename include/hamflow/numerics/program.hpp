@@ -20,6 +20,7 @@ enum class Instruction : std::uint8_t {
   absolute,     // |a|
   larger,       // a < b ? b : a
   square_root,  // of a; correctly rounded
+  choose,       // a > 0 ? b : c
   // Of kernel = "fast" alone (run/recorded_step.cpp).
   inverse_root_estimate,  // a^(-1/2) to within 2^-14, of the processor
   fused_add,              // a b + c with one rounding
@@ -61,7 +62,7 @@ struct Program {
     Instruction instruction;
     Operand a;
     Operand b;    // none for functions of one number
-    Operand c{};  // of fused operations
+    Operand c{};  // of choose and of fused operations
     friend bool operator==(const Operation&, const Operation&) = default;
   };
   struct Check {
@@ -75,6 +76,7 @@ struct Program {
   std::vector<double> constants;
   std::vector<Operand> outputs;
   std::vector<Check> checks;
+  std::vector<std::uint32_t> ends_at{};  // no step follows one that leaves any of these values other than 0
 
   /// How many numbers are carried.
   std::size_t values() const { return outputs.size(); }
@@ -84,9 +86,11 @@ struct Program {
 class StepLoop {
  public:
   virtual ~StepLoop() = default;
-  /// Repeats the program `steps` times on `carried`, in place. @return whether every check held in every step; if not,
-  /// `carried` is undefined
-  virtual bool run(std::span<double> carried, std::int64_t steps) const = 0;
+  /// Repeats the program on `carried`, in place, `steps` times, or fewer where it ends by itself (Program::ends_at).
+  /// @return how many; -1 where a check failed, `carried` is then undefined
+  virtual std::int64_t take(std::span<double> carried, std::int64_t steps) const = 0;
+  /// The same. @return whether every check held in every step
+  bool run(std::span<double> carried, std::int64_t steps) const { return take(carried, steps) >= 0; }
 };
 
 /// In machine code where the processor and the system allow it and HAMFLOW_NATIVE is not 0, else interpreted.

@@ -24,8 +24,9 @@ class LaneLoop {
   /// prepared
   /// @param failed lanes() flags; set where a check fails at any step, never cleared. What such a lane carries is
   /// undefined, all others go on
-  virtual void run(LaneNumbers& carried, const LaneNumbers& constants, std::int64_t steps,
-                   std::span<bool> failed) const = 0;
+  /// @return how many steps were taken: fewer where the program ends by itself in any lane (Program::ends_at)
+  virtual std::int64_t run(LaneNumbers& carried, const LaneNumbers& constants, std::int64_t steps,
+                           std::span<bool> failed) const = 0;
 };
 
 /// Machine code of 16 (avx2) or 32 lanes (avx512) where `lanes` asks for it, processor and system allow it and

@@ -117,6 +117,13 @@ bool replay(const Tape<R>& tape, Vector<Slope<S>, dynamic>& nodes) {
       case Operation::larger:
         out = (a() + b() + abs(a() - b())) / Number(S(base_scalar<S>(2)));
         break;
+      case Operation::choose: {
+        const auto zero = base_scalar<S>(0);
+        const bool first = zero < value_of(a().first);
+        if (first != (zero < value_of(a().last))) return false;
+        out = first ? b() : nodes[static_cast<std::size_t>(node.c)];
+        break;
+      }
       case Operation::arcsine:
         out = detail::arcsine(a());
         break;

@@ -165,6 +165,7 @@ class TaylorSeries {
         break;
       case Operation::absolute:  // of exact recordings only
       case Operation::larger:
+      case Operation::choose:
       case Operation::arcsine:
       case Operation::arccosine:
       case Operation::arctangent2:

@@ -11,6 +11,7 @@
 #include "hamflow/numerics/lane_set.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/step_map.hpp"
+#include "hamflow/run/step_sums.hpp"
 
 namespace hamflow {
 
@@ -73,6 +74,11 @@ class EnsembleBlock {
   virtual const Simulation& before_step(std::size_t lane) = 0;
   /// Before the first step: makes ready for so many tangent vectors to a lane. False: they cannot go in lanes.
   virtual bool expect_tangents(std::size_t vectors) = 0;
+  /// Before the first step: from now on the values of expressions behind each step are added up, of equally many in
+  /// each lane. False: this block does not.
+  virtual bool expect_sums(std::span<const std::span<const NamedExpression>> /*of_lanes*/) { return false; }
+  /// Over the steps of a lane.
+  virtual std::vector<StepSum> sums(std::size_t /*lane*/) const { return {}; }
   /// Carries the vectors of some lanes, equally many in each, all together, with the bits of a StepMap.
   virtual void carry(std::span<LaneTangents> jobs) = 0;
 };

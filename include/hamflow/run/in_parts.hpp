@@ -31,10 +31,10 @@ class InParts : public Base {
   void back(Place place) override { take(*marks_.kept[static_cast<std::size_t>(place)]); }
   Outcome take_part(const Real& h) override {
     InParts::forget();
-    auto probe = probe_;
-    std::int64_t taken = 0;
     const Effort before = method_.effort();
-    const Outcome outcome = this->march(1, h, taken, method_, z_, probe);
+    Outcome outcome = method_.step(this->problem_, h, z_);
+    if (outcome == Outcome::done && z_.arithmetic.lost()) outcome = Outcome::lattice_overflow;
+    if (outcome == Outcome::done && !Base::is_finite(this->problem_, z_)) outcome = Outcome::non_finite;
     add_evaluations(effort_of_parts_, method_.effort(), before);
     InParts::forget();
     return outcome;
@@ -45,6 +45,22 @@ class InParts : public Base {
       method_.forget_guesses();
     } else {
       method_.invalidate();
+    }
+  }
+  void forget_momenta() override {
+    if constexpr (!remembers_positions_alone<typename Base::Stepper>()) InParts::forget();
+  }
+  void forget_mirrored(std::size_t i) override {
+    // The last bit of a force is that of its mirror image where the position is one number.
+    if constexpr (std::is_same_v<decltype(z_.arithmetic), Plain<Real>> && requires { method_.mirror_kept(i); }) {
+      method_.mirror_kept(i);
+    } else {
+      InParts::forget();
+    }
+  }
+  void prepare() override {
+    if constexpr (requires { method_.prepare(Base::problem(), clock_.step_length(), z_); }) {
+      if (!Base::varies_steps()) method_.prepare(Base::problem(), clock_.step_length(), z_);
     }
   }
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<InParts>(*this); }

@@ -8,12 +8,13 @@
 #include <span>
 
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/methods/recipe.hpp"
 #include "hamflow/methods/step_density.hpp"
 #include "hamflow/numerics/program_of_tape.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"
 #include "hamflow/run/probe.hpp"
-#include "hamflow/run/walls.hpp"
+#include "hamflow/run/recorded_walls.hpp"
 
 namespace hamflow {
 
@@ -23,7 +24,20 @@ struct RecordedStep {
   Program program;
   std::vector<CarriedField> fields;
   std::vector<std::size_t> state;  // which values q, then p, are shown as
+  /// Behind walls, and in the places before the last value: words that count bounces, which are 0 at the start of a
+  /// loop, or one number that is 1 where a step was left undone and the loop ends.
+  std::size_t words = 0;
+  bool stops = false;
+  std::size_t first_word() const { return program.values() - 1 - words; }
+  std::size_t stop() const { return program.values() - 2; }
 };
+
+/// Adds what the words of a step have counted to the numbers of bounces off each side.
+inline void add_bounces(const RecordedStep& step, std::span<const double> values, std::span<std::int64_t> bounces) {
+  for (std::size_t k = 0; step.words > 0 && k < bounces.size(); ++k) {
+    bounces[k] += BounceWord::count(values[step.first_word() + k / BounceWord::sides], k % BounceWord::sides);
+  }
+}
 
 /// Longer steps take the ordinary road: straight code of twice this length, which no longer fits into a processor's
 /// second cache, is as slow as the compiled loops over bodies (20 bodies with stv4, 9 with kahan-li8).
@@ -38,7 +52,14 @@ class RecordedMember {
  public:
   virtual ~RecordedMember() = default;
   /// The step from the present state; null where it cannot be recorded.
-  virtual std::shared_ptr<const RecordedStep> recorded_step() = 0;
+  /// @param at_walls behind walls
+  virtual std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls = AtWalls::stop) = 0;
+  /// What the next step begins with is computed now, where a method keeps it and has forgotten it.
+  virtual void make_ready() = 0;
+  /// Whether the last recorded steps ended for the next one, which may meet a wall.
+  virtual bool stopped_at_wall() const { return false; }
+  /// One step by the ordinary road.
+  virtual Outcome step_ordinarily() = 0;
   /// The step that tangent vectors take from the present state, without a probe; null where there is none.
   virtual std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) = 0;
   /// The values that are carried into such a step. @return false where what the method keeps is not as recorded: one
@@ -79,41 +100,6 @@ std::vector<CarriedField> carried_fields(const TracedFields& before, const Trace
 using TracedMonitor = StepMonitor<Trace<double>, dynamic>;
 struct NoDensity {};
 
-/// Hard walls that a recorded step has to stay within, as a check of its own.
-struct StepWalls {
-  std::vector<WallSide<double>> sides;
-  bool and_turns = false;  // also where it goes out and comes back within the step
-};
-
-/// Whether a step of length h from (q0, v0) to (q1, v1) stays within the walls. The motion that turns within the step
-/// is inside for certain where it would be so by going on for two steps from either end; where it would not, and where
-/// the step ends outside, one has to look closer. More than one turn within a step is not seen.
-template <class S>
-bool stays_within(const StepWalls& walls, const double& h, const Vector<S, dynamic>& q0, const Vector<S, dynamic>& v0,
-                  const Vector<S, dynamic>& q1, const Vector<S, dynamic>& v1) {
-  for (const WallSide<double>& wall : walls.sides) {
-    const std::size_t i = wall.coordinate;
-    if (wall.side > 0 ? S(wall.at) < q1[i] : q1[i] < S(wall.at)) return false;
-    if (!walls.and_turns) continue;
-    const S ahead = q0[i] + S(2 * h) * v0[i];
-    const S behind = q1[i] - S(2 * h) * v1[i];
-    if (wall.side > 0 ? S(wall.at) < -larger(-ahead, -behind) : larger(ahead, behind) < S(wall.at)) return false;
-  }
-  return true;
-}
-/// dH/dp of a problem behind virtual calls.
-template <class P, class S>
-Vector<S, dynamic> velocities(const P& problem, const Vector<S, dynamic>& q, const Vector<S, dynamic>& p) {
-  Vector<S, dynamic> v = zeros_like(p);
-  if constexpr (Separable<P>) {
-    velocity(problem, p, v);
-  } else {
-    Vector<S, dynamic> by_q = zeros_like(q);
-    gradient(problem, q, p, by_q, v);
-  }
-  return v;
-}
-
 /// Time as a StepClock counts it, for the recording: t = start + position step.
 struct RecordedTime {
   double start = 0;
@@ -125,14 +111,14 @@ struct RecordedTime {
 /// Records the step from (q, p).
 /// @tparam A of traces; where it has any lengths (methods/step_density.hpp) the density of steps is carried, too
 /// @param method bound to the traced problem   @param watch the energy and the invariants are looked at in every step
-/// @param monitor of steps of varying length   @param walls that the step stays within; null: none
+/// @param monitor of steps of varying length   @param walls hard ones; null: none
 /// @return nothing where the step is not a straight line of this kind or is longer than most_recorded_operations
 template <class A, class P, class M>
 std::optional<RecordedStep> record_step(const P& problem, M method, const Vector<double, dynamic>& q,
                                         const Vector<double, dynamic>& p, double h, const RecordedTime& time,
                                         bool watch, RecordedAt at = RecordedAt::steady,
                                         [[maybe_unused]] const TracedMonitor* monitor = nullptr,
-                                        const StepWalls* walls = nullptr) {
+                                        const StepWalls* walls = nullptr, AtWalls at_walls = AtWalls::stop) {
   using Number = Trace<double>;
   constexpr bool varies = requires { typename A::Length; };
   PhasePoint<A, dynamic> z;
@@ -174,17 +160,37 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     RecordedStep recorded;
     for (const Number& x : z.positions()) recorded.state.push_back(static_cast<std::size_t>(x.node));
     for (const Number& x : z.momenta()) recorded.state.push_back(static_cast<std::size_t>(x.node));
-    const Number position = recorder.input(time.position + time.direction) + Number(time.direction);
+    recorded.stops = walls != nullptr && at_walls == AtWalls::stop;
+    recorded.words = walls != nullptr && at_walls == AtWalls::bounce ? BounceWord::words(walls->sides.size()) : 0;
+    std::vector<Number> words;
+    for (std::size_t k = 0; k < recorded.words; ++k) words.push_back(recorder.input(0.0));
+    if (recorded.stops) (void)recorder.input(0.0);
+    const Number position_before = recorder.input(time.position + time.direction);
+    const Number position = position_before + Number(time.direction);
     const detail::TracedFields before = detail::traced_fields(z, method, probe, density);
-    const Vector<Number, dynamic> q0 = z.positions();
-    const Vector<Number, dynamic> p0 = z.momenta();
+    auto z_before = z;
+    auto method_before = method;
     if (step() != Outcome::done) return std::nullopt;
-    if (walls != nullptr) {
-      const Vector<Number, dynamic> q1 = z.positions();
-      const Vector<Number, dynamic> p1 = z.momenta();
-      if (!stays_within(*walls, h, q0, velocities(problem, q0, p0), q1, velocities(problem, q1, p1))) {
+    if (recorded.words > 0) {
+      if (!remembers_positions_alone<M>()) return std::nullopt;
+      // A step that is taken back, or turned, has to be one that does not fail.
+      Number size(0);
+      for (const Number& x : Vector<Number, dynamic>(z.positions())) size += x;
+      for (const Number& x : Vector<Number, dynamic>(z.momenta())) size += x * x;
+      if (!(size <= std::numeric_limits<double>::max())) return std::nullopt;
+      std::vector<Number> met;
+      if (walls->rule == WallRule::reject) {
+        met = reject_within<Number>(walls->sides, z_before, method_before, z, method);
+      } else if constexpr (requires { method.mirror_kept(0); }) {
+        met = mirror_within<Number>(walls->sides, z, method);
+        const Vector<Number, dynamic> q1 = z.positions();
+        for (const auto& wall : walls->sides) {
+          if (Number(0) < beyond_wall(wall, q1[wall.coordinate])) return std::nullopt;
+        }
+      } else {
         return std::nullopt;
       }
+      for (std::size_t k = 0; k < words.size(); ++k) words[k] += met[k];
     }
     const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
     if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
@@ -193,8 +199,23 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
       recorded.fields = detail::carried_fields(before, after, counts);
       if (recorded.fields.empty()) return std::nullopt;
     }
-    after.traces.push_back(position);
+    after.traces.insert(after.traces.end(), words.begin(), words.end());
+    Number position_behind = position;
+    if (recorded.stops) {
+      const Vector<Number, dynamic> q0 = z_before.positions();
+      const Vector<Number, dynamic> p0 = z_before.momenta();
+      const Vector<Number, dynamic> q1 = z.positions();
+      const Vector<Number, dynamic> p1 = z.momenta();
+      const Number beyond = beyond_walls(problem, walls->sides, walls->rule == WallRule::event, h, q0, p0, q1, p1);
+      for (std::size_t k = 0; k < after.traces.size(); ++k) {
+        after.traces[k] = choose(beyond, before.traces[k], after.traces[k]);
+      }
+      position_behind = choose(beyond, position_before, position);
+      after.traces.push_back(choose(beyond, Number(1), Number(0)));
+    }
+    after.traces.push_back(position_behind);
     recorded.program = program_of(recorder.finish(after.traces));
+    if (recorded.stops) recorded.program.ends_at = {static_cast<std::uint32_t>(recorded.stop())};
     return recorded;
   } catch (const CannotRecord&) {
     return std::nullopt;

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
+#include "hamflow/numerics/program.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow {
@@ -22,6 +25,9 @@ class StateExpression {
   /// Whether the k-th number of q, then of p, decides its value.
   bool uses(std::size_t k) const;
   bool uses_time() const;
+  /// Appends what computes it, with the same bits, to a program. @param state the numbers of q, then of p
+  /// @return the value; nothing where it uses the time
+  std::optional<Operand> append_to(Program& program, std::span<const Operand> state) const;
 
  private:
   struct Read;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 
 #include "hamflow/core/method_info.hpp"
@@ -50,8 +51,16 @@ class StepsInParts {
   virtual Effort effort_of_parts() const { refuse(); }
   /// The state was changed: what the method remembers of it is dropped.
   virtual void forget() { refuse(); }
-  /// Takes recorded steps as long as they stay within the walls, and says how many; none where no step is recorded.
-  virtual std::int64_t take_recorded(std::int64_t /*steps*/) { return 0; }
+  /// The same where momenta alone were changed.
+  virtual void forget_momenta() { forget(); }
+  /// The same where the state was mirrored in the i-th coordinate, of a force that is its own mirror image.
+  virtual void forget_mirrored(std::size_t /*i*/) { forget(); }
+  /// What the next step begins with is computed now, where a method keeps it and has forgotten it.
+  virtual void prepare() {}
+  /// Takes recorded steps, and says how many; none where no step is recorded. `bounces` has a number for each side:
+  /// what is bounced within such steps is added there. Without numbers no step bounces, and the first that may is not
+  /// taken.
+  virtual std::int64_t take_recorded(std::int64_t /*steps*/, std::span<std::int64_t> /*bounces*/) { return 0; }
 
  private:
   [[noreturn]] static void refuse() { throw std::logic_error("hamflow: this simulation takes no steps in parts"); }

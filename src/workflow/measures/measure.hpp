@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hamflow/run/observer.hpp"
-#include "hamflow/run/step_mean.hpp"
+#include "hamflow/run/step_sums.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/lyapunov.hpp"
 #include "sweep.hpp"
@@ -28,8 +28,8 @@ class Measure {
   virtual Observer& observer() = 0;
   /// The same where it follows tangent vectors, which many members carry together.
   virtual TangentWatch* tangents() { return nullptr; }
-  /// The same where it takes means over every step, which lanes may take in theirs.
-  virtual MeanWatch* means() { return nullptr; }
+  /// The same where it needs sums over the steps alone, which lanes keep by themselves.
+  virtual SummedSteps* sums() { return nullptr; }
   /// Its entry in the summary, from what was seen so far; null: none.
   virtual nlohmann::ordered_json summary() const = 0;
   /// What it counts among the events.

@@ -68,12 +68,11 @@ class MeasuredMember final : public MemberWatch {
     }
     return all;
   }
-  std::vector<MeanWatch*> means() override {
-    std::vector<MeanWatch*> all;
+  SummedSteps* sums() override {
     for (const auto& measure : measures_) {
-      if (MeanWatch* const watch = measure->means()) all.push_back(watch);
+      if (SummedSteps* const sums = measure->sums()) return sums;
     }
-    return all;
+    return nullptr;
   }
   std::vector<double> row() const override {
     std::vector<double> all;

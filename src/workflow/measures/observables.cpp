@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
-#include "hamflow/run/step_mean.hpp"
+#include "hamflow/run/step_sums.hpp"
 #include "measure.hpp"
 #include "measure_list.hpp"
 #include "number_text.hpp"
@@ -16,31 +16,42 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class ObservablesMeasure final : public Measure, public MeanWatch {
+/// The values of one expression over a run.
+struct Seen {
+  double initial = 0;
+  double final = 0;
+  StepSum sum;
+};
+
+class ObservablesMeasure final : public Measure, public Observer, public SummedSteps {
  public:
   explicit ObservablesMeasure(const std::vector<NamedExpression>& observables)
       : observables_(observables), seen_(observables.size()) {}
 
   Observer& observer() override { return *this; }
-  MeanWatch* means() override { return this; }
-  std::span<const NamedExpression> expressions() const override { return observables_; }
-  void take(std::int64_t steps, std::span<const StepMean> means) override {
-    steps_ = steps;
-    seen_.assign(means.begin(), means.end());
-  }
   std::int64_t next_due(std::int64_t step) const override { return step; }
   Verdict observe(const Frame& frame) override {
     if (frame.step <= steps_) return Verdict::go_on;  // a run that goes on shows its last state again
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       const double x = observables_[i].expression(frame);
       if (frame.step > 0) {
-        seen_[i].add(x);
+        seen_[i].final = x;
+        seen_[i].sum.add(x);
       } else {
-        seen_[i].begin(x);
+        seen_[i].initial = seen_[i].final = x;
       }
     }
     steps_ = frame.step;
     return Verdict::go_on;
+  }
+  SummedSteps* sums() override { return this; }
+  std::span<const NamedExpression> summed() const override { return observables_; }
+  void take_sums(const Frame& last, std::span<const StepSum> sums) override {
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      seen_[i].final = observables_[i].expression(last);
+      seen_[i].sum = sums[i];
+    }
+    steps_ = last.step;
   }
   void archive(Writer& ar) override { fields(ar); }
   void archive(Reader& ar) override { fields(ar); }
@@ -48,7 +59,10 @@ class ObservablesMeasure final : public Measure, public MeanWatch {
   /// {initial, mean, final} of each; without steps the mean is the initial value.
   std::vector<double> row() const override {
     std::vector<double> all;
-    for (const StepMean& seen : seen_) all.insert(all.end(), {seen.initial, seen.mean(steps_), seen.final});
+    for (const Seen& seen : seen_) {
+      const double mean = steps_ > 0 ? seen.sum.value() / static_cast<double>(steps_) : seen.initial;
+      all.insert(all.end(), {seen.initial, mean, seen.final});
+    }
     return all;
   }
   Json summary() const override {
@@ -64,11 +78,11 @@ class ObservablesMeasure final : public Measure, public MeanWatch {
   template <class Archive>
   void fields(Archive& ar) {
     ar(steps_);
-    for (StepMean& seen : seen_) ar(seen);
+    for (Seen& seen : seen_) ar(seen.initial, seen.final, seen.sum);
   }
 
   const std::vector<NamedExpression>& observables_;
-  std::vector<StepMean> seen_;
+  std::vector<Seen> seen_;
   std::int64_t steps_ = -1;  // the last that was seen
 };
 
