@@ -1,4 +1,4 @@
-// Orbits in the central potentials of Gross 1999, chapter 2, followed by two families of methods, and what they are:
+// Orbits in the central potentials of [Gross1999, ch. 2], followed by two families of methods, and what they are:
 // bounded or not, a conic or none, by their points alone.
 #pragma once
 

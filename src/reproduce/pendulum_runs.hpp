@@ -1,4 +1,4 @@
-// The nonlinear double pendulum of Gross 1999, section 3.2: m = 2, l = 3, g = 9.81, from rest at q = (0, pi/2), in
+// The nonlinear double pendulum of [Gross1999, ch. 3]: m = 2, l = 3, g = 9.81, from rest at q = (0, pi/2), in
 // absolute and in relative angles; and the linear solution of the same start, which its figures show as lines.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Gross1999, figures 2.26 to 2.28: the three cases of the Duffing oscillator, V = k/2 (r^2 - lambda)^2, from rest at
+// [Gross1999, figures 2.26 to 2.28]: the three cases of the Duffing oscillator, V = k/2 (r^2 - lambda)^2, from rest at
 // r0 = 4 with mu = 2. With |lambda_inf| = sqrt(2 E/k), equation 2.182, the outer zero is r0^2 = lambda + |lambda_inf|.
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Gross 1999, table 2.5: the zeros of the phase curve of the Duffing oscillator, mu r'^2 = -k (r^2 - lambda +
+// [Gross1999, table 2.5]: the zeros of the phase curve of the Duffing oscillator, mu r'^2 = -k (r^2 - lambda +
 // |lambda_inf|) (r^2 - lambda - |lambda_inf|), equation 2.184: they are where the motion turns. Random k, lambda,
 // lambda_inf.
 #include <fmt/format.h>

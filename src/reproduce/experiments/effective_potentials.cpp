@@ -1,4 +1,4 @@
-// Gross1999, figures 2.5, 2.14, 2.18, 2.23: the effective potential V'(r) = V(r) + l^2/(2 mu r^2), equation 2.40. Its
+// [Gross1999, figures 2.5, 2.14, 2.18, 2.23]: the effective potential V'(r) = V(r) + l^2/(2 mu r^2), equation 2.40. Its
 // crossings with E are the turning points of the orbit.
 #include <fmt/format.h>
 

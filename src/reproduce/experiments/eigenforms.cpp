@@ -1,5 +1,6 @@
-// Gross 1999, figures 3.3 and 3.12: the eigenforms of the linear double pendulum are drawn; their numbers are equations
-// 3.64, 3.65, 3.67, 3.69, 3.73 to 3.76 in absolute and 3.99 to 3.110 in relative angles. M and C are the library's.
+// [Gross1999, figures 3.3 and 3.12]: the eigenforms of the linear double pendulum are drawn; their numbers are
+// equations 3.64, 3.65, 3.67, 3.69, 3.73 to 3.76 in absolute and 3.99 to 3.110 in relative angles. M and C are the
+// library's.
 #include <fmt/format.h>
 
 #include <array>

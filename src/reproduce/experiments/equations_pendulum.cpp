@@ -1,4 +1,4 @@
-// Gross 1999, chapter 3: equations put against dual numbers or against the library's derivatives. The number of each
+// [Gross1999, chapter 3]: equations put against dual numbers or against the library's derivatives. The number of each
 // claim is by how much the printed form is off; the right one is told beside it.
 #include <algorithm>
 

@@ -1,5 +1,6 @@
-// Gross 1999, chapters 1 and 2: equations whose printed form is put against the motion, against dual numbers or against
-// a quadrature. The number of each claim is by how much the printed form is off; the right one is told beside it.
+// [Gross1999, chapters 1 and 2]: equations whose printed form is put against the motion, against dual numbers or
+// against a quadrature. The number of each claim is by how much the printed form is off; the right one is told beside
+// it.
 #include <fmt/format.h>
 
 #include <algorithm>

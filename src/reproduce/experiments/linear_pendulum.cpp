@@ -1,4 +1,4 @@
-// Gross1999, Sect. 3.1: the linear double pendulum, m = 0.25, l = 0.5, in absolute and in relative angles, against
+// [Gross1999, Sect. 3.1]: the linear double pendulum, m = 0.25, l = 0.5, in absolute and in relative angles, against
 // its modal solution q(t) = l1 A1 cos(w1 t) + l2 A2 cos(w2 t) with w^2 = (4 +- sqrt(13)) g/l, equations 3.64, 3.65.
 #include <fmt/format.h>
 

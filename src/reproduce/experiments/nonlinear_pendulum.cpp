@@ -1,4 +1,4 @@
-// Gross 1999, section 3.2: figures 3.21, 3.22, 3.25, 3.26 and tables 3.3, 3.4: the nonlinear double pendulum beside the
+// [Gross1999, Sect. 3.2]: figures 3.21, 3.22, 3.25, 3.26 and tables 3.3, 3.4: the nonlinear double pendulum beside the
 // linear solution of the same start.
 //
 // The torus of the linear solution, projected onto (q_i, q_i'), is the sum of two ellipses with the half axes a_k,

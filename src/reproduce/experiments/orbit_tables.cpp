@@ -1,5 +1,5 @@
-// Gross 1999, tables 2.1 to 2.4: which orbits the central potentials have. Random orbits, k <= 0 and l near 0 included,
-// are integrated and classified by their points; a row falls with one counter-example.
+// [Gross1999, tables 2.1 to 2.4]: which orbits the central potentials have. Random orbits, k <= 0 and l near 0
+// included, are integrated and classified by their points; a row falls with one counter-example.
 #include <fmt/format.h>
 
 #include <algorithm>

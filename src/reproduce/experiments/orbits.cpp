@@ -1,4 +1,4 @@
-// Gross1999, figures 2.8 to 2.24: orbits in central potentials with cg(1,5), cartesian coordinates, mu = 2, dt = 0.1.
+// [Gross1999, figures 2.8 to 2.24]: orbits in central potentials with cg(1,5), cartesian coordinates, mu = 2, dt = 0.1.
 #include <fmt/format.h>
 
 #include <cmath>

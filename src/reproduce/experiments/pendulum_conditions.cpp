@@ -1,4 +1,4 @@
-// Gross 1999, section 3.2.3: figures 3.27 and 3.28: conditions of the tangent K_T and of M^-1, and det K_T, over time,
+// [Gross1999, Sect. 3.2.3]: figures 3.27 and 3.28: conditions of the tangent K_T and of M^-1, and det K_T, over time,
 // in absolute and in relative angles. Iterations: G-C.
 #include <algorithm>
 

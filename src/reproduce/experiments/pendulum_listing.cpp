@@ -1,4 +1,4 @@
-// Gross 1999, appendix C: the tangents that it prints against the derivative of its residual, and its count of
+// [Gross1999, appendix C]: the tangents that it prints against the derivative of its residual, and its count of
 // iterations. Newton's method begins at the last state there, and ends at |R| <= 1e-13.
 #include <algorithm>
 

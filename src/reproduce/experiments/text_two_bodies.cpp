@@ -1,4 +1,4 @@
-// Gross 1999: what the text says of its figures of chapter 2 that can be measured, by page.
+// [Gross1999]: what the text says of its figures of chapter 2 that can be measured, by page.
 #include <fmt/format.h>
 
 #include <cmath>
