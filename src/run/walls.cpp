@@ -62,7 +62,7 @@ const WallKeys& wall_keys() {
 
 std::optional<Walls> walls_among(const std::map<std::string, std::string>& choices) {
   const auto given = choices.find(wall_keys().walls.name);
-  if (given == choices.end()) return std::nullopt;
+  if (given == choices.end() || given->second.empty()) return std::nullopt;
   Walls walls;
   for (const std::string& text : parts_of(given->second, ';')) {
     const std::vector<std::string> parts = parts_of(text, ':');
