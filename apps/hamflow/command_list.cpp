@@ -95,7 +95,11 @@ std::vector<std::pair<std::string, std::string>> variant_of(const ProblemEntry& 
 }
 
 std::string variant_text(const ProblemEntry& entry) {
-  return joined(variant_of(entry), [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
+  const auto is_number = [](const std::string& x) { return x.find_first_not_of("0123456789") == std::string::npos; };
+  return joined(variant_of(entry), [&](const auto& choice) {
+    const std::string quote = is_number(choice.second) ? "" : "\"";
+    return choice.first + " = " + quote + choice.second + quote;
+  });
 }
 
 std::string structure_text(const FormulaStructure& structure) {

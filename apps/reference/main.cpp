@@ -83,8 +83,11 @@ std::string typed_problem(const ProblemEntry& example) {
 std::string problem(const ProblemEntry& entry) {
   if (entry.structure) return typed_problem(entry);
   const ProblemInfo& info = entry.info;
-  const std::string variant =
-      joined(info.variant, [](const auto& choice) { return choice.first + " = \"" + choice.second + "\""; });
+  const auto is_number = [](const std::string& x) { return x.find_first_not_of("0123456789") == std::string::npos; };
+  const std::string variant = joined(info.variant, [&](const auto& choice) {
+    const std::string quote = is_number(choice.second) ? "" : "\"";
+    return choice.first + " = " + quote + choice.second + quote;
+  });
   std::string text = fmt::format("### {}{}\n\n{}\n\n", info.name, variant.empty() ? "" : ", " + variant, info.formula);
   text += fmt::format("Degrees of freedom: {}. Coordinates: {}. Source: {}.\n\n", degrees_of_freedom(entry),
                       joined(info.coordinates), info.reference);

@@ -85,6 +85,8 @@ class WalledSimulation : public Simulation {
   Effort effort() const override {
     Effort all = inner_->effort();
     add_evaluations(all, given_up_);
+    all.steps += given_up_.steps;
+    all.solves_max = std::max(all.solves_max, given_up_.solves_max);
     return all;
   }
   StepDiagnostics diagnostics() const override { return inner_->diagnostics(); }
@@ -163,6 +165,7 @@ class WalledSimulation : public Simulation {
     if (walls_->rule == WallRule::event && std::exchange(looks_closer_, false))
       return after_walls(bounce(Outcome::done));
     const Effort before = inner_->effort();
+    const Effort given_up_before = given_up_;
     const V q0 = parts_->present_positions();
     const V v0 = walls_->rule == WallRule::event ? velocity(q0, parts_->present_momenta()) : V();
     Outcome outcome = inner_->advance(1);
@@ -173,7 +176,10 @@ class WalledSimulation : public Simulation {
     outcome = walls_->rule == WallRule::reject   ? reject()
               : walls_->rule == WallRule::mirror ? mirror()
                                                  : bounce(outcome);
-    if (outcome == Outcome::done && walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
+    if (outcome == Outcome::done) {
+      if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
+      count_as_one(before, given_up_before);
+    }
     return after_walls(outcome);
   }
   Outcome after_walls(Outcome outcome) {
@@ -345,6 +351,15 @@ class WalledSimulation : public Simulation {
     met_.clear();
   }
 
+  /// The iterations of a step that was rejected or cut are those of one step, all that were given up with them; each of
+  /// its parts has counted itself as a step.
+  void count_as_one(const Effort& before, const Effort& given_up_before) {
+    const Effort now = inner_->effort();
+    if (now.linear_solves == 0 && given_up_.linear_solves == 0) return;
+    given_up_.steps += 1 - (now.steps - before.steps);
+    given_up_.solves_max = std::max(given_up_.solves_max, now.linear_solves - before.linear_solves +
+                                                              given_up_.linear_solves - given_up_before.linear_solves);
+  }
   Outcome back_with(Outcome why) {
     parts_->back(Place::step);
     met_.clear();
@@ -361,9 +376,13 @@ class WalledSimulation : public Simulation {
     why_ = "the motion stays on the wall of " + walls_->names[side] + ", however often it is thrown back";
     return Outcome::wall;
   }
-  /// A number that is none, where a soft wall was met.
+  /// A number that is none, where a soft wall was met: in the step that failed, which is taken once more on a copy, not
+  /// by a trial of Newton in one before it.
   Outcome explained(Outcome outcome) {
     if (!outside_ || (outcome != Outcome::non_finite && outcome != Outcome::not_converged)) return outcome;
+    outside_.reset();
+    (void)inner_->clone()->advance(1);
+    if (!outside_) return outcome;
     why_ = walls_->names.at(*outside_) + " stood on a soft wall or beyond it";
     return Outcome::outside;
   }

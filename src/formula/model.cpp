@@ -178,13 +178,14 @@ Model::Model(const FormulaTexts& texts) {
 
   Graph graph;
   std::set<std::string> needed = names.whole;
-  const auto read = [&](const std::string& key, const std::string& text) {
+  const auto read_with = [&](const FormulaSymbols& symbols, const std::string& key, const std::string& text) {
     try {
-      return read_into(graph, text, symbols_, &needed);
+      return read_into(graph, text, symbols, &needed);
     } catch (const Error& error) {
       throw FormulaError(key, error.what());
     }
   };
+  const auto read = [&](const std::string& key, const std::string& text) { return read_with(symbols_, key, text); };
   std::vector<int> roots;
   if (whole) {
     roots.push_back(read(Keys::hamiltonian, texts.hamiltonian));
@@ -203,7 +204,17 @@ Model::Model(const FormulaTexts& texts) {
   }
   const std::size_t first_constraint = roots.size();
   for (std::size_t k = 0; k < texts.constraints.size(); ++k) {
-    roots.push_back(read(std::string(Keys::constraints) + "[" + std::to_string(k) + "]", texts.constraints[k]));
+    const std::string key = std::string(Keys::constraints) + "[" + std::to_string(k) + "]";
+    try {
+      roots.push_back(read_into(graph, texts.constraints[k], symbols_, &needed));
+    } catch (const Error&) {  // said with the names that are allowed in it
+      FormulaSymbols own = symbols_;
+      own.what = "coordinates and parameters";
+      own.names.erase(own.names.begin() + static_cast<std::ptrdiff_t>(n),
+                      own.names.begin() + static_cast<std::ptrdiff_t>(2 * n + 1));
+      (void)read_with(own, key, texts.constraints[k]);
+      throw;
+    }
   }
   structure_.constraints = texts.constraints.size();
   structure_.multiplier = texts.constraint_form == Keys::multiplier;

@@ -47,7 +47,7 @@ const WallKeys& wall_keys() {
 
 std::optional<Walls> walls_among(const std::map<std::string, std::string>& choices) {
   const auto given = choices.find(wall_keys().walls.name);
-  if (given == choices.end()) return std::nullopt;
+  if (given == choices.end() || given->second.empty()) return std::nullopt;
   Walls walls;
   for (const std::string& text : split_list(given->second)) {
     const std::vector<std::string> parts = split_list(text.substr(1, text.size() - 2));  // without its brackets

@@ -336,7 +336,9 @@ class TemplateWriter {
     page_.section("method");
     std::vector<std::string> names;
     for (const MethodEntry& entry : methods()) {
-      if (problem_.accepts(MethodSpec{.name = entry.name})) names.push_back(entry.name);
+      const MethodSpec spec{.name = entry.name};
+      const bool meets_walls_twice = !info_.walls.empty() && describe(spec).carries_copy;
+      if (problem_.accepts(spec) && !meets_walls_twice) names.push_back(entry.name);
     }
     page_.prose("Allowed here: " + joined(names) + ". More about one: hamflow show NAME");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);

@@ -306,6 +306,10 @@ std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, 
   if (any && array != nullptr) count = array->size();
   const bool fits = array != nullptr && array->size() == count && count > 0 &&
                     std::all_of(array->begin(), array->end(), [](const toml::node& entry) { return entry.is_table(); });
+  if (any && array != nullptr && array->empty()) {
+    complain(key, "found []; allowed an array of one table or more, or no " + key);
+    return std::nullopt;
+  }
   if (!fits) {
     complain(key, (array == nullptr ? "found " + shown(*node) : "found " + std::to_string(array->size()) + " entries") +
                       "; allowed an array of " + (any ? std::string() : std::to_string(count) + " ") + "tables");

@@ -52,6 +52,7 @@ State<double> random_state(const Region& region, std::uint64_t k) {
 Region region_of(const std::string& problem, const std::map<std::string, std::string>& variant) {
   const ProblemEntry& entry = usual_problem(problem, variant);
   Region region{entry.info.region, problem, {entry.info.variant.begin(), entry.info.variant.end()}};
+  if (!entry.info.walls.empty()) region.variant[wall_keys().walls.name] = "";  // far from them
   region.of_bodies = static_cast<bool>(entry.total_mass);
   region.constrained = static_cast<bool>(entry.onto_constraints);
   if (!region.centre.empty()) {

@@ -195,6 +195,10 @@ class Walls(CommandCase):
         self.assertIn("did you mean event?", self.refused(self.box(one, rule='wall_rule = "events"')))
         self.assertIn("soft", self.refused(self.box(one, rule="strength = 2")))
         self.assertIn("are fixed", self.refused(self.tube(rule="walls = " + one)))
+        self.assertIn("problem.walls: found []; allowed an array of one table or more, or no walls", self.refused(self.box("[]")))
+        # A second copy of the state would meet the walls elsewhere: no template offers what is refused.
+        self.assertNotIn("tao2", self.hamflow("new", "t-tube").stdout)
+        self.assertIn("tao2", self.hamflow("new", "pendulum").stdout)
         self.write("arm.toml", """
 [problem]
 name = "formula"

@@ -75,19 +75,7 @@ double apart(const Rows& a, const Rows& b) {
 /// A step crosses the wall of q1 here, whatever the rule.
 const State<double> at_the_wall{0.95, 1.1, 6, 100};
 
-struct Case {
-  const char* method;
-  WallRule rule;
-};
-std::ostream& operator<<(std::ostream& out, const Case& each) {
-  return out << each.method << " " << wall_rules()[static_cast<std::size_t>(each.rule)];
-}
-std::string name_of(const ::testing::TestParamInfo<Case>& each) {
-  std::string name;
-  for (const char* c = each.param.method; *c != '\0'; ++c) name += std::isalnum(*c) != 0 ? *c : '_';
-  return name + wall_rules()[static_cast<std::size_t>(each.param.rule)];
-}
-class TangentsAtWalls : public ::testing::TestWithParam<Case> {};
+class TangentsAtWalls : public ::testing::TestWithParam<MethodAtWalls> {};
 
 /// Rounding of the bounce's time by 2 epsilon h, and the second derivatives of the flight, are the terms beyond those
 /// of the steps.
@@ -104,14 +92,15 @@ TEST_P(TangentsAtWalls, AreTheDerivative) {
   // Some bounces later the two differ by what each step makes of the roundings before it.
   EXPECT_LE(apart(derivative_of_steps(*map, start, 0.02, 60), differences(*map, start, 0.02, 60)), 64);
 }
-INSTANTIATE_TEST_SUITE_P(Walls, TangentsAtWalls,
-                         ::testing::Values(Case{"verlet", WallRule::event}, Case{"stv4", WallRule::event},
-                                           Case{"rkn8-s19", WallRule::event}, Case{"cg(2,auto)", WallRule::event},
-                                           Case{"cg(1,3)", WallRule::event}, Case{"gauss(2)", WallRule::event},
-                                           Case{"rk4", WallRule::event}, Case{"stv4", WallRule::mirror},
-                                           Case{"chin4a", WallRule::mirror}, Case{"stv4", WallRule::reject},
-                                           Case{"cg(1,3)", WallRule::reject}, Case{"stv4", WallRule::soft}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Walls, TangentsAtWalls,
+    ::testing::Values(MethodAtWalls{"verlet", WallRule::event}, MethodAtWalls{"stv4", WallRule::event},
+                      MethodAtWalls{"rkn8-s19", WallRule::event}, MethodAtWalls{"cg(2,auto)", WallRule::event},
+                      MethodAtWalls{"cg(1,3)", WallRule::event}, MethodAtWalls{"gauss(2)", WallRule::event},
+                      MethodAtWalls{"rk4", WallRule::event}, MethodAtWalls{"stv4", WallRule::mirror},
+                      MethodAtWalls{"chin4a", WallRule::mirror}, MethodAtWalls{"stv4", WallRule::reject},
+                      MethodAtWalls{"cg(1,3)", WallRule::reject}, MethodAtWalls{"stv4", WallRule::soft}),
+    [](const auto& each) { return name_of(each.param); });
 
 /// Where M^-1 is full and depends on q, and where T is not quadratic, the momentum behind a bounce depends on the whole
 /// state.

@@ -48,7 +48,7 @@ Request free_motion(const std::string& kinetic, std::vector<std::string> q, std:
   return with_problem("formula", formula_choices(texts), {}, std::move(q), std::move(p), method, dt);
 }
 
-class EveryRule : public ::testing::TestWithParam<std::pair<const char*, WallRule>> {};
+class EveryRule : public ::testing::TestWithParam<MethodAtWalls> {};
 
 TEST_P(EveryRule, BlocksAreSteps) {
   const auto [method, rule] = GetParam();
@@ -107,17 +107,12 @@ TEST_P(EveryRule, OnlyTheRunTellsOfItsBounces) {
   for (std::size_t i = 1; i < told.size(); ++i) EXPECT_LE(told[i - 1].time, told[i].time);
 }
 
-INSTANTIATE_TEST_SUITE_P(Walls, EveryRule,
-                         ::testing::Values(std::pair{"stv4", WallRule::event}, std::pair{"cg(2,auto)", WallRule::event},
-                                           std::pair{"stv4", WallRule::mirror}, std::pair{"chin4a", WallRule::mirror},
-                                           std::pair{"stv4", WallRule::reject}, std::pair{"cg(1,3)", WallRule::reject}),
-                         [](const auto& each) {
-                           std::string name;
-                           for (const char* c = each.param.first; *c != '\0'; ++c) {
-                             name += std::isalnum(*c) != 0 ? *c : '_';
-                           }
-                           return name + wall_rules()[static_cast<std::size_t>(each.param.second)];
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Walls, EveryRule,
+    ::testing::Values(MethodAtWalls{"stv4", WallRule::event}, MethodAtWalls{"cg(2,auto)", WallRule::event},
+                      MethodAtWalls{"stv4", WallRule::mirror}, MethodAtWalls{"chin4a", WallRule::mirror},
+                      MethodAtWalls{"stv4", WallRule::reject}, MethodAtWalls{"cg(1,3)", WallRule::reject}),
+    [](const auto& each) { return name_of(each.param); });
 
 /// Every bounce stands on its wall to rounding: a tau that is good to 1e-8 only is 1e-7 off.
 TEST(Walls, ABounceStandsOnItsWall) {
@@ -133,6 +128,41 @@ TEST(Walls, ABounceStandsOnItsWall) {
     EXPECT_GT(bounces(*simulation), 50);
     EXPECT_LE(furthest, 8 * epsilon) << method;
   }
+}
+
+/// Iterations are those of whole steps, with all that the search for a bounce took, so that no mean is above the
+/// largest.
+TEST(Walls, IterationsAreCountedByStep) {
+  for (const auto& [method, rule] : {MethodAtWalls{"cg(2,auto)", WallRule::event}, {"cg(1,3)", WallRule::reject}}) {
+    const auto simulation = make_simulation(t_tube(method, rule, "0.01"));
+    ASSERT_EQ(simulation->advance(1000), Outcome::done);
+    EXPECT_GT(bounces(*simulation), 20);
+    const Effort effort = simulation->effort();
+    EXPECT_EQ(effort.steps, 1000);
+    EXPECT_LE(effort.linear_solves, effort.steps * effort.solves_max);
+    EXPECT_GE(effort.linear_solves, effort.steps * effort.solves_min);
+    const auto again = make_simulation(t_tube(method, rule, "0.01"));
+    again->restore(simulation->save());
+    EXPECT_EQ(again->effort().steps, 1000);
+    EXPECT_EQ(again->effort().solves_max, effort.solves_max);
+  }
+}
+
+/// A problem's own walls stand where a request says nothing of any; an empty text says that there are none.
+TEST(Walls, OfTheProblemItself) {
+  const Request behind = t_tube("stv4", WallRule::event, "0.01");
+  Request bare = behind;
+  bare.variant.clear();
+  Request free = bare;
+  free.variant[wall_keys().walls.name] = "";
+  const auto at_end = [](const Request& request) {
+    const auto simulation = make_simulation(request);
+    EXPECT_EQ(simulation->advance(300), Outcome::done);
+    return simulation->bits();
+  };
+  EXPECT_EQ(at_end(bare), at_end(behind));
+  EXPECT_NE(at_end(free), at_end(behind));
+  EXPECT_TRUE(make_simulation(free)->wall_counts().empty());
 }
 
 /// What nobody has: an element that keeps the energy, through every bounce.
@@ -181,7 +211,7 @@ TEST(Walls, ReflectionOfAnyKineticEnergy) {
   EXPECT_LE(simulation->energy().max_error, 64 * epsilon * static_cast<double>(bounces(*simulation)));
 }
 
-class ComesBack : public ::testing::TestWithParam<std::pair<const char*, WallRule>> {};
+class ComesBack : public ::testing::TestWithParam<MethodAtWalls> {};
 
 /// S Psi S Psi = id through bounces. Roundings are carried by a motion that is not chaotic over so short a time.
 TEST_P(ComesBack, ToRounding) {
@@ -193,9 +223,10 @@ TEST_P(ComesBack, ToRounding) {
   EXPECT_LE(there_and_back.relative_distance.value, 1e-12);
 }
 INSTANTIATE_TEST_SUITE_P(Walls, ComesBack,
-                         ::testing::Values(std::pair{"stv4", WallRule::event}, std::pair{"cg(2,auto)", WallRule::event},
-                                           std::pair{"stv4", WallRule::mirror}),
-                         [](const auto& each) { return "case" + std::to_string(each.index); });
+                         ::testing::Values(MethodAtWalls{"stv4", WallRule::event},
+                                           MethodAtWalls{"cg(2,auto)", WallRule::event},
+                                           MethodAtWalls{"stv4", WallRule::mirror}),
+                         [](const auto& each) { return name_of(each.param); });
 
 /// Every bit, on the lattice.
 TEST(Walls, MirrorsOnTheLatticeReturnEveryBit) {
