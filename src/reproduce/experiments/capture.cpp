@@ -41,7 +41,12 @@ struct Watch {
 std::unique_ptr<StepMap> free_step(const TubeRun& run) {
   const ProblemEntry& problem = usual_problem("t-tube");
   const Texts given{{"masses", "[1, 100]"}, {"eps", fmt::format("{}", run.eps)}};
-  return problem.step_map(complete(problem.info, given), parse_method(run.method), 2);
+  return problem.step_map({.problem = "t-tube",
+                           .variant = {{"walls", ""}},
+                           .parameters = complete(problem.info, given),
+                           .start = {},
+                           .method = parse_method(run.method)},
+                          2);
 }
 
 bool inside(const State<double>& z) { return std::abs(z[0]) <= 1 && z[1] >= 0.1 && z[1] <= 2.1; }
