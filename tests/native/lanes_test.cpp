@@ -90,7 +90,9 @@ void compare(Family family, LaneSet set, StepsOfLoop steps, Tally& tally) {
   }
   // What a lane carries whose check has failed may end the loop as well.
   EXPECT_LE(taken, first_end);
-  if (std::none_of(failed.get(), failed.get() + lanes, [](bool lane) { return lane; })) EXPECT_EQ(taken, first_end);
+  if (std::none_of(failed.get(), failed.get() + lanes, [](bool lane) { return lane; })) {
+    EXPECT_EQ(taken, first_end);
+  }
 }
 
 void compare_random(std::uint64_t seed, std::uint64_t count, std::size_t most_operations) {
