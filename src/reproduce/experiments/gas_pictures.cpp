@@ -23,7 +23,7 @@ ListedGas listed(const GasRun& run, const Return& there) {
 /// 1200 steps with the text's and the listing's step length: a particle is outside long before.
 void claim_inside(Study& study, GasRun run) {
   // Of several starts that which stays longest: the thesis' own random numbers are not known.
-  const int starts = study.sized(2, 8, 32);
+  const int starts = study.sized(1, 8, 32);
   const auto steps_of = [&](const Return& all) { return all.done ? run.steps : all.failed_at; };
   Return found;
   int seed_of_found = 0;
@@ -108,7 +108,7 @@ void square(Study& study) {
               none_of("runs that do not return every bit"),
               {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
                 fmt::format("lattice, {} steps there and back", run.steps)}});
-  run = {.side = 21, .steps = study.sized(600, 12000, 12000), .record_every = study.sized(10, 50, 20)};
+  run = {.side = 21, .steps = study.sized(300, 12000, 12000), .record_every = study.sized(5, 50, 20)};
   const Trajectory path = study.run("tracks", gas_scenario(run));
   std::vector<Places> tracks;
   for (const std::size_t particle : {0, 110, 220, 330, 440}) {
