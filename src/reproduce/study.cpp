@@ -60,13 +60,31 @@ std::vector<double> column(const std::vector<std::vector<double>>& rows, std::si
 std::vector<double> Trajectory::coordinate(std::size_t i) const { return column(q, i); }
 std::vector<double> Trajectory::momentum(std::size_t i) const { return column(p, i); }
 
-Trajectory Study::run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
-  const Reading reading = read_scenario_text(toml, info_.id + "/" + name + ".toml", sets);
+Scenario Study::read(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) const {
+  Reading reading = read_scenario_text(toml, info_.id + "/" + name + ".toml", sets);
   if (!reading.scenario) {
     throw Error(joined(
         reading.complaints, [](const Complaint& complaint) { return complaint.text(); }, "; "));
   }
-  const Scenario& scenario = *reading.scenario;
+  return *std::move(reading.scenario);
+}
+
+ReversalReport Study::reverse(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
+  const Scenario scenario = read(name, toml, sets);
+  ReversalReport report = reverse_scenario(scenario, [this](std::int64_t) { return goes_on(); });
+  if (report.status == "interrupted") throw Stopped{};
+  keep_scenario(name, scenario.text);
+  return report;
+}
+
+void Study::keep_scenario(std::string name, std::string text) {
+  const auto is_same = [&](const KeptScenario& kept) { return kept.name == name && kept.text == text; };
+  if (std::any_of(scenarios_.begin(), scenarios_.end(), is_same)) return;
+  scenarios_.push_back({std::move(name), std::move(text)});
+}
+
+Trajectory Study::run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
+  const Scenario scenario = read(name, toml, sets);
   Trajectory trajectory;
   Sampler sampler(trajectory, scenario.record_every, scenario.steps);
   RunSettings settings;
@@ -83,7 +101,7 @@ Trajectory Study::run(const std::string& name, const std::string& toml, const st
     trajectory.report = run_scenario(scenario, settings);
   }
   if (trajectory.report.status == "interrupted") throw Stopped{};
-  scenarios_.push_back({name, scenario.text});
+  keep_scenario(name, scenario.text);
   return trajectory;
 }
 

@@ -9,6 +9,7 @@
 
 #include "hamflow/reproduce/claim.hpp"
 #include "hamflow/reproduce/reproduce.hpp"
+#include "hamflow/workflow/reverse.hpp"
 #include "page.hpp"
 
 namespace hamflow::reproduction {
@@ -70,6 +71,10 @@ class Study {
   /// @param sets PATH=VALUE   @throws Error where the scenario is refused; a run that fails says so in its report
   Trajectory run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
 
+  /// There and back, and keeps the scenario's text under that name.
+  /// @param sets PATH=VALUE   @throws Error where the scenario is refused; what fails says so in its report
+  ReversalReport reverse(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
+
   struct Statement {
     std::string name;
     std::string statement;
@@ -84,8 +89,8 @@ class Study {
   void draw(std::string name, std::string caption, figures::Page page) {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
-  /// A scenario that was carried out by other means than run().
-  void keep_scenario(std::string name, std::string text) { scenarios_.push_back({std::move(name), std::move(text)}); }
+  /// A scenario that was carried out by other means than run(); once, where it is by that name and text already.
+  void keep_scenario(std::string name, std::string text);
   void note(std::string text) { notes_.push_back(std::move(text)); }
   /// Of work of the experiment's own, for what asks rather than being told.
   bool goes_on() const { return !go_on_ || go_on_(); }
@@ -101,6 +106,9 @@ class Study {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  /// @throws Error where it is refused
+  Scenario read(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) const;
+
   ExperimentInfo info_;
   WorkExtent extent_;
   std::function<bool()> go_on_;

@@ -1,0 +1,221 @@
+// [Sonnleitner2010], figures 3.2 and 3.3 (pages 76 to 79): the gas there and back.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../experiment.hpp"
+#include "../gas_listing.hpp"
+#include "../gas_runs.hpp"
+
+namespace hamflow::reproduction {
+
+namespace gas_pictures {
+
+const char* const red = "#d55e00";
+const char* const green = "#009e73";
+const char* const blue = "#0072b2";
+
+ListedGas listed(const GasRun& run, const Return& there) {
+  return {run.scale_number(), std::stod(run.dt), there.start.q, there.start.p};
+}
+
+/// 1200 steps with the text's and the listing's step length: a particle is outside long before.
+void claim_inside(Study& study, GasRun run) {
+  // Of several starts that which stays longest: the thesis' own random numbers are not known.
+  const int starts = study.sized(1, 8, 32);
+  const auto steps_of = [&](const Return& all) { return all.done ? run.steps : all.failed_at; };
+  Return found;
+  int seed_of_found = 0;
+  for (run.seed = 1; run.seed <= starts; ++run.seed) {
+    Return other = there_and_back(study, run);
+    if (seed_of_found > 0 && steps_of(other) <= steps_of(found)) continue;
+    found = std::move(other);
+    seed_of_found = run.seed;
+  }
+  run.seed = seed_of_found;
+  const auto one = [&](const std::string& how, const Return& all) {
+    return Measured{
+        static_cast<double>(steps_of(all)), 0,
+        fmt::format("{}, the longest of {} starts: {}", how, starts, all.done ? "none outside" : all.message)};
+  };
+  std::vector<Measured> steps{one("double", found)};
+  if (!found.done) {
+    const auto seen = first_outside(listed(run, found), run.steps, [&] { study.breathe(); });
+    steps.push_back({static_cast<double>(seen == 0 ? run.steps : seen), 0, "the listing's program, carried out"});
+  }
+  // In more digits a step costs a hundred times as much: only as far as the step that fails.
+  const bool in_more_digits = !found.done && found.failed_at <= study.sized(5, 400, 1200);
+  if (in_more_digits) {
+    GasRun exact = run;
+    exact.arithmetic = "double-double";
+    steps.push_back(one("double-double", there_and_back(study, exact)));
+  }
+  study.claim({fmt::format("inside_{}_{}", run.dt, run.scale),
+               fmt::format("1200 steps there and back stay within the circle, dt = {}, scale {}", run.dt, run.scale),
+               "1200 steps"},
+              at_least(static_cast<double>(run.steps), "the step in which a particle is on the soft wall or beyond it"),
+              steps, in_more_digits ? Grounds::ways : Grounds::program, "the step in double-double: the default size");
+}
+
+/// What the listed program returns to with particles outside, which it does not notice.
+void claim_own_return(Study& study, const GasRun& run) {
+  std::vector<Measured> measured;
+  if (run.steps <= study.sized(0, 1200, 1200)) {
+    GasRun start = run;
+    start.steps = 0;
+    const ListedReturn back =
+        listed_return(listed(run, there_and_back(study, start)), run.steps, false, [&] { study.breathe(); });
+    const double error = std::max(back.position, back.momentum);
+    measured.push_back({std::isfinite(error) ? error : 1e300, 0,
+                        fmt::format("the listing's program: {} outside at the turn, energy off by {:.1g} of itself",
+                                    back.outside_at_turn, back.energy_error)});
+  }
+  study.claim({fmt::format("own_{}_{}", run.dt, run.scale),
+               fmt::format("the program of the listing returns to its start, dt = {}, scale {}", run.dt, run.scale),
+               "green on red; 10^-3 in the table"},
+              at_most(1e-3, "mean error of positions and of momenta, in the measure of page 72"), measured,
+              Grounds::program, "1200 steps of the listed program: the default size");
+}
+
+void square(Study& study) {
+  GasRun run{.side = 21, .steps = 1200};
+  for (const char* const scale : {"per-side", "listing"}) {
+    run.scale = scale;
+    for (const char* const dt : {"0.01", "0.001"}) {
+      run.dt = dt;
+      claim_inside(study, run);
+      claim_own_return(study, run);
+    }
+    run.dt = "0.0001";
+    const Return back = there_and_back(study, run);
+    study.claim({fmt::format("returns_{}", scale),
+                 fmt::format("it returns to its start where no particle tunnels, dt = 0.0001, scale {}", scale),
+                 "green on red; 10^-3 in the table"},
+                at_most(1e-3, "mean error of positions and of momenta, in the measure of page 72"),
+                {{back.done ? std::max(back.position, back.momentum) : std::nan(""), 0,
+                  fmt::format("positions {:.2g}, momenta {:.2g}", back.position, back.momentum)}});
+    if (run.scale != "per-side") continue;
+    study.draw(
+        "figure", "Places and momenta at the start (discs) and after the return (rings), dt = 0.0001",
+        {study.info().title,
+         {places("{/:Italic x}", "{/:Italic y}", {{"start", back.start.q, red}, {"return", back.end.q, green, 6}}),
+          places("{/:Italic p_x}", "{/:Italic p_y}",
+                 {{"start", back.start.p, red}, {"return", back.end.p, green, 6}})}});
+  }
+  run = {.side = 21, .steps = study.sized(20, 1200, 1200), .arithmetic = "lattice"};
+  study.claim({"lattice", "the return is exact but for rounding, 441 particles: on the lattice it is exact", "exact"},
+              none_of("runs that do not return every bit"),
+              {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
+                fmt::format("lattice, {} steps there and back", run.steps)}});
+  run = {.side = 21, .steps = study.sized(300, 12000, 12000), .record_every = study.sized(5, 50, 20)};
+  const Trajectory path = study.run("tracks", gas_scenario(run));
+  std::vector<Places> tracks;
+  for (const std::size_t particle : {0, 110, 220, 330, 440}) {
+    Places track{"", {}, blue, 7};
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      track.xy.push_back(path.q[k][2 * particle]);
+      track.xy.push_back(path.q[k][2 * particle + 1]);
+    }
+    tracks.push_back(std::move(track));
+  }
+  study.draw("tracks", "Tracks of five particles, dt = 0.0001",
+             {study.info().title, {places("{/:Italic x}", "{/:Italic y}", tracks)}});
+}
+
+int not_back(const std::vector<double>& start, const std::vector<double>& end, double within_distance) {
+  int all = 0;
+  for (std::size_t i = 0; i < start.size(); i += 2) {
+    all += std::hypot(end[i] - start[i], end[i + 1] - start[i + 1]) <= within_distance ? 0 : 1;
+  }
+  return all;
+}
+
+constexpr double half_a_spacing = 0.05;  // of 11 particles on a side of length 1
+
+/// The map of pages 77 and 78: whoever is beyond the border is set to (0, 0).
+void claim_by_hand(Study& study, const GasRun& run, const Return& found) {
+  // Two states that differ in one particle beyond the border become one.
+  std::vector<double> q = found.start.q;
+  q[0] = 1.51, q[1] = 0.2;
+  ListedGas one(run.scale_number(), 0.01, q, found.start.p);
+  q[0] = 1.6;
+  ListedGas other(run.scale_number(), 0.01, q, found.start.p);
+  const double apart = farthest(one.q(), other.q());
+  one.put_crossers_at_the_origin(), other.put_crossers_at_the_origin();
+  const bool same = one.q() == other.q() && one.p() == other.p();
+  study.claim({"one_to_one", "the return, with border crossers set to (0, 0) by hand, is due to a reversible map",
+               "set to 0,0 by hand", "77"},
+              at_least(2, "states that two states are sent to: a map that is reversed is one-to-one"),
+              {{same ? 1.0 : 2.0, 0, fmt::format("two states that differ by {:.2g} in a particle beyond", apart)}},
+              Grounds::identity);
+  // Neighbours at half the equilibrium distance, as the scale of the square has them in the corner.
+  for (const bool by_hand : {false, true}) {
+    const ListedReturn back =
+        listed_return(ListedGas(5, 0.001, found.start.q, found.start.p), run.steps, by_hand, [&] { study.breathe(); });
+    study.claim(
+        {by_hand ? "by_hand" : "not_by_hand",
+         fmt::format("all return, S = 5, dt = 0.001, border crossers {}", by_hand ? "set to (0, 0)" : "left"),
+         "all (!) return", by_hand ? "77" : ""},
+        none_of("particles farther than half a spacing from where they started"),
+        {{static_cast<double>(not_back(found.start.q, back.end, half_a_spacing)), 0,
+          fmt::format("the listing's program, {} steps: outside from step {}, {} set to (0, 0), {} end without a place "
+                      "(two at one point have no force)",
+                      run.steps, back.first_outside, back.put_to_origin, back.nowhere)}});
+  }
+}
+
+void corner(Study& study) {
+  for (const char* const scale : {"per-side", "listing", "5"}) {
+    for (const char* const dt : {"0.01", "0.001", "0.0001"}) {
+      const GasRun run{.start = "corner", .scale = scale, .dt = dt, .steps = 2400};
+      const Return back = there_and_back(study, run);
+      const std::string where =
+          fmt::format("dt = {}, {}", dt, run.scale == "5" ? "S = 5, that of the square" : "scale " + run.scale);
+      study.claim({fmt::format("crossers_{}_{}", dt, scale),
+                   "particles cross the border, which the thesis sets to (0, 0), " + where, "crossers", "77"},
+                  at_most(static_cast<double>(run.steps) - 0.5,
+                          "the step in which a particle is beyond it, 2400 where none is"),
+                  {{static_cast<double>(back.done ? run.steps : back.failed_at), 0,
+                    back.done ? "none in 2400 steps and back" : back.message}});
+      if (!back.done) continue;
+      study.claim({fmt::format("returns_{}_{}", dt, scale), "all 121 return, " + where, "all (!)"},
+                  none_of("particles farther than half a spacing from where they started"),
+                  {{static_cast<double>(not_back(back.start.q, back.end.q, half_a_spacing)), 0,
+                    fmt::format("the farthest by {:.2g}; {:.3g} digits lost", farthest(back.start.q, back.end.q),
+                                back.digits_lost)}});
+      const std::vector<double>& turn = back.turn.q;
+      int elsewhere = 0;
+      for (std::size_t i = 0; i < turn.size(); i += 2) elsewhere += turn[i] < 0 || turn[i + 1] < 0 ? 1 : 0;
+      study.claim({fmt::format("spread_{}_{}", dt, scale),
+                   "after 2400 steps the particles are spread over the circle, " + where, "in the circle", "79"},
+                  at_least(121.0 * 3 / 8,
+                           "particles outside the upper right quarter, in which all start: half of the "
+                           "three quarters that an even spread has"),
+                  {{static_cast<double>(elsewhere), 0, "of 121"}});
+      if (run.scale != "per-side" || run.dt != "0.001") continue;
+      study.draw(
+          "figure", "Start (red), after 2400 steps (blue) and after 2400 back (green rings), dt = 0.001",
+          {study.info().title,
+           {places("{/:Italic x}", "{/:Italic y}",
+                   {{"start", back.start.q, red}, {"turn", back.turn.q, blue, 4}, {"return", back.end.q, green, 6}})}});
+    }
+  }
+  const GasRun run{.start = "corner", .dt = "0.001", .steps = study.sized(400, 2400, 2400), .arithmetic = "lattice"};
+  const Return exact = there_and_back(study, run);
+  study.claim({"lattice", "they return; on the lattice every bit does", "exact"},
+              none_of("runs that do not return every bit"),
+              {{exact.bit_exact ? 0.0 : 1.0, 0,
+                fmt::format("lattice, dt = 0.001, scale per-side, {} steps there and back", run.steps)}});
+  claim_by_hand(study, run, exact);
+}
+
+}  // namespace gas_pictures
+
+std::vector<Experiment> gas_pictures_experiments() {
+  using namespace gas_pictures;
+  return {{{"S3.2", sonnleitner, "76, 77", "gas: 441 particles there and back"}, square},
+          {{"S3.3", sonnleitner, "77 to 79", "gas: 121 particles from rest in a corner"}, corner}};
+}
+
+}  // namespace hamflow::reproduction
