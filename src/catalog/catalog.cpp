@@ -195,21 +195,8 @@ static bool beats_loops(const Program& program) {
          share * count(Instruction::divide, Instruction::square_root) >= program.operations.size();
 }
 
-/// A problem that has walls of its own is behind them where a request says nothing of walls; their text may be empty.
-static std::optional<Request> behind_own_walls(const Request& request, const ProblemInfo& info) {
-  if (info.walls.empty() || request.variant.contains(wall_keys().walls.name)) return std::nullopt;
-  Walls walls;
-  for (const FixedWall& wall : info.walls) {
-    walls.intervals.push_back({info.coordinates.at(wall.coordinate), wall.coordinate, wall.min, wall.max});
-  }
-  Request other = request;
-  put_among(walls, other.variant);
-  return other;
-}
-
 std::unique_ptr<Simulation> make_simulation(const Request& request) {
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
-  if (const auto behind = behind_own_walls(request, problem.info)) return make_simulation(*behind);
   check_arithmetic(request.arithmetic);
   const std::string why_not = refusal(request.method, request.arithmetic);
   if (!why_not.empty())

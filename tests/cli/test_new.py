@@ -39,7 +39,7 @@ class New(CommandCase):
             with self.subTest(problem=name, **variant):
                 text = self.hamflow("new", name, *options).stdout
                 paragraphs = re.split(rf"(?m)^(?={name}(?: with |$))", self.hamflow("show", name).stdout)
-                head = ", ".join(f'{key} = "{value}"' for key, value in variant.items())
+                head = ", ".join(f"{key} = {value}" if value.isdigit() else f'{key} = "{value}"' for key, value in variant.items())
                 (shown,) = [p for p in paragraphs if p.startswith(f"{name} with {head}" if head else name + "\n")]
                 keys = re.findall(r"(?m)^    (\w+) +\[", shown)
                 seen.update(keys)
