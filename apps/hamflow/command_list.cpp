@@ -371,8 +371,9 @@ int show_command(const std::string& name) {
     for (const MethodEntry& entry : methods()) names.push_back(entry.name);
     for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
     const std::string method = name.substr(0, name.find('('));
+    for (const std::string& id : experiment_ids()) names.push_back(id);
     if (std::find(names.begin(), names.end(), method) == names.end()) {
-      throw Error("there is no problem, method or figure '" + name + "'" + meant_by(method, names) +
+      throw Error("there is no problem, method, figure or experiment '" + name + "'" + meant_by(method, names) +
                   " (hamflow list problems, hamflow list methods, hamflow list experiments; keys: hamflow show run, "
                   "hamflow show output)");
     }

@@ -95,4 +95,10 @@ bool show_experiment(const std::string& id) {
   return false;
 }
 
+std::vector<std::string> experiment_ids() {
+  std::vector<std::string> all;
+  for (const ExperimentInfo& info : experiment_infos()) all.push_back(info.id);
+  return all;
+}
+
 }  // namespace hamflow::app

@@ -25,6 +25,7 @@ class Reproduce(CommandCase):
         self.assertIn("G2.8", [e["id"] for e in listed])
         self.assertEqual(len({e["id"] for e in listed}), len(listed))
         self.assertIn("Gross, page 42", self.hamflow("show", "G2.8").stdout)
+        self.assertIn("did you mean G2.8", self.hamflow("show", "G2.80", status=2).stderr)
 
     def test_claims_and_their_counts(self):
         found = json.loads(self.reproduce(*SOME, "--quick", "--json").stdout)
