@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 using namespace reproduction;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* mark_of_begin = "begun.txt";
+
 bool is_there(const fs::path& file) {
   std::error_code none;
   return fs::exists(file, none);
@@ -46,11 +48,16 @@ void prepare(const ReproduceRequest& request) {
   if (error) throw FileError("cannot make the folder " + request.folder.string() + ": " + error.message());
 }
 
-/// A folder of an experiment holds nothing but its own files: it can be made anew.
+/// A folder of an experiment holds nothing but its own files: it can be made anew. One without the mark is as a kill
+/// leaves it, empty or with half a mark, or it is somebody else's.
 void clear(const fs::path& folder) {
   std::error_code error;
-  if (is_there(folder) && !is_there(folder / "begun.txt")) {
-    throw FileError("found the folder " + folder.string() + ", which is not hamflow's; allowed --out another");
+  if (is_there(folder) && !is_there(folder / mark_of_begin)) {
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().filename().string().find(mark_of_begin) == std::string::npos) {
+        throw FileError("found the folder " + folder.string() + ", which is not hamflow's; allowed --out another");
+      }
+    }
   }
   fs::remove_all(folder, error);
   if (error) throw FileError("cannot remove " + folder.string() + ": " + error.message());
@@ -65,7 +72,7 @@ std::string contents_of(const fs::path& file) {
 /// The folder of an experiment that is to be carried out: new, or as a kill of the same experiment has left it, with
 /// long runs that go on.
 void begin_in(const fs::path& folder, const std::string& print, bool resume) {
-  const fs::path mark = folder / "begun.txt";
+  const fs::path mark = folder / mark_of_begin;
   if (resume && contents_of(mark) == print) return;
   clear(folder);
   std::error_code error;

@@ -70,6 +70,16 @@ class Reproduce(CommandCase):
         (pathlib.Path(self.folder) / "mine" / "file").write_text("mine")
         self.assertIn("no reproduction", self.reproduce("G1.1", "--force", "--out", "mine", status=3).stderr)
 
+    def test_a_folder_that_a_kill_left_empty_is_used(self):
+        self.reproduce("G1.1", "G2.8", "--quick")
+        for name, status in [("G1.1", 0), ("G2.8", 3)]:
+            of_experiment = pathlib.Path(self.folder) / "reproduce" / "reproduction" / name
+            for file in of_experiment.iterdir():
+                file.unlink()
+            if status != 0:
+                (of_experiment / "mine.txt").write_text("mine")
+            self.reproduce("G1.1", "G2.8", "--quick", "--resume", status=status)
+
     def test_a_kill_loses_nothing_that_was_done(self):
         whole = self.reproduce(*SOME, "--quick", "--json", "--out", "whole").stdout
         for delay, sign in [(0.05, signal.SIGKILL), (0.15, signal.SIGINT), (0.3, signal.SIGKILL)]:
