@@ -7,7 +7,6 @@
 #include <chrono>
 #include <fstream>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -22,7 +21,6 @@ namespace hamflow {
 namespace {
 namespace fs = std::filesystem;
 using namespace reproduction;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* mark_of_begin = "begun.txt";
 
@@ -92,7 +90,8 @@ class Run {
     for (int i = 1; i < most; ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
-    if (trouble_) std::rethrow_exception(trouble_);
+    if (!trouble_.empty())
+      throw FileError(trouble_ + "; what is done stays, and the same command with --resume goes on");
     return finished();
   }
 
@@ -109,9 +108,9 @@ class Run {
     for (std::size_t i = next_++; i < reports_.size(); i = next_++) {
       try {
         reports_[i] = carried_out(experiment_of(request_.ids[i]));
-      } catch (...) {  // of files: nothing more can be kept
+      } catch (const std::exception& error) {  // of files: nothing more can be kept
         const std::lock_guard one(mutex_);
-        if (!trouble_) trouble_ = std::current_exception();
+        if (trouble_.empty()) trouble_ = error.what();
         stopped_ = true;
       }
       ++done_;
@@ -180,7 +179,7 @@ class Run {
   std::atomic<std::size_t> done_ = 0;
   std::atomic<bool> stopped_ = false;
   std::mutex mutex_;
-  std::exception_ptr trouble_;
+  std::string trouble_;
 };
 
 }  // namespace

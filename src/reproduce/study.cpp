@@ -84,6 +84,12 @@ void Study::keep_scenario(std::string name, std::string text) {
 }
 
 Trajectory Study::run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
+  Trajectory trajectory = try_run(name, toml, sets);
+  if (trajectory.report.status != "done") throw Error("the run " + name + " failed: " + trajectory.report.message);
+  return trajectory;
+}
+
+Trajectory Study::try_run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
   const Scenario scenario = read(name, toml, sets);
   Trajectory trajectory;
   Sampler sampler(trajectory, scenario.record_every, scenario.steps);

@@ -68,8 +68,10 @@ class Study {
 
   /// Runs a scenario and keeps its text under that name. Its samples are those that `run.record_every` asks for. A run
   /// of millions of steps has a folder of its own, NAME.run, from which it goes on after a kill.
-  /// @param sets PATH=VALUE   @throws Error where the scenario is refused; a run that fails says so in its report
+  /// @param sets PATH=VALUE   @throws Error where the scenario is refused or the run fails
   Trajectory run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
+  /// The same for an experiment that asks how far a run comes: one that fails says so in its report.
+  Trajectory try_run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
 
   /// There and back, and keeps the scenario's text under that name.
   /// @param sets PATH=VALUE   @throws Error where the scenario is refused; what fails says so in its report

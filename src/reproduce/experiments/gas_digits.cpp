@@ -222,7 +222,7 @@ double time_inside(Study& study, const GasRun& asked) {
   GasRun run = asked;
   const double dt = std::stod(run.dt), end = 0.6;
   run.steps = std::llround(end / dt);
-  const Trajectory path = study.run(name_of(run), gas_scenario(run));
+  const Trajectory path = study.try_run(name_of(run), gas_scenario(run));
   return path.report.status == "done" ? end : path.t.empty() ? 0 : path.report.final.time;
 }
 

@@ -145,7 +145,7 @@ void compare(Study& study) {
   for (const Orbit& orbit : orbits) {
     const std::string name = std::string("figure_") + orbit.figure;
     const auto run = [&](const char* end, const char* coordinates, const std::string& method) {
-      return study.run(name + end, scenario(orbit.problem, coordinates, method, "0.1", orbit.steps));
+      return study.try_run(name + end, scenario(orbit.problem, coordinates, method, "0.1", orbit.steps));
     };
     const Trajectory reference = run("_reference", "cartesian", exact);
     const double scale = reference.report.energy_scale;
@@ -230,11 +230,11 @@ void stiff(Study& study) {
             "potential = \"binomial\"\nk = {}\nlambda = 1\norbit = {{ kind = \"bounded\", r_per = 1, r_aph = "
             "1.1 }}",
             k);
-        const Trajectory run = study.run(fmt::format("k_{}_dt_{}_{}", k, dt, coordinates),
-                                         scenario(problem, coordinates, element, dt, 1000));
+        const Trajectory run = study.try_run(fmt::format("k_{}_dt_{}_{}", k, dt, coordinates),
+                                             scenario(problem, coordinates, element, dt, 1000));
         const Trajectory seed =
-            study.run(fmt::format("k_{}_dt_{}_{}_tolerance", k, dt, coordinates),
-                      scenario(problem, coordinates, std::string(element) + "\ncriterion = \"seed\"", dt, 1000));
+            study.try_run(fmt::format("k_{}_dt_{}_{}_tolerance", k, dt, coordinates),
+                          scenario(problem, coordinates, std::string(element) + "\ncriterion = \"seed\"", dt, 1000));
         const Row row = measured(run, polar, run.report.energy_scale, nullptr);
         if (!polar && seed.report.status != "done" && std::stod(k) > 1e5) ++ended;
         if (run.size() > 1) kept = std::max(kept, row.energy);
