@@ -109,7 +109,7 @@ void square(Study& study) {
               {{there_and_back(study, run).bit_exact ? 0.0 : 1.0, 0,
                 fmt::format("lattice, {} steps there and back", run.steps)}});
   run = {.side = 21, .steps = study.sized(300, 12000, 12000), .record_every = study.sized(5, 50, 20)};
-  const Trajectory path = study.run("tracks", gas_scenario(run));
+  const Trajectory path = study.try_run("tracks", gas_scenario(run));
   std::vector<Places> tracks;
   for (const std::size_t particle : {0, 110, 220, 330, 440}) {
     Places track{"", {}, blue, 7};
@@ -119,7 +119,9 @@ void square(Study& study) {
     }
     tracks.push_back(std::move(track));
   }
-  study.draw("tracks", "Tracks of five particles, dt = 0.0001",
+  study.draw("tracks",
+             fmt::format("Tracks of five particles, dt = 0.0001, up to t = {:.4g}{}", path.t.back(),
+                         path.report.status == "done" ? "" : ", where the run ends: " + path.report.message),
              {study.info().title, {places("{/:Italic x}", "{/:Italic y}", tracks)}});
 }
 
