@@ -77,7 +77,9 @@ std::vector<ParameterInfo> parameters_of(const Kind& kind) {
   std::vector<ParameterInfo> all{
       {.name = Keys::masses,
        .default_value = "1",
-       .meaning = "of all particles, or one for each",
+       .meaning =
+           "of all particles, or one for each: inertia alone, phi is that of every pair (gravity between unequal "
+           "masses is n-body)",
        .range = Range::positive,
        .type = OptionType::number_or_list},
       number(Keys::dimension, "2", "of space", Range::whole_from(2, 3)),

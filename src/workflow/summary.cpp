@@ -186,8 +186,15 @@ std::string hint_for(const Request& request, Outcome outcome) {
   if (outcome == Outcome::lattice_overflow) {
     text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
                         std::ilogb(request.momentum_unit) + 8);
-    if (find_problem(request.problem, request.variant).has_pairwise_forces) {
-      text += "; if two bodies met, a smaller dt or a softening";
+    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+    const auto has = [&](const char* name) {
+      return std::any_of(problem.info.parameters.begin(), problem.info.parameters.end(),
+                         [&](const ParameterInfo& each) { return each.name == name; });
+    };
+    if (problem.has_pairwise_forces) {  // a kick is refused long before it is as large as what it is added to
+      text += has(GasKeys::exponent) ? "; if two bodies met or one came near the soft wall, whose kick was too large, "
+                                     : "; if two bodies met, whose kick was too large, ";
+      text += has("softening") ? "a smaller dt or a softening" : "a smaller dt";
     }
   }
   return text;

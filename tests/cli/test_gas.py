@@ -132,6 +132,14 @@ class Gas(CommandCase):
         pairs = sum(1 / math.sqrt(math.dist(q[2 * i:2 * i + 2], q[2 * j:2 * j + 2]) ** 2 + 0.01)
                     for i in range(16) for j in range(i))
         self.assertAlmostEqual(s["energy"]["final"], sum(x * x for x in p) / 2 - pairs + wall, delta=1e-11)
+        masses = [1 + i % 3 for i in range(16)]  # they are inertia: phi is that of every pair
+        unequal = self.gas(f'pair = "newton"\nsoftening = 0.1\nscale = 1\nmasses = {masses}', "--set", "run.steps=0")
+        q, p = unequal["final"]["q"], unequal["final"]["p"]
+        energy = sum(x * x / (2 * masses[i // 2]) for i, x in enumerate(p))
+        energy += sum(1 / (2.25 - q[i] ** 2 - q[i + 1] ** 2) for i in range(0, 32, 2)) / 2
+        energy -= sum(1 / math.sqrt(math.dist(q[2 * i:2 * i + 2], q[2 * j:2 * j + 2]) ** 2 + 0.01)
+                      for i in range(16) for j in range(i))
+        self.assertAlmostEqual(unequal["energy"]["initial"], energy, delta=1e-11)
 
     def test_wrong_keys(self):
         for keys, said in (
@@ -185,6 +193,38 @@ class Gas(CommandCase):
                          f"method={{name='{method}'}}", status=1)
             self.assertEqual(s["error"]["kind"], "outside", method)
 
+    def test_inner_stages(self):
+        """Negative sub-steps: stv4 looks at x = 1.3 + 1.35 * 0.15 on its way to 1.45, verlet does not."""
+        keys = "scale = 4\ninitial = { q = [1.3, 0, -1, 0], v = [1.5, 0, 0, 0] }"
+        for arithmetic in ("double", "lattice"):
+            step = ("--set", "run.dt=0.1", "--set", "run.steps=1", "--set", f"run.arithmetic={arithmetic}")
+            there = self.gas(keys, *step, "--set", "method={name='verlet'}")
+            self.assertLess(there["final"]["q"][0], 1.45)
+            error = self.gas(keys, *step, status=1)["error"]
+            self.assertEqual(error["kind"], "outside")
+            self.assertIn("particle 1 ", error["message"])
+
+    def test_a_kick_too_large_for_the_lattice(self):
+        """Particle 109 near the wall: what its kick would be is no integer of the range; the remedy is named."""
+        error = self.summary(str(EXAMPLES / "gas_121.toml"), "--set", "run.dt=0.01", "--set", "run.arithmetic=lattice",
+                             "--set", "run.steps=30", status=1)["error"]
+        self.assertEqual((error["kind"], error["step"]), ("lattice_overflow", 22))
+        self.assertIn("came near the soft wall, whose kick was too large, a smaller dt", error["hint"])
+        self.assertNotIn("softening", error["hint"])
+
+    def test_the_circle_is_no_pair_force(self):
+        """On the lattice momenta sum to a constant without it; with it nothing is said of their sum."""
+        lattice = ("--set", "run.arithmetic=lattice")
+        self.assertEqual(list(self.gas("", *lattice)["invariants"]), ["angular_momentum"])
+        free = self.gas('container = { kind = "none" }', *lattice)
+        self.assertLess(free["invariants"]["linear_momentum"]["max_error"], 32 * 2**-53)  # read in double, and added
+
+    def test_equal_positions_on_the_way(self):
+        """Two that meet at one point: no number, told at the step."""
+        error = self.gas('container = { kind = "none" }\ninitial = { q = [-1, 0, 1, 0], v = [1, 0, -1, 0] }\nscale = "2^20"',
+                         "--set", "run.dt=1", "--set", "method={name='euler-a'}", status=1)["error"]
+        self.assertEqual((error["kind"], error["step"]), ("non_finite", 1))
+
     def test_there_and_back(self):
         s = self.reverse(str(EXAMPLES / "gas_121.toml"), "--set", "run.steps=20")
         self.assertEqual(s["pair_evaluations"], (61 + 61) * 121 * 120 // 2)
@@ -227,8 +267,10 @@ class Gas(CommandCase):
         parts = json.loads(self.hamflow("run", "gas.toml", "--resume", "--json").stdout)
         for key in ("final", "energy", "invariants"):
             self.assertEqual(parts[key], whole[key])
-        other = self.summary("gas.toml", "--set", "problem.cutoff.skin=0.5")
-        self.assertEqual(other["final"], whole["final"])
+        for arithmetic in ("double", "lattice"):
+            ends = [self.summary("gas.toml", "--set", f"problem.cutoff.skin={skin}", "--set", f"run.arithmetic={arithmetic}")
+                    for skin in (1e-9, 0.5)]  # lists made at every step, and once
+            self.assertEqual(ends[0]["final"], ends[1]["final"])
 
     def test_the_engine_and_more_digits(self):
         """Pairs all at once, against the loop over pairs in quad: rounding alone."""

@@ -13,10 +13,11 @@
 
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/run/catalog.hpp"
 
 namespace {
 std::atomic<long> allocations{0};
-}
+}  // namespace
 void* operator new(std::size_t bytes) {
   ++allocations;
   if (void* const memory = std::malloc(bytes)) return memory;
@@ -373,6 +374,27 @@ TEST(BulkForces, AllocateNothingAfterTheFirstList) {
     EXPECT_EQ(allocations, before) << threads << " threads, " << v;
     EXPECT_GT(forces.counts().lists, lists + 5);
   }
+}
+
+/// Blocks of one step too, each of which copies problem, method and state: arrays of coordinates come from the pool.
+TEST(BulkForces, LeaveNothingForStepsOfAGasToAllocate) {
+  const std::map<std::string, std::string> choices{{"container", "periodic"}, {"cutoff_kind", "shifted"}};
+  Request request{.problem = "gas",
+                  .variant = choices,
+                  .parameters = complete(find_problem("gas", choices).info,
+                                         {{"dimension", "3"}, {"size", "[10, 10, 10]"}, {"cutoff", "2"}}),
+                  .method = {.name = "stv4"},
+                  .dt = "0.0001"};
+  const auto places = lattice(3, 10, 0.05, -4.5);
+  for (const double x : places) {
+    request.start.q.push_back(std::to_string(x));
+    request.start.p.emplace_back("0");
+  }
+  const auto simulation = make_simulation(request);
+  for (int block = 0; block < 3; ++block) ASSERT_EQ(simulation->advance(1), Outcome::done);
+  const long before = allocations;
+  for (const std::int64_t steps : {1, 10, 1, 1}) EXPECT_EQ(simulation->advance(steps), Outcome::done);
+  EXPECT_EQ(allocations, before);
 }
 
 TEST(BulkForces, DoNotHideEqualPositionsNorNumbersThatAreNone) {
