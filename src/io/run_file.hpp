@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "h5md.hpp"
 #include "hamflow/run/section.hpp"
 
 namespace hamflow {
@@ -55,6 +56,7 @@ struct RunDescription {
   std::vector<std::string> coordinates{};  // a name for each number of q; none: they are not written
   std::vector<std::string> momenta{};
   std::vector<double> masses{};  // of the bodies; none: not written
+  H5mdParticles particles{};     // of a gas: positions and momenta as H5MD wants them, instead of /q and /p
   ColumnUnits units{};
   std::size_t digits_length = 0;  // characters of a number beyond double; 0: numbers are doubles
   std::string identity{};         // of the run, the attribute `run`; empty: none, nothing can go on in the file

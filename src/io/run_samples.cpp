@@ -15,11 +15,11 @@ struct OpenColumn {
   OpenColumn(hid_t file, const char* its_name)
       : name(its_name), dataset(H5Dopen2(file, its_name, H5P_DEFAULT), H5Dclose, "open dataset " + name) {
     const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
-    if (H5Sget_simple_extent_ndims(space) > 2) throw FileError("HDF5: dataset " + name + " has too many dimensions");
+    if (H5Sget_simple_extent_ndims(space) > 3) throw FileError("HDF5: dataset " + name + " has too many dimensions");
     check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
   }
   std::size_t rows() const { return size[0]; }
-  std::size_t width() const { return size[1]; }
+  std::size_t width() const { return size[1] * size[2]; }
   /// A chunk that its writer is writing at this moment has another checksum: a moment later it is whole.
   void read(hid_t type, void* values) const {
     for (int attempt = 1; attempt < 3; ++attempt) {
@@ -30,7 +30,7 @@ struct OpenColumn {
 
   std::string name;
   Hdf5Handle dataset;
-  hsize_t size[2] = {0, 1};
+  hsize_t size[3] = {0, 1, 1};
 };
 
 /// Row by row.
@@ -85,6 +85,10 @@ std::vector<std::string> names_in(hid_t file, const char* group_name) {
   return names;
 }
 
+bool has_particles(hid_t file) {
+  return H5Lexists(file, "particles", H5P_DEFAULT) > 0 && H5Lexists(file, "particles/all", H5P_DEFAULT) > 0;
+}
+
 RunSamples read_samples(const std::filesystem::path& path) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
@@ -100,15 +104,18 @@ RunSamples read_samples(const std::filesystem::path& path) {
   run.energy = read_column(file, "energy", width);
   std::size_t q_width = 0;
   std::size_t p_width = 0;
-  const std::vector<double> q = read_column(file, "q", q_width);
-  const std::vector<double> p = read_column(file, "p", p_width);
+  const bool particles = has_particles(file);
+  const std::vector<double> q = read_column(file, particles ? H5mdNames::position : "q", q_width);
+  const std::vector<double> p = read_column(file, particles ? H5mdNames::momentum : "p", p_width);
   std::size_t one = 0;
   for (const auto& [name, meaning] : diagnostic_columns) {
     if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
     run.diagnostics.emplace_back(name + std::string("solver/").size(), read_column(file, name, one));
   }
   for (const std::string& name : names_in(file, "observables")) {
-    run.observables.emplace_back(name, read_column(file, ("observables/" + name).c_str(), one));
+    if (particles && (name == "energy" || H5Lexists(file, ("invariants/" + name).c_str(), H5P_DEFAULT) > 0)) continue;
+    const std::string dataset = "observables/" + name + (particles ? "/value" : "");
+    run.observables.emplace_back(name, read_column(file, dataset.c_str(), one));
   }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
   std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
