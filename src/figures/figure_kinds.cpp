@@ -39,6 +39,13 @@ std::string same_coordinates(const Figure& figure) {
   return {};
 }
 
+std::string without_particles(const FigureFacts& facts) {
+  if (facts.particles || facts.degrees_of_freedom == 0) return {};
+  return for_degrees(facts) + ", which is no gas and not several bodies in space";
+}
+
+std::string one_run(const Figure&) { return "particles are those of one run; allowed a run alone"; }
+
 std::vector<std::string> no_columns(const FigureData&) { return {}; }
 
 std::string for_degrees(const FigureFacts& facts) {
@@ -85,6 +92,8 @@ std::string refused_figure(const std::string& kind, const FigureFacts& facts) {
   return why.empty() ? "" : "found \"" + kind + "\"" + why + "; allowed " + joined(drawable_figures(facts));
 }
 
-std::string usual_figure(const FigureFacts& facts) { return drawable_figures(facts).front(); }
+std::string usual_figure(const FigureFacts& facts) {
+  return facts.gas ? "particles" : drawable_figures(facts).front();
+}
 
 }  // namespace hamflow

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -108,8 +109,13 @@ struct RunSamples {
   std::vector<std::vector<double>> section_p;
 };
 
+/// @param most_coordinates above them q and p stay empty, and description.dimension says how many there are
 /// @throws FileError naming the file and what is wrong with it
-RunSamples read_run_file(const std::filesystem::path& file);
+RunSamples read_run_file(const std::filesystem::path& file,
+                         std::size_t most_coordinates = std::numeric_limits<std::size_t>::max());
+
+/// q at one sample.   @throws FileError
+std::vector<double> read_run_positions(const std::filesystem::path& file, std::size_t sample);
 
 /// The samples of a run beyond double with all their digits: decimal texts that read back to the last bit
 /// (evaluate_number in the arithmetic of the run; run/digits.hpp).

@@ -42,6 +42,12 @@ std::vector<double> read_column(hid_t file, const char* name, std::size_t& width
   return values;
 }
 
+std::size_t rows_of(hid_t file, const char* name, std::size_t& width) {
+  const OpenColumn column(file, name);
+  width = std::max<std::size_t>(column.width(), 1);
+  return column.rows();
+}
+
 std::vector<std::string> read_texts(hid_t file, const char* name, std::size_t& width) {
   const OpenColumn column(file, name);
   width = column.width();
@@ -89,7 +95,7 @@ bool has_particles(hid_t file) {
   return H5Lexists(file, "particles", H5P_DEFAULT) > 0 && H5Lexists(file, "particles/all", H5P_DEFAULT) > 0;
 }
 
-RunSamples read_samples(const std::filesystem::path& path) {
+RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coordinates) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
   RunSamples run;
@@ -105,8 +111,13 @@ RunSamples read_samples(const std::filesystem::path& path) {
   std::size_t q_width = 0;
   std::size_t p_width = 0;
   const bool particles = has_particles(file);
-  const std::vector<double> q = read_column(file, particles ? H5mdNames::position : "q", q_width);
-  const std::vector<double> p = read_column(file, particles ? H5mdNames::momentum : "p", p_width);
+  const char* const q_name = particles ? H5mdNames::position : "q";
+  const char* const p_name = particles ? H5mdNames::momentum : "p";
+  const std::size_t q_rows = rows_of(file, q_name, q_width);
+  const std::size_t p_rows = rows_of(file, p_name, p_width);
+  const bool with_states = q_width <= most_coordinates;
+  const std::vector<double> q = with_states ? read_column(file, q_name, q_width) : std::vector<double>();
+  const std::vector<double> p = with_states ? read_column(file, p_name, p_width) : std::vector<double>();
   std::size_t one = 0;
   for (const auto& [name, meaning] : diagnostic_columns) {
     if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
@@ -118,7 +129,8 @@ RunSamples read_samples(const std::filesystem::path& path) {
     run.observables.emplace_back(name, read_column(file, dataset.c_str(), one));
   }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
-  std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
+  std::size_t count = std::min({run.t.size(), run.energy.size(), q_rows, p_rows});
+  if (with_states) count = std::min({count, q.size() / q_width, p.size() / p_width});
   for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
   for (const auto& column : run.observables) count = std::min(count, column.second.size());
   for (auto* columns : {&run.diagnostics, &run.observables}) {
@@ -126,8 +138,10 @@ RunSamples read_samples(const std::filesystem::path& path) {
   }
   run.t.resize(count);
   run.energy.resize(count);
-  run.q = by_coordinate(q, q_width, count);
-  run.p = by_coordinate(p, p_width, count);
+  if (with_states) {
+    run.q = by_coordinate(q, q_width, count);
+    run.p = by_coordinate(p, p_width, count);
+  }
   run.description.dimension = q_width;
   if (H5Lexists(file, "section", H5P_DEFAULT) > 0) {
     run.section_t = read_column(file, "section/t", one);
@@ -140,6 +154,21 @@ RunSamples read_samples(const std::filesystem::path& path) {
     run.description.section = true;
   }
   return run;
+}
+
+std::vector<double> read_positions(const std::filesystem::path& path, std::size_t sample) {
+  silence_hdf5();
+  const Hdf5Handle file = open_to_read(path);
+  const OpenColumn column(file, has_particles(file) ? H5mdNames::position : "q");
+  const hsize_t first[3] = {sample, 0, 0};
+  const hsize_t count[3] = {1, column.size[1], column.size[2]};
+  const hsize_t width = column.width();
+  const Hdf5Handle space(H5Dget_space(column.dataset), H5Sclose, "open the space of " + column.name);
+  const Hdf5Handle memory(H5Screate_simple(1, &width, nullptr), H5Sclose, "make a data space");
+  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr), "select a row");
+  std::vector<double> q(width);
+  check_hdf5(H5Dread(column.dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, q.data()), "read " + column.name);
+  return q;
 }
 
 RunDigits read_digits(const std::filesystem::path& path) {
@@ -183,7 +212,12 @@ auto naming(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
-RunSamples read_run_file(const std::filesystem::path& path) { return naming(path, read_samples); }
+RunSamples read_run_file(const std::filesystem::path& path, std::size_t most_coordinates) {
+  return naming(path, [&](const std::filesystem::path& file) { return read_samples(file, most_coordinates); });
+}
+std::vector<double> read_run_positions(const std::filesystem::path& path, std::size_t sample) {
+  return naming(path, [&](const std::filesystem::path& file) { return read_positions(file, sample); });
+}
 RunDigits read_run_digits(const std::filesystem::path& path) { return naming(path, read_digits); }
 
 }  // namespace hamflow
