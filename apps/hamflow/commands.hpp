@@ -83,6 +83,7 @@ struct ReverseOptions {
   std::vector<std::string> sets;
   std::string out;  // a folder, or "none", as without it
   bool force = false;
+  bool resume = false;
   bool json = false;
   bool quiet = false;
 };

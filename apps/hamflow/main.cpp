@@ -155,7 +155,10 @@ int main(int argc, char** argv) {
       ->add_option("--out", reverse.out, "folder for the states at start, turn and end; \"none\" writes nothing [none]")
       ->type_name("DIR")
       ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
-  reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
+  auto* const reverse_force =
+      reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
+  reverse_command->add_flag("--resume", reverse.resume, "go on with the reversal in the folder, from either half")
+      ->excludes(reverse_force);
   reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
   reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
   reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });

@@ -4,6 +4,7 @@
 
 #include "figure_kind.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 
 namespace hamflow {

@@ -95,9 +95,53 @@ bool has_particles(hid_t file) {
   return H5Lexists(file, "particles", H5P_DEFAULT) > 0 && H5Lexists(file, "particles/all", H5P_DEFAULT) > 0;
 }
 
+/// The states that reverse.h5 has, in their order.
+std::vector<std::string> states_of_reversal(hid_t file) {
+  std::vector<std::string> names;
+  if (H5Lexists(file, "t", H5P_DEFAULT) > 0) return names;
+  for (const char* name : {"start", "turn", "end"}) {
+    if (H5Lexists(file, name, H5P_DEFAULT) > 0) names.emplace_back(name);
+  }
+  return names;
+}
+
+double read_number(hid_t object, const char* name) {
+  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "open an attribute");
+  double x = 0;
+  check_hdf5(H5Aread(attribute, H5T_NATIVE_DOUBLE, &x), std::string("read attribute ") + name);
+  return x;
+}
+
+/// A reversal as a run of three samples.
+RunSamples read_reversal(hid_t file, const std::vector<std::string>& names, std::size_t most_coordinates) {
+  RunSamples run;
+  run.description.scenario = read_text_dataset(file, "scenario");
+  std::vector<double> q;
+  std::vector<double> p;
+  for (const std::string& name : names) {
+    const Hdf5Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose, "open group " + name);
+    run.t.push_back(read_number(group, "t"));
+    std::size_t one = 0;
+    for (const auto& [numbers, letter] : {std::pair{&q, "/q"}, std::pair{&p, "/p"}}) {
+      const std::vector<double> row = read_column(file, (name + letter).c_str(), one);
+      numbers->insert(numbers->end(), row.begin(), row.end());
+    }
+  }
+  const std::size_t width = q.size() / names.size();
+  run.description.dimension = width;
+  if (width * names.size() != q.size() || p.size() != q.size()) throw FileError("HDF5: states differ in length");
+  if (width > most_coordinates) return run;
+  run.q = by_coordinate(q, width, names.size());
+  run.p = by_coordinate(p, width, names.size());
+  return run;
+}
+
 RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coordinates) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
+  if (const auto states = states_of_reversal(file); !states.empty()) {
+    return read_reversal(file, states, most_coordinates);
+  }
   RunSamples run;
   run.description.scenario = read_text_dataset(file, "scenario");
   run.description.version = read_attribute(file, "hamflow");
@@ -159,6 +203,10 @@ RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coor
 std::vector<double> read_positions(const std::filesystem::path& path, std::size_t sample) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
+  if (const auto states = states_of_reversal(file); !states.empty()) {
+    std::size_t one = 0;
+    return read_column(file, (states.at(sample) + "/q").c_str(), one);
+  }
   const OpenColumn column(file, has_particles(file) ? H5mdNames::position : "q");
   const hsize_t first[3] = {sample, 0, 0};
   const hsize_t count[3] = {1, column.size[1], column.size[2]};

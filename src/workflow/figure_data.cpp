@@ -24,7 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path file_of(const fs::path& run) { return fs::is_directory(run) ? run / "run.h5" : run; }
+fs::path file_of(const fs::path& run) {
+  if (!fs::is_directory(run)) return run;
+  std::error_code none;
+  return !fs::exists(run / "run.h5", none) && fs::exists(run / "reverse.h5", none) ? run / "reverse.h5" : run / "run.h5";
+}
 
 /// The scenario that a run.h5 carries.
 Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
@@ -109,8 +113,6 @@ bool in_title(const std::pair<std::string, std::string>& fact) {
   return fact.first == "problem" || fact.first == "method" || fact.first == "dt";
 }
 
-}  // namespace
-
 /// The gas, or several bodies in space.
 FigureParticles particles_of(const Scenario& scenario, const fs::path& file, std::size_t size, std::size_t space) {
   FigureParticles all;
@@ -132,6 +134,8 @@ FigureParticles particles_of(const Scenario& scenario, const fs::path& file, std
 bool shows_energy(const std::string& kind) {
   return kind != "particles" && kind != "tracks" && kind != "radial" && !kind.empty();
 }
+
+}  // namespace
 
 RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   const fs::path source = file_of(run);

@@ -17,6 +17,7 @@ constexpr std::size_t most_drawn = 20000;
 std::vector<std::size_t> samples(const Figure& figure) {
   const FigureData& data = figure.runs.front();
   if (!figure.options.at.empty()) return samples_at(data, figure.options.at);
+  if (data.t.size() == 3) return {0, 1, 2};  // start, turn and end of a reversal
   if (data.t.size() == 1) return {0};
   return {0, data.t.size() - 1};
 }
