@@ -15,9 +15,7 @@ int reverse_command(const ReverseOptions& options) {
     print_notes(scenario.notes, options.quiet);
     ReversalSettings settings;
     if (options.out != "none") settings.folder = options.out;
-    settings.existing = options.resume  ? Existing::resume
-                        : options.force ? Existing::replace
-                                        : Existing::refuse;
+    settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
     settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
     catch_interrupts();
     Progress progress(0, 2 * scenario.steps, options.quiet);

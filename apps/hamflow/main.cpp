@@ -67,11 +67,11 @@ int main(int argc, char** argv) {
   plot_command->add_option("--kind", plot.kind, hamflow::joined(hamflow::figure_names()))
       ->type_name("KIND")
       ->check(CLI::Validator(hamflow::unknown_figure, "", ""));
-  plot_command->add_option("--x", plot.x, "column of the horizontal axis, of the kinds orbit, phase, time, particles, tracks")
+  plot_command
+      ->add_option("--x", plot.x, "column of the horizontal axis, of the kinds orbit, phase, time, particles, tracks")
       ->type_name("COLUMN");
   plot_command->add_option("--y", plot.y, "columns of the vertical axis, commas between")->type_name("COLUMN,...");
-  plot_command->add_option("--at", plot.at, "times of the kinds particles, radial, commas between")
-      ->type_name("T,...");
+  plot_command->add_option("--at", plot.at, "times of the kinds particles, radial, commas between")->type_name("T,...");
   plot_command->add_option("--size", plot.size, "width and height in centimetres, e.g. 8.5x6; also 85x60mm, 3.35x2.4in")
       ->type_name("WxH");
   plot_command->add_option("--dpi", plot.dpi, "pixels to the inch of a .png [300]")

@@ -92,8 +92,6 @@ std::string refused_figure(const std::string& kind, const FigureFacts& facts) {
   return why.empty() ? "" : "found \"" + kind + "\"" + why + "; allowed " + joined(drawable_figures(facts));
 }
 
-std::string usual_figure(const FigureFacts& facts) {
-  return facts.gas ? "particles" : drawable_figures(facts).front();
-}
+std::string usual_figure(const FigureFacts& facts) { return facts.gas ? "particles" : drawable_figures(facts).front(); }
 
 }  // namespace hamflow

@@ -35,8 +35,8 @@ struct Cells {
     Point low{0, 0, 0};
     Point size{1, 1, 1};
     // More cells than particles would be empty.
-    const auto most = static_cast<double>(std::max<std::size_t>(1, static_cast<std::size_t>(std::pow(
-        static_cast<double>(particles), 1.0 / static_cast<double>(space)))));
+    const auto most = static_cast<double>(std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::pow(static_cast<double>(particles), 1.0 / static_cast<double>(space)))));
     for (std::size_t k = 0; k < space; ++k) {
       low[k] = periodic ? 0 : ends[k].low;
       size[k] = periodic ? edges[k] : ends[k].high - ends[k].low;
@@ -132,15 +132,16 @@ double Region::volume() const {
 
 double Region::shortest() const { return radius > 0 ? 2 * radius : *std::min_element(edges.begin(), edges.end()); }
 
-/// The integral, over all vectors of length up to r, of the volume that a region shares with itself moved by the vector,
-/// over V^2. In a box this volume is prod (a_k - |x_k|), for vectors shorter than the shortest edge.
+/// The integral, over all vectors of length up to r, of the volume that a region shares with itself moved by the
+/// vector, over V^2. In a box this volume is prod (a_k - |x_k|), for vectors shorter than the shortest edge.
 double Region::share_within(double r) const {
   if (periodic) return ball(r, space) / volume();
   if (radius > 0) {
     const double u = r / (2 * radius);
     if (space == 3) return u * u * u * (8 - 9 * u + 2 * u * u * u);
     const double root = std::sqrt(std::max(0.0, 1 - u * u));
-    return 2 / pi * (4 * u * u * std::acos(std::min(1.0, u)) + std::asin(std::min(1.0, u)) - u * root * (1 + 2 * u * u));
+    return 2 / pi *
+           (4 * u * u * std::acos(std::min(1.0, u)) + std::asin(std::min(1.0, u)) - u * root * (1 + 2 * u * u));
   }
   if (space == 2) {
     const double a = edges[0];
@@ -154,7 +155,8 @@ double Region::share_within(double r) const {
   const double pairs = a * b + b * c + c * a;
   const double sum = a + b + c;
   return (4 * pi / 3 * v * r * r * r - pi / 2 * pairs * r * r * r * r + 8.0 / 15 * sum * std::pow(r, 5) -
-          std::pow(r, 6) / 6) / (v * v);
+          std::pow(r, 6) / 6) /
+         (v * v);
 }
 
 Region region_of(const FigureParticles& of, const std::vector<double>& q) {

@@ -5,10 +5,15 @@
 #include <numbers>
 
 #include "figure_kind.hpp"
+#include "hamflow/core/counter_random.hpp"
 #include "panels.hpp"
 #include "text.hpp"
 
 namespace hamflow::figures {
+
+namespace {
+constexpr std::uint64_t seed = 1738;  // any number: the same particles in every figure
+}
 
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times) {
   std::vector<std::size_t> all;
@@ -29,8 +34,7 @@ std::vector<std::size_t> some_of(std::size_t count, std::size_t most) {
     }
     const std::size_t begin = k * count / most;
     const std::size_t length = (k + 1) * count / most - begin;
-    const double part = std::fmod(static_cast<double>(k) / std::numbers::phi, 1.0);  // fills [0, 1) evenly
-    all.push_back(begin + static_cast<std::size_t>(part * static_cast<double>(length)));
+    all.push_back(begin + static_cast<std::size_t>(counter_bits(seed, k) % length));
   }
   return all;
 }

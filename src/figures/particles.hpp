@@ -15,8 +15,8 @@ namespace hamflow::figures {
 /// The sample nearest to each time.
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times);
 
-/// At most `most` of `count` numbers, in order, at uneven distances: of particles that are numbered along a lattice an
-/// even stride would show some of its planes and hide the rest.
+/// At most `most` of `count` numbers, in order, one at random from each stretch, always the same: of particles that are
+/// numbered along a lattice an even stride would show some of its planes and hide the rest.
 std::vector<std::size_t> some_of(std::size_t count, std::size_t most);
 /// "20000 of 1000000 particles are drawn"; empty where all are.
 std::string part_note(std::size_t drawn, std::size_t count);

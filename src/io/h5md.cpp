@@ -1,10 +1,9 @@
-#include "h5md_groups.hpp"
-
 #include <pwd.h>
 #include <unistd.h>
 
 #include <algorithm>
 
+#include "h5md_groups.hpp"
 #include "hdf5_text.hpp"
 #include "run_column.hpp"
 
@@ -47,9 +46,8 @@ void write_box(hid_t file, const std::string& particles, const H5mdParticles& of
   if (of.edges.empty()) return;
   const hsize_t size = of.edges.size();
   const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "make a data space");
-  const Hdf5Handle edges(
-      H5Dcreate2(box, "edges", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-      "create dataset edges");
+  const Hdf5Handle edges(H5Dcreate2(box, "edges", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Dclose, "create dataset edges");
   check_hdf5(H5Dwrite(edges, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, of.edges.data()), "write edges");
 }
 

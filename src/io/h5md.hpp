@@ -1,5 +1,5 @@
-// What makes a run.h5 of particles an H5MD file [DeBuylColbergHofling2014], version 1.1: who made it, the box, masses, and elements
-// {step, time, value} whose step and time are links to /step and /t.
+// What makes a run.h5 of particles an H5MD file [DeBuylColbergHofling2014], version 1.1: who made it, the box, masses,
+// and elements {step, time, value} whose step and time are links to /step and /t.
 #pragma once
 
 #include <string>

@@ -42,7 +42,9 @@ Hdf5Handle digits_type(std::size_t length) {
 Column::Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text,
                std::size_t of_each)
     : name_(std::move(name)),
-      rank_(of_each > 0 ? 3 : width > 0 ? 2 : 1),
+      rank_(of_each > 0 ? 3
+            : width > 0 ? 2
+                        : 1),
       width_(std::max<std::size_t>(width, 1)),
       of_each_(std::max<std::size_t>(of_each, 1)),
       type_(H5Tcopy(type), H5Tclose, "copy a type"),
@@ -86,7 +88,8 @@ void Column::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
     const Shape offset{written_, 0, 0};
     const Shape count = shape(std::min<hsize_t>(rows - written_, at_once));
     const Hdf5Handle part(H5Dget_space(source), H5Sclose, "open the space of " + name_);
-    check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr), "select rows of " + name_);
+    check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
+               "select rows of " + name_);
     const Hdf5Handle memory(H5Screate_simple(rank_, count.data(), nullptr), H5Sclose, "make a data space");
     waiting_.resize(count[0] * bytes_a_row_);
     check_hdf5(H5Dread(source, type_, memory, part, H5P_DEFAULT, waiting_.data()), "read " + name_);
@@ -100,7 +103,8 @@ void Column::write(std::size_t rows) {
   const Shape count = shape(rows);
   check_hdf5(H5Dset_extent(dataset_, size.data()), "extend dataset " + name_);
   const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, "open the space of " + name_);
-  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr), "select rows of " + name_);
+  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
+             "select rows of " + name_);
   const Hdf5Handle memory(H5Screate_simple(rank_, count.data(), nullptr), H5Sclose, "make a data space");
   check_hdf5(H5Dwrite(dataset_, type_, memory, space, H5P_DEFAULT, waiting_.data()), "write " + name_);
   check_hdf5(H5Dflush(dataset_), "flush " + name_);

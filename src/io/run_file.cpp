@@ -110,8 +110,8 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
                      ColumnText{component_names(each), each.meaning, each.unit});
   }
   for (const InvariantColumn& each : run.observables) {
-    all.emplace_back(file, "observables/" + each.name + (run.particles.space > 0 ? "/value" : ""), H5T_IEEE_F64LE, 0, rows,
-                     ColumnText{{each.name}, each.meaning, each.unit});
+    all.emplace_back(file, "observables/" + each.name + (run.particles.space > 0 ? "/value" : ""), H5T_IEEE_F64LE, 0,
+                     rows, ColumnText{{each.name}, each.meaning, each.unit});
   }
   for (const auto& [name, meaning] : diagnostic_columns) {
     if (run.diagnostics) number(name, H5T_IEEE_F64LE, meaning);

@@ -51,9 +51,8 @@ std::vector<double> row_of(hid_t file, const std::string& name, hsize_t row) {
   const Open space(H5Dget_space(data.id), H5Sclose);
   const Open memory(H5Screate_simple(1, &width, nullptr), H5Sclose);
   std::vector<double> numbers(width);
-  const bool read =
-      H5Sselect_hyperslab(space.id, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr) >= 0 &&
-      H5Dread(data.id, H5T_NATIVE_DOUBLE, memory.id, space.id, H5P_DEFAULT, numbers.data()) >= 0;
+  const bool read = H5Sselect_hyperslab(space.id, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr) >= 0 &&
+                    H5Dread(data.id, H5T_NATIVE_DOUBLE, memory.id, space.id, H5P_DEFAULT, numbers.data()) >= 0;
   return read ? numbers : std::vector<double>();
 }
 

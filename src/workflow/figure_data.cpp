@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 fs::path file_of(const fs::path& run) {
   if (!fs::is_directory(run)) return run;
   std::error_code none;
-  return !fs::exists(run / "run.h5", none) && fs::exists(run / "reverse.h5", none) ? run / "reverse.h5" : run / "run.h5";
+  return !fs::exists(run / "run.h5", none) && fs::exists(run / "reverse.h5", none) ? run / "reverse.h5"
+                                                                                   : run / "run.h5";
 }
 
 /// The scenario that a run.h5 carries.

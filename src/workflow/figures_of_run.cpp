@@ -10,7 +10,8 @@ namespace {
 
 /// Options that no run has to be read for.
 FigureOptions options_of(const FigureRequest& request) {
-  FigureOptions options{.x = request.x, .y = request.y, .at = request.at, .page = {.dpi = request.dpi, .title = request.title}};
+  FigureOptions options{
+      .x = request.x, .y = request.y, .at = request.at, .page = {.dpi = request.dpi, .title = request.title}};
   std::string wrong = request.size.empty() ? "" : read_page_size(request.size, options.page);
   if (wrong.empty()) wrong = refused_figure_file(request.file);
   if (wrong.empty()) wrong = refused_dpi(request.dpi, request.file, options.page);

@@ -8,8 +8,8 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
 #include "number_text.hpp"
-#include "reversal_measures.hpp"
 #include "reversal_checkpoints.hpp"
+#include "reversal_measures.hpp"
 #include "reverse_file.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
@@ -185,7 +185,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
       throw FileError("there is no checkpoint in " + settings.folder.string() + " to go on from, but " + left +
                       "; give --out another folder, or --force to replace what is there");
     }
-    if (!from) note("there is no checkpoint in " + settings.folder.string() + ": the reversal starts from the beginning");
+    if (!from)
+      note("there is no checkpoint in " + settings.folder.string() + ": the reversal starts from the beginning");
   } else {
     make_folder(settings.folder, FolderOf::reversal, settings.existing != Existing::refuse);
   }

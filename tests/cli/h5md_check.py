@@ -1,8 +1,9 @@
-"""What is wrong with a run.h5 of particles as an H5MD 1.1 file, by the specification (nongnu.org/h5md): a line for each
-fault on stdout. Beyond the specification, every element has to have its times, and stand in the file once.
+"""What is wrong with files of particles as H5MD 1.1 files, by the specification (nongnu.org/h5md): for each file a line, a
+list of its faults as JSON. Beyond the specification, every element has to have its times, and stand in the file once.
 
-    python3 h5md_check.py run.h5        # an interpreter with h5py"""
+    python3 h5md_check.py run.h5 ...        # an interpreter with h5py"""
 
+import json
 import sys
 
 import h5py
@@ -104,7 +105,8 @@ def check(file):
         expect(file["invariants"][name] == file[f"observables/{name}/value"], f"{name} stands in the file twice")
 
 
-with h5py.File(sys.argv[1], "r", libver="latest", swmr=True) as opened:
-    check(opened)
-print("\n".join(faults))
-sys.exit(1 if faults else 0)
+for name in sys.argv[1:]:
+    faults.clear()
+    with h5py.File(name, "r", libver="latest", swmr=True) as opened:
+        check(opened)
+    print(json.dumps(faults))

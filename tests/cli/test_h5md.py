@@ -39,10 +39,11 @@ class H5md(CommandCase):
         self.write("gas.toml", GAS % keys)
         return json.loads(self.hamflow("run", "gas.toml", "--force", "--json", *arguments).stdout)
 
-    def faults(self, file="gas.run/run.h5"):
-        done = subprocess.run([PYTHON, "-B", CHECK, self.folder / file], capture_output=True, text=True, timeout=60)
+    def faults(self, *files):
+        """A list for each file: one interpreter looks at all."""
+        done = subprocess.run([PYTHON, "-B", CHECK, *files], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual(done.stderr, "")
-        return done.stdout.split("\n")[:-1] if done.returncode else []
+        return [json.loads(line) for line in done.stdout.splitlines()]
 
     def python(self, text):
         done = subprocess.run([PYTHON, "-c", "import h5py, json\n" + text], cwd=self.folder, capture_output=True, text=True,
@@ -54,45 +55,46 @@ class H5md(CommandCase):
         return self.python(f"f = h5py.File({file!r}, 'r', libver='latest', swmr=True)\nprint(json.dumps({expression}))")
 
     def test_specification(self):
-        for keys, more in (("", ()), ('container = { kind = "box", size = [2.1, 2.2] }\nmasses = 2', ()), (PERIODIC, ()),
-                           ('container = { kind = "none" }', ("--set", "run.arithmetic=double-double")),
-                           ("", ("--set", "run.record=[0.0005, 0.01]", "--set", "output.observables={ d = 'x1 - x2' }")),
-                           ("", ("--set", "run.steps=0"))):
-            with self.subTest(keys=keys, more=more):
-                s = self.run_gas(keys, *more)
-                self.assertEqual(self.faults(), [])
-                last = "[f['particles/all/%s/value'][-1].ravel().tolist() for name in [0]][0]"
-                for name, letter in (("position", "q"), ("momentum", "p")):
-                    if "record" not in str(more):
-                        self.assertEqual(self.looked_up(last % name), [float(x) for x in s["final"][letter]])
-        self.run_gas(PERIODIC)
-        self.assertEqual(self.looked_up("f['particles/all/box/edges'][:].tolist()"), [3, 3, 3.5])
-        self.assertEqual(self.looked_up("f['particles/all/mass/value'][0].tolist()"), [1 + i % 3 for i in range(27)])
-        self.assertEqual(self.looked_up("[x.decode() for x in f['particles/all/box'].attrs['boundary']]"), ["periodic"] * 3)
+        wanted = []
+        for k, (keys, more) in enumerate((
+                ("", ()), ('container = { kind = "box", size = [2.1, 2.2] }\nmasses = 2', ()), (PERIODIC, ()),
+                ('container = { kind = "none" }', ("--set", "run.arithmetic=double-double")),
+                ("", ("--set", "run.record=[0.0005, 0.02]", "--set", "output.observables={ d = 'x1 - x2' }")),
+                ("", ("--set", "run.steps=0")))):
+            final = self.run_gas(keys, *more, "--out", str(k))["final"]
+            wanted += [[float(x) for x in final[letter]] for letter in "qp"]
+        files = [f"{k}/run.h5" for k in range(6)]
+        self.assertEqual(self.faults(*files), [[]] * 6)
+        self.assertEqual(self.python(
+            f"last = [h5py.File(file)['particles/all/' + x + '/value'][-1].ravel().tolist() for file in {files} "
+            "for x in ('position', 'momentum')]\nprint(json.dumps(last))"), wanted)
+        periodic = ("[f['particles/all/box/edges'][:].tolist(), f['particles/all/mass/value'][0].tolist(),"
+                    "[x.decode() for x in f['particles/all/box'].attrs['boundary']]]")
+        self.assertEqual(self.looked_up(periodic, "2/run.h5"), [[3, 3, 3.5], [1 + i % 3 for i in range(27)], ["periodic"] * 3])
 
     def test_the_check_finds_faults(self):
         """Each mutant breaks one rule; without this the test above would prove nothing."""
         self.run_gas(PERIODIC)
-        for mutant, said in (
-                ("del f['particles/all/position/time']", "/particles/all/position has no time"),
-                ("del f['observables/energy/time']", "/observables/energy has no time"),
-                ("del f['particles/all/box'].attrs['dimension']", "no dimension"),
-                ("del f['particles/all/box/edges']", "no edges"),
-                ("f['particles/all/box'].attrs['boundary'] = np.array([b'open'] * 3)", "boundary"),
-                ("f['h5md'].attrs['version'] = [1, 2]", "version"),
-                ("del f['h5md/author'].attrs['name']", "name"),
-                ("del f['particles/all/mass']", "mass"),
-                ("f['step'][3] = 0", "does not grow"),
-                ("x = f['t'][:]\ndel f['observables/energy/time']\nf['observables/energy/time'] = x[:-1]", "lengths"),
-                ("x = f['step'][:]\ndel f['observables/energy/step']\nf['observables/energy/step'] = 1.0 * x", "integer"),
-                ("x = f['particles/all/velocity/value'][:]\nx[2, 1, 0] += 1\nf['particles/all/velocity/value'][...] = x", "over"),
-                ("x = f['particles/all/position/value'][:]\ndel f['particles/all/position/value']\n"
-                 "f['particles/all/position/value'] = x.reshape(len(x), -1)", "shape"),
-                ("f['q'] = f['particles/all/position/value'][:]", "as well")):
-            with self.subTest(mutant):
-                self.python("import numpy as np, shutil\nshutil.copy('gas.run/run.h5', 'mutant.h5')\n"
-                            f"f = h5py.File('mutant.h5', 'r+')\n{mutant}\nf.close()")
-                self.assertIn(said, "\n".join(self.faults("mutant.h5")))
+        mutants = (
+            ("del f['particles/all/position/time']", "/particles/all/position has no time"),
+            ("del f['observables/energy/time']", "/observables/energy has no time"),
+            ("del f['particles/all/box'].attrs['dimension']", "no dimension"),
+            ("del f['particles/all/box/edges']", "no edges"),
+            ("f['particles/all/box'].attrs['boundary'] = np.array([b'open'] * 3)", "boundary"),
+            ("f['h5md'].attrs['version'] = [1, 2]", "version"),
+            ("del f['h5md/author'].attrs['name']", "name"),
+            ("del f['particles/all/mass']", "mass"),
+            ("f['step'][3] = 0", "does not grow"),
+            ("x = f['t'][:]; del f['observables/energy/time']; f['observables/energy/time'] = x[:-1]", "lengths"),
+            ("x = f['step'][:]; del f['observables/energy/step']; f['observables/energy/step'] = 1.0 * x", "integer"),
+            ("x = f['particles/all/velocity/value'][:]; x[2, 1, 0] += 1; f['particles/all/velocity/value'][...] = x", "over"),
+            ("x = f['particles/all/position/value'][:]; del f['particles/all/position/value'];"
+             "f['particles/all/position/value'] = x.reshape(len(x), -1)", "shape"),
+            ("f['q'] = f['particles/all/position/value'][:]", "as well"))
+        self.python("import numpy as np, shutil\nfor k, mutate in enumerate(%r):\n shutil.copy('gas.run/run.h5', f'{k}.h5')\n"
+                    " with h5py.File(f'{k}.h5', 'r+') as f: exec(mutate)" % [mutant for mutant, _ in mutants])
+        for faults, (mutant, said) in zip(self.faults(*(f"{k}.h5" for k in range(len(mutants)))), mutants, strict=True):
+            self.assertIn(said, "\n".join(faults), mutant)
 
     def test_it_grows(self):
         self.write("gas.toml", GAS % 'container = { kind = "none" }\nmasses = 4')
@@ -118,7 +120,7 @@ class H5md(CommandCase):
         self.run_gas(PERIODIC, "--set", "run.record_every=3", "--out", "parts")
         self.hamflow("run", "gas.toml", *keys, "--out", "parts", "--resume", "--quiet")
         self.assertEqual(differences(COMPARE, self.folder / "whole", self.folder / "parts"), [])
-        self.assertEqual(self.faults("parts/run.h5"), [])
+        self.assertEqual(self.faults("parts/run.h5"), [[]])
 
     def test_the_start_is_in_it(self):
         """A run from a file is drawn and taken up again where there is no such file any more."""
@@ -133,7 +135,7 @@ class H5md(CommandCase):
             (self.folder / "away.csv").rename(self.folder / "start.csv")
         self.assertEqual(self.looked_up("f['particles/start/position/value'][0].tolist()", "f/run.h5"),
                          [[-0.5, 0], [0.5, 0.1], [0, 0.7]])
-        self.assertEqual(self.faults("f/run.h5"), [])
+        self.assertEqual(self.faults("f/run.h5"), [[]])
         on = text.replace("start.csv", "f/run.h5")
         self.write("on.toml", on)
         s = self.summary("on.toml", "--set", "run.steps=0")
@@ -162,7 +164,7 @@ class H5md(CommandCase):
         for kind in ("tracks", "radial", "energy-error"):
             self.hamflow("plot", "many.run", "--kind", kind, "-o", "f.svg")
         self.hamflow("plot", "many.run", "--kind", "time", "--y", "energy", "-o", "f.svg")
-        self.assertIn("allowed particles", self.hamflow("plot", "many.run", "--kind", "orbit", "-o", "f.svg", status=2).stderr)
+        self.assertIn("allowed energy-error, energy, particles", self.hamflow("plot", "many.run", "--kind", "orbit", "-o", "f.svg", status=2).stderr)
 
     def test_figures(self):
         def texts(*arguments):

@@ -10,8 +10,8 @@
 namespace hamflow::figures {
 namespace {
 
-std::vector<std::int64_t> by_all_pairs(const std::vector<double>& q, std::size_t space, const std::vector<double>& edges,
-                                       double r_max, std::size_t bins) {
+std::vector<std::int64_t> by_all_pairs(const std::vector<double>& q, std::size_t space,
+                                       const std::vector<double>& edges, double r_max, std::size_t bins) {
   std::vector<std::int64_t> found(bins, 0);
   for (std::size_t i = 0; i < q.size(); i += space) {
     for (std::size_t j = 0; j < i; j += space) {
@@ -42,7 +42,8 @@ TEST(PairDistribution, CellsFindThePairsOfTheLoop) {
     for (const double r_max : {0.1, 0.31, 0.7, 1.0}) {
       for (const bool periodic : {false, true}) {
         std::vector<double> q = random_points(300, edges, random);
-        // Positions are not folded: whole edges more are the same place. A multiple of a power of two moves no bit here.
+        // Positions are not folded: whole edges more are the same place. A multiple of a power of two moves no bit
+        // here.
         for (std::size_t i = 0; periodic && i < q.size(); i += 7) q[i] += 2 * edges[i % edges.size()];
         const std::vector<double> box = periodic ? edges : std::vector<double>();
         const auto found = pair_counts(q, edges.size(), box, r_max, 1);
@@ -98,8 +99,9 @@ TEST(PairDistribution, PointsWithoutOrderAreShared) {
   EXPECT_NEAR((Region{false, 1.5, {}, 2}.share_within(3)), 1, 4 * 0x1p-52);
   EXPECT_NEAR((Region{false, 1.5, {}, 3}.share_within(3)), 1, 4 * 0x1p-52);
   const double small = 1e-3;
-  EXPECT_NEAR((Region{false, 1.5, {}, 2}.share_within(small)) / (std::numbers::pi * small * small / 2.25 / std::numbers::pi),
-              1, 2 * small);
+  EXPECT_NEAR(
+      (Region{false, 1.5, {}, 2}.share_within(small)) / (std::numbers::pi * small * small / 2.25 / std::numbers::pi), 1,
+      2 * small);
 }
 
 }  // namespace

@@ -8,9 +8,9 @@ namespace hamflow {
 
 struct ReversalProgress {
   bool begun = false;
-  bool turned = false;         // the momenta are negated: this is the way back
-  std::int64_t first = 0;      // the step at which the way there began
-  Frame start, turn;           // without effort and diagnostics once they were archived
+  bool turned = false;          // the momenta are negated: this is the way back
+  std::int64_t first = 0;       // the step at which the way there began
+  Frame start, turn;            // without effort and diagnostics once they were archived
   std::vector<std::byte> bits;  // of the start
   std::uint64_t start_hash = 0, turn_hash = 0;
 

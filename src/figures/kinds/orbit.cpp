@@ -5,8 +5,8 @@
 
 #include "../curves.hpp"
 #include "../figure_kind.hpp"
-#include "../planes.hpp"
 #include "../panels.hpp"
+#include "../planes.hpp"
 #include "../text.hpp"
 
 namespace hamflow::figures {

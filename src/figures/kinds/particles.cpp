@@ -1,12 +1,13 @@
 // Where the particles of a gas, or bodies, are at the first and the last sample, or at chosen times, and what holds
 // them.
+#include "../particles.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "../figure_kind.hpp"
 #include "../ink.hpp"
 #include "../panels.hpp"
-#include "../particles.hpp"
 #include "../text.hpp"
 
 namespace hamflow::figures {

@@ -24,8 +24,8 @@ std::string obstacle(const FigureData& data) {
 /// Some distances between neighbours: further away there is little to see, and pairs become many. In a periodic box no
 /// further than nearest images are unique, elsewhere no further than half across.
 double range(const FigureData& data, const Region& region) {
-  const double neighbours = std::pow(region.volume() / static_cast<double>(data.particles.count),
-                                     1.0 / static_cast<double>(region.space));
+  const double neighbours =
+      std::pow(region.volume() / static_cast<double>(data.particles.count), 1.0 / static_cast<double>(region.space));
   return std::min(region.shortest() / 2, 5 * neighbours);
 }
 
@@ -41,7 +41,8 @@ Curve distribution(const FigureData& data, const std::vector<std::size_t>& sampl
     double before = 0;
     for (std::size_t k = 0; k < bins; ++k) {
       const double share = region.share_within(r_max * static_cast<double>(k + 1) / bins);
-      g[k] += static_cast<double>(found[k]) / (n * (n - 1) / 2 * (share - before)) / static_cast<double>(samples.size());
+      g[k] +=
+          static_cast<double>(found[k]) / (n * (n - 1) / 2 * (share - before)) / static_cast<double>(samples.size());
       before = share;
     }
   }
@@ -87,10 +88,10 @@ Page page(const Figure& figure) {
       const std::vector<std::size_t> samples = later_samples(data);
       add(series_of(figure, run), data, samples);
       if (figure.runs.size() > 1) continue;
-      all.notes.push_back(samples.size() == 1 ? "of the sample at " + time_text(data.t[samples[0]])
-                                              : "mean over " + std::to_string(samples.size()) + " samples, from " +
-                                                    time_text(data.t[samples.front()]) + " to " +
-                                                    short_value(data.t[samples.back()]));
+      all.notes.push_back(samples.size() == 1
+                              ? "of the sample at " + time_text(data.t[samples[0]])
+                              : "mean over " + std::to_string(samples.size()) + " samples, from " +
+                                    time_text(data.t[samples.front()]) + " to " + short_value(data.t[samples.back()]));
       continue;
     }
     for (const std::size_t sample : samples_at(data, at)) {

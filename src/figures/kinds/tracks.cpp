@@ -8,6 +8,7 @@
 #include "../panels.hpp"
 #include "../particles.hpp"
 #include "../text.hpp"
+#include "hamflow/core/counter_random.hpp"
 
 namespace hamflow::figures {
 
@@ -29,9 +30,10 @@ Panel panel_of(const FigureData& data, const std::vector<std::vector<double>>& p
   y.include(around.y);
   if (!around.x.empty()) panel.series.push_back({Ink::exact, "", around});
   std::vector<Series> ends;
-  for (std::size_t i = 0; i * of.space < paths.size(); ++i) {
+  const std::size_t drawn = paths.size() / of.space;
+  for (std::size_t i = 0; i < drawn; ++i) {
     Series path{Ink::path, "", finite_points(paths[i * of.space + plane.first], paths[i * of.space + plane.second]),
-                mark_of(i)};
+                mark_of(drawn == of.count ? i : static_cast<std::size_t>(counter_bits(2, i) % 8))};
     path.mark.dash = 1;
     if (path.curve.x.empty()) continue;
     x.include(path.curve.x);
