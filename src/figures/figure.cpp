@@ -104,11 +104,11 @@ std::string refused_times(const Figure& figure, const figures::FigureKind& kind)
 FigureFacts facts_of(const FigureData& data) {
   return {.degrees_of_freedom = std::max(data.q.size(), data.particles.count * data.particles.space),
           .bodies_in_space = data.space >= 2,
-          .particles = data.particles.count > 0,
-          .gas = data.particles.gas,
           .diagnostics = !data.diagnostics.empty(),
           .section = !data.section_coordinate.empty(),
-          .stroboscopic = data.q.size() == 1 && !data.section_coordinate.empty()};
+          .stroboscopic = data.q.size() == 1 && !data.section_coordinate.empty(),
+          .particles = data.particles.count > 0,
+          .gas = data.particles.gas};
 }
 
 std::string why_not(const Figure& figure, const std::string& kind) {

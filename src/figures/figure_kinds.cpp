@@ -77,6 +77,9 @@ std::vector<std::string> drawable_figures(const FigureFacts& facts) {
   for (const figures::FigureKind* kind : figures::all_kinds()) {
     if (kind->refused(facts).empty()) names.emplace_back(kind->name);
   }
+  // Of a gas one wants to see the particles before anything else.
+  const auto particles = std::find(names.begin(), names.end(), "particles");
+  if (facts.gas && particles != names.end()) std::rotate(names.begin(), particles, particles + 1);
   return names;
 }
 
@@ -92,6 +95,6 @@ std::string refused_figure(const std::string& kind, const FigureFacts& facts) {
   return why.empty() ? "" : "found \"" + kind + "\"" + why + "; allowed " + joined(drawable_figures(facts));
 }
 
-std::string usual_figure(const FigureFacts& facts) { return facts.gas ? "particles" : drawable_figures(facts).front(); }
+std::string usual_figure(const FigureFacts& facts) { return drawable_figures(facts).front(); }
 
 }  // namespace hamflow

@@ -71,6 +71,7 @@ Curve outline(const FigureParticles& of, Plane plane) {
 std::string time_text(double t) { return "{/:Italic t} = " + short_value(t); }
 
 std::string no_places(const FigureData& data) {
+  if (data.t.empty()) return no_samples("position");
   const auto finite = [&](std::size_t sample) {
     const std::vector<double> q = data.particles.positions(sample);
     return std::any_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });

@@ -62,8 +62,8 @@ TEST(PairDistribution, OfALatticeAreItsShells) {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) q.insert(q.end(), {i - 2.5, j - 2.5});
   }
-  // 36 particles with 4 neighbours each at 1, at sqrt(2), at 2: 72 pairs each.
-  EXPECT_EQ(pair_counts(q, 2, {6, 6}, 2.25, 9), (std::vector<std::int64_t>{0, 0, 0, 0, 72, 72, 0, 0, 72}));
+  // 36 particles with 4 neighbours each at 1, at sqrt(2) and at 2, 72 pairs each, and 8 at sqrt(5).
+  EXPECT_EQ(pair_counts(q, 2, {6, 6}, 2.25, 9), (std::vector<std::int64_t>{0, 0, 0, 0, 72, 72, 0, 0, 216}));
 }
 
 TEST(PairDistribution, PointsWithoutOrderAreShared) {

@@ -34,6 +34,7 @@ Panel panel_of(const FigureData& data, const std::vector<double>& positions, Pla
   const FigureParticles& of = data.particles;
   Panel panel;
   fit_equal_axes(panel, ends[plane.first], ends[plane.second]);
+  panel.x.step = plain_axis(panel.x.low, panel.x.high, {5, 18}).step;  // there may be three beside each other
   const std::vector<std::string> names = axes_of_space(of.space);
   panel.x_label = symbol(names[plane.first]) + ",  " + time_text(data.t[sample]);
   panel.y_label = symbol(names[plane.second]);

@@ -14,11 +14,16 @@ namespace hamflow::figures {
 namespace radial {
 constexpr std::size_t bins = 150;
 
+bool are_finite(const std::vector<double>& q) {
+  return std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });
+}
+
 std::string obstacle(const FigureData& data) {
+  if (data.t.empty()) return no_samples("position");
   if (data.particles.count < 2) return "there is one particle, and no pair";
   const std::vector<double> q = data.particles.positions(data.t.size() - 1);
-  const bool finite = std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });
-  return finite ? "" : "the last sample has positions that are not finite";
+  if (!are_finite(q)) return "the last sample has positions that are not finite";
+  return std::isnormal(region_of(data.particles, q).volume()) ? "" : "the particles fill no volume";
 }
 
 /// Some distances between neighbours: further away there is little to see, and pairs become many. In a periodic box no
@@ -29,25 +34,28 @@ double range(const FigureData& data, const Region& region) {
   return std::min(region.shortest() / 2, 5 * neighbours);
 }
 
-/// The mean over samples.
+/// The mean over samples, as far as they have places within a volume.
 Curve distribution(const FigureData& data, const std::vector<std::size_t>& samples, double r_max) {
   std::vector<double> g(bins, 0);
+  int used = 0;
   const auto n = static_cast<double>(data.particles.count);
   for (const std::size_t sample : samples) {
     const std::vector<double> q = data.particles.positions(sample);
+    if (!are_finite(q)) continue;
     const Region region = region_of(data.particles, q);
+    if (!std::isnormal(region.volume()) || region.shortest() < r_max) continue;
+    ++used;
     const auto found =
         pair_counts(q, region.space, region.periodic ? region.edges : std::vector<double>(), r_max, bins);
     double before = 0;
     for (std::size_t k = 0; k < bins; ++k) {
       const double share = region.share_within(r_max * static_cast<double>(k + 1) / bins);
-      g[k] +=
-          static_cast<double>(found[k]) / (n * (n - 1) / 2 * (share - before)) / static_cast<double>(samples.size());
+      g[k] += static_cast<double>(found[k]) / (n * (n - 1) / 2 * (share - before));
       before = share;
     }
   }
   Curve curve;
-  for (std::size_t k = 0; k < bins; ++k) curve.add(r_max * (static_cast<double>(k) + 0.5) / bins, g[k]);
+  for (std::size_t k = 0; k < bins; ++k) curve.add(r_max * (static_cast<double>(k) + 0.5) / bins, g[k] / used);
   return curve;
 }
 
