@@ -126,11 +126,17 @@ std::string why_not(const Figure& figure, const std::string& kind) {
 }
 
 void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file) {
-  const std::string wrong_file = refused_figure_file(file);
+  write_figure(figure, kind, std::vector<std::filesystem::path>{file});
+}
+
+void write_figure(const Figure& figure, const std::string& kind, const std::vector<std::filesystem::path>& files) {
   const std::string reason = why_not(figure, kind);
   if (!reason.empty()) throw Error(reason);
-  if (!wrong_file.empty()) throw Error(wrong_file);
-  figures::draw(figures::find_kind(kind)->page(figure).with(figure.options.page), file);
+  for (const std::filesystem::path& file : files) {
+    if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Error(wrong);
+  }
+  const figures::Page page = figures::find_kind(kind)->page(figure).with(figure.options.page);
+  for (const std::filesystem::path& file : files) figures::draw(page, file);
 }
 
 }  // namespace hamflow

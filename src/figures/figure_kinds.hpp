@@ -13,11 +13,11 @@ namespace hamflow {
 struct FigureFacts {
   std::size_t degrees_of_freedom = 0;  // 0: not known yet, which refuses nothing
   bool bodies_in_space = false;        // q is [x1, y1(, z1), x2, ...] of several bodies
-  bool diagnostics = false;     // method.diagnostics of an implicit method
-  bool section = false;         // run.section
-  bool stroboscopic = false;    // run.section, an expression of t alone
-  bool columns_chosen = false;  // --y, of kinds that draw columns
-  bool particles = false;       // of a gas, or several bodies in space
+  bool diagnostics = false;            // method.diagnostics of an implicit method
+  bool section = false;                // run.section
+  bool stroboscopic = false;           // run.section, an expression of t alone
+  bool columns_chosen = false;         // --y, of kinds that draw columns
+  bool particles = false;              // of a gas, or several bodies in space
   bool gas = false;
 };
 

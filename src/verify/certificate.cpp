@@ -116,7 +116,10 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         if (!problem.total_mass) break;
         const double mass = problem.total_mass(complete(problem.info, request.parameters), end.q.size());
         size = std::max(size, magnitudes[0]);
-        map.rounding = in_arithmetic(walk * (q_unit * size + p_unit * magnitudes[2] / mass * std::abs(end.time)));
+        // Reading it adds up as many terms as there are bodies, each time rounding a sum of the whole size.
+        const double reading = 4 * std::sqrt(static_cast<double>(end.q.size()));
+        map.rounding =
+            in_arithmetic((walk + reading) * q_unit * size + walk * p_unit * magnitudes[2] / mass * std::abs(end.time));
         break;
       }
       case Terms::other:

@@ -34,7 +34,7 @@ void draw_into(const FigureRequest& request, const std::vector<std::filesystem::
   for (std::size_t i = 0; i < request.runs.size(); ++i) {
     if (kind == "orbit" || kind == "phase") figure.runs[i].opening = opening_of(request.runs[i]);
   }
-  for (const std::filesystem::path& file : files) write_figure(figure, kind, file);
+  write_figure(figure, kind, files);
 }
 
 }  // namespace

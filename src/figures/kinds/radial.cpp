@@ -13,6 +13,7 @@ namespace hamflow::figures {
 
 namespace radial {
 constexpr std::size_t bins = 150;
+constexpr std::size_t most_taken = 200000;  // of the particles: pairs of a random part are as far apart as those of all
 
 bool are_finite(const std::vector<double>& q) {
   return std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });
@@ -34,19 +35,29 @@ double range(const FigureData& data, const Region& region) {
   return std::min(region.shortest() / 2, 5 * neighbours);
 }
 
+std::vector<double> those(const std::vector<std::size_t>& taken, const std::vector<double>& q, std::size_t space) {
+  if (taken.size() * space == q.size()) return q;
+  std::vector<double> part;
+  for (const std::size_t i : taken) {
+    for (std::size_t k = 0; k < space; ++k) part.push_back(q[i * space + k]);
+  }
+  return part;
+}
+
 /// The mean over samples, as far as they have places within a volume.
 Curve distribution(const FigureData& data, const std::vector<std::size_t>& samples, double r_max) {
   std::vector<double> g(bins, 0);
   int used = 0;
-  const auto n = static_cast<double>(data.particles.count);
+  const std::vector<std::size_t> taken = some_of(data.particles.count, most_taken);
+  const auto n = static_cast<double>(taken.size());
   for (const std::size_t sample : samples) {
     const std::vector<double> q = data.particles.positions(sample);
     if (!are_finite(q)) continue;
     const Region region = region_of(data.particles, q);
     if (!std::isnormal(region.volume()) || region.shortest() < r_max) continue;
     ++used;
-    const auto found =
-        pair_counts(q, region.space, region.periodic ? region.edges : std::vector<double>(), r_max, bins);
+    const auto found = pair_counts(those(taken, q, region.space), region.space,
+                                   region.periodic ? region.edges : std::vector<double>(), r_max, bins);
     double before = 0;
     for (std::size_t k = 0; k < bins; ++k) {
       const double share = region.share_within(r_max * static_cast<double>(k + 1) / bins);
@@ -64,7 +75,8 @@ std::vector<std::size_t> later_samples(const FigureData& data) {
   constexpr std::size_t most_particles = 2000000;
   const std::size_t first = data.t.size() / 2;
   const std::size_t there = data.t.size() - first;
-  const std::size_t taken = std::min(there, std::clamp<std::size_t>(most_particles / data.particles.count, 1, 100));
+  const std::size_t taken =
+      std::min(there, std::clamp<std::size_t>(most_particles / std::min(data.particles.count, most_taken), 1, 20));
   std::vector<std::size_t> all;
   for (std::size_t k = 1; k <= taken; ++k) all.push_back(first + k * there / taken - 1);
   return all;
@@ -108,6 +120,10 @@ Page page(const Figure& figure) {
       how.mark = mark_of(curves.size());
       add(std::move(how), data, {sample});
     }
+  }
+  const std::size_t count = first.particles.count;
+  if (count > most_taken) {
+    all.notes.push_back("pairs among " + std::to_string(most_taken) + " of " + std::to_string(count) + " particles");
   }
   panel.x = fit_axis(r, 0, {7, 40});
   panel.y = fit_axis(g, padding, {7});
