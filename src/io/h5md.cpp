@@ -43,12 +43,7 @@ void write_box(hid_t file, const std::string& particles, const H5mdParticles& of
   const Hdf5Handle box = make_group(file, particles + "/box");
   write_integers(box, "dimension", {static_cast<int>(of.space)});
   write_attribute(box, "boundary", of.boundary);
-  if (of.edges.empty()) return;
-  const hsize_t size = of.edges.size();
-  const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "make a data space");
-  const Hdf5Handle edges(H5Dcreate2(box, "edges", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                         H5Dclose, "create dataset edges");
-  check_hdf5(H5Dwrite(edges, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, of.edges.data()), "write edges");
+  if (!of.edges.empty()) (void)make_group(file, particles + "/box/edges");
 }
 
 }  // namespace
@@ -79,6 +74,13 @@ void write_h5md_groups(hid_t file, const RunDescription& run) {
   write_box(file, "particles/start", of);
   write_once(file, "particles/start/position", of.start_q, of.space, {{}, "coordinates at the start", run.units.q});
   write_once(file, "particles/start/momentum", of.start_p, of.space, {{}, "momenta at the start", run.units.p});
+  if (of.edges.empty()) return;
+  Column edges(file, "particles/start/box/edges/value", H5T_IEEE_F64LE, of.space, 1, {{}, H5mdNames::edges_meaning});
+  for (const double x : of.edges) edges.add(x);
+  edges.write(1);
+  for (const char* part : {"/step", "/time"}) {
+    link(file, std::string("/particles/start/position") + part, std::string("particles/start/box/edges") + part);
+  }
 }
 
 void link_h5md_elements(hid_t file, const RunDescription& run) {
@@ -87,6 +89,7 @@ void link_h5md_elements(hid_t file, const RunDescription& run) {
     link(file, "/t", element + "/time");
   };
   for (const char* element : {"position", "momentum", "velocity"}) timed(std::string("particles/all/") + element);
+  if (!run.particles.edges.empty()) timed("particles/all/box/edges");
   if (run.particles.unit_masses()) link(file, H5mdNames::momentum, H5mdNames::velocity);
   link(file, "/energy", "observables/energy/value");
   timed("observables/energy");

@@ -26,6 +26,9 @@ struct H5mdNames {
   static constexpr const char* position = "particles/all/position/value";
   static constexpr const char* momentum = "particles/all/momentum/value";
   static constexpr const char* velocity = "particles/all/velocity/value";
+  /// A row a sample, though they do not change: readers of H5MD know no other box.
+  static constexpr const char* edges = "particles/all/box/edges/value";
+  static constexpr const char* edges_meaning = "of the box, whose middle is the origin";
   static constexpr const char* mass = "particles/all/mass/value";
   static constexpr const char* start_position = "particles/start/position/value";
   static constexpr const char* start_momentum = "particles/start/momentum/value";

@@ -44,6 +44,7 @@ struct RunFile::Impl {
   std::vector<std::size_t> invariant_sizes;
   bool diagnostics = false;
   bool digits = false;
+  std::vector<double> edges;            // of the box; none: they are not written
   std::vector<double> velocity_masses;  // one for each number of p; none: velocities are not written
   std::size_t section_waiting = 0;
   std::size_t walls_waiting = 0;
@@ -100,6 +101,10 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
     of_particles(H5mdNames::position, "coordinates, not folded into a periodic box", unit.q);
     of_particles(H5mdNames::momentum, "canonical momenta", unit.p);
     if (!run.particles.unit_masses()) of_particles(H5mdNames::velocity, "momenta over masses", {});
+    if (!run.particles.edges.empty()) {
+      all.emplace_back(file, H5mdNames::edges, H5T_IEEE_F64LE, space, rows,
+                       ColumnText{{}, H5mdNames::edges_meaning, unit.q});
+    }
   } else {
     all.emplace_back(file, "q", H5T_IEEE_F64LE, n, rows, ColumnText{run.coordinates, "coordinates", unit.q});
     all.emplace_back(file, "p", H5T_IEEE_F64LE, n, rows, ColumnText{run.momenta, "canonical momenta", unit.p});
@@ -186,6 +191,7 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   const H5mdParticles& particles = description.particles;
   if (!description.observables.empty() || particles.space > 0) (void)make_group(id, "observables");
   if (particles.space > 0) write_h5md_groups(id, description);
+  impl->edges = particles.edges;
   for (std::size_t i = 0; particles.space > 0 && !particles.unit_masses() && i < description.dimension; ++i)
     impl->velocity_masses.push_back(particles.masses[i / particles.space]);
   if (impl->digits) (void)make_group(id, "digits");
@@ -283,6 +289,7 @@ void RunFile::append(const Frame& frame, std::span<const double> observables) {
     for (std::size_t i = 0; i < frame.p.size(); ++i) column->add(frame.p[i] / impl_->velocity_masses[i]);
     ++column;
   }
+  if (!impl_->edges.empty()) numbers(impl_->edges);
   number(frame.energy);
   std::size_t at = 0;
   for (const std::size_t size : impl_->invariant_sizes) {

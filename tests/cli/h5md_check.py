@@ -59,7 +59,10 @@ def check_box(box):
     if "periodic" in boundary:
         expect("edges" in box, "a periodic box has no edges")
     if "edges" in box:
-        expect(box["edges"].shape == (dimension,) and np.all(box["edges"][:] > 0), "the edges are no lengths")
+        check_element(box["edges"], (int(dimension),))
+        expect(np.all(box["edges/value"][:] > 0), "the edges are no lengths")
+        for part in ("step", "time"):
+            expect(box["edges"].get(part) == box.parent["position"].get(part), "times of the box are no links")
     return int(dimension)
 
 

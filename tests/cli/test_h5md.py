@@ -68,7 +68,7 @@ class H5md(CommandCase):
         self.assertEqual(self.python(
             f"last = [h5py.File(file)['particles/all/' + x + '/value'][-1].ravel().tolist() for file in {files} "
             "for x in ('position', 'momentum')]\nprint(json.dumps(last))"), wanted)
-        periodic = ("[f['particles/all/box/edges'][:].tolist(), f['particles/all/mass/value'][0].tolist(),"
+        periodic = ("[f['particles/all/box/edges/value'][-1].tolist(), f['particles/all/mass/value'][0].tolist(),"
                     "[x.decode() for x in f['particles/all/box'].attrs['boundary']]]")
         self.assertEqual(self.looked_up(periodic, "2/run.h5"), [[3, 3, 3.5], [1 + i % 3 for i in range(27)], ["periodic"] * 3])
 
