@@ -164,7 +164,7 @@ class H5md(CommandCase):
         for kind in ("tracks", "radial", "energy-error"):
             self.hamflow("plot", "many.run", "--kind", kind, "-o", "f.svg")
         self.hamflow("plot", "many.run", "--kind", "time", "--y", "energy", "-o", "f.svg")
-        self.assertIn("allowed energy-error, energy, particles", self.hamflow("plot", "many.run", "--kind", "orbit", "-o", "f.svg", status=2).stderr)
+        self.assertIn("allowed particles, energy-error, energy", self.hamflow("plot", "many.run", "--kind", "orbit", "-o", "f.svg", status=2).stderr)
 
     def test_figures(self):
         def texts(*arguments):
