@@ -1,6 +1,5 @@
 // hamflow reverse: forward, negate the momenta, forward again, negate: what came back.
 #include <iostream>
-#include <optional>
 
 #include "commands.hpp"
 #include "guarded.hpp"
@@ -10,27 +9,21 @@
 
 namespace hamflow::app {
 
-namespace {
-
-ReversalReport carry_out(const Scenario& scenario, const ReverseOptions& options) {
-  catch_interrupts();
-  Progress progress(0, 2 * scenario.steps, options.quiet);
-  return reverse_scenario(scenario, [&](std::int64_t step) {
-    progress.show(step);
-    return !interrupted();
-  });
-}
-
-}  // namespace
-
 int reverse_command(const ReverseOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
-    std::optional<ReversalFolder> folder;
-    if (!options.out.empty() && options.out != "none") folder.emplace(options.out, options.force);
-    const ReversalReport report = carry_out(scenario, options);
-    if (folder) folder->keep(scenario, report);
+    ReversalSettings settings;
+    if (options.out != "none") settings.folder = options.out;
+    settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
+    settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
+    catch_interrupts();
+    Progress progress(0, 2 * scenario.steps, options.quiet);
+    settings.pulse = [&](std::int64_t step) {
+      progress.show(step);
+      return !interrupted();
+    };
+    const ReversalReport report = reverse_scenario(scenario, settings);
     std::cout << (options.json ? report.json : report.text);
     if (report.status == "failed") print_error(report.message, report.hint);
     return exit_status(report.status);

@@ -44,6 +44,7 @@ struct PlotOptions {
   std::string file;
   std::string x;     // a column
   std::string y;     // columns, commas between
+  std::string at;    // times, commas between
   std::string size;  // WxH in centimetres, or with a unit
   int dpi = 0;
   bool no_title = false;
@@ -82,6 +83,7 @@ struct ReverseOptions {
   std::vector<std::string> sets;
   std::string out;  // a folder, or "none", as without it
   bool force = false;
+  bool resume = false;
   bool json = false;
   bool quiet = false;
 };

@@ -61,14 +61,17 @@ int main(int argc, char** argv) {
       add(app, "plot", "Draw a figure of a run, or of several, also of those that go on or were cut short",
           "  hamflow plot kepler.run -o orbit.svg\n  hamflow plot kepler.run --kind energy-error -o e.pdf\n"
           "  hamflow plot coarse.run fine.run --kind energy-error --size 8.5x6 --no-title -o both.pdf\n"
-          "  hamflow plot kepler.run --kind time --y x,p_x --dpi 600 -o x.png\n");
+          "  hamflow plot kepler.run --kind time --y x,p_x --dpi 600 -o x.png\n"
+          "  hamflow plot gas_121.run --kind particles --at 0,0.01 -o gas.png\n");
   plot_command->add_option("run", plot.runs, "folders of runs, or their run.h5")->required()->type_name("RUN...");
   plot_command->add_option("--kind", plot.kind, hamflow::joined(hamflow::figure_names()))
       ->type_name("KIND")
       ->check(CLI::Validator(hamflow::unknown_figure, "", ""));
-  plot_command->add_option("--x", plot.x, "column of the horizontal axis, of the kinds orbit, phase, time")
+  plot_command
+      ->add_option("--x", plot.x, "column of the horizontal axis, of the kinds orbit, phase, time, particles, tracks")
       ->type_name("COLUMN");
   plot_command->add_option("--y", plot.y, "columns of the vertical axis, commas between")->type_name("COLUMN,...");
+  plot_command->add_option("--at", plot.at, "times of the kinds particles, radial, commas between")->type_name("T,...");
   plot_command->add_option("--size", plot.size, "width and height in centimetres, e.g. 8.5x6; also 85x60mm, 3.35x2.4in")
       ->type_name("WxH");
   plot_command->add_option("--dpi", plot.dpi, "pixels to the inch of a .png [300]")
@@ -152,7 +155,10 @@ int main(int argc, char** argv) {
       ->add_option("--out", reverse.out, "folder for the states at start, turn and end; \"none\" writes nothing [none]")
       ->type_name("DIR")
       ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
-  reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
+  auto* const reverse_force =
+      reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
+  reverse_command->add_flag("--resume", reverse.resume, "go on with the reversal in the folder, from either half")
+      ->excludes(reverse_force);
   reverse_command->add_flag("--json", reverse.json, "print JSON, and nothing else, on stdout");
   reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
   reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });

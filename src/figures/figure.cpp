@@ -4,6 +4,7 @@
 
 #include "figure_kind.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 
 namespace hamflow {
@@ -32,7 +33,11 @@ std::string inconsistency(const FigureData& data) {
 
 std::string obstacle(const FigureData& data, const figures::FigureKind& kind) {
   const std::string wrong = inconsistency(data);
-  return wrong.empty() ? kind.obstacle(data) : wrong;
+  if (!wrong.empty()) return wrong;
+  if (data.q.empty() && kind.needs_states) {
+    return "the columns of " + std::to_string(data.particles.count) + " particles are not read one by one";
+  }
+  return kind.obstacle(data);
 }
 
 /// Why this run has no such figure, as a sentence that says what is allowed.
@@ -69,14 +74,41 @@ std::string refused_columns(const Figure& figure, const figures::FigureKind& kin
   }
   return "";
 }
+/// What is wrong with the times that are asked for.
+std::string refused_times(const Figure& figure, const figures::FigureKind& kind) {
+  const std::vector<double>& asked = figure.options.at;
+  if (asked.empty()) return "";
+  if (!kind.takes_times) {
+    std::vector<std::string> others;
+    for (const figures::FigureKind* other : figures::all_kinds()) {
+      if (other->takes_times) others.emplace_back(other->name);
+    }
+    return "found --at for \"" + std::string(kind.name) + "\", which draws all samples; allowed for " + joined(others);
+  }
+  constexpr std::size_t most_times = 12;
+  if (asked.size() > most_times) {
+    return "found " + std::to_string(asked.size()) + " times; allowed at most " + std::to_string(most_times) +
+           " in one figure";
+  }
+  for (const FigureData& run : figure.runs) {
+    const auto [first, last] = std::minmax({run.t.front(), run.t.back()});
+    for (const double t : asked) {
+      if (!(t >= first && t <= last))
+        return "found the time " + shortest(t) + "; allowed from " + shortest(first) + " to " + shortest(last);
+    }
+  }
+  return "";
+}
 }  // namespace
 
 FigureFacts facts_of(const FigureData& data) {
-  return {.degrees_of_freedom = data.q.size(),
+  return {.degrees_of_freedom = std::max(data.q.size(), data.particles.count * data.particles.space),
           .bodies_in_space = data.space >= 2,
           .diagnostics = !data.diagnostics.empty(),
           .section = !data.section_coordinate.empty(),
-          .stroboscopic = data.q.size() == 1 && !data.section_coordinate.empty()};
+          .stroboscopic = data.q.size() == 1 && !data.section_coordinate.empty(),
+          .particles = data.particles.count > 0,
+          .gas = data.particles.gas};
 }
 
 std::string why_not(const Figure& figure, const std::string& kind) {
@@ -87,17 +119,24 @@ std::string why_not(const Figure& figure, const std::string& kind) {
   const figures::FigureKind& known = *figures::find_kind(kind);
   const std::string columns = refused_columns(figure, known);
   if (!columns.empty()) return columns;
+  if (const std::string times = refused_times(figure, known); !times.empty()) return times;
   const std::string reason = figure.runs.size() > 1 ? known.apart(figure) : "";
   return reason.empty() ? ""
                         : "found " + std::to_string(figure.runs.size()) + " runs for \"" + kind + "\", but " + reason;
 }
 
 void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file) {
-  const std::string wrong_file = refused_figure_file(file);
+  write_figure(figure, kind, std::vector<std::filesystem::path>{file});
+}
+
+void write_figure(const Figure& figure, const std::string& kind, const std::vector<std::filesystem::path>& files) {
   const std::string reason = why_not(figure, kind);
   if (!reason.empty()) throw Error(reason);
-  if (!wrong_file.empty()) throw Error(wrong_file);
-  figures::draw(figures::find_kind(kind)->page(figure).with(figure.options.page), file);
+  for (const std::filesystem::path& file : files) {
+    if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Error(wrong);
+  }
+  const figures::Page page = figures::find_kind(kind)->page(figure).with(figure.options.page);
+  for (const std::filesystem::path& file : files) figures::draw(page, file);
 }
 
 }  // namespace hamflow

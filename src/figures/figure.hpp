@@ -19,6 +19,18 @@ struct FigureSamples {
   std::vector<std::vector<double>> p;
 };
 
+/// The particles of a gas, or bodies in space, of which there may be more than q and p of FigureSamples hold.
+struct FigureParticles {
+  std::size_t count = 0;  // 0: none
+  std::size_t space = 0;  // 2 or 3
+  bool gas = false;
+  std::string container{};      // circle, box, periodic, none
+  double radius = 0;            // of the circle, or sphere
+  std::vector<double> edges{};  // of a box, whose middle is the origin
+  /// All positions at a sample, particle by particle, not folded into a periodic box.
+  std::function<std::vector<double>(std::size_t sample)> positions{};
+};
+
 struct FigureData : FigureSamples {
   std::string title;                     // e.g. "central-force, cg(1,5), dt = 0.1"
   std::string label{};                   // of a run among several, in the legend
@@ -35,6 +47,7 @@ struct FigureData : FigureSamples {
   /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies, or the place of one; 0 otherwise.
   std::size_t space = 0;
   std::vector<std::string> bodies{};  // their names, where they have some; empty: body 1, body 2, ...
+  FigureParticles particles{};
   /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.
   FigureSamples opening{};
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.
@@ -54,6 +67,7 @@ struct FigureData : FigureSamples {
 struct FigureOptions {
   std::string x{};               // a column, of kinds that draw columns; empty: as is usual for the kind
   std::vector<std::string> y{};  // the same
+  std::vector<double> at{};      // times, of kinds that draw some of them; empty: as is usual for the kind
   figures::PageOptions page{};
 };
 
@@ -76,5 +90,7 @@ std::string why_not(const Figure& figure, const std::string& kind);
 /// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
 /// @throws Error when kind, extension, options or data do not fit   @throws FileError when gnuplot or the file fails
 void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file);
+/// The same into several files.
+void write_figure(const Figure& figure, const std::string& kind, const std::vector<std::filesystem::path>& files);
 
 }  // namespace hamflow

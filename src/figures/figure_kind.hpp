@@ -25,6 +25,8 @@ struct FigureKind {
   /// The columns that --x and --y may name, for the first run; empty: the kind draws no columns.
   std::vector<std::string> (*columns)(const FigureData&);
   Page (*page)(const Figure&);
+  bool takes_times = false;   // --at
+  bool needs_states = false;  // q and p, which of very many particles are not read
 };
 
 /// The kinds of the folder, sorted by place.
@@ -38,6 +40,14 @@ std::string never(const FigureFacts& facts);
 std::string any_runs(const Figure& figure);
 /// `apart` of kinds that runs share whose coordinates have the same names.
 std::string same_coordinates(const Figure& figure);
+/// `refused` of kinds that draw particles.
+std::string without_particles(const FigureFacts& facts);
+/// `obstacle` of these: positions that are not finite.
+std::string no_places(const FigureData& data);
+/// `apart` of kinds in which colours tell particles apart.
+std::string one_run(const Figure& figure);
+/// `columns` of kinds that draw planes of space.
+std::vector<std::string> axes_of_particles(const FigureData& data);
 /// `columns` of kinds without.
 std::vector<std::string> no_columns(const FigureData& data);
 /// " for a problem with 3 degrees of freedom".

@@ -39,6 +39,13 @@ std::string same_coordinates(const Figure& figure) {
   return {};
 }
 
+std::string without_particles(const FigureFacts& facts) {
+  if (facts.particles || facts.degrees_of_freedom == 0) return {};
+  return for_degrees(facts) + ", which is no gas and not several bodies in space";
+}
+
+std::string one_run(const Figure&) { return "particles are those of one run; allowed a run alone"; }
+
 std::vector<std::string> no_columns(const FigureData&) { return {}; }
 
 std::string for_degrees(const FigureFacts& facts) {
@@ -70,6 +77,9 @@ std::vector<std::string> drawable_figures(const FigureFacts& facts) {
   for (const figures::FigureKind* kind : figures::all_kinds()) {
     if (kind->refused(facts).empty()) names.emplace_back(kind->name);
   }
+  // Of a gas one wants to see the particles before anything else.
+  const auto particles = std::find(names.begin(), names.end(), "particles");
+  if (facts.gas && particles != names.end()) std::rotate(names.begin(), particles, particles + 1);
   return names;
 }
 

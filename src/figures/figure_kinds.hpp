@@ -17,6 +17,8 @@ struct FigureFacts {
   bool section = false;                // run.section
   bool stroboscopic = false;           // run.section, an expression of t alone
   bool columns_chosen = false;         // --y, of kinds that draw columns
+  bool particles = false;              // of a gas, or several bodies in space
+  bool gas = false;
 };
 
 struct FigureKindInfo {

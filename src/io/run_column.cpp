@@ -18,9 +18,12 @@ namespace {
 constexpr std::size_t page = 4096;
 constexpr std::size_t checksum = 4;
 
-Hdf5Handle chunks(int rank, hsize_t width, std::size_t bytes_a_row, std::size_t rows) {
+std::size_t rows_of_chunk(std::size_t bytes_a_row, std::size_t rows) {
   const std::size_t on_a_page = std::max<std::size_t>((page - checksum) / bytes_a_row, 1);
-  const hsize_t chunk[2] = {std::min(on_a_page, std::max<std::size_t>(rows, 16)), width};
+  return std::min(on_a_page, std::max<std::size_t>(rows, 16));
+}
+
+Hdf5Handle chunks(int rank, const hsize_t* chunk) {
   Hdf5Handle plist(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make a property list");
   check_hdf5(H5Pset_chunk(plist, rank, chunk), "choose the chunks");
   check_hdf5(H5Pset_fletcher32(plist), "choose a checksum");
@@ -36,16 +39,20 @@ Hdf5Handle digits_type(std::size_t length) {
   return type;
 }
 
-Column::Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text)
+Column::Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text,
+               std::size_t of_each)
     : name_(std::move(name)),
-      rank_(width > 0 ? 2 : 1),
+      rank_(of_each > 0 ? 3
+            : width > 0 ? 2
+                        : 1),
       width_(std::max<std::size_t>(width, 1)),
+      of_each_(std::max<std::size_t>(of_each, 1)),
       type_(H5Tcopy(type), H5Tclose, "copy a type"),
       bytes_a_row_(H5Tget_size(type_) * width_) {
-  const hsize_t size[2] = {0, width_};
-  const hsize_t most[2] = {H5S_UNLIMITED, width_};
-  const Hdf5Handle space(H5Screate_simple(rank_, size, most), H5Sclose, "make a data space");
-  const Hdf5Handle plist = chunks(rank_, width_, bytes_a_row_, rows);
+  const Shape size = shape(0);
+  const Shape most = shape(H5S_UNLIMITED);
+  const Hdf5Handle space(H5Screate_simple(rank_, size.data(), most.data()), H5Sclose, "make a data space");
+  const Hdf5Handle plist = chunks(rank_, shape(rows_of_chunk(bytes_a_row_, rows)).data());
   dataset_ = Hdf5Handle(H5Dcreate2(file, name_.c_str(), type_, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
                         "create dataset " + name_);
   if (!text.columns.empty()) write_attribute(dataset_, "columns", text.columns);
@@ -67,22 +74,23 @@ void Column::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
   const Hdf5Handle source(H5Dopen2(other, name_.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name_);
   const Hdf5Handle space(H5Dget_space(source), H5Sclose, "open the space of " + name_);
   const Hdf5Handle type(H5Dget_type(source), H5Tclose, "read the type of " + name_);
-  hsize_t size[2] = {0, 1};
+  Shape size = shape(0);
   if (H5Sget_simple_extent_ndims(space) != rank_ || H5Tequal(type, type_) <= 0) {
     throw FileError("HDF5: dataset " + name_ + " has another shape");
   }
-  check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name_);
-  if (size[1] != width_) throw FileError("HDF5: dataset " + name_ + " has another width");
+  check_hdf5(H5Sget_simple_extent_dims(space, size.data(), nullptr), "read the size of " + name_);
+  if (size != shape(size[0])) throw FileError("HDF5: dataset " + name_ + " has another width");
   if (size[0] < rows) {
     throw FileError("HDF5: dataset " + name_ + " has " + std::to_string(size[0]) + " rows, not the " +
                     std::to_string(rows) + " that the checkpoint counts");
   }
   while (written_ < rows) {
-    const hsize_t offset[2] = {written_, 0};
-    const hsize_t count[2] = {std::min<hsize_t>(rows - written_, at_once), width_};
+    const Shape offset{written_, 0, 0};
+    const Shape count = shape(std::min<hsize_t>(rows - written_, at_once));
     const Hdf5Handle part(H5Dget_space(source), H5Sclose, "open the space of " + name_);
-    check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset, nullptr, count, nullptr), "select rows of " + name_);
-    const Hdf5Handle memory(H5Screate_simple(rank_, count, nullptr), H5Sclose, "make a data space");
+    check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
+               "select rows of " + name_);
+    const Hdf5Handle memory(H5Screate_simple(rank_, count.data(), nullptr), H5Sclose, "make a data space");
     waiting_.resize(count[0] * bytes_a_row_);
     check_hdf5(H5Dread(source, type_, memory, part, H5P_DEFAULT, waiting_.data()), "read " + name_);
     write(count[0]);
@@ -90,13 +98,14 @@ void Column::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
 }
 
 void Column::write(std::size_t rows) {
-  const hsize_t size[2] = {written_ + rows, width_};
-  const hsize_t offset[2] = {written_, 0};
-  const hsize_t count[2] = {rows, width_};
-  check_hdf5(H5Dset_extent(dataset_, size), "extend dataset " + name_);
+  const Shape size = shape(written_ + rows);
+  const Shape offset{written_, 0, 0};
+  const Shape count = shape(rows);
+  check_hdf5(H5Dset_extent(dataset_, size.data()), "extend dataset " + name_);
   const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, "open the space of " + name_);
-  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset, nullptr, count, nullptr), "select rows of " + name_);
-  const Hdf5Handle memory(H5Screate_simple(rank_, count, nullptr), H5Sclose, "make a data space");
+  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
+             "select rows of " + name_);
+  const Hdf5Handle memory(H5Screate_simple(rank_, count.data(), nullptr), H5Sclose, "make a data space");
   check_hdf5(H5Dwrite(dataset_, type_, memory, space, H5P_DEFAULT, waiting_.data()), "write " + name_);
   check_hdf5(H5Dflush(dataset_), "flush " + name_);
   written_ += rows;

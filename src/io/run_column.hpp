@@ -1,6 +1,7 @@
 // One dataset of a run that grows by a row a sample, with the rows that wait to be written.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,7 +36,9 @@ class Column {
   /// @param type of a number: H5T_IEEE_F64LE, H5T_STD_I64LE or digits_type()
   /// @param width of a row; 0: a row is one number, and the dataset has rank 1
   /// @param rows expected, so that a short run leaves a small file
-  Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text);
+  /// @param of_each numbers of a particle, of which a row has width/of_each: the dataset has rank 3; 0: of rank 2
+  Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text,
+         std::size_t of_each = 0);
 
   // The next number of a row, of the column's own type. A text is filled up with zero bytes.
   void add(double x) { put(&x, sizeof x); }
@@ -50,6 +53,10 @@ class Column {
   void write(std::size_t rows);
 
  private:
+  using Shape = std::array<hsize_t, 3>;
+  /// Of so many rows.
+  Shape shape(hsize_t rows) const { return {rows, width_ / of_each_, of_each_}; }
+
   void put(const void* bytes, std::size_t count) {
     const auto* const begin = static_cast<const char*>(bytes);
     waiting_.insert(waiting_.end(), begin, begin + count);
@@ -58,6 +65,7 @@ class Column {
   std::string name_;
   int rank_;
   hsize_t width_;
+  hsize_t of_each_;
   Hdf5Handle type_;  // in the file and in memory
   std::size_t bytes_a_row_;
   Hdf5Handle dataset_;

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <span>
 
+#include "h5md_groups.hpp"
 #include "hdf5_text.hpp"
 #include "run_column.hpp"
 #include "whole_file.hpp"
@@ -43,6 +44,8 @@ struct RunFile::Impl {
   std::vector<std::size_t> invariant_sizes;
   bool diagnostics = false;
   bool digits = false;
+  std::vector<double> edges;            // of the box; none: they are not written
+  std::vector<double> velocity_masses;  // one for each number of p; none: velocities are not written
   std::size_t section_waiting = 0;
   std::size_t walls_waiting = 0;
   std::vector<std::size_t> events_waiting;
@@ -91,16 +94,29 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
   const auto number = [&](const char* name, hid_t type, const char* meaning, const std::string& its_unit = {}) {
     all.emplace_back(file, name, type, 0, rows, ColumnText{{last_name(name)}, meaning, its_unit});
   };
-  all.emplace_back(file, "q", H5T_IEEE_F64LE, n, rows, ColumnText{run.coordinates, "coordinates", unit.q});
-  all.emplace_back(file, "p", H5T_IEEE_F64LE, n, rows, ColumnText{run.momenta, "canonical momenta", unit.p});
+  if (const std::size_t space = run.particles.space; space > 0) {
+    const auto of_particles = [&](const char* name, const char* meaning, const std::string& its_unit) {
+      all.emplace_back(file, name, H5T_IEEE_F64LE, n, rows, ColumnText{{}, meaning, its_unit}, space);
+    };
+    of_particles(H5mdNames::position, "coordinates, not folded into a periodic box", unit.q);
+    of_particles(H5mdNames::momentum, "canonical momenta", unit.p);
+    if (!run.particles.unit_masses()) of_particles(H5mdNames::velocity, "momenta over masses", {});
+    if (!run.particles.edges.empty()) {
+      all.emplace_back(file, H5mdNames::edges, H5T_IEEE_F64LE, space, rows,
+                       ColumnText{{}, H5mdNames::edges_meaning, unit.q});
+    }
+  } else {
+    all.emplace_back(file, "q", H5T_IEEE_F64LE, n, rows, ColumnText{run.coordinates, "coordinates", unit.q});
+    all.emplace_back(file, "p", H5T_IEEE_F64LE, n, rows, ColumnText{run.momenta, "canonical momenta", unit.p});
+  }
   number("energy", H5T_IEEE_F64LE, "H(q, p); of H(q, p, t) less the integral of dH/dt, which is constant", unit.energy);
   for (const InvariantColumn& each : run.invariants) {
     all.emplace_back(file, "invariants/" + each.name, H5T_IEEE_F64LE, each.size == 1 ? 0 : each.size, rows,
                      ColumnText{component_names(each), each.meaning, each.unit});
   }
   for (const InvariantColumn& each : run.observables) {
-    all.emplace_back(file, "observables/" + each.name, H5T_IEEE_F64LE, 0, rows,
-                     ColumnText{{each.name}, each.meaning, each.unit});
+    all.emplace_back(file, "observables/" + each.name + (run.particles.space > 0 ? "/value" : ""), H5T_IEEE_F64LE, 0,
+                     rows, ColumnText{{each.name}, each.meaning, each.unit});
   }
   for (const auto& [name, meaning] : diagnostic_columns) {
     if (run.diagnostics) number(name, H5T_IEEE_F64LE, meaning);
@@ -172,7 +188,12 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   impl->digits = description.digits_length > 0;
   impl->diagnostics = description.diagnostics;
   for (const InvariantColumn& each : description.invariants) impl->invariant_sizes.push_back(each.size);
-  if (!description.observables.empty()) (void)make_group(id, "observables");
+  const H5mdParticles& particles = description.particles;
+  if (!description.observables.empty() || particles.space > 0) (void)make_group(id, "observables");
+  if (particles.space > 0) write_h5md_groups(id, description);
+  impl->edges = particles.edges;
+  for (std::size_t i = 0; particles.space > 0 && !particles.unit_masses() && i < description.dimension; ++i)
+    impl->velocity_masses.push_back(particles.masses[i / particles.space]);
   if (impl->digits) (void)make_group(id, "digits");
   if (description.section) {
     (void)make_group(id, "section");
@@ -190,6 +211,7 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   impl->events_waiting.resize(impl->events.size());
   impl->event_rows.resize(impl->events.size());
   impl->columns = sample_columns(id, description);
+  if (particles.space > 0) link_h5md_elements(id, description);
   std::size_t bytes = 0;
   for (const Column& column : impl->columns) bytes += column.bytes_a_row();
   impl->most_waiting = std::clamp<std::size_t>(batch_bytes / bytes, 1, batch_rows);
@@ -263,6 +285,11 @@ void RunFile::append(const Frame& frame, std::span<const double> observables) {
   };
   numbers(frame.q);
   numbers(frame.p);
+  if (!impl_->velocity_masses.empty()) {
+    for (std::size_t i = 0; i < frame.p.size(); ++i) column->add(frame.p[i] / impl_->velocity_masses[i]);
+    ++column;
+  }
+  if (!impl_->edges.empty()) numbers(impl_->edges);
   number(frame.energy);
   std::size_t at = 0;
   for (const std::size_t size : impl_->invariant_sizes) {

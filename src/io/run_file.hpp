@@ -6,12 +6,14 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "h5md.hpp"
 #include "hamflow/run/section.hpp"
 
 namespace hamflow {
@@ -55,6 +57,7 @@ struct RunDescription {
   std::vector<std::string> coordinates{};  // a name for each number of q; none: they are not written
   std::vector<std::string> momenta{};
   std::vector<double> masses{};  // of the bodies; none: not written
+  H5mdParticles particles{};     // of a gas: positions and momenta as H5MD wants them, instead of /q and /p
   ColumnUnits units{};
   std::size_t digits_length = 0;  // characters of a number beyond double; 0: numbers are doubles
   std::string identity{};         // of the run, the attribute `run`; empty: none, nothing can go on in the file
@@ -106,8 +109,13 @@ struct RunSamples {
   std::vector<std::vector<double>> section_p;
 };
 
+/// @param most_coordinates above them q and p stay empty, and description.dimension says how many there are
 /// @throws FileError naming the file and what is wrong with it
-RunSamples read_run_file(const std::filesystem::path& file);
+RunSamples read_run_file(const std::filesystem::path& file,
+                         std::size_t most_coordinates = std::numeric_limits<std::size_t>::max());
+
+/// q at one sample.   @throws FileError
+std::vector<double> read_run_positions(const std::filesystem::path& file, std::size_t sample);
 
 /// The samples of a run beyond double with all their digits: decimal texts that read back to the last bit
 /// (evaluate_number in the arithmetic of the run; run/digits.hpp).

@@ -15,11 +15,11 @@ struct OpenColumn {
   OpenColumn(hid_t file, const char* its_name)
       : name(its_name), dataset(H5Dopen2(file, its_name, H5P_DEFAULT), H5Dclose, "open dataset " + name) {
     const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
-    if (H5Sget_simple_extent_ndims(space) > 2) throw FileError("HDF5: dataset " + name + " has too many dimensions");
+    if (H5Sget_simple_extent_ndims(space) > 3) throw FileError("HDF5: dataset " + name + " has too many dimensions");
     check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
   }
   std::size_t rows() const { return size[0]; }
-  std::size_t width() const { return size[1]; }
+  std::size_t width() const { return size[1] * size[2]; }
   /// A chunk that its writer is writing at this moment has another checksum: a moment later it is whole.
   void read(hid_t type, void* values) const {
     for (int attempt = 1; attempt < 3; ++attempt) {
@@ -30,7 +30,7 @@ struct OpenColumn {
 
   std::string name;
   Hdf5Handle dataset;
-  hsize_t size[2] = {0, 1};
+  hsize_t size[3] = {0, 1, 1};
 };
 
 /// Row by row.
@@ -40,6 +40,12 @@ std::vector<double> read_column(hid_t file, const char* name, std::size_t& width
   std::vector<double> values(column.rows() * width);
   if (!values.empty()) column.read(H5T_NATIVE_DOUBLE, values.data());
   return values;
+}
+
+std::size_t rows_of(hid_t file, const char* name, std::size_t& width) {
+  const OpenColumn column(file, name);
+  width = std::max<std::size_t>(column.width(), 1);
+  return column.rows();
 }
 
 std::vector<std::string> read_texts(hid_t file, const char* name, std::size_t& width) {
@@ -85,9 +91,57 @@ std::vector<std::string> names_in(hid_t file, const char* group_name) {
   return names;
 }
 
-RunSamples read_samples(const std::filesystem::path& path) {
+bool has_particles(hid_t file) {
+  return H5Lexists(file, "particles", H5P_DEFAULT) > 0 && H5Lexists(file, "particles/all", H5P_DEFAULT) > 0;
+}
+
+/// The states that reverse.h5 has, in their order.
+std::vector<std::string> states_of_reversal(hid_t file) {
+  std::vector<std::string> names;
+  if (H5Lexists(file, "t", H5P_DEFAULT) > 0) return names;
+  for (const char* name : {"start", "turn", "end"}) {
+    if (H5Lexists(file, name, H5P_DEFAULT) > 0) names.emplace_back(name);
+  }
+  return names;
+}
+
+double read_number(hid_t object, const char* name) {
+  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "open an attribute");
+  double x = 0;
+  check_hdf5(H5Aread(attribute, H5T_NATIVE_DOUBLE, &x), std::string("read attribute ") + name);
+  return x;
+}
+
+/// A reversal as a run of three samples.
+RunSamples read_reversal(hid_t file, const std::vector<std::string>& names, std::size_t most_coordinates) {
+  RunSamples run;
+  run.description.scenario = read_text_dataset(file, "scenario");
+  std::vector<double> q;
+  std::vector<double> p;
+  for (const std::string& name : names) {
+    const Hdf5Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose, "open group " + name);
+    run.t.push_back(read_number(group, "t"));
+    std::size_t one = 0;
+    for (const auto& [numbers, letter] : {std::pair{&q, "/q"}, std::pair{&p, "/p"}}) {
+      const std::vector<double> row = read_column(file, (name + letter).c_str(), one);
+      numbers->insert(numbers->end(), row.begin(), row.end());
+    }
+  }
+  const std::size_t width = q.size() / names.size();
+  run.description.dimension = width;
+  if (width * names.size() != q.size() || p.size() != q.size()) throw FileError("HDF5: states differ in length");
+  if (width > most_coordinates) return run;
+  run.q = by_coordinate(q, width, names.size());
+  run.p = by_coordinate(p, width, names.size());
+  return run;
+}
+
+RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coordinates) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
+  if (const auto states = states_of_reversal(file); !states.empty()) {
+    return read_reversal(file, states, most_coordinates);
+  }
   RunSamples run;
   run.description.scenario = read_text_dataset(file, "scenario");
   run.description.version = read_attribute(file, "hamflow");
@@ -100,18 +154,27 @@ RunSamples read_samples(const std::filesystem::path& path) {
   run.energy = read_column(file, "energy", width);
   std::size_t q_width = 0;
   std::size_t p_width = 0;
-  const std::vector<double> q = read_column(file, "q", q_width);
-  const std::vector<double> p = read_column(file, "p", p_width);
+  const bool particles = has_particles(file);
+  const char* const q_name = particles ? H5mdNames::position : "q";
+  const char* const p_name = particles ? H5mdNames::momentum : "p";
+  const std::size_t q_rows = rows_of(file, q_name, q_width);
+  const std::size_t p_rows = rows_of(file, p_name, p_width);
+  const bool with_states = q_width <= most_coordinates;
+  const std::vector<double> q = with_states ? read_column(file, q_name, q_width) : std::vector<double>();
+  const std::vector<double> p = with_states ? read_column(file, p_name, p_width) : std::vector<double>();
   std::size_t one = 0;
   for (const auto& [name, meaning] : diagnostic_columns) {
     if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
     run.diagnostics.emplace_back(name + std::string("solver/").size(), read_column(file, name, one));
   }
   for (const std::string& name : names_in(file, "observables")) {
-    run.observables.emplace_back(name, read_column(file, ("observables/" + name).c_str(), one));
+    if (particles && (name == "energy" || H5Lexists(file, ("invariants/" + name).c_str(), H5P_DEFAULT) > 0)) continue;
+    const std::string dataset = "observables/" + name + (particles ? "/value" : "");
+    run.observables.emplace_back(name, read_column(file, dataset.c_str(), one));
   }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
-  std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / q_width, p.size() / p_width});
+  std::size_t count = std::min({run.t.size(), run.energy.size(), q_rows, p_rows});
+  if (with_states) count = std::min({count, q.size() / q_width, p.size() / p_width});
   for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
   for (const auto& column : run.observables) count = std::min(count, column.second.size());
   for (auto* columns : {&run.diagnostics, &run.observables}) {
@@ -119,8 +182,10 @@ RunSamples read_samples(const std::filesystem::path& path) {
   }
   run.t.resize(count);
   run.energy.resize(count);
-  run.q = by_coordinate(q, q_width, count);
-  run.p = by_coordinate(p, p_width, count);
+  if (with_states) {
+    run.q = by_coordinate(q, q_width, count);
+    run.p = by_coordinate(p, p_width, count);
+  }
   run.description.dimension = q_width;
   if (H5Lexists(file, "section", H5P_DEFAULT) > 0) {
     run.section_t = read_column(file, "section/t", one);
@@ -133,6 +198,25 @@ RunSamples read_samples(const std::filesystem::path& path) {
     run.description.section = true;
   }
   return run;
+}
+
+std::vector<double> read_positions(const std::filesystem::path& path, std::size_t sample) {
+  silence_hdf5();
+  const Hdf5Handle file = open_to_read(path);
+  if (const auto states = states_of_reversal(file); !states.empty()) {
+    std::size_t one = 0;
+    return read_column(file, (states.at(sample) + "/q").c_str(), one);
+  }
+  const OpenColumn column(file, has_particles(file) ? H5mdNames::position : "q");
+  const hsize_t first[3] = {sample, 0, 0};
+  const hsize_t count[3] = {1, column.size[1], column.size[2]};
+  const hsize_t width = column.width();
+  const Hdf5Handle space(H5Dget_space(column.dataset), H5Sclose, "open the space of " + column.name);
+  const Hdf5Handle memory(H5Screate_simple(1, &width, nullptr), H5Sclose, "make a data space");
+  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr), "select a row");
+  std::vector<double> q(width);
+  check_hdf5(H5Dread(column.dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, q.data()), "read " + column.name);
+  return q;
 }
 
 RunDigits read_digits(const std::filesystem::path& path) {
@@ -176,7 +260,12 @@ auto naming(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
-RunSamples read_run_file(const std::filesystem::path& path) { return naming(path, read_samples); }
+RunSamples read_run_file(const std::filesystem::path& path, std::size_t most_coordinates) {
+  return naming(path, [&](const std::filesystem::path& file) { return read_samples(file, most_coordinates); });
+}
+std::vector<double> read_run_positions(const std::filesystem::path& path, std::size_t sample) {
+  return naming(path, [&](const std::filesystem::path& file) { return read_positions(file, sample); });
+}
 RunDigits read_run_digits(const std::filesystem::path& path) { return naming(path, read_digits); }
 
 }  // namespace hamflow

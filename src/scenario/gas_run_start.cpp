@@ -24,9 +24,13 @@ struct Open {
   }
 };
 
-/// Row `row` of a dataset of rank 2, or the length of one of rank 1 and more; nothing where it is not there.
-std::vector<hsize_t> shape_of(hid_t file, const char* name) {
-  const Open data(H5Lexists(file, name, H5P_DEFAULT) > 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1, H5Dclose);
+/// The shape of a dataset; nothing where it is not there.
+std::vector<hsize_t> shape_of(hid_t file, const std::string& name) {
+  for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
+    if (H5Lexists(file, name.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return {};
+  }
+  const Open data(H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1,
+                  H5Dclose);
   if (data.id < 0) return {};
   const Open space(H5Dget_space(data.id), H5Sclose);
   std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id))));
@@ -34,44 +38,98 @@ std::vector<hsize_t> shape_of(hid_t file, const char* name) {
   return shape;
 }
 
-std::vector<double> row_of(hid_t file, const char* name, hsize_t row, hsize_t width) {
-  const Open data(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+/// Row `row` of a dataset of any rank; nothing where it cannot be read.
+std::vector<double> row_of(hid_t file, const std::string& name, hsize_t row) {
+  std::vector<hsize_t> count = shape_of(file, name);
+  if (count.empty() || row >= count[0]) return {};
+  std::vector<hsize_t> first(count.size(), 0);
+  first[0] = row;
+  count[0] = 1;
+  hsize_t width = 1;
+  for (const hsize_t n : count) width *= n;
+  const Open data(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   const Open space(H5Dget_space(data.id), H5Sclose);
-  const hsize_t first[2] = {row, 0};
-  const hsize_t count[2] = {1, width};
   const Open memory(H5Screate_simple(1, &width, nullptr), H5Sclose);
   std::vector<double> numbers(width);
-  const bool read = H5Sselect_hyperslab(space.id, H5S_SELECT_SET, first, nullptr, count, nullptr) >= 0 &&
+  const bool read = H5Sselect_hyperslab(space.id, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr) >= 0 &&
                     H5Dread(data.id, H5T_NATIVE_DOUBLE, memory.id, space.id, H5P_DEFAULT, numbers.data()) >= 0;
   return read ? numbers : std::vector<double>();
 }
 
+/// Where a state of so many numbers stands.
+struct Place {
+  std::string q;
+  std::string p;
+  hsize_t row = 0;
+  hsize_t numbers = 0;
+};
+
+/// H5MD of a gas, else /q and /p.
+Place place_of(hid_t file, const std::filesystem::path& path, RunState which) {
+  const std::vector<hsize_t> times = shape_of(file, "t");
+  Place place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
+  if (shape_of(file, place.q).empty()) place = {"q", "p", 0, 1};
+  if (which == RunState::start && !shape_of(file, "particles/start/position/value").empty()) {
+    place = {"particles/start/position/value", "particles/start/momentum/value", 0, 1};
+  } else if (which == RunState::last && times.size() == 1 && times[0] > 0) {
+    place.row = times[0] - 1;
+  }
+  const std::vector<hsize_t> states = shape_of(file, place.q);
+  if (times.size() != 1 || times[0] == 0 || states.size() < 2 || shape_of(file, place.p) != states ||
+      place.row >= states[0]) {
+    throw Error("found no samples /t and /particles/all, or /q, /p, in " + path.string() +
+                "; allowed the run.h5 of a run that kept some");
+  }
+  for (std::size_t k = 1; k < states.size(); ++k) place.numbers *= states[k];
+  return place;
+}
+
+/// One for each particle, or one for all where they are equal; nothing where the file has none.
+std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
+  std::vector<double> masses = row_of(file, "particles/all/mass/value", 0);
+  if (masses.empty() && H5Aexists(file, "masses") > 0) {  // of an n-body run
+    const Open attribute(H5Aopen(file, "masses", H5P_DEFAULT), H5Aclose);
+    const Open space(H5Aget_space(attribute.id), H5Sclose);
+    masses.resize(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id))));
+    if (masses.empty() || H5Aread(attribute.id, H5T_NATIVE_DOUBLE, masses.data()) < 0) masses.clear();
+  }
+  if (masses.size() != particles && masses.size() != 1) return {};
+  if (std::all_of(masses.begin(), masses.end(), [&](double m) { return m == masses[0]; })) masses.resize(1);
+  std::vector<std::string> texts;
+  for (const double m : masses) texts.push_back(shortest(m));
+  return texts;
+}
+
 }  // namespace
 
-GasStart gas_from_run(const std::filesystem::path& file, std::size_t space) {
+GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunState which) {
   const auto alone = alone_with_hdf5();
   (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what failed is said below
   const auto open = [&](unsigned flags) { return H5Fopen(file.c_str(), flags, H5P_DEFAULT); };
   const hid_t plain = open(H5F_ACC_RDONLY);
   const Open h5(plain >= 0 ? plain : open(H5F_ACC_RDONLY | H5F_ACC_SWMR_READ), H5Fclose);
   if (h5.id < 0) throw Error("found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
-  const std::vector<hsize_t> times = shape_of(h5.id, "t");
-  const std::vector<hsize_t> states = shape_of(h5.id, "q");
-  if (times.size() != 1 || states.size() != 2 || shape_of(h5.id, "p") != states || times[0] == 0 ||
-      times[0] > states[0]) {
-    throw Error("found no samples /t, /q, /p in " + file.string() + "; allowed the run.h5 of a run that kept some");
-  }
-  if (states[1] % space != 0) {
-    throw Error("found states of " + std::to_string(states[1]) + " numbers in " + file.string() + "; allowed " +
+  const Place place = place_of(h5.id, file, which);
+  if (place.numbers % space != 0) {
+    throw Error("found states of " + std::to_string(place.numbers) + " numbers in " + file.string() + "; allowed " +
                 std::to_string(space) + " for each particle");
   }
   GasStart start;
-  for (const double x : row_of(h5.id, "q", times[0] - 1, states[1])) start.q.push_back(shortest(x));
-  for (const double x : row_of(h5.id, "p", times[0] - 1, states[1])) start.p.push_back(shortest(x));
-  if (start.q.size() != states[1] || start.p.size() != states[1]) {
+  for (const double x : row_of(h5.id, place.q, place.row)) start.q.push_back(shortest(x));
+  for (const double x : row_of(h5.id, place.p, place.row)) start.p.push_back(shortest(x));
+  if (start.q.size() != place.numbers || start.p.size() != place.numbers) {
     throw Error("found samples in " + file.string() + " that cannot be read; allowed a whole run.h5");
   }
+  start.masses = masses_in(h5.id, place.numbers / space);
   return start;
+}
+
+bool is_in_run_file(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return false;
+  const auto alone = alone_with_hdf5();
+  (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  return H5Fis_hdf5(file.c_str()) > 0;
 }
 
 }  // namespace hamflow

@@ -186,6 +186,8 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
       return {};
     }
     try {
+      // A scenario that stands in a run.h5 began where that run did: its file need not be there any more.
+      if (is_in_run_file(scenario_.file)) return gas_from_run(scenario_.file, space, RunState::start);
       const std::filesystem::path path = std::filesystem::path(scenario_.file).parent_path() / *file;
       return path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
     } catch (const Error& error) {

@@ -41,7 +41,12 @@ void ScenarioReader::read_measures(TomlTable& table) {
   if (scenario_.eigenvalues) refuse_derivative(table, keys.eigenvalues.name);
   read_section(table);
   read_events(table);
-  if (const auto most = table.whole(keys.record_events)) scenario_.record_events = *most;
+  if (const auto most = table.whole(keys.record_events)) {
+    scenario_.record_events = *most;
+  } else if (const auto size = static_cast<std::int64_t>(scenario_.start_q.size()); size > 10000) {
+    // A row has the whole state: of very many particles as many as take 1 GiB.
+    scenario_.record_events = std::min<std::int64_t>(scenario_.record_events, (std::int64_t{1} << 30) / (16 * size));
+  }
 }
 
 /// Steps are differentiated in double, and only where each is one step of one map.

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "figure_kinds.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
@@ -32,6 +33,9 @@ void ScenarioReader::read_output(TomlTable& table) {
                              std::any_of(invariants.begin(), invariants.end(), [](const InvariantInfo& invariant) {
                                return invariant.components == Components::space;
                              }));
+    facts.gas = scenario_.request.problem == GasKeys::problem;
+    facts.bodies_in_space = facts.bodies_in_space || facts.gas;
+    facts.particles = facts.bodies_in_space && scenario_.problem->dimension == 0;
   }
   for (const std::string& kind : scenario_.figures) {
     const std::string why_not = refused_figure(kind, facts);

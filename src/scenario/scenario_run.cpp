@@ -2,10 +2,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
+
+namespace {
+
+/// Positions and momenta; of a gas velocities too.
+std::size_t numbers_of_sample(const Scenario& scenario) {
+  return scenario.start_q.size() * (scenario.request.problem == GasKeys::problem ? 3 : 2);
+}
+
+}  // namespace
 
 void ScenarioReader::read_run(TomlTable& table) {
   const RunKeys& keys = run_keys();
@@ -115,7 +125,7 @@ void ScenarioReader::read_length(TomlTable& table) {
 void ScenarioReader::read_samples(TomlTable& table) {
   const RunKeys& keys = run_keys();
   const auto every = table.whole(keys.record_every);
-  scenario_.record_every = every ? *every : default_record_every(scenario_.steps, scenario_.start_q.size());
+  scenario_.record_every = every ? *every : default_record_every(scenario_.steps, numbers_of_sample(scenario_) / 2);
   const auto times = table.numbers(keys.record);
   if (!times || refuse_time(table, keys.record.name, keys.record_every.name)) return;
   if (table.has(keys.record_every.name)) {

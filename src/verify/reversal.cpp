@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "hamflow/core/hash.hpp"
-#include "hamflow/verify/certificate.hpp"
+#include "hamflow/verify/reversal_progress.hpp"
 
 namespace hamflow {
 
@@ -14,32 +14,50 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return most;
 }
 double largest_entry(const std::vector<double>& a) { return largest_difference(a, std::vector<double>(a.size())); }
-}  // namespace
 
-Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
-                 std::span<Observer* const> there_observers) {
+/// @param there, back   observers of either way
+Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
+                   std::span<Observer* const> there, std::span<Observer* const> back, ReversalProgress& progress) {
   Reversal found;
   found.steps = steps;
-  simulation.look(found.start);
-  const std::vector<std::byte> bits = simulation.bits();
-  found.start_hash = fnv1a(bits);
-  const std::int64_t first = simulation.step();
+  if (!progress.begun) {
+    simulation.look(progress.start);
+    progress.bits = simulation.bits();
+    progress.start_hash = fnv1a(progress.bits);
+    progress.first = simulation.step();
+    progress.begun = true;
+  }
+  found.start = progress.start;
+  found.start_hash = progress.start_hash;
+  const std::int64_t first = progress.first;
   const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
   const auto go = [&](std::int64_t to, std::span<Observer* const> observers) {
     found.outcome = run(simulation, to, observers, counted);
     if (is_failure(found.outcome) && found.outcome != Outcome::non_finite) found.failure = simulation.failure();
     return found.outcome == Outcome::done;
   };
-  const bool there = go(first + steps, there_observers);
-  simulation.look(found.turn);
-  found.turn_hash = fnv1a(simulation.bits());
-  if (!there) return found;
-  simulation.negate_momenta();
-  const bool back = go(first + 2 * steps, {});
+  if (!progress.turned) {
+    const bool arrived = go(first + steps, there);
+    simulation.look(progress.turn);
+    progress.turn_hash = fnv1a(simulation.bits());
+    if (arrived) {
+      simulation.negate_momenta();
+      progress.turned = true;
+    }
+  }
+  found.turn = progress.turn;
+  found.turn_hash = progress.turn_hash;
+  if (!progress.turned) return found;
+  if (!go(first + 2 * steps, back)) {
+    const auto here = simulation.clone();  // the way back may go on, with what its method remembers
+    here->negate_momenta();
+    here->look(found.end);
+    found.end_hash = fnv1a(here->bits());
+    return found;
+  }
   simulation.negate_momenta();
   simulation.look(found.end);
   found.end_hash = fnv1a(simulation.bits());
-  if (!back) return found;
   const FrameDigits& to = found.end.digits;
   const FrameDigits& from = found.start.digits;
   if (from.q.empty()) {
@@ -52,8 +70,21 @@ Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function
   }
   const double size = std::max(largest_entry(found.start.q), largest_entry(found.start.p));
   found.relative_distance = size > 0 ? quotient(found.distance, size) : found.distance;
-  found.bit_exact = simulation.bits() == bits;
+  found.bit_exact = simulation.bits() == progress.bits;
   return found;
+}
+
+}  // namespace
+
+Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
+                 std::span<Observer* const> there) {
+  ReversalProgress progress;
+  return carry_out(simulation, steps, pulse, there, {}, progress);
+}
+
+Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
+                 std::span<Observer* const> observers, ReversalProgress& progress) {
+  return carry_out(simulation, steps, pulse, observers, observers, progress);
 }
 
 }  // namespace hamflow

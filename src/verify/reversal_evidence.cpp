@@ -17,7 +17,8 @@ namespace {
 
 constexpr double moved = 0x1p-36;  // of the size of q and of p: 2^16 roundings, and far from where motions part
 constexpr double parted = 1e-3;    // of the size: no longer a small difference
-constexpr std::int64_t most_waypoints = 64;  // at which two motions are compared
+constexpr std::int64_t most_waypoints = 64;                // at which two motions are compared
+constexpr std::int64_t most_kept = std::int64_t{1} << 25;  // coordinates of all of them: half a gigabyte, with momenta
 
 double largest_of(const std::vector<double>& xs) {
   double most = 0;
@@ -25,10 +26,13 @@ double largest_of(const std::vector<double>& xs) {
   return most;
 }
 
-/// Keeps the states of a motion at up to `most_waypoints` of its steps.
+/// Keeps the states of a motion at up to `most_waypoints` of its steps, of very large systems at fewer.
 class Waypoints final : public Observer {
  public:
-  explicit Waypoints(std::int64_t steps) : apart_(std::max<std::int64_t>(1, steps / most_waypoints)) {}
+  Waypoints(std::int64_t steps, std::size_t size)
+      : apart_(std::max<std::int64_t>(
+            1, steps / std::clamp<std::int64_t>(most_kept / static_cast<std::int64_t>(std::max<std::size_t>(1, size)),
+                                                4, most_waypoints))) {}
   std::int64_t next_due(std::int64_t step) const override { return (step + apart_ - 1) / apart_ * apart_; }
   Verdict observe(const Frame& frame) override {
     q_.push_back(frame.q);
@@ -87,7 +91,7 @@ Parting parting(const Request& request, const Reversal& reversal, const Waypoint
   other.start = {};
   other.start.q = moved_by(reversal.start.q, way.q_size(), 1);
   other.start.p = moved_by(reversal.start.p, way.p_size(), 2);
-  Waypoints beside(reversal.steps);
+  Waypoints beside(reversal.steps, reversal.start.q.size());
   Observer* const watch[] = {&beside};
   const auto simulation = make_simulation(other);
   Parting found;
@@ -214,7 +218,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
   simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
-  Waypoints way(found.steps);
+  Waypoints way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
   const Reversal reversal = reverse(*simulation, found.steps, {}, watch);
   if (reversal.outcome != Outcome::done) {

@@ -7,10 +7,13 @@
 #include <set>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "run_description.hpp"
 #include "run_file.hpp"
 #include "section_text.hpp"
 #include "text.hpp"
@@ -21,7 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path file_of(const fs::path& run) { return fs::is_directory(run) ? run / "run.h5" : run; }
+fs::path file_of(const fs::path& run) {
+  if (!fs::is_directory(run)) return run;
+  std::error_code none;
+  return !fs::exists(run / "run.h5", none) && fs::exists(run / "reverse.h5", none) ? run / "reverse.h5"
+                                                                                   : run / "run.h5";
+}
 
 /// The scenario that a run.h5 carries.
 Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
@@ -33,7 +41,12 @@ Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
 }
 
 /// Of bodies, or of one whose coordinates are x, y, z.
-std::size_t space_of(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
+std::size_t space_of(const Scenario& scenario, std::size_t size) {
+  const ProblemEntry& problem = *scenario.problem;
+  const Texts& parameters = scenario.request.parameters;
+  if (scenario.request.problem == GasKeys::problem) {
+    return static_cast<std::size_t>(Parameters<double>(parameters)[GasKeys::dimension]);
+  }
   if (problem.info.coordinates == std::vector<std::string>{"x", "y", "z"}) return 3;
   const std::vector<InvariantInfo>& invariants = problem.info.invariants;
   for (std::size_t i = 0; problem.dimension == 0 && i < invariants.size(); ++i) {
@@ -101,11 +114,33 @@ bool in_title(const std::pair<std::string, std::string>& fact) {
   return fact.first == "problem" || fact.first == "method" || fact.first == "dt";
 }
 
+/// The gas, or several bodies in space.
+FigureParticles particles_of(const Scenario& scenario, const fs::path& file, std::size_t size, std::size_t space) {
+  FigureParticles all;
+  if (scenario.problem->dimension != 0 || space < 2) return all;
+  all.gas = scenario.request.problem == GasKeys::problem;
+  all.space = space;
+  all.count = size / space;
+  all.positions = [file](std::size_t sample) { return read_run_positions(file, sample); };
+  if (!all.gas) return all;
+  const Parameters<double> parameters(scenario.request.parameters);
+  const auto container = scenario.request.variant.find(GasKeys::container);
+  all.container = container == scenario.request.variant.end() ? ContainerNames::circle : container->second;
+  if (parameters.has(GasKeys::radius)) all.radius = parameters[GasKeys::radius];
+  if (parameters.has(GasKeys::size)) all.edges = parameters.list(GasKeys::size);
+  return all;
+}
+
+/// Of many particles it is the work of a step, and figures of places do without.
+bool shows_energy(const std::string& kind) {
+  return kind != "particles" && kind != "tracks" && kind != "radial" && !kind.empty();
+}
+
 }  // namespace
 
-RunForFigure read_for_figure(const fs::path& run) {
+RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   const fs::path source = file_of(run);
-  RunSamples samples = read_run_file(source);
+  RunSamples samples = read_run_file(source, most_named_coordinates);
   if (samples.t.empty()) throw FileError(source.string() + " holds no samples");
   const Scenario scenario = scenario_of(samples, source);
   const ProblemEntry& problem = *scenario.problem;
@@ -113,18 +148,22 @@ RunForFigure read_for_figure(const fs::path& run) {
   RunForFigure result;
   FigureData& data = result.data;
   data.has_time = problem.structure && problem.structure->time;
-  const StateNames names = state_names(problem, parameters, samples.q.size());
+  const std::size_t size = samples.description.dimension;
+  const StateNames names = samples.q.empty() ? StateNames{} : state_names(problem, parameters, size);
   data.coordinates = names.q;
   data.momenta = names.p;
   data.angles = problem.info.angles;
-  data.space = space_of(problem, parameters, samples.q.size());
+  data.space = space_of(scenario, size);
+  data.particles = particles_of(scenario, source, size, data.space);
   data.bodies = names_of_bodies(scenario.request.problem);
   data.t = std::move(samples.t);
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);
   data.energy = std::move(samples.energy);
   data.energy_difference = energy_differences(source, data.t.size());
-  data.energy_scale = make_simulation(scenario.request)->energy_scale();
+  if (shows_energy(kind) || !data.particles.gas) {
+    data.energy_scale = make_simulation(scenario.request)->energy_scale();
+  }
   if (problem.exact_radius) {
     const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);
     if (radius) sample_polar_curve(radius, data);

@@ -18,8 +18,8 @@ struct RunForFigure {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-/// @param run a folder or run.h5   @throws FileError
-RunForFigure read_for_figure(const std::filesystem::path& run);
+/// @param run a folder or run.h5   @param kind of the figure; empty: not chosen yet   @throws FileError
+RunForFigure read_for_figure(const std::filesystem::path& run, const std::string& kind = {});
 
 /// The first steps of the run once more, every one of them; nothing where they do not meet its samples to the bit.
 FigureSamples opening_of(const std::filesystem::path& run);

@@ -10,7 +10,8 @@ namespace {
 
 /// Options that no run has to be read for.
 FigureOptions options_of(const FigureRequest& request) {
-  FigureOptions options{.x = request.x, .y = request.y, .page = {.dpi = request.dpi, .title = request.title}};
+  FigureOptions options{
+      .x = request.x, .y = request.y, .at = request.at, .page = {.dpi = request.dpi, .title = request.title}};
   std::string wrong = request.size.empty() ? "" : read_page_size(request.size, options.page);
   if (wrong.empty()) wrong = refused_figure_file(request.file);
   if (wrong.empty()) wrong = refused_dpi(request.dpi, request.file, options.page);
@@ -20,18 +21,25 @@ FigureOptions options_of(const FigureRequest& request) {
 
 }  // namespace
 
-void draw_figure(const FigureRequest& request) {
+namespace {
+
+/// The same figure in several files: a run of many particles is read once.
+void draw_into(const FigureRequest& request, const std::vector<std::filesystem::path>& files) {
   Figure figure{{}, options_of(request)};
   std::vector<RunForFigure> runs;
-  for (const std::filesystem::path& run : request.runs) runs.push_back(read_for_figure(run));
+  for (const std::filesystem::path& run : request.runs) runs.push_back(read_for_figure(run, request.kind));
   tell_apart(runs);
   for (RunForFigure& run : runs) figure.runs.push_back(std::move(run.data));
   const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(figure.runs.at(0)));
   for (std::size_t i = 0; i < request.runs.size(); ++i) {
     if (kind == "orbit" || kind == "phase") figure.runs[i].opening = opening_of(request.runs[i]);
   }
-  write_figure(figure, kind, request.file);
+  write_figure(figure, kind, files);
 }
+
+}  // namespace
+
+void draw_figure(const FigureRequest& request) { draw_into(request, {request.file}); }
 
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file) {
   draw_figure({.runs = {run}, .kind = kind, .file = file});
@@ -41,7 +49,9 @@ void draw_figures(const Scenario& scenario, const std::filesystem::path& folder)
   if (scenario.figures.empty()) return;
   std::filesystem::create_directories(folder / "figures");
   for (const std::string& kind : scenario.figures) {
-    for (const char* format : {".svg", ".pdf", ".png"}) draw_figure(folder, kind, folder / "figures" / (kind + format));
+    std::vector<std::filesystem::path> files;
+    for (const char* format : {".svg", ".pdf", ".png"}) files.push_back(folder / "figures" / (kind + format));
+    draw_into({.runs = {folder}, .kind = kind, .file = files.front()}, files);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
 #include "number_text.hpp"
+#include "reversal_checkpoints.hpp"
 #include "reversal_measures.hpp"
 #include "reverse_file.hpp"
 #include "run_folder.hpp"
@@ -133,12 +134,13 @@ std::string readable_reversal(const Json& s) {
 
 }  // namespace
 
-ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t)>& pulse) {
-  const auto simulation = make_simulation(scenario.request);
+namespace {
+
+ReversalReport report_of(const Scenario& scenario, const Simulation& simulation, Reversal reversal) {
   ReversalReport report;
-  report.reversal = reverse(*simulation, scenario.steps, pulse);
+  report.reversal = std::move(reversal);
   const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
-  const bool even = even_in_momenta(*scenario.problem, scenario.request.parameters, states, simulation->energy_scale());
+  const bool even = even_in_momenta(*scenario.problem, scenario.request.parameters, states, simulation.energy_scale());
   const bool timed = depends_on_time(*scenario.problem);
   report.expected_bit_exact = even && !timed && palindromic_on_lattice(scenario);
   const Reversal& r = report.reversal;
@@ -152,7 +154,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }
-  const Json json = json_of(scenario, *simulation, report);
+  const Json json = json_of(scenario, simulation, report);
   report.status = json["status"].get<std::string>();
   if (json.contains("error")) {
     report.message = json["error"]["message"].get<std::string>();
@@ -163,16 +165,64 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   return report;
 }
 
-ReversalFolder::ReversalFolder(const std::filesystem::path& folder, bool force) : folder_(folder) {
-  make_folder(folder, FolderOf::reversal, force);
-  lock_ = std::make_shared<FolderLock>(folder);
+}  // namespace
+
+ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t)>& pulse) {
+  const auto simulation = make_simulation(scenario.request);
+  Reversal reversal = reverse(*simulation, scenario.steps, pulse);
+  return report_of(scenario, *simulation, std::move(reversal));
 }
 
-void ReversalFolder::keep(const Scenario& scenario, const ReversalReport& report) const {
+ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings) {
+  if (settings.folder.empty()) return reverse_scenario(scenario, settings.pulse);
+  const auto note = [&](const std::string& text) {
+    if (settings.note) settings.note(text);
+  };
+  std::optional<Checkpoint> from;
+  if (settings.existing == Existing::resume && std::filesystem::exists(settings.folder)) {
+    from = kept_reversal(scenario, settings.folder);
+    if (const std::string left = left_in(settings.folder, FolderOf::reversal); !from && !left.empty()) {
+      throw FileError("there is no checkpoint in " + settings.folder.string() + " to go on from, but " + left +
+                      "; give --out another folder, or --force to replace what is there");
+    }
+    if (!from)
+      note("there is no checkpoint in " + settings.folder.string() + ": the reversal starts from the beginning");
+  } else {
+    make_folder(settings.folder, FolderOf::reversal, settings.existing != Existing::refuse);
+  }
+  const FolderLock lock(settings.folder);
+  if (from) {
+    if (const auto kept = complete_reversal(*from, settings.folder)) {
+      note("the reversal is complete: there is nothing to do");
+      ReversalReport report;
+      report.json = *kept;
+      const Json json = Json::parse(*kept);
+      report.status = json["status"].get<std::string>();
+      report.expected_bit_exact = json["expected_bit_exact"].get<bool>();
+      report.note = json["note"].get<std::string>();
+      report.text = readable_reversal(json);
+      return report;
+    }
+  }
+  const auto simulation = make_simulation(scenario.request);
+  ReversalCheckpoints checkpoints(scenario, *simulation, settings.folder, from ? &*from : nullptr);
+  Observer* const observers[] = {&checkpoints};
+  Reversal reversal = reverse(
+      *simulation, scenario.steps,
+      [&](std::int64_t step) {
+        checkpoints.write_if_due();
+        const bool goes_on = !settings.pulse || settings.pulse(step);
+        if (!goes_on) checkpoints.write();
+        return goes_on;
+      },
+      observers, checkpoints.progress());
+  ReversalReport report = report_of(scenario, *simulation, std::move(reversal));
   const Reversal& r = report.reversal;
-  const bool done = r.outcome == Outcome::done;
-  write_reverse_file(folder_ / "reverse.h5", scenario.text, r.start, r.turn, done ? &r.end : nullptr);
-  write_text(folder_ / "reverse.json", report.json);
+  write_reverse_file(settings.folder / "reverse.h5", scenario.text, r.start, r.turn,
+                     r.outcome == Outcome::done ? &r.end : nullptr);
+  if (r.outcome == Outcome::done) checkpoints.complete(report.json);
+  write_text(settings.folder / "reverse.json", report.json);
+  return report;
 }
 
 }  // namespace hamflow

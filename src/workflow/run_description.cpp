@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include "hamflow/core/number.hpp"
+#include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 
@@ -17,6 +20,29 @@ std::vector<double> masses_of(const Scenario& scenario) {
     if (parameters.has(name)) return parameters.list(name);
   }
   return {};
+}
+
+/// What the particles of a gas say of themselves in H5MD; of other problems nothing.
+H5mdParticles particles_of(const Scenario& scenario) {
+  H5mdParticles all;
+  if (scenario.request.problem != GasKeys::problem) return all;
+  const Parameters<double> parameters(scenario.request.parameters);
+  all.space = static_cast<std::size_t>(parameters[GasKeys::dimension]);
+  all.masses = parameters.list(GasKeys::masses);
+  all.masses.resize(scenario.start_q.size() / all.space, all.masses.front());
+  const auto container = scenario.request.variant.find(GasKeys::container);
+  const bool periodic = container != scenario.request.variant.end() && container->second == ContainerNames::periodic;
+  all.boundary.assign(all.space, periodic ? "periodic" : "none");
+  if (parameters.has(GasKeys::size)) all.edges = parameters.list(GasKeys::size);
+  if (parameters.has(GasKeys::radius)) all.edges.assign(all.space, 2 * parameters[GasKeys::radius]);
+  all.author = author_name();
+  const bool start_is_a_sample =
+      scenario.record.empty() || (scenario.record_steps.front() == 0 && number_value(scenario.record.front()) == 0);
+  if (!start_is_a_sample) {
+    all.start_q = scenario.start_q;
+    all.start_p = scenario.start_p;
+  }
+  return all;
 }
 
 std::vector<std::string> event_names(const Scenario& scenario) {
@@ -59,7 +85,11 @@ std::vector<InvariantColumn> csv_columns(const Scenario& scenario) {
 RunDescription description_of(const Scenario& scenario, std::size_t samples) {
   const Request& request = scenario.request;
   const MethodInfo method = describe(request.method);
-  const StateNames names = state_names(*scenario.problem, request.parameters, scenario.start_q.size());
+  H5mdParticles particles = particles_of(scenario);
+  // Of more particles than anybody reads by name they would take as much room as a sample.
+  const bool named = particles.space == 0 || scenario.start_q.size() <= most_named_coordinates;
+  const StateNames names =
+      named ? state_names(*scenario.problem, request.parameters, scenario.start_q.size()) : StateNames{};
   return {.scenario = scenario.text,
           .version = HAMFLOW_VERSION,
           .host = host_name(),
@@ -79,7 +109,8 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .dt_text = request.dt,
           .coordinates = names.q,
           .momenta = names.p,
-          .masses = masses_of(scenario),
+          .masses = named ? masses_of(scenario) : std::vector<double>(),
+          .particles = std::move(particles),
           .digits_length = longest_digits(request.arithmetic)};
 }
 

@@ -6,6 +6,9 @@
 
 namespace hamflow {
 
+/// Above it a gas has no list of names, and its last state is said by its place in run.h5.
+constexpr std::size_t most_named_coordinates = 10000;
+
 /// The invariants in the order of the problem, with the number of components that each has here.
 std::vector<InvariantColumn> invariant_columns(const Scenario& scenario);
 

@@ -42,7 +42,7 @@ const std::vector<KindOfFolder>& kinds_of_folders() {
        {"sweep.h5", "members.bin"},
        {"sweep.h5", "sweep.csv", "section.csv", "summary.json", "members.bin"}},
       {FolderOf::comparison, "comparison", {"compare.json"}, {"compare.json", "compare.csv"}},
-      {FolderOf::reversal, "reversal", {"reverse.h5"}, {"reverse.h5", "reverse.json"}}};
+      {FolderOf::reversal, "reversal", {"reverse.h5", "reversal.bin"}, {"reverse.h5", "reverse.json", "reversal.bin"}}};
   return all;
 }
 

@@ -20,6 +20,7 @@
 #include "hamflow/run/walls.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
+#include "run_description.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
@@ -257,8 +258,10 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     s["energy"]["initial"] = frame.digits.initial_energy;
     s["energy"]["final"] = frame.digits.energy;
   }
-  constexpr std::size_t most_coordinates = 10000;
-  if (frame.q.size() > most_coordinates) s["final"] = {{"t", s["final"]["t"]}, {"dataset", "/q, /p"}};
+  if (frame.q.size() > most_named_coordinates) {
+    const bool gas = scenario.request.problem == GasKeys::problem;
+    s["final"] = {{"t", s["final"]["t"]}, {"dataset", gas ? "/particles/all" : "/q, /p"}};
+  }
   if (certificate != nullptr && energy.max_error == 0 && !certificate->energy_level.text.empty()) {
     // No double is so small: what the certificate found.
     const LongNumber& level = certificate->energy_level;

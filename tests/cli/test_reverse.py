@@ -1,6 +1,8 @@
 """hamflow reverse: what comes back, bit by bit on the lattice, to rounding otherwise, not at all where it cannot."""
 
 import json
+import random
+import shutil
 import signal
 import subprocess
 import time
@@ -87,6 +89,63 @@ class Reverse(CommandCase):
         s = self.reverse("kepler.toml", "--set", "run.arithmetic=lattice", status=2)
         self.assertEqual(s["status"], "rejected")
         self.hamflow("reverse", "missing.toml", status=3)
+
+    def same(self, a, b):
+        self.assertEqual({**a, "wall_seconds": 0}, {**b, "wall_seconds": 0})
+
+    def test_killed_and_resumed(self):
+        """What comes back is what comes back of a reversal in one go, from whichever half it was killed in."""
+        rng = random.Random(5)
+        halves = set()
+        for method, more in (("stv4", ("run.arithmetic=lattice", "run.steps=600_000")), ("stv4", ("run.steps=1_000_000",)),
+                             ("gauss(2)", ("run.steps=30_000", "run.dt=0.05")), ("cg(1,5)", ("run.steps=60_000",)),
+                             ("verlet", ("run.arithmetic=double-double", "run.steps=30_000"))):
+            sets = [word for text in (f"method={{name='{method}'}}", *more, "run.checkpoint_every=5_000") for word in ("--set", text)]
+            begin = time.monotonic()
+            whole = self.reverse("kepler.toml", *sets)
+            seconds = time.monotonic() - begin
+            kills = 0
+            while True:
+                process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", *sets, "--out", "r", "--resume", "--quiet", "--json"],
+                                           cwd=self.folder, stdout=subprocess.PIPE, text=True)
+                try:
+                    out, _ = process.communicate(timeout=rng.uniform(0.1, 0.6) * seconds if kills < 5 else 120)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    process.communicate()
+                    kills += 1
+                    continue
+                self.assertEqual(process.returncode, 0)
+                break
+            halves.add(kills)
+            self.same(json.loads(out), whole)
+            again = self.hamflow("reverse", "kepler.toml", *sets, "--out", "r", "--resume")
+            self.assertIn("nothing to do", again.stderr)
+            self.assertIn("every bit", again.stdout)
+            shutil.rmtree(self.folder / "r")
+        self.assertGreater(max(halves), 0, "nothing was killed")
+
+    def test_what_goes_on(self):
+        sets = ("--set", "method={name='stv4'}", "--set", "run.checkpoint_every=100", "--out", "r")
+        process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", *sets, "--json", "--set", "run.steps=100_000_000"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        while not (self.folder / "r" / "reversal.bin").exists():
+            time.sleep(0.05)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, json.loads(out)["status"]), (130, "interrupted"))
+        self.assertIn("--resume", self.hamflow("reverse", "kepler.toml", *sets, status=3).stderr)
+        fewer = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", "run.steps=1", status=2).stderr
+        self.assertIn("steps; allowed with --resume at least", fewer)
+        other = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", "run.dt=0.2", status=2).stderr
+        self.assertIn("run.dt: found 0.2", other)
+        self.hamflow("reverse", "kepler.toml", *sets, "--force", "--set", "run.steps=300", "--quiet")
+        more = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", "run.steps=301", status=2).stderr
+        self.assertIn("the 300 after which the momenta were negated", more)
+        (self.folder / "r" / "reversal.bin").unlink()
+        self.assertIn("no checkpoint", self.hamflow("reverse", "kepler.toml", *sets, "--resume", status=3).stderr)
+        self.assertIn("--force", self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--force", status=2).stderr)
 
     def test_ctrl_c(self):
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", "--json", "--set", "method={name='stv4'}", "--set",

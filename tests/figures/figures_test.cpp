@@ -234,6 +234,22 @@ TEST_F(Figures, TextIsTextNotCode) {
   fs::current_path(before);
 }
 
+/// Two bodies opposite each other, on the same paths.
+FigureData bodies(FigureData data) {
+  const FigureSamples samples = data;
+  data.particles = {.count = 2, .space = 2, .positions = [samples](std::size_t k) {
+                      const double x = samples.q[0][k];
+                      const double y = samples.q[1][k];
+                      return std::vector<double>{x, y, -x, -y};
+                    }};
+  return data;
+}
+
+/// What the kind can be drawn of.
+FigureData of_kind(const FigureData& data, const std::string& kind) {
+  return kind == "particles" || kind == "tracks" || kind == "radial" ? bodies(data) : data;
+}
+
 TEST_F(Figures, StrangeNumbersAreDrawn) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double size : {1e300, 1.7e308, 1e-300, 0.0}) {
@@ -246,11 +262,17 @@ TEST_F(Figures, StrangeNumbersAreDrawn) {
     data.q[0][7] = nan;
     data.p[1][8] = std::numeric_limits<double>::infinity();
     data.energy[9] = nan;
-    for (const std::string& kind : figure_names()) EXPECT_NO_THROW(drawn(data, kind)) << kind << size;
+    for (const std::string& kind : figure_names()) {
+      // Such particles fill no volume that is a number.
+      if (kind == "radial") continue;
+      EXPECT_NO_THROW(drawn(of_kind(data, kind), kind)) << kind << size;
+    }
+    EXPECT_NE(why_not(Figure{{bodies(data)}}, "radial"), "") << size;
   }
   for (const std::string& kind : figure_names()) {
-    EXPECT_NO_THROW(drawn(ellipse(1), kind)) << kind;
+    EXPECT_NO_THROW(drawn(of_kind(ellipse(1), kind), kind)) << kind;
     EXPECT_THROW(drawn(ellipse(0), kind), Error) << kind;
+    EXPECT_THROW(drawn(bodies(ellipse(0)), kind), Error) << kind;
   }
 }
 
@@ -293,7 +315,8 @@ TEST_F(Figures, WrongRequestsNameWhatIsAllowed) {
       "phase, time, energy-error, energy");
   EXPECT_EQ(
       why_not(Figure{{oscillator()}}, "orbits"),
-      "found \"orbits\"; allowed orbit, phase, time, energy-error, energy, condition, section; did you mean orbit?");
+      "found \"orbits\"; allowed orbit, phase, time, energy-error, energy, condition, section, particles, tracks, "
+      "radial; did you mean orbit?");
   EXPECT_THROW(write_figure(Figure{{ellipse()}}, "spiral", folder_ / "a.svg"), Error);
   EXPECT_THROW(write_figure(Figure{{oscillator()}}, "orbit", folder_ / "a.svg"), Error);
   for (const char* name : {"a.gif", "a", ".svg", "a.svg.gz"}) {

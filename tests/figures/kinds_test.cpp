@@ -46,6 +46,9 @@ TEST(FigureKinds, OfARunThatIsNotKnownYetEveryKindIsPossible) {
 TEST(FigureKinds, TheUsualFigureIsTheOrbitElseThePhasePlaneElseTheTimeSeries) {
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 2}), "orbit");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 27, .bodies_in_space = true}), "orbit");
+  EXPECT_EQ(usual_figure({.degrees_of_freedom = 27, .bodies_in_space = true, .particles = true}), "orbit");
+  EXPECT_EQ(usual_figure({.degrees_of_freedom = 27, .bodies_in_space = true, .particles = true, .gas = true}),
+            "particles");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 1}), "phase");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 12}), "phase");
   EXPECT_EQ(usual_figure({.degrees_of_freedom = 13}), "time");
@@ -73,6 +76,13 @@ TEST(FigureKinds, RefusalsNameTheReasonAndWhatIsAllowed) {
   EXPECT_EQ(refused_figure("section", {.degrees_of_freedom = 1, .section = true, .stroboscopic = true}), "");
 }
 
+TEST(FigureKinds, ParticlesAreThoseOfAGasOrOfBodies) {
+  for (const char* kind : {"particles", "tracks", "radial"}) {
+    EXPECT_NE(refused_figure(kind, {.degrees_of_freedom = 4}).find("no gas"), std::string::npos);
+    EXPECT_EQ(refused_figure(kind, {.degrees_of_freedom = 4, .particles = true}), "");
+  }
+}
+
 TEST(FigureKinds, ChosenColumnsNeedNoRoomForAll) {
   for (const char* kind : {"phase", "time"}) {
     EXPECT_NE(refused_figure(kind, {.degrees_of_freedom = 500}), "");
@@ -98,7 +108,8 @@ TEST(FigureKinds, WhatIsRefusedIsWhatIsNotDrawable) {
 TEST(FigureKinds, UnknownNamesAreAnsweredByTheNearest) {
   EXPECT_EQ(unknown_figure("orbit"), "");
   const std::string text =
-      "found \"orbits\"; allowed orbit, phase, time, energy-error, energy, condition, section; did you mean orbit?";
+      "found \"orbits\"; allowed orbit, phase, time, energy-error, energy, condition, section, particles, tracks, "
+      "radial; did you mean orbit?";
   EXPECT_EQ(unknown_figure("orbits"), text);
   EXPECT_EQ(refused_figure("orbits", {}), text);
 }

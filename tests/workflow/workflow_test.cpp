@@ -182,6 +182,14 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
   EXPECT_TRUE(reverse_scenario(scenario({"run.lyapunov=false", "run.eigenvalues=false", "run.arithmetic=lattice"}))
                   .reversal.bit_exact);
 
+  ReversalSettings settings{.folder = folder_ / "there_and_back"};
+  settings.pulse = [calls = 0](std::int64_t) mutable { return ++calls < 2; };
+  const Scenario long_way = scenario({"run.lyapunov=false", "run.eigenvalues=false", "run.steps=200000"});
+  EXPECT_EQ(reverse_scenario(long_way, settings).status, "interrupted");
+  settings.pulse = {};
+  settings.existing = Existing::resume;
+  EXPECT_EQ(reverse_scenario(long_way, settings).json, reverse_scenario(long_way).json);
+
   ComparisonRequest two{scenario().request, {parse_method("stv4"), parse_method("yoshida6")}, 10, {100, 200}};
   const ComparisonReport compared = compare_methods(two);
   EXPECT_EQ(compared.status, "done");
@@ -203,6 +211,28 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
   save_session(session, samples, {}, folder_ / "steered", false);
   EXPECT_NE(content(folder_ / "steered" / "summary.json").find("\"changes\""), std::string::npos);
   EXPECT_EQ(session_failure(session, {}).first, "");
+}
+
+/// Of a gas a sample is positions, momenta and velocities.
+TEST(Samples, OfManyParticlesAreAsManyAsOneGibibyteHolds) {
+  for (const char* steps : {"6000", "1000000", "3000"}) {
+    const std::string text = std::string(R"(
+[problem]
+name = "gas"
+particles_per_side = 17
+dimension = 3
+container = { kind = "none" }
+cutoff = 1.2
+[method]
+name = "verlet"
+[run]
+dt = 0.001
+steps = )") + steps;
+    const Scenario gas = accepted(read_scenario_text(text, "gas", {}));
+    const double bytes = static_cast<double>(sample_count(gas)) * 3 * 3 * 17 * 17 * 17 * sizeof(double);
+    EXPECT_LE(bytes, 0x1p30);
+    EXPECT_TRUE(gas.record_every == 1 || 2.1 * bytes > 0x1p30) << steps;  // and no fewer than that asks for
+  }
 }
 
 }  // namespace

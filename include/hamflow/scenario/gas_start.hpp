@@ -11,7 +11,7 @@ namespace hamflow {
 struct GasStart {
   std::vector<std::string> q;  // particle by particle
   std::vector<std::string> p;
-  std::vector<std::string> masses;  // of a file that names them; else empty
+  std::vector<std::string> masses;  // of a file that has them, one for all where they are equal; else empty
 };
 
 /// n particles on each side of the square, or cube, [-1, 1]^space, the first coordinate changing fastest; momenta
@@ -25,7 +25,12 @@ GasStart gas_in_corner(std::int64_t n, std::size_t space);
 /// @throws Error with the line, what was found and what is allowed
 GasStart gas_from_file(const std::filesystem::path& file, std::size_t space);
 
-/// The last sample of a run.h5, in double.   @throws Error where there is none, or it is no state of particles
-GasStart gas_from_run(const std::filesystem::path& file, std::size_t space);
+/// A state of the particles in a run.h5, in double, with their masses: the last sample, or where the run began.
+/// @throws Error where there is none, or it is no state of particles
+enum class RunState { last, start };
+GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunState which = RunState::last);
+
+/// Whether a scenario's text was found in a run.h5, by the name under which it is read.
+bool is_in_run_file(const std::filesystem::path& file);
 
 }  // namespace hamflow

@@ -15,6 +15,7 @@ struct FigureRequest {
   std::filesystem::path file;               // .svg, .pdf or .png
   std::string x{};                          // a column, of the kinds that draw columns; empty: as is usual
   std::vector<std::string> y{};             // the same
+  std::vector<double> at{};                 // times, of the kinds that draw some of them; empty: as is usual
   std::string size{};                       // "8.5x6" (centimetres), "85x60mm", "3.35x2.4in"; empty: as is usual
   int dpi = 0;                              // pixels to the inch, of a .png; 0: 300
   bool title = true;

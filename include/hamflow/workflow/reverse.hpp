@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/certificate.hpp"
+#include "hamflow/workflow/run.hpp"
 
 namespace hamflow {
 
@@ -25,18 +25,20 @@ struct ReversalReport {
 /// @param pulse called with the steps taken both ways; returns false to stop   @throws Error
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t step)>& pulse = {});
 
-/// A folder that keeps a reversal: reverse.json, and reverse.h5 with the states at the start, the turn and the end.
-class ReversalFolder {
- public:
-  /// @param force replaces an earlier reversal, and nothing else   @throws FileError when the folder exists, or cannot
-  /// be made
-  ReversalFolder(const std::filesystem::path& folder, bool force);
-  /// @throws FileError
-  void keep(const Scenario& scenario, const ReversalReport& report) const;
-
- private:
-  std::filesystem::path folder_;
-  std::shared_ptr<const void> lock_;
+/// How a reversal is carried out. None of it changes a bit of it.
+struct ReversalSettings {
+  /// Keeps reverse.json, reverse.h5 with the states at the start, the turn and the end, and on the way reversal.bin,
+  /// from which it goes on; empty: nothing is written.
+  std::filesystem::path folder{};
+  Existing existing = Existing::refuse;
+  /// Called several times a second with the steps taken both ways; returns false to stop.
+  std::function<bool(std::int64_t step)> pulse{};
+  /// Called with what is worth a note, a sentence each.
+  std::function<void(const std::string& note)> note{};
 };
+
+/// @throws Rejection when the scenario is not that of the reversal in the folder, which is to go on   @throws FileError
+/// when the folder cannot be used   @throws Error
+ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings);
 
 }  // namespace hamflow

@@ -1,19 +1,18 @@
 // The path in the plane of the two coordinates, with the exact one where it is known; the paths of bodies in space, in
 // the planes of its axes.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
+#include "../planes.hpp"
 #include "../text.hpp"
 
 namespace hamflow::figures {
 
 namespace orbit {
 constexpr std::size_t most_named_bodies = 12;
-const std::array<const char*, 3> axes{"x", "y", "z"};
 
 std::string refused(const FigureFacts& facts) {
   const bool drawn = facts.degrees_of_freedom == 0 || facts.degrees_of_freedom == 2 || facts.bodies_in_space;
@@ -48,11 +47,9 @@ std::string apart(const Figure& figure) {
 
 /// Directions of space, or the two coordinates.
 std::vector<std::string> columns(const FigureData& data) {
-  if (data.space >= 2) return {axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(data.space)};
+  if (data.space >= 2) return axes_of_space(data.space);
   return is_polar(data) ? std::vector<std::string>{"x", "y"} : data.coordinates;
 }
-
-using Plane = std::pair<std::size_t, std::size_t>;
 
 bool is_flat(const FigureData& data, std::size_t axis) {
   for (std::size_t i = axis; i < data.q.size(); i += data.space) {
@@ -66,20 +63,9 @@ bool is_flat(const FigureData& data, std::size_t axis) {
 /// Those that are asked for; else all of space, but that of the first two axes alone where nothing leaves it.
 std::vector<Plane> planes(const Figure& figure) {
   const FigureData& data = figure.runs.front();
-  const std::vector<std::string> names = columns(data);
-  const auto place = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
-  const std::string& x = figure.options.x;
-  std::vector<Plane> all;
-  for (const std::string& y : figure.options.y)
-    all.emplace_back(x.empty() ? (place(y) == 0 ? 1 : 0) : place(x), place(y));
-  if (!all.empty()) return all;
-  if (!x.empty()) return {{place(x), place(x) == 0 ? 1 : 0}};
   const bool in_plane = data.space == 3 && std::all_of(figure.runs.begin(), figure.runs.end(),
                                                        [](const FigureData& run) { return is_flat(run, 2); });
-  if (data.space < 3 || in_plane) return {{0, 1}};
-  return {{0, 1}, {0, 2}, {1, 2}};
+  return chosen_planes(figure.options, columns(data), in_plane || data.space < 3);
 }
 
 Curve in_plane(const FigureData& data, const FigureSamples& samples, std::size_t body, Plane plane) {
@@ -173,6 +159,8 @@ extern const FigureKind orbit_figure{"orbit",
                                      orbit::obstacle,
                                      orbit::apart,
                                      orbit::columns,
-                                     orbit::page};
+                                     orbit::page,
+                                     false,
+                                     true};
 
 }  // namespace hamflow::figures

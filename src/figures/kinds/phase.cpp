@@ -121,6 +121,8 @@ extern const FigureKind phase_figure{"phase",
                                      phase::obstacle,
                                      same_coordinates,
                                      column_names,
-                                     phase::page};
+                                     phase::page,
+                                     false,
+                                     true};
 
 }  // namespace hamflow::figures

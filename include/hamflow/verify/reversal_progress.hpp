@@ -1,0 +1,34 @@
+// How far a reversal has come: what has to be known beside the simulation, so that one that was stopped goes on with
+// the same bits and finds the same distance.
+#pragma once
+
+#include "hamflow/verify/certificate.hpp"
+
+namespace hamflow {
+
+struct ReversalProgress {
+  bool begun = false;
+  bool turned = false;          // the momenta are negated: this is the way back
+  std::int64_t first = 0;       // the step at which the way there began
+  Frame start, turn;            // without effort and diagnostics once they were archived
+  std::vector<std::byte> bits;  // of the start
+  std::uint64_t start_hash = 0, turn_hash = 0;
+
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(begun, turned, first, bits, start_hash, turn_hash);
+    for (Frame* frame : {&start, &turn}) {
+      FrameDigits& digits = frame->digits;
+      ar(frame->step, frame->time, frame->q, frame->p, frame->energy, frame->invariants);
+      ar(digits.time, digits.q, digits.p, digits.energy, digits.initial_energy);
+    }
+  }
+};
+
+/// reverse() from where `progress` stands, which is kept up to date: whenever `pulse` or an observer is called, the
+/// simulation and the progress belong together.
+/// @param observers watch both ways
+Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse,
+                 std::span<Observer* const> observers, ReversalProgress& progress);
+
+}  // namespace hamflow

@@ -1,0 +1,150 @@
+// The pair distribution g(r): how many pairs are r apart, over how many would be if the same number of particles were
+// spread evenly over what holds them.
+#include <algorithm>
+#include <cmath>
+
+#include "../figure_kind.hpp"
+#include "../pair_distribution.hpp"
+#include "../panels.hpp"
+#include "../particles.hpp"
+#include "../text.hpp"
+
+namespace hamflow::figures {
+
+namespace radial {
+constexpr std::size_t bins = 150;
+constexpr std::size_t most_taken = 200000;  // of the particles: pairs of a random part are as far apart as those of all
+
+bool are_finite(const std::vector<double>& q) {
+  return std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });
+}
+
+std::string obstacle(const FigureData& data) {
+  if (data.t.empty()) return no_samples("position");
+  if (data.particles.count < 2) return "there is one particle, and no pair";
+  const std::vector<double> q = data.particles.positions(data.t.size() - 1);
+  if (!are_finite(q)) return "the last sample has positions that are not finite";
+  return std::isnormal(region_of(data.particles, q).volume()) ? "" : "the particles fill no volume";
+}
+
+/// Some distances between neighbours: further away there is little to see, and pairs become many. In a periodic box no
+/// further than nearest images are unique, elsewhere no further than half across.
+double range(const FigureData& data, const Region& region) {
+  const double neighbours =
+      std::pow(region.volume() / static_cast<double>(data.particles.count), 1.0 / static_cast<double>(region.space));
+  return std::min(region.shortest() / 2, 5 * neighbours);
+}
+
+std::vector<double> those(const std::vector<std::size_t>& taken, const std::vector<double>& q, std::size_t space) {
+  if (taken.size() * space == q.size()) return q;
+  std::vector<double> part;
+  for (const std::size_t i : taken) {
+    for (std::size_t k = 0; k < space; ++k) part.push_back(q[i * space + k]);
+  }
+  return part;
+}
+
+/// The mean over samples, as far as they have places within a volume.
+Curve distribution(const FigureData& data, const std::vector<std::size_t>& samples, double r_max) {
+  std::vector<double> g(bins, 0);
+  int used = 0;
+  const std::vector<std::size_t> taken = some_of(data.particles.count, most_taken);
+  const auto n = static_cast<double>(taken.size());
+  for (const std::size_t sample : samples) {
+    const std::vector<double> q = data.particles.positions(sample);
+    if (!are_finite(q)) continue;
+    const Region region = region_of(data.particles, q);
+    if (!std::isnormal(region.volume()) || region.shortest() < r_max) continue;
+    ++used;
+    const auto found = pair_counts(those(taken, q, region.space), region.space,
+                                   region.periodic ? region.edges : std::vector<double>(), r_max, bins);
+    double before = 0;
+    for (std::size_t k = 0; k < bins; ++k) {
+      const double share = region.share_within(r_max * static_cast<double>(k + 1) / bins);
+      g[k] += static_cast<double>(found[k]) / (n * (n - 1) / 2 * (share - before));
+      before = share;
+    }
+  }
+  Curve curve;
+  for (std::size_t k = 0; k < bins; ++k) curve.add(r_max * (static_cast<double>(k) + 0.5) / bins, g[k] / used);
+  return curve;
+}
+
+/// The second half of a run, as much of it as takes a moment.
+std::vector<std::size_t> later_samples(const FigureData& data) {
+  constexpr std::size_t most_particles = 2000000;
+  const std::size_t first = data.t.size() / 2;
+  const std::size_t there = data.t.size() - first;
+  const std::size_t taken =
+      std::min(there, std::clamp<std::size_t>(most_particles / std::min(data.particles.count, most_taken), 1, 20));
+  std::vector<std::size_t> all;
+  for (std::size_t k = 1; k <= taken; ++k) all.push_back(first + k * there / taken - 1);
+  return all;
+}
+
+Page page(const Figure& figure) {
+  const FigureData& first = figure.runs.front();
+  Panel panel;
+  Page all{first.title, {}};
+  Extent r;
+  Extent g;
+  r.include(0);
+  g.include(0);
+  g.include(1);
+  std::vector<Series> curves;
+  const auto add = [&](Series how, const FigureData& data, const std::vector<std::size_t>& samples) {
+    const Region region = region_of(data.particles, data.particles.positions(samples.back()));
+    const double r_max = range(data, region);
+    how.ink = Ink::line;
+    how.curve = distribution(data, samples, r_max);
+    r.include(r_max);
+    g.include(how.curve.y);
+    curves.push_back(std::move(how));
+  };
+  const std::vector<double>& at = figure.options.at;
+  for (std::size_t run = 0; run < figure.runs.size(); ++run) {
+    const FigureData& data = figure.runs[run];
+    if (at.empty()) {
+      const std::vector<std::size_t> samples = later_samples(data);
+      add(series_of(figure, run), data, samples);
+      if (figure.runs.size() > 1) continue;
+      all.notes.push_back(samples.size() == 1
+                              ? "of the sample at " + time_text(data.t[samples[0]])
+                              : "mean over " + std::to_string(samples.size()) + " samples, from " +
+                                    time_text(data.t[samples.front()]) + " to " + short_value(data.t[samples.back()]));
+      continue;
+    }
+    for (const std::size_t sample : samples_at(data, at)) {
+      Series how = series_of(figure, run);
+      how.name += (how.name.empty() ? "" : ", ") + time_text(data.t[sample]);
+      how.mark = mark_of(curves.size());
+      add(std::move(how), data, {sample});
+    }
+  }
+  const std::size_t count = first.particles.count;
+  if (count > most_taken) {
+    all.notes.push_back("pairs among " + std::to_string(most_taken) + " of " + std::to_string(count) + " particles");
+  }
+  panel.x = fit_axis(r, 0, {7, 40});
+  panel.y = fit_axis(g, padding, {7});
+  panel.x_label = "{/:Italic r}";
+  panel.y_label = "{/:Italic g}({/:Italic r})";
+  panel.series.push_back({Ink::zero, "", {{r.low, r.high}, {1, 1}}});
+  panel.series.insert(panel.series.end(), curves.begin(), curves.end());
+  all.panels.push_back(std::move(panel));
+  return all;
+}
+}  // namespace radial
+
+extern const FigureKind radial_figure{"radial",
+                                      "the pair distribution g(r) of the particles of a gas, over the second half of "
+                                      "the run or at the times of --at",
+                                      10,
+                                      without_particles,
+                                      radial::obstacle,
+                                      any_runs,
+                                      no_columns,
+                                      radial::page,
+                                      true};
+
+}  // namespace hamflow::figures

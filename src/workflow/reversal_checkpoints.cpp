@@ -1,0 +1,115 @@
+#include "reversal_checkpoints.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "hamflow/core/hash.hpp"
+#include "hamflow/scenario/rejection.hpp"
+#include "resume.hpp"
+#include "run_keys.hpp"
+#include "run_mark.hpp"
+
+namespace hamflow {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* reversal_file = "reversal.bin";
+constexpr const char* reversal_record = "reversal";
+constexpr double seconds_between = 10;
+
+std::uint64_t hash_of_text(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
+
+ReversalProgress progress_in(const Checkpoint& checkpoint) {
+  ReversalProgress progress;
+  for (const ObserverRecord& record : checkpoint.observers) {
+    if (record.name != reversal_record) continue;
+    Reader ar(record.bytes);
+    progress.archive(ar);
+    ar.finish();
+  }
+  return progress;
+}
+
+}  // namespace
+
+std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path& folder) {
+  if (!fs::exists(folder / reversal_file)) return std::nullopt;
+  Checkpoint checkpoint = read_checkpoint(folder / reversal_file);
+  std::vector<Complaint> complaints = differences(scenario, checkpoint);
+  try {
+    if (progress_in(checkpoint).turned && scenario.steps != checkpoint.steps && complaints.empty()) {
+      const std::string steps = run_path(run_keys().steps);
+      complaints.push_back({scenario.file, 1, 1, steps,
+                            "found " + std::to_string(scenario.steps) + " steps; allowed with --resume the " +
+                                std::to_string(checkpoint.steps) + " after which the momenta were negated"});
+    }
+  } catch (const Error& error) {
+    throw FileError("the checkpoint " + (folder / reversal_file).string() + " cannot be used: " + error.what());
+  }
+  if (!complaints.empty()) throw Rejection(std::move(complaints));
+  return checkpoint;
+}
+
+std::optional<std::string> complete_reversal(const Checkpoint& checkpoint, const fs::path& folder) {
+  if (checkpoint.summary_hash == 0) return std::nullopt;
+  std::ifstream in(folder / "reverse.json", std::ios::binary);
+  if (!in) return std::nullopt;
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return hash_of_text(text) == checkpoint.summary_hash ? std::optional(std::move(text)) : std::nullopt;
+}
+
+ReversalCheckpoints::ReversalCheckpoints(const Scenario& scenario, Simulation& simulation, const fs::path& folder,
+                                         const Checkpoint* from)
+    : simulation_(simulation),
+      file_(folder / reversal_file),
+      every_(scenario.checkpoint_every),
+      checkpoint_(beginning_of(scenario, from != nullptr ? from->identity : new_identity())) {
+  if (from != nullptr && !has_only_begun(*from)) {
+    try {
+      simulation.restore(from->simulation);
+      progress_ = progress_in(*from);
+    } catch (const Error& error) {
+      throw FileError("the checkpoint " + file_.string() + " cannot be used: " + error.what());
+    }
+    checkpoint_.simulation = from->simulation;
+    checkpoint_.observers = from->observers;
+    checkpoint_.step = from->step;
+  }
+  write_checkpoint(file_, checkpoint_);  // whose folder this is, however early it is killed
+}
+
+std::int64_t ReversalCheckpoints::next_due(std::int64_t step) const {
+  return every_ == 0 ? never : std::max((step + every_ - 1) / every_ * every_, every_);
+}
+
+Verdict ReversalCheckpoints::observe(const Frame&) {
+  write();
+  return Verdict::go_on;
+}
+
+void ReversalCheckpoints::write_if_due() {
+  if (every_ == 0 && std::chrono::duration<double>(Clock::now() - last_).count() > seconds_between) write();
+}
+
+void ReversalCheckpoints::write() {
+  checkpoint_.step = progress_.turned ? checkpoint_.steps : simulation_.step();
+  checkpoint_.simulation = simulation_.save();
+  Writer ar;
+  progress_.archive(ar);
+  checkpoint_.observers = {{reversal_record, ar.take()}};
+  write_checkpoint(file_, checkpoint_);
+  last_ = Clock::now();
+}
+
+void ReversalCheckpoints::complete(const std::string& json) {
+  checkpoint_.summary_hash = hash_of_text(json);
+  if (checkpoint_.simulation.empty()) {  // a short one: what is compared is the scenario
+    checkpoint_.step = checkpoint_.steps;
+  }
+  write_checkpoint(file_, checkpoint_);
+}
+
+}  // namespace hamflow
