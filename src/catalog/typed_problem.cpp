@@ -9,8 +9,6 @@ namespace hamflow {
 
 namespace {
 
-using Keys = FormulaKeys;
-
 ParameterInfo parameter_info(const std::string& name, const std::string& text) {
   const bool list = !text.empty() && text.front() == '[';
   ParameterInfo info{.name = name, .meaning = list ? "a list" : "a number", .required = true};
@@ -26,7 +24,7 @@ ProblemEntry formula_entry(const Choices& choices) {
   const FormulaTexts texts = formula_texts(choices);
   const auto model = std::make_shared<const formula::Model>(texts);
   ProblemEntry entry = entry_of_model(model);
-  entry.info.name = Keys::problem;
+  entry.info.name = FormulaKeys::problem;
   entry.info.formula =
       "H = " + (texts.hamiltonian.empty() ? texts.kinetic + " + " + texts.potential : texts.hamiltonian);
   entry.info.reference = "typed";
@@ -43,7 +41,7 @@ ProblemEntry formula_entry(const Choices& choices) {
 /// `central-force` with potential = "formula".
 ProblemEntry central_entry(const Choices& choices) {
   const FormulaTexts texts = central_formula_texts(choices);
-  const bool polar = choices.at(Keys::coordinates) == CentralKeys::polar;
+  const bool polar = choices.at(FormulaKeys::coordinates) == CentralKeys::polar;
   const auto model = std::make_shared<const formula::Model>(texts);
   std::optional<TypedField> field;
   if (!model->structure().time)
@@ -52,9 +50,9 @@ ProblemEntry central_entry(const Choices& choices) {
   ProblemInfo& info = entry.info;
   info.name = CentralKeys::problem;
   for (const auto& [key, text] : choices) info.variant.emplace_back(key, text);
-  info.chart_key = Keys::coordinates;
+  info.chart_key = FormulaKeys::coordinates;
   info.formula = std::string("H = ") + (polar ? "(p_r^2 + p_phi^2/r^2)" : "|p|^2") +
-                 "/(2 mu) + V(r), V(r) = " + choices.at(Keys::central_potential);
+                 "/(2 mu) + V(r), V(r) = " + choices.at(FormulaKeys::central_potential);
   info.reference = "Gross1999, (2.45)-(2.60)";
   info.coordinates = texts.coordinates;
   if (polar) info.angles = {"phi"};
@@ -94,17 +92,17 @@ FormulaTexts example_texts() {
 
 /// The example has a region, on which `verify` measures, by whatever way it is found.
 ProblemEntry entry_of_choices(const std::string& name, const Choices& choices) {
-  if (name != Keys::problem) return central_entry(choices);
+  if (name != FormulaKeys::problem) return central_entry(choices);
   return choices == formula_choices(example_texts()) ? formula_example() : formula_entry(choices);
 }
 
 }  // namespace
 
 bool is_typed(const std::string& name, const Choices& choices) {
-  if (name == Keys::problem) return !choices.empty();
+  if (name == FormulaKeys::problem) return !choices.empty();
   const auto potential = choices.find(CentralKeys::key);
-  return name == CentralKeys::problem && potential != choices.end() && potential->second == Keys::problem &&
-         choices.contains(Keys::central_potential);
+  return name == CentralKeys::problem && potential != choices.end() && potential->second == FormulaKeys::problem &&
+         choices.contains(FormulaKeys::central_potential);
 }
 
 const ProblemEntry& typed_problem(const std::string& name, const Choices& choices) {

@@ -17,14 +17,14 @@ std::uint64_t setting(const char* name, std::uint64_t otherwise) {
   return text ? std::stoull(text) : otherwise;
 }
 
-struct Tally {
+struct Comparisons {
   std::uint64_t programs = 0, operations = 0, failed = 0, values = 0, finite = 0, longest = 0, ended = 0;
 };
 
 /// `made(program)` runs a program in the way that is tested; null skips it.
 template <class Form, class Make>
-Tally compare(std::uint64_t seed, std::uint64_t count, const Form& form, const Make& made) {
-  Tally tally;
+Comparisons compare(std::uint64_t seed, std::uint64_t count, const Form& form, const Make& made) {
+  Comparisons tally;
   for (std::uint64_t i = 0; i < count; ++i) {
     Draw draw(counter_bits(seed, i));
     const RandomCase random = random_case(draw, form(draw));
@@ -55,7 +55,7 @@ auto up_to(std::size_t operations) {
 }
 
 /// So much is compared that a fault would show.
-void expect_substance(const Tally& tally) {
+void expect_substance(const Comparisons& tally) {
   EXPECT_GT(tally.finite * 2, tally.values);
   EXPECT_GT(tally.failed, tally.programs / 100);
   EXPECT_LT(tally.failed, tally.programs / 3);
@@ -99,8 +99,9 @@ TEST(RandomPrograms, RegistersHoldWhatTheyShouldHoweverFewThereAre) {
     std::unique_ptr<const native::Function> function_;
   };
   for (unsigned registers = 4; registers <= native::scalar_registers(); ++registers) {  // no pass before
-    const Tally tally = compare(seed + registers, count / 30, up_to(1000),
-                                [&](const Program& program) { return std::make_unique<Loop>(program, registers); });
+    const Comparisons tally = compare(seed + registers, count / 30, up_to(1000), [&](const Program& program) {
+      return std::make_unique<Loop>(program, registers);
+    });
     EXPECT_GT(tally.programs, 0u);
   }
 }

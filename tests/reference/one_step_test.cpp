@@ -17,13 +17,13 @@ namespace {
 constexpr double one_step_bound = 16 * 0x1p-52;
 constexpr double ten_steps_bound = 10 * 10 * one_step_bound;
 
-struct Case {
+struct StepCase {
   const char* method;     // hamflow's
   const char* reference;  // the file's
-  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.method; }
+  friend void PrintTo(const StepCase& c, std::ostream* out) { *out << c.method; }
 };
 
-class OneStep : public ::testing::TestWithParam<Case> {};
+class OneStep : public ::testing::TestWithParam<StepCase> {};
 
 TEST_P(OneStep, MatchesTheDefinition) {
   const auto file = reference_file("one_step.json")["one_step"][0];
@@ -137,14 +137,14 @@ TEST_P(OneStep, MatchesTheDefinitionInAllDigits) {
 /// The double pendulum, H of size 40, to 1/40 of the digits.
 TEST(OneStepOfTheDoublePendulum, MatchesTheDefinition) {
   const auto file = reference_file("one_step.json")["one_step"][1];
-  const std::vector<Case> cases{{"implicit-midpoint", "implicit_midpoint"},
-                                {"gauss(1)", "implicit_midpoint"},
-                                {"avf(5)", "cG1_5gauss"},
-                                {"cg(1,5,iteration=simplified)", "cG1_5gauss"},
-                                {"cg(2,64)", "cG2_exact"},
-                                {"cg(2,64,iteration=fixed-point)", "cG2_exact"},
-                                {"cg(2,auto)", "cG2_exact"}};
-  for (const Case& each : cases) {
+  const std::vector<StepCase> cases{{"implicit-midpoint", "implicit_midpoint"},
+                                    {"gauss(1)", "implicit_midpoint"},
+                                    {"avf(5)", "cG1_5gauss"},
+                                    {"cg(1,5,iteration=simplified)", "cG1_5gauss"},
+                                    {"cg(2,64)", "cG2_exact"},
+                                    {"cg(2,64,iteration=fixed-point)", "cG2_exact"},
+                                    {"cg(2,auto)", "cG2_exact"}};
+  for (const StepCase& each : cases) {
     bool found = false;
     for (const auto& m : file["methods"]) {
       if (m["method"] != each.reference) continue;
@@ -173,22 +173,21 @@ TEST(OneStepOfTheDoublePendulum, MatchesTheDefinition) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, OneStep,
-                         ::testing::Values(Case{"euler-a", "symplectic_euler_q_first"},
-                                           Case{"euler-b", "symplectic_euler_p_first"}, Case{"verlet", "verlet_KDK"},
-                                           Case{"stv4", "StV4_triple_jump_KDK"}, Case{"cg(1,1)", "implicit_midpoint"},
-                                           Case{"cg(1,5)", "cG1_5gauss"}, Case{"cg(1,auto)", "cG1_exact"},
-                                           Case{"gauss(1)", "implicit_midpoint"}, Case{"gauss(2)", "gauss_2"},
-                                           Case{"gauss(2,iteration=fixed-point)", "gauss_2"},
-                                           Case{"cg(2,2)", "gauss_2"}, Case{"cg(2,2,iteration=simplified)", "gauss_2"},
-                                           Case{"cg(2,64)", "cG2_exact"}, Case{"cg(2,auto)", "cG2_exact"}),
-                         [](const auto& each) {
-                           std::string name = each.param.method;
-                           std::replace_if(
-                               name.begin(), name.end(),
-                               [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, OneStep,
+    ::testing::Values(StepCase{"euler-a", "symplectic_euler_q_first"}, StepCase{"euler-b", "symplectic_euler_p_first"},
+                      StepCase{"verlet", "verlet_KDK"}, StepCase{"stv4", "StV4_triple_jump_KDK"},
+                      StepCase{"cg(1,1)", "implicit_midpoint"}, StepCase{"cg(1,5)", "cG1_5gauss"},
+                      StepCase{"cg(1,auto)", "cG1_exact"}, StepCase{"gauss(1)", "implicit_midpoint"},
+                      StepCase{"gauss(2)", "gauss_2"}, StepCase{"gauss(2,iteration=fixed-point)", "gauss_2"},
+                      StepCase{"cg(2,2)", "gauss_2"}, StepCase{"cg(2,2,iteration=simplified)", "gauss_2"},
+                      StepCase{"cg(2,64)", "cG2_exact"}, StepCase{"cg(2,auto)", "cG2_exact"}),
+    [](const auto& each) {
+      std::string name = each.param.method;
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+      return name;
+    });
 
 }  // namespace
 }  // namespace hamflow::test
