@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drift_class.hpp"
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
 #include "rounding.hpp"
@@ -85,6 +86,20 @@ double step_exponent(const StepMap& map, const Region& region, double telling, d
   log_level.erase(log_level.begin(), log_level.begin() + static_cast<std::ptrdiff_t>(surplus));
   return log_step.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : fitted_slope(log_step, log_level);
 }
+
+/// H after each block. An orbit whose period and whose blocks are nearly in step is seen at a phase that moves slowly:
+/// its bounded oscillation looks like a drift. Blocks of another length show it elsewhere, and a drift again.
+std::vector<double> watched(const StepMap& map, const State<double>& z, double h) {
+  constexpr std::int64_t other_steps = 59;  // prime
+  std::vector<double> energies = map.energies(z, h, coarse_blocks, block_steps);
+  const auto drifts = [](const std::vector<double>& series) {
+    return series.size() == coarse_blocks + 1 &&
+           increments_p_value(series) * static_cast<double>(starts) < DriftStatistics::level;
+  };
+  if (!drifts(energies)) return energies;
+  std::vector<double> others = map.energies(z, h, coarse_blocks, other_steps);
+  return others.size() == energies.size() && !drifts(others) ? others : energies;
+}
 }  // namespace
 
 EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
@@ -93,7 +108,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   const double h = telling_step(map, region, unit);
   std::vector<std::vector<double>> energies;
   for (std::uint64_t k = 0; k < starts; ++k) {
-    energies.push_back(map.energies(random_state(region, k), h, coarse_blocks, block_steps));
+    energies.push_back(watched(map, random_state(region, k), h));
     found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
   }
   found.step = h;

@@ -28,6 +28,18 @@ name = "eg(2)"
 dt = 0.02
 steps = 500
 """
+SPRING = """
+[problem]
+name = "central-force"
+potential = "binomial"
+k = 1e6
+initial = { q = [1, 0], p = [0.2, 1] }
+[method]
+name = "cg(1,auto)"
+[run]
+dt = 0.1
+steps = 70
+"""
 FAMILIES = ("eg(1)", "eg(3)", "lobatto-3a-3b(3)", "discrete-gradient", "itoh-abe")
 
 
@@ -57,6 +69,24 @@ class OtherImplicit(CommandCase):
                 kept = "angular_momentum" if method.startswith(("eg", "lobatto")) else "energy"
                 error = (found["invariants"][kept] if kept != "energy" else found["energy"])["max_error"]
                 self.assertLess(float(error), 100 * digit * 200**0.5, (method, arithmetic))
+
+    def test_corrections_that_go_round_are_no_solution(self):
+        # A position rounds by 2^-52, a force by k times that, its work in a step by h |v| times that; 8 of them a step.
+        self.write("spring.toml", SPRING)
+        # 200 radians a step: at step 28 the corrections of cg(1,auto) go round in threes from every start, at 62 and 64
+        # those of eg(2) between two places that are near each other.
+        for method in ("cg(1,auto)", "eg(2)"):
+            found = self.summary("spring.toml", "--set", f"method.name={method}")
+            self.assertLess(found["energy"]["max_error"], 8 * 2.0**-52 * 1e6 * 0.1 * 70**0.5, method)
+        # What is left of a fixed-point iteration turns while it shrinks, by 3 % each time.
+        slow = self.summary("spring.toml", "--set", "problem.k=1e4", "--set", "problem.initial.p=[0, 1e-3]", "--set", "run.dt=0.015",
+                            "--set", "run.steps=300", "--set", "method.name=eg(2,iteration=fixed-point)")
+        self.assertLess(slow["energy"]["max_error"], 8 * 2.0**-52 * 1e4 * 0.015 * 1e-3 * 300**0.5)
+
+    def test_a_step_without_a_solution_says_where_it_ends(self):
+        done = self.hamflow("run", "plane.toml", "--out", "none", "--set", "problem.initial={ q = [1.6, 0], p = [0, 0.5] }", "--set",
+                            "run.dt=0.6", status=1)
+        self.assertRegex(done.stderr, r"the solution that grows out of the beginning of the step ends at 0\.9\d* of its length")
 
     def test_a_run_in_two_parts_has_the_bits_of_one(self):
         for method in FAMILIES:

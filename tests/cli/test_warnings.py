@@ -51,10 +51,22 @@ class Warnings(CommandCase):
         self.assertIn("long_step", self.warned(KEPLER, "kahan-li8", f"dt = {PERIOD / 8}\nsteps = 3"))
         self.assertEqual(self.warned(KEPLER, "kahan-li8", f"dt = {PERIOD / 40}\nsteps = 3"), [])
 
+    def test_a_first_step_of_many_lengths_that_is_longer_than_the_period(self):
+        method = "gauss(2,step_control=reversible)"
+        for dt in (1e5, PERIOD):  # straight on, without a bend
+            self.assertIn("long_step", self.warned(KEPLER, method, f"dt = {dt}\nsteps = 3"))
+        self.assertEqual(self.warned(KEPLER, method, f"dt = {PERIOD / 40}\nsteps = 100"), [])
+
     def test_sub_steps_of_a_methods_own_may_be_long(self):
         for method in ("dop853", "taylor"):
             self.assertEqual(self.warned(KEPLER, method, "dt = 30\nsteps = 50"), [])
             self.assertIn("long_step", self.warned(KEPLER, method + "(step_control=fixed)", "dt = 5\nsteps = 50"))
+
+    def test_roots_that_have_nothing_to_do_with_the_motion(self):
+        # Steps that an angle of hundreds of radians leaves: times the torque that is more than the energy is wrong by.
+        wild = 'name = "double-pendulum"\nmasses = [2, 2]\nhalf_lengths = [3, 3]\ninitial = { q = [2.5, 3], p = [100, -300] }'
+        for steps in (2, 3, 5):
+            self.assertIn("energy_error", self.warned(wild, "gauss(1)", f"dt = 0.05\nsteps = {steps}"), steps)
 
     def test_a_fall_into_the_centre(self):
         fall = 'name = "central-force"\npotential = "kepler"\ninitial = { q = [1, 0], p = [0, 0] }'

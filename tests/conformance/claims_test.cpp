@@ -195,6 +195,13 @@ TEST(Expected, SymplecticOnesDoNotDriftAndRungeKuttaDoes) {
   }
 }
 
+TEST(Expected, AnOscillationInStepWithTheBlocksIsNoDrift) {
+  // Of the starts on the pendulum one has a period that fits so nearly into a block that its oscillation is seen to
+  // turn once in 511 of them.
+  const Region region = region_of("pendulum");
+  EXPECT_EQ(measure_energy(*step_map_on(region, parse_method("gauss(4)")), region).drift.drift, DriftClass::bounded);
+}
+
 TEST(Expected, AFixedQuadratureConservesOnlyAsFarAsItIsExact) {
   // At the pericentre of the ellipse with a step so large that five points miss the force along the chord; "auto"
   // takes more points.

@@ -119,7 +119,7 @@ class ImplicitMethod {
            (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + again.setup_.detail() +
            (log.attempts() > 1 ? " from any of " + std::to_string(log.attempts()) + " starts" : "") +
            (options_.halve ? ", nor in ten halvings of the step" : "") + "; " + E::Setup::residual_name +
-           " per iteration of the whole step " + log.text();
+           " per iteration of the whole step " + log.text() + end_of_solution(log);
   }
 
   /// r(z0, U) and E(U), for any number type. The verification differentiates them.
@@ -140,6 +140,12 @@ class ImplicitMethod {
 
  private:
   static constexpr int deepest_halving = 10;
+
+  static std::string end_of_solution(const NewtonLog& log) {
+    if (log.solved_part() <= 0) return "";
+    return "; the solution that grows out of the beginning of the step ends at " + shortest(log.solved_part()) +
+           " of its length";
+  }
 
   Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {
     const long long before = effort_.linear_solves;
@@ -232,7 +238,41 @@ class ImplicitMethod {
                                                                  const typename Newton<E>::Verdict verdict,
                                                                  Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
-    if (!newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), report, verdict, found)) return {};
+    if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), report, verdict, found)) return found;
+    if (verdict.refused || options_.halve || options_.iteration != Iteration::newton) return {};
+    return continued(problem, h, q0, p0, log);
+  }
+
+  /// The solution that grows, with the length of the step, out of that of a sixteenth of it: the one that belongs to
+  /// the motion. It may end, where it meets another one, before the step does.
+  [[gnu::cold, gnu::noinline]] std::optional<Solution> continued(const P& problem, const Real& h,
+                                                                 const Vector<Real, n>& q0, const Vector<Real, n>& p0,
+                                                                 NewtonLog* log) {
+    const NewtonReport report{options_, effort_, diagnostics_, nullptr};
+    constexpr double shortest_part = 1.0 / 4096;
+    double solved = 0;
+    double more = 1.0 / 16;
+    Solution found;
+    while (solved < 1 && more >= shortest_part) {
+      const double part = solved + more < 1 ? solved + more : 1;
+      const Real length = Real(part) * h;
+      const E step(setup_, problem, length, q0, p0, effort_);
+      Solution trial;
+      trial.x = solved > 0 ? found.x : step.predicted();
+      if (solved > 0) {
+        for (std::size_t i = 0; i < trial.x.size(); ++i) trial.x[i] = Real(part / solved) * trial.x[i];
+      }
+      if (newton_.solve_from(step, report, trial)) {
+        found = trial;
+        solved = part;
+        more = 1.5 * more;
+      } else {
+        more = more / 4;
+      }
+    }
+    if (log != nullptr) log->note_end_of_solution(solved);
+    if (solved < 1) return {};
+    newton_.distrust_memory();
     return found;
   }
 

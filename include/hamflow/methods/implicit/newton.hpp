@@ -2,7 +2,8 @@
 //
 // The first guess is extrapolated from the last steps; without memory it is the explicit predictor. Where it fails, the
 // predictor, the last state (as in the first thesis' programs) and a Newton whose steps are damped until the residual
-// shrinks are tried in turn, each with max_iterations of its own.
+// shrinks are tried in turn, each with max_iterations of its own. Where all of them fail, ImplicitMethod follows the
+// solution of a short step to that of the whole one.
 //
 // Where h is longer than the fastest motion, a polynomial through the last steps says nothing about the next one.
 // Newton may yet converge from there, to a root on the other side of a singularity, say. So, where the first guess lies
@@ -23,8 +24,8 @@ namespace hamflow {
 /// noise itself. With a rate theta of decrease, quadratic convergence predicts theta^2 |correction| for the next one.
 /// What is left undone has the same sign at the same phase of every orbit and adds up linearly, rounding only as a
 /// square root: it has to lie so far below the noise that 10^8 steps (a walk of 10^4 noises) do not show it, hence
-/// 1/16384. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, at a
-/// hundred-millionth of the unknowns, are noise too.
+/// 1/16384. Where the noise is larger than its estimate, corrections stop to shrink: two in a row that do not, below
+/// 4096 estimates, are noise too. Larger ones are a cycle of Newton's, which has no solution to end at.
 /// @param size, before |correction| of this iteration and the one before, in the units of noise
 /// @param first there is no full correction before this one
 /// @param stalls corrections in a row that did not shrink; counted here
@@ -33,13 +34,14 @@ constexpr bool newton_at_rounding(const Real& size, const Real& before, bool fir
   const Real rate = !first && before > Real(0) ? size / before : Real(1);
   stalls = !first && rate > Real(0.9) ? stalls + 1 : 0;
   return size <= noise || (!first && rate * rate * size <= noise / 16384) || (rate > Real(0.5) && size <= 64 * noise) ||
-         (stalls >= 2 && size <= Real(1 << 26) * noise);
+         (stalls >= 2 && size <= Real(1 << 12) * noise);
 }
 
 /// The same for iterations whose corrections shrink by a factor theta each time, a tangent of old or none at all. What
 /// is left undone is then theta/(1 - theta) of the last correction, with its sign; so that it does not add up to a
 /// drift it has to lie as far below the noise, or corrections have ceased to shrink, as they do in cycles of a few
-/// roundings. [HairerMcLachlanRazakarivony2008]
+/// roundings. [HairerMcLachlanRazakarivony2008]  Above the estimate of the noise it takes twelve in a row that are no
+/// smaller: where what is left turns while it shrinks, some of a few are larger than the one before.
 /// @param least of all corrections before this one; kept here
 /// @param stalls corrections in a row that were no smaller than that; counted here
 template <class Real>
@@ -49,7 +51,8 @@ constexpr bool linear_at_rounding(const Real& size, const Real& before, bool fir
   stalls = !first && !(size < least) ? stalls + 1 : 0;
   if (first || size < least) least = size;
   return size <= noise / 16384 || (rate < Real(1) && rate * size <= (Real(1) - rate) * noise / 16384) ||
-         (stalls >= 1 && size <= noise) || (stalls >= 2 && size <= Real(1 << 26) * noise);
+         (stalls >= 1 && size <= noise) || (stalls >= 2 && size <= Real(4) * noise) ||
+         (stalls >= 12 && size <= Real(1 << 12) * noise);
 }
 
 namespace detail {
@@ -126,6 +129,17 @@ class Newton {
     }
     doubt_ = good_guesses_wanted;
     return true;
+  }
+  /// From a guess that is neither extrapolated nor one of the usual starts.
+  [[gnu::cold, gnu::noinline]] bool solve_from(const E& step, const NewtonReport& report, Solution& found) const {
+    Point at;
+    Course course;
+    return iterate<false>(step, report, found, at, course) == Ending::converged && believable(step, report, found);
+  }
+  /// The step was solved in such a way: what is extrapolated is in doubt.
+  void distrust_memory() {
+    ++solved_[static_cast<int>(Guess::continued)];
+    doubt_ = good_guesses_wanted;
   }
   /// Solves the step again, from its solution with coarser equations.
   [[gnu::noinline]] bool solve_refined(const E& step, const NewtonReport& report, Solution& found) {
@@ -334,7 +348,7 @@ class Newton {
 
   typename detail::GuessesOf<E>::type memory_;
   int doubt_ = 0;  // good extrapolations still wanted before one is a first guess again
-  long long solved_[5] = {};
+  long long solved_[6] = {};
 };
 
 }  // namespace hamflow

@@ -10,15 +10,18 @@
 namespace hamflow {
 
 /// From where an attempt at a step starts.
-enum class Guess { extrapolated, predicted, last_state, damped, converged };
+enum class Guess { extrapolated, predicted, last_state, damped, converged, continued };
 
 /// All out of line: strings in the middle of an iteration cost it its registers.
 class NewtonLog {
  public:
   [[gnu::cold, gnu::noinline]] void attempt(Guess from) {
-    static constexpr const char* names[] = {"from the extrapolated guess", "from the explicit predictor",
-                                            "from the last state", "damped from the last state",
-                                            "from the solution with fewer points"};
+    static constexpr const char* names[] = {"from the extrapolated guess",
+                                            "from the explicit predictor",
+                                            "from the last state",
+                                            "damped from the last state",
+                                            "from the solution with fewer points",
+                                            "from the solution of a part of the step"};
     text_ = text() + (attempts_ == 0 ? "" : "; ") + names[static_cast<int>(from)] + " ";
     ++attempts_;
     iterations_ = 0;
@@ -43,6 +46,8 @@ class NewtonLog {
     attempts_ = 0;
     iterations_ = 0;
   }
+  /// How much of the step has a solution that grows out of its beginning.
+  void note_end_of_solution(double part) { solved_part_ = part; }
   void note_too_coarse() { too_coarse_ = true; }
   void note_change_unseen() { change_unseen_ = true; }
 
@@ -56,6 +61,8 @@ class NewtonLog {
   }
   int attempts() const { return attempts_; }
   bool too_coarse() const { return too_coarse_; }
+  /// 0: none was found, or nobody has looked.
+  double solved_part() const { return solved_part_; }
   bool change_unseen() const { return change_unseen_; }
 
  private:
@@ -64,6 +71,7 @@ class NewtonLog {
   std::array<std::string, told> latest_;
   int attempts_ = 0;
   int iterations_ = 0;
+  double solved_part_ = 0;
   bool too_coarse_ = false;
   bool change_unseen_ = false;
 };
