@@ -27,6 +27,7 @@ int reverse_command(const ReverseOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
+    note_unused_measures(scenario, "a reversal takes every step and asks what came back", options.quiet);
     std::optional<ReversalFolder> folder;
     if (!options.out.empty() && options.out != "none") folder.emplace(options.out, options.force);
     const ReversalReport report = carry_out(scenario, options);
