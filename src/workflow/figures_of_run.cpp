@@ -37,12 +37,19 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
   draw_figure({.runs = {run}, .kind = kind, .file = file});
 }
 
-void draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
-  if (scenario.figures.empty()) return;
-  std::filesystem::create_directories(folder / "figures");
+std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
+  std::vector<std::string> missing;
+  if (!scenario.figures.empty()) std::filesystem::create_directories(folder / "figures");
   for (const std::string& kind : scenario.figures) {
-    for (const char* format : {".svg", ".pdf", ".png"}) draw_figure(folder, kind, folder / "figures" / (kind + format));
+    try {
+      for (const char* format : {".svg", ".pdf", ".png"}) {
+        draw_figure(folder, kind, folder / "figures" / (kind + format));
+      }
+    } catch (const Error& error) {  // the run is done all the same, and so are the others
+      missing.push_back("a figure is not drawn: " + std::string(error.what()));
+    }
   }
+  return missing;
 }
 
 }  // namespace hamflow
