@@ -11,6 +11,7 @@
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "progress.hpp"
+#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -23,15 +24,17 @@ class RequestReader {
     read_methods(options.methods);
     if (describe(scenario.request.method).varies_steps) {
       const std::string key = std::string("method.") + step_control_option;
-      complain(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by --set " +
-                        key + "=" + fixed_steps +
-                        ": all methods of a comparison end at one time, steps of varying length do not");
+      complain_of(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by --set " +
+                           key + "=" + fixed_steps +
+                           ": all methods of a comparison end at one time, steps of varying length do not");
     }
     request.request = scenario.request;
     request.t_end = scenario.dt * static_cast<double>(scenario.steps);
     request.t_end_text = "(" + scenario.request.dt + ")*" + std::to_string(scenario.steps);
     if (!(std::abs(request.t_end) > 0)) {
-      complain("run", "found a run of no time; allowed one with at least a step");
+      const std::string t_end = run_path(run_keys().t_end);
+      complain_of(scenario.settings.contains(t_end) ? t_end : run_path(run_keys().steps),
+                  "found a run of no time; allowed one with at least a step");
     } else {
       read_steps(options.dts);
     }
@@ -45,6 +48,13 @@ class RequestReader {
  private:
   void complain(const std::string& key, const std::string& message) {
     complaints.push_back({scenario_.file, 0, 0, key, message});
+  }
+  /// Where the key stands in the file, if it does.
+  void complain_of(const std::string& key, const std::string& message) {
+    const auto set = scenario_.settings.find(key);
+    const bool in_file = set != scenario_.settings.end();
+    complaints.push_back(
+        {scenario_.file, in_file ? set->second.line : 0, in_file ? set->second.column : 0, key, message});
   }
   void complain_if(const std::string& key, const std::string& message) {
     if (!message.empty()) complain(key, message);
@@ -69,7 +79,8 @@ class RequestReader {
           complain("--methods", "found '" + name + "'; " + why_not);
         }
       } catch (const Error& error) {
-        complain("--methods", "found '" + name + "'; " + error.what());
+        const std::string what = error.what();
+        complain("--methods", what.starts_with("found") ? what : "found '" + name + "'; " + what);
       }
     }
   }
@@ -123,6 +134,7 @@ int compare(const CompareOptions& options) {
   const RequestReader reader(scenario, options);
   if (!reader.complaints.empty()) throw Rejection(reader.complaints);
   print_notes(scenario.notes, options.quiet);
+  note_unused_measures(scenario, "a comparison takes every step and looks at energies and ends", options.quiet);
   print_notes(reader.notes, options.quiet);
   print_notes(comparison_notes(reader.request), options.quiet);
   require_folder_of(options.figure);
@@ -131,10 +143,13 @@ int compare(const CompareOptions& options) {
   const auto alone = writes ? make_comparison_folder(options.out, options.force) : nullptr;
   const ComparisonReport report = carry_out(reader.request, options);
   std::cout << (options.json ? report.json : report.text);
-  if (!options.csv.empty()) write_file(options.csv, report.csv);
-  if (writes) write_comparison(report, options.out);
   if (report.status == "failed") print_error(report.message);
-  if (report.status == "done" && !options.figure.empty()) draw_comparison(report.comparison, options.figure);
+  const int written = written_behind_report([&] {
+    if (!options.csv.empty()) write_file(options.csv, report.csv);
+    if (writes) write_comparison(report, options.out);
+    if (report.status == "done" && !options.figure.empty()) draw_comparison(report.comparison, options.figure);
+  });
+  if (written != exit_done) return written;
   if (report.status != "failed" && writes && !options.json && !options.quiet) {
     std::cout << fmt::format("\nwritten to {}\n", options.out);
   }

@@ -46,7 +46,16 @@ void convert_given_state(const ConvertOptions& options) {
   print(options.json ? state_json(options.to, state) : state_text(state), options.output);
 }
 
+void note_left_out(const std::string& keys) {
+  if (!keys.empty()) print_notes({keys + " of the other coordinates: not in what was converted"}, false);
+}
+
 void convert_scenario(const ConvertOptions& options) {
+  const std::string extension = fs::path(options.output).extension().string();
+  if (extension == ".h5" || extension == ".csv") {
+    throw Error("-o: found '" + options.output + "'; allowed a file .toml, or .json with --json: " + options.input +
+                " is a scenario");
+  }
   // The method set is that of the converted scenario: with constraints none is allowed in both coordinates.
   std::vector<std::string> of_problem = options.sets;
   std::vector<std::string> of_method;
@@ -64,14 +73,17 @@ void convert_scenario(const ConvertOptions& options) {
   if (scenario.text.find('#') != std::string::npos) {
     print_notes({"comments of " + options.input + " are not in the converted text"}, false);
   }
+  note_left_out(left_out_of_converted(scenario, options.to));
 }
 
 void convert_run(const ConvertOptions& options) {
   if (!options.sets.empty()) throw Error("found --set beside a run; allowed with a scenario");
   const std::string extension = fs::path(options.output).extension().string();
-  const bool known = extension == ".h5" || extension == ".csv" || (options.json && extension == ".json");
+  const bool known = options.json ? extension == ".json" : extension == ".h5" || extension == ".csv";
   if (!options.output.empty() && !known) {
-    throw Error("-o: found '" + options.output + "'; allowed a file .h5 or .csv, or .json with --json");
+    throw Error(
+        "-o: found '" + options.output + "'" +
+        (options.json ? " with --json; allowed a file .json" : "; allowed a file .h5 or .csv, or .json with --json"));
   }
   const ConvertedRun run(options.input, options.to);
   if (run.largest_turn() > 2) {
@@ -84,6 +96,7 @@ void convert_run(const ConvertOptions& options) {
   if (extension == ".h5") {
     const std::string note = run.write_h5(options.output);
     if (!note.empty()) print_notes({note}, false);
+    note_left_out(run.left_out());
   } else {
     print(options.json ? run.json() : run.csv(), options.output);
   }
@@ -99,6 +112,7 @@ int convert_command(const ConvertOptions& options) {
       return exit_done;
     }
     if (!options.q.empty() || !options.p.empty()) throw Error("found --q or --p beside INPUT; allowed with --from");
+    require_folder_of(options.output);
     std::error_code none;
     if (!options.output.empty() && fs::equivalent(options.input, options.output, none)) {
       throw Error("-o: found the input itself; allowed another file");

@@ -45,6 +45,26 @@ void reject_unknown_command(const CLI::App& app, int argc, char** argv) {
   refuse("found the command '" + word + "'; allowed " + joined(names) + meant);
 }
 
+void reject_missing_value(const CLI::App& app, int argc, char** argv) {
+  const auto subs = app.get_subcommands([&](const CLI::App* sub) { return argc > 1 && sub->get_name() == argv[1]; });
+  if (subs.empty()) return;
+  const CLI::App* const sub = subs.front();
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::string name = word.substr(0, word.find('='));
+    const CLI::Option* const option = sub->get_option_no_throw(name);
+    if (option == nullptr || !word.starts_with("-") || option->get_items_expected_max() == 0) continue;
+    const bool behind_equals = name.size() < word.size();
+    const bool empty = behind_equals ? name.size() + 1 == word.size() : i + 1 < argc && argv[i + 1][0] == '\0';
+    const bool swallows = !behind_equals && i + 1 < argc && sub->get_option_no_throw(argv[i + 1]) != nullptr &&
+                          std::string(argv[i + 1]).starts_with("-");
+    if (!empty && !swallows) continue;
+    throw CLI::ValidationError(name + ": found " + (empty ? "nothing" : "the option " + std::string(argv[i + 1])) +
+                                   "; allowed " + name + " " + option->get_type_name(),
+                               CLI::ExitCodes::InvalidError);
+  }
+}
+
 namespace {
 /// Of --steps, run.steps: a key that was taken for an option. Empty where there is none of that name.
 std::string key_for_option(const std::string& option) {

@@ -15,6 +15,9 @@ CLI::Validator whole_number(double least, double most);
 CLI::Validator one_of(const std::vector<std::string>& words);
 /// @throws CLI::ValidationError when the first word is no command
 void reject_unknown_command(const CLI::App& app, int argc, char** argv);
+/// An option without a value takes the next one for it, so that a run would be kept in a folder called --json.
+/// @throws CLI::ValidationError when an option that needs a value is followed by none
+void reject_missing_value(const CLI::App& app, int argc, char** argv);
 /// What is wrong with the command line: for options that do not exist with those that do.
 std::string message_of(const CLI::App& app, const CLI::ParseError& error);
 

@@ -38,7 +38,7 @@ const ProblemEntry& chosen(const NewOptions& options) {
   }
   if (choices.contains(CentralKeys::key)) add_once(choices[CentralKeys::key], FormulaKeys::problem);
   if (std::find(names.begin(), names.end(), options.problem) == names.end()) {
-    throw Error("there is no problem '" + options.problem + "'; allowed " + joined(names) +
+    throw Error("found the problem '" + options.problem + "'; allowed " + joined(names) +
                 suggested_problem(options.problem));
   }
   std::map<std::string, std::string> variant;

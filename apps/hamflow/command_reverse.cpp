@@ -13,6 +13,7 @@ int reverse_command(const ReverseOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
+    note_unused_measures(scenario, "a reversal takes every step and asks what came back", options.quiet);
     ReversalSettings settings;
     if (options.out != "none") settings.folder = options.out;
     settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;

@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/digits.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "progress.hpp"
@@ -221,14 +222,23 @@ class Shell {
     Frame now;
     session_.look(now);
     const Excursion energy = session_.energy();
-    const double error = now.energy - energy.initial;
+    // Beyond double the doubles would show a difference of 0 and a state that nobody can go on from.
+    const bool in_digits = !now.digits.q.empty();
+    const bool one_course = in_digits && session_.changes().empty();
+    const double error =
+        one_course ? static_cast<double>(differences_from_first({now.digits.initial_energy, now.digits.energy}).back())
+                   : now.energy - energy.initial;
+    const auto number = [&](double x, const std::string& text) { return in_digits ? Json(text) : Json(x); };
+    const auto list = [&](const std::vector<double>& x, const std::vector<std::string>& texts) {
+      return in_digits ? Json(texts) : Json(x);
+    };
     Json all = Json::object();
     const auto wants = [&](const char* name) { return topic == name || topic == "all"; };
     if (wants("step")) all["step"] = now.step;
-    if (wants("t") || topic.empty()) all["t"] = now.time;
-    if (wants("q") || topic.empty()) all["q"] = now.q;
-    if (wants("p") || topic.empty()) all["p"] = now.p;
-    if (wants("energy") || topic.empty()) all["energy"] = now.energy;
+    if (wants("t") || topic.empty()) all["t"] = number(now.time, now.digits.time);
+    if (wants("q") || topic.empty()) all["q"] = list(now.q, now.digits.q);
+    if (wants("p") || topic.empty()) all["p"] = list(now.p, now.digits.p);
+    if (wants("energy") || topic.empty()) all["energy"] = number(now.energy, now.digits.energy);
     if (wants("error") || topic.empty()) all["energy_error"] = error;
     if (wants("error")) {
       all["max_energy_error"] = energy.max_error;
@@ -333,6 +343,7 @@ int shell_command(const ShellOptions& options) {
   return guarded(options.json, [&] {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
+    note_unused_measures(scenario, "a session takes every step that it is told to", options.quiet);
     return Shell(scenario, options).read_commands();
   });
 }

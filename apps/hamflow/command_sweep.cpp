@@ -84,8 +84,9 @@ int sweep_command(const SweepCommandOptions& options) {
     if (writes) open_folder(sweep, options);
     const SweepReport report = carry_out(sweep, options);
     print(sweep, report, writes, options);
-    if (draws && report.status != "failed") sweep.draw(options.figure, options.colour);
-    return exit_status(report.status);
+    if (!draws || report.status == "failed") return exit_status(report.status);
+    const int drawn = written_behind_report([&] { sweep.draw(options.figure, options.colour); });
+    return drawn != exit_done ? drawn : exit_status(report.status);
   });
 }
 

@@ -69,6 +69,7 @@ std::vector<PropertyRow> measure_all(const std::vector<Job>& jobs, const std::ve
 
 int verify_command(const VerifyOptions& options) {
   return guarded(options.json, [&] {
+    if (options.all && !options.methods.empty()) throw Error("found METHOD beside --all; allowed one of them");
     const std::vector<MethodSpec> specs = methods_of(options);
     if (specs.empty()) throw Error("verify needs at least one METHOD, or --all");
     std::vector<Region> regions;

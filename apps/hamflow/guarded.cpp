@@ -7,9 +7,11 @@
 #include <new>
 
 #include "gnuplot.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
 #include "progress.hpp"
+#include "run_keys.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow::app {
@@ -71,9 +73,33 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
   }
 }
 
+int written_behind_report(const std::function<void()>& files) {
+  try {
+    files();
+    return exit_done;
+  } catch (const figures::DrawingStopped& error) {
+    print_error(error.what());
+    return exit_interrupted;
+  } catch (const std::exception& error) {
+    print_error(error.what());
+    return exit_file;
+  }
+}
+
 void print_notes(const std::vector<std::string>& notes, bool quiet) {
   if (quiet) return;
   for (const std::string& note : notes) std::cerr << "note: " << note << '\n';
+}
+
+void note_unused_measures(const Scenario& scenario, const std::string& why, bool quiet) {
+  const RunKeys& keys = run_keys();
+  std::vector<std::string> unused;
+  if (scenario.lyapunov > 0) unused.push_back(run_path(keys.lyapunov));
+  if (scenario.eigenvalues) unused.push_back(run_path(keys.eigenvalues));
+  if (scenario.section) unused.push_back(run_path(keys.section));
+  if (!scenario.events.empty()) unused.push_back(run_path(keys.events));
+  if (unused.empty()) return;
+  print_notes({hamflow::joined(unused) + (unused.size() == 1 ? " is" : " are") + " not used: " + why}, quiet);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow::app {
 
@@ -20,8 +21,14 @@ struct RejectedLines {
 /// `failure` names what fails of requests that were right, e.g. "comparison": then 1; anything else: 1.
 int guarded(bool json, const std::function<int()>& body, const std::string& failure = {});
 
+/// What is written once a report is on stdout, which has one JSON text and no second: an exception is printed on stderr
+/// alone.   @return exit_done, exit_file, or exit_interrupted where drawing was stopped
+int written_behind_report(const std::function<void()>& files);
+
 /// Notes and errors on stderr, a line each.
 void print_notes(const std::vector<std::string>& notes, bool quiet);
+/// What is measured beside a run, by a command that does not: "note: run.section is not used: WHY".
+void note_unused_measures(const Scenario& scenario, const std::string& why, bool quiet);
 /// Also with --quiet: "warning: ..." each.
 void print_warnings(const std::vector<std::string>& warnings);
 void print_error(const std::string& message, const std::string& hint = {});

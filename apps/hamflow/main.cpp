@@ -47,9 +47,7 @@ int main(int argc, char** argv) {
   run_command->add_option("--set", run.sets, "override a key: dotted path and TOML value, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  run_command->add_option("--out", run.out, "folder for the results; \"none\" writes nothing")
-      ->type_name("DIR")
-      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+  run_command->add_option("--out", run.out, "folder for the results; \"none\" writes nothing")->type_name("DIR");
   run_command->add_flag("--force", run.force, "replace the run in an existing folder");
   run_command->add_flag("--resume", run.resume, "go on from the last checkpoint, or take more steps after the end");
   run_command->add_flag("--json", run.json, "print the summary as JSON, and nothing else, on stdout");
@@ -106,9 +104,7 @@ int main(int argc, char** argv) {
   sweep_command->add_option("--set", sweep.sets, "override a key for all members, e.g. run.dt=0.05")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")
-      ->type_name("DIR")
-      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+  sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")->type_name("DIR");
   sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")
       ->type_name("N")
       ->transform(whole_number(0, hamflow::most_sweep_threads));
@@ -153,8 +149,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   reverse_command
       ->add_option("--out", reverse.out, "folder for the states at start, turn and end; \"none\" writes nothing [none]")
-      ->type_name("DIR")
-      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+      ->type_name("DIR");
   auto* const reverse_force =
       reverse_command->add_flag("--force", reverse.force, "replace the reversal in an existing folder");
   reverse_command->add_flag("--resume", reverse.resume, "go on with the reversal in the folder, from either half")
@@ -175,8 +170,7 @@ int main(int argc, char** argv) {
   reproduce_command->add_flag("--quick", reproduce.quick, "about a minute for all; figures as SVG only");
   reproduce_command->add_flag("--full", reproduce.full, "about ten hours for all");
   reproduce_command->add_option("--out", reproduce.out, "folder for the page and its data [reproduce]")
-      ->type_name("DIR")
-      ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "is empty" : ""; }, "", ""));
+      ->type_name("DIR");
   reproduce_command->add_flag("--force", reproduce.force, "carry out again what is there");
   reproduce_command->add_flag("--resume", reproduce.resume,
                               "only what is not done, or was changed since: in its runs, its rule or the version");
@@ -281,6 +275,7 @@ int main(int argc, char** argv) {
 
   try {
     reject_unknown_command(app, argc, argv);
+    reject_missing_value(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11's own statuses start at 100: help is 0, everything else a wrong request.

@@ -35,7 +35,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
   std::vector<std::string> names;
   const ProblemEntry* same_name = nullptr;
   for (const ProblemEntry& entry : problems()) {
-    names.push_back(entry.info.name);
+    if (std::find(names.begin(), names.end(), entry.info.name) == names.end()) names.push_back(entry.info.name);
     if (entry.info.name != name) continue;
     same_name = &entry;
     const bool matches = std::all_of(entry.info.variant.begin(), entry.info.variant.end(), [&](const auto& choice) {
@@ -45,8 +45,7 @@ const ProblemEntry& find_problem(const std::string& name, const std::map<std::st
     if (matches) return entry;
   }
   if (same_name == nullptr) {
-    throw Error("problem '" + name + "' is unknown" + suggestion(name, names) +
-                " (list them with: hamflow list problems)");
+    throw Error("found the problem '" + name + "'; allowed " + joined(names) + suggestion(name, names));
   }
   const std::string wanted = joined(variant, [](const auto& choice) { return choice.first + " = " + choice.second; });
   throw Error("problem '" + name + "' has no variant with " + wanted + " (hamflow show " + name + ")");
@@ -90,9 +89,8 @@ static std::string refusal_of_constraints(const std::string& method, const Probl
   const std::string form = FormulaKeys::constraint_form;
   if (problem.constraint_form.empty()) {
     return method + " needs constraints g(q) = 0, and " + problem.info.name +
-           " has none in these coordinates; allowed with coordinates = \"cartesian\" of pendulum and double-pendulum, "
-           "or "
-           "constraints of formula; any other method takes coordinates without constraints";
+           " has none in these coordinates; allowed with coordinates = \"cartesian\" of pendulum, double-pendulum and "
+           "t-tube, or constraints of formula; any other method takes coordinates without constraints";
   }
   if (problem.constraint_form == FormulaKeys::manifold) {
     return method + " knows no constraints; allowed here: rattle, rattle4, or, with " + form + " = \"" +

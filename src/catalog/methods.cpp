@@ -48,7 +48,9 @@ const MethodEntry& find_method(const std::string& name) {
   if (found != by_name.end()) return *found->second;
   std::vector<std::string> names;
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
-  throw Error("method '" + name + "' is unknown" + suggestion(name, names) + " (list them with: hamflow list methods)");
+  const std::vector<std::string> first = first_methods();
+  throw Error("found the method '" + name + "'; allowed " + joined(first) + " and " +
+              std::to_string(names.size() - first.size()) + " others (hamflow list methods)" + suggestion(name, names));
 }
 
 std::size_t family_number(const MethodEntry& method) {

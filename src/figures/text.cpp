@@ -110,7 +110,15 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string symbol(const std::string& name) {
+std::string without_brackets(const std::string& name) {
+  const std::size_t open = name.find('[');
+  const std::size_t digits = name.find_first_not_of("0123456789", open + 1);
+  const bool numbered = open != std::string::npos && open > 0 && digits > open + 1 && digits + 1 == name.size();
+  return numbered && name.back() == ']' ? name.substr(0, open) + name.substr(open + 1, digits - open - 1) : name;
+}
+
+std::string symbol(const std::string& typed) {
+  const std::string name = without_brackets(typed);
   const Name parts = cut(name);
   if (parts.base.empty()) return escaped(name);
   return parts.index.empty() ? italic(parts.base)

@@ -14,6 +14,8 @@ std::string quoted(const std::string& text);
 std::string escaped(const std::string& text);
 /// The name of a coordinate as a symbol in enhanced text: q1 is q with subscript 1, phi the Greek letter.
 std::string symbol(const std::string& name);
+/// x1 of x[1], as typed systems of any size name their coordinates; other names as they are.
+std::string without_brackets(const std::string& name);
 /// "10^{-15}" in enhanced text, with a real minus sign.
 std::string power_of_ten(int exponent);
 /// A small number for reading: 2.2 times 10^{-16}, in enhanced text.

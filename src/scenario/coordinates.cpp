@@ -49,7 +49,16 @@ std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::stri
 
 }  // namespace
 
-std::string coordinates_of(const ProblemEntry& problem) { return choice_of(problem.info, problem.info.chart_key); }
+const ProblemEntry& without_own_walls(const ProblemEntry& problem) {
+  const std::map<std::string, std::string> choices(problem.info.variant.begin(), problem.info.variant.end());
+  if (problem.info.walls.empty() || !walls_among(choices)) return problem;
+  return find_problem(problem.info.name, without_walls(choices));
+}
+
+std::string coordinates_of(const ProblemEntry& behind) {
+  const ProblemEntry& problem = without_own_walls(behind);
+  return choice_of(problem.info, problem.info.chart_key);
+}
 
 std::string what_charts_there_are() {
   std::string text;
@@ -74,8 +83,9 @@ void check_coordinates(const std::string& name) {
   throw Error("found coordinates '" + name + "'; allowed " + joined(all) + suggestion(name, all));
 }
 
-const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to) {
+const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string& to) {
   check_coordinates(to);
+  const ProblemEntry& problem = without_own_walls(given);
   if (walls_among({problem.info.variant.begin(), problem.info.variant.end()})) {
     throw Error("found " + problem.info.name +
                 " behind walls; allowed without: a wall on one coordinate is none on those "
@@ -104,7 +114,7 @@ const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::strin
 }
 
 StateConverter::StateConverter(const ProblemEntry& from, const ProblemEntry& to, const Texts& parameters)
-    : from_(&from), to_(&to), parameters_(complete(to.info, parameters)) {
+    : from_(&without_own_walls(from)), to_(&to), parameters_(complete(to.info, parameters)) {
   if (!from.info.angles.empty()) return;
   for (std::size_t i = 0; i < to.info.coordinates.size(); ++i) {
     const auto& angles = to.info.angles;

@@ -21,7 +21,8 @@ std::string explained_with_default(const OptionInfo& option) {
 }
 
 std::string example_text(const OptionInfo& option) {
-  if (option.type == OptionType::table && option.keys.empty()) return option.example;  // its keys are the user's
+  const bool own = !option.example.empty() || option.keys.empty();  // not all keys together, or the user's
+  if (option.type == OptionType::table && own) return option.example;
   if (option.type == OptionType::table) {
     std::vector<OptionInfo> keys = option.keys;
     std::erase_if(keys, [](const OptionInfo& key) { return key.condition.starts_with("in place of"); });

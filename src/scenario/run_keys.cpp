@@ -45,7 +45,11 @@ const SectionKeys& section_keys() {
 
 const EventKeys& event_keys() {
   static const EventKeys keys{
-      .name = {.name = "name", .meaning = "of the event", .type = OptionType::text, .unset = "event1, event2, ..."},
+      .name = {.name = "name",
+               .meaning = "of the event",
+               .type = OptionType::text,
+               .unset = "event1, event2, ...",
+               .example = "event1"},
       .expression = {.name = "expression",
                      .meaning = "of coordinates, momenta, parameters and t, whose zeros are located",
                      .type = OptionType::text,

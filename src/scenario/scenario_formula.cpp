@@ -132,7 +132,7 @@ const std::vector<OptionInfo>& formula_options() {
                   "V(q)",
        .type = OptionType::word_list,
        .unset = "none",
-       .example = "[\"x^2 + y^2 - 1\"]"},
+       .example = "[x^2 + y^2 - 1]"},
       constraint_form_option()};
   return options;
 }
@@ -209,10 +209,10 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
   for (const auto& [name, text] : texts.parameters) {
     if (words.contains(name)) continue;
     const std::vector<std::string> candidates(words.begin(), words.end());
-    table.complain_in(std::string(FormulaKeys::parameters) + "." + name,
-                      "found a parameter that stands in no formula" +
-                          suggestion(name, used.empty() ? candidates : used) +
-                          "; allowed those that H, an invariant, a constraint, a section or an observable names");
+    table.complain_in(
+        std::string(FormulaKeys::parameters) + "." + name,
+        "found a parameter that stands in no formula" + suggestion(name, used.empty() ? candidates : used) +
+            "; allowed those that H, an invariant, a constraint, a section, an event or an observable names");
   }
 }
 

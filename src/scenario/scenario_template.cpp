@@ -1,6 +1,7 @@
 #include "scenario_template.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "figure_kinds.hpp"
 #include "formula_keys.hpp"
@@ -322,9 +323,8 @@ class TemplateWriter {
     const bool fixed = !info_.walls.empty();
     if (!fixed && !problem_.constraint_form.empty()) return;  // a wall would throw the motion off its constraints
     if (!fixed) {
-      const std::string coordinate = problem_.dimension > 0 ? info_.coordinates[0] : "q1";
-      page_.off(keys.walls.name + " = [{ " + keys.coordinate.name + " = \"" + coordinate + "\", " + keys.min.name +
-                    " = -1, " + keys.max.name + " = 1 }]",
+      page_.off(keys.walls.name + " = [{ " + keys.coordinate.name + " = \"" + first_coordinate() + "\", " +
+                    keys.min.name + " = -1, " + keys.max.name + " = 1 }]",
                 "hard walls, or soft ones; either end of a hard one may be left out");
     }
     write_option(keys.wall_rule, fixed);
@@ -342,19 +342,31 @@ class TemplateWriter {
     }
     page_.prose("Allowed here: " + joined(names) + ". More about one: hamflow show NAME");
     page_.line("name = \"" + method_.name + "\"", describe(method_).summary);
-    for (const MethodFamily& family : method_families()) write_method_options(family, names);
+    const MethodFamily* const chosen = find_method(method_.name).family;
+    for (const OptionInfo& option : chosen->options) {
+      write_option(option, option.position > 0 && !option.default_value.empty());
+      explained_options_.insert(explained_with_default(option));
+    }
+    for (const MethodFamily& family : method_families()) {
+      if (&family != chosen) write_options_of_others(family, names);
+    }
   }
 
-  /// Those of the method chosen that may be given by position are set, all others stand as comments.
-  void write_method_options(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
-    const bool chosen = find_method(method_.name).family == &family;
+  /// As comments; what stands above already is only named, since many methods share their options.
+  void write_options_of_others(const MethodFamily& family, const std::vector<std::string>& allowed_here) {
     const bool allowed =
         std::find(allowed_here.begin(), allowed_here.end(), family.methods.front()) != allowed_here.end();
-    if (family.options.empty() || !allowed) return;
-    if (!chosen) page_.prose("Options of " + joined(family.methods) + ":");
+    std::vector<std::string> above;
+    std::vector<OptionInfo> here;
     for (const OptionInfo& option : family.options) {
-      write_option(option, chosen && option.position > 0 && !option.default_value.empty());
+      const bool is_new = allowed && explained_options_.insert(explained_with_default(option)).second;
+      is_new ? here.push_back(option) : above.push_back(option.name);
     }
+    if (family.options.empty() || !allowed) return;
+    const std::string shared = above.empty() ? "" : joined(above) + " as above";
+    page_.prose("Options of " + joined(family.methods) + ": " + shared +
+                (above.empty() || here.empty() ? "" : ", and") + (above.empty() && !here.empty() ? "these" : ""));
+    for (const OptionInfo& option : here) write_option(option, false);
   }
 
   void write_option(const OptionInfo& option, bool set) {
@@ -388,7 +400,13 @@ class TemplateWriter {
         key.words = arithmetics_here;
         set = true;
       } else if (key.name == keys.section.name) {
-        key.keys.front().example = problem_.dimension > 0 ? problem_.info.coordinates[0] : "q1";
+        key.keys.front().example = first_coordinate();
+      } else if (key.name == keys.events.name) {
+        for (OptionInfo& part : key.keys) {
+          if (part.name == event_keys().expression.name) part.example = first_coordinate();
+        }
+        page_.off(key.name + " = [" + example_text(key) + "]", explained_with_default(key));
+        continue;
       } else if (key.name == keys.kernel.name) {
         if (!find_method(method_.name).family->not_fast.empty()) continue;
         set = true;
@@ -413,6 +431,8 @@ class TemplateWriter {
     }
   }
 
+  std::string first_coordinate() const { return problem_.dimension > 0 ? info_.coordinates[0] : "q1"; }
+
   const ProblemEntry& problem_;
   const ProblemInfo& info_;
   const ExampleInfo& example_;
@@ -420,6 +440,7 @@ class TemplateWriter {
   MethodSpec method_;
   std::vector<StartExample> starts_;
   const StartExample* active_ = nullptr;
+  std::set<std::string> explained_options_;
   Page page_;
 };
 

@@ -126,6 +126,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         break;
     }
     map.relative = size > 0 ? quotient(map.max_error, size) : map.max_error;
+    if (simulation.step() == 0) map.rounding.reset();  // nothing was done, which keeps nothing
     all.push_back(map);
   }
   return all;

@@ -292,8 +292,8 @@ RunDrift classify_run(const EnergySeries& series) {
   found.periods = series.periods;
   found.blocks = std::max(0, static_cast<int>(series.deviations.size()) - 1);
   if (found.blocks < RunDrift::fewest_blocks) {
-    found.reason =
-        fmt::format("{} blocks of steps are too few; a drift class needs {}", found.blocks, RunDrift::fewest_blocks);
+    found.reason = fmt::format("{} block{} of steps {} too few; a drift class needs {}", found.blocks,
+                               found.blocks == 1 ? "" : "s", found.blocks == 1 ? "is" : "are", RunDrift::fewest_blocks);
     return found;
   }
   double largest = 0;

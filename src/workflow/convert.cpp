@@ -33,7 +33,7 @@ std::string refused_method(const Scenario& scenario, const std::string& to) {
 DigitState start_digits(const Scenario& scenario, const std::string& to) {
   Frame frame;
   make_simulation(scenario.request)->look(frame);
-  const ProblemEntry& problem = *scenario.problem;
+  const ProblemEntry& problem = without_own_walls(*scenario.problem);
   return in_chart_of(in_coordinates(problem, to), problem, scenario.request.parameters, scenario.request.arithmetic,
                      {frame.digits.q, frame.digits.p});
 }
@@ -59,7 +59,8 @@ std::string state_json(const std::string& system, const CanonicalState& state) {
 
 std::string converted_text(const Scenario& scenario, const std::string& to, const CanonicalState& start) {
   std::vector<ScenarioEdit> edits;
-  const ProblemInfo& before = scenario.problem->info;
+  if (coordinates_of(*scenario.problem) == to) return edited_scenario(scenario.text, edits);
+  const ProblemInfo& before = without_own_walls(*scenario.problem).info;
   const ProblemInfo& behind = in_coordinates(*scenario.problem, to).info;
   const auto is_given = [&](const std::string& key) { return scenario.settings.contains("problem." + key); };
   for (const auto& [key, value] : behind.variant) {
@@ -76,7 +77,9 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", start_table(scenario, to, start)});
   }
-  if (scenario.section) {  // of a coordinate that is there no more
+  // What is said in names that are there no more (left_out_of_converted).
+  if (!scenario.events.empty()) edits.push_back({run_path(run_keys().events), {}});
+  if (scenario.section) {
     edits.push_back({run_path(run_keys().section), {}});
     std::vector<std::string> others = scenario.figures;
     const FigureFacts without_section{.diagnostics = true, .section = false};
@@ -84,8 +87,17 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
     const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
     if (!scenario.figures.empty()) edits.push_back({output_path(output_keys().figures), "[" + list + "]"});
   }
-  if (!scenario.observables.empty()) edits.push_back({output_path(output_keys().observables), {}});  // of old names
+  if (!scenario.observables.empty()) edits.push_back({output_path(output_keys().observables), {}});
   return edited_scenario(scenario.text, edits);
+}
+
+std::string left_out_of_converted(const Scenario& scenario, const std::string& to) {
+  std::vector<std::string> keys;
+  if (coordinates_of(*scenario.problem) == to) return "";
+  if (!scenario.events.empty()) keys.push_back(run_path(run_keys().events));
+  if (scenario.section) keys.push_back(run_path(run_keys().section));
+  if (!scenario.observables.empty()) keys.push_back(output_path(output_keys().observables));
+  return joined(keys);
 }
 
 CanonicalState converted_start(const Scenario& scenario, const std::string& to) {

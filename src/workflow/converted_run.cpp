@@ -132,13 +132,15 @@ class ConvertedRun::Impl {
   }
   double turn() const { return turn_; }
   const std::string& turning() const { return turning_; }
+  std::string left_out() const { return left_out_of_converted(scenario(), to_); }
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
   const std::string& arithmetic() const { return scenario().request.arithmetic; }
   /// In the run's arithmetic, with the whole turns that the doubles have been given.
   void convert_digits(std::size_t k, const CanonicalState& in_double, const DigitState& given) {
-    DigitState state = in_chart_of(*target_, *scenario().problem, scenario().request.parameters, arithmetic(), given);
+    DigitState state = in_chart_of(*target_, without_own_walls(*scenario().problem), scenario().request.parameters,
+                                   arithmetic(), given);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
       const auto& angles = target_->info.angles;
       if (std::find(angles.begin(), angles.end(), target_->info.coordinates[i]) != angles.end()) {
@@ -198,5 +200,6 @@ std::string ConvertedRun::json() const { return impl_->json(); }
 std::string ConvertedRun::write_h5(const fs::path& target) const { return impl_->write_h5(target); }
 double ConvertedRun::largest_turn() const { return impl_->turn(); }
 const std::string& ConvertedRun::turning() const { return impl_->turning(); }
+std::string ConvertedRun::left_out() const { return impl_->left_out(); }
 
 }  // namespace hamflow

@@ -170,7 +170,8 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   }
   data.diagnostics = std::move(samples.diagnostics);
   data.observables = std::move(samples.observables);
-  if (problem.dimension == 1 && !has_hard_walls(scenario.request)) {  // the level curve goes on behind them
+  // The level curve of H goes on behind walls, and is none of the motion where H changes with t.
+  if (problem.dimension == 1 && !data.has_time && !has_hard_walls(scenario.request)) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
   if (scenario.section && samples.description.section && (data.q.size() >= 2 || scenario.section->by_time_alone)) {

@@ -45,14 +45,19 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
   draw_figure({.runs = {run}, .kind = kind, .file = file});
 }
 
-void draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
-  if (scenario.figures.empty()) return;
-  std::filesystem::create_directories(folder / "figures");
+std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
+  std::vector<std::string> missing;
+  if (!scenario.figures.empty()) std::filesystem::create_directories(folder / "figures");
   for (const std::string& kind : scenario.figures) {
     std::vector<std::filesystem::path> files;
     for (const char* format : {".svg", ".pdf", ".png"}) files.push_back(folder / "figures" / (kind + format));
-    draw_into({.runs = {folder}, .kind = kind, .file = files.front()}, files);
+    try {
+      draw_into({.runs = {folder}, .kind = kind, .file = files.front()}, files);
+    } catch (const Error& error) {  // the run is done all the same, and so are the others
+      missing.push_back("a figure is not drawn: " + std::string(error.what()));
+    }
   }
+  return missing;
 }
 
 }  // namespace hamflow

@@ -68,7 +68,7 @@ void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t st
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
   });
   try {
-    draw_figures(scenario, settings.folder);
+    for (const std::string& missing : draw_figures(scenario, settings.folder)) note(settings, missing);
   } catch (const figures::DrawingStopped& stopped) {
     report.file_trouble = stopped.what();
     report.drawing_stopped = true;

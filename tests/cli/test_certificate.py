@@ -131,6 +131,11 @@ class Certificate(CommandCase):
         self.assertEqual(c["drift"], "undecided")
         self.assertIsNotNone(c["p_value"])
 
+    def test_a_run_of_no_steps_has_kept_nothing(self):
+        s = self.summary("kepler.toml", "--set", "run.steps=0")
+        self.assertIsNone(s["certificate"]["momentum_maps"]["angular_momentum"]["conserved"])
+        self.assertIsNone(s["certificate"]["reversal_distance"])
+
     def test_a_reason_contradicts_no_number(self):
         # 1.99 periods are too few, and are not called 2.
         own = ["problem.mass=1"]

@@ -261,6 +261,23 @@ class Compare(CommandCase):
         self.hamflow("compare", "henon.toml", "--methods", "verlet", "--out", "o", "--force")
         self.hamflow("compare", "henon.toml", "--methods", "verlet", "--out", "none")
 
+    def test_a_file_that_cannot_be_written_leaves_one_json_text(self):
+        (self.folder / "f.svg").mkdir()
+        few = ["henon.toml", "--set", "run.steps=4", "--json"]
+        for words in ([*few, "--methods", "verlet", "--csv", "f.svg"], [*few, "--methods", "verlet", "--figure", "f.svg"]):
+            done = self.hamflow("compare", *words, status=3)
+            self.assertEqual(json.loads(done.stdout)["status"], "done")
+            self.assertIn("error: ", done.stderr)
+        done = self.hamflow("sweep", *few, "--vary", "run.dt=0.1,0.2", "--out", "none", "--figure", "f.svg", status=3)
+        self.assertEqual(json.loads(done.stdout)["status"], "done")
+
+    def test_a_run_of_no_time_is_told_where_it_stands(self):
+        self.write("still.toml", (self.folder / "henon.toml").read_text().replace("steps=100", "steps=0"))
+        done = self.hamflow("compare", "still.toml", "--methods", "verlet", "--json", status=2)
+        (error,) = json.loads(done.stdout)["errors"]
+        self.assertEqual((error["file"], error["key"]), ("still.toml", "run.steps"))
+        self.assertGreater(error["line"], 0)
+
     def test_table(self):
         out = self.hamflow("compare", "henon.toml", "--methods", "verlet,stv4").stdout
         for word in ("reference: ", "evaluations", "energy error", "fewest evaluations", "least time"):

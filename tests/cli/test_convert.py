@@ -7,7 +7,7 @@ import shutil
 import unittest
 from decimal import Decimal, localcontext
 
-from command import CommandCase
+from command import EXAMPLES, CommandCase
 
 EPSILON = 2.0**-52
 
@@ -91,6 +91,46 @@ class Convert(CommandCase):
             'orbit = { kind = "ellipse", r_per = 1.0, r_aph = 3.0 }', "initial = { q = [0, 2], v = [-0.5, 0] }"))
         s = json.loads(self.hamflow("convert", "velocity.toml", "--to", "polar", "--json").stdout)
         self.assert_close(s["q"] + s["p"], [2, math.pi / 2, 0, 2])
+
+    def test_what_is_said_in_the_old_coordinates_is_left_out_with_a_note(self):
+        named = (self.folder / "kepler.toml").read_text() + """section = { coordinate = "y" }
+events = [{ expression = "x" }]
+[output]
+figures = ["section", "orbit"]
+observables = { d = "sqrt(x^2 + y^2)" }
+"""
+        self.write("named.toml", named)
+        done = self.hamflow("convert", "named.toml", "--to", "polar", "-o", "polar.toml")
+        self.assertIn("note: run.events, run.section, output.observables", done.stderr)
+        self.summary("polar.toml")
+        self.hamflow("run", "named.toml", "--out", "named.run", "--set", "run.steps=60")
+        done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.h5")
+        self.assertIn("note: run.events, run.section, output.observables", done.stderr)
+        self.hamflow("plot", "polar.h5", "-o", "polar.svg")
+        # In the same coordinates all of it is meant as before.
+        done = self.hamflow("convert", "named.toml", "--to", "cartesian")
+        self.assertEqual(done.stderr, "")
+        for words in ('events = [{ expression = "x" }]', 'section = { coordinate = "y" }', "d = "):
+            self.assertIn(words, done.stdout)
+
+    def test_walls_that_belong_to_the_problem_stand_in_each_chart(self):
+        start = "initial = { q = [0.01, 1.1], p = [6, 100] }"
+        self.write("tube.toml", (EXAMPLES / "t_tube.toml").read_text().replace("velocities = [6, 1]", start))
+        self.hamflow("convert", "tube.toml", "--to", "cartesian", "--set", "method={name='rattle'}", "-o", "there.toml")
+        self.hamflow("convert", "there.toml", "--to", "generalised", "--set", "method={name='verlet'}", "-o", "back.toml")
+        there = self.summary("there.toml", "--set", "run.steps=30")
+        back = self.summary("back.toml", "--set", "run.steps=30")
+        self.assertEqual((there["events"]["wall:x1:max"], back["events"]["wall:q1:max"]), (1, 1))
+        self.assert_close([there["final"]["q"][0], there["final"]["q"][3]], back["final"]["q"], units=1e6)
+        self.hamflow("run", "there.toml", "--out", "there.run", "--set", "run.steps=30")
+        rows = self.hamflow("convert", "there.run", "--to", "generalised").stdout.splitlines()
+        self.assert_close([float(x) for x in rows[-1].split(",")[1:3]], [there["final"]["q"][0], there["final"]["q"][3]])
+
+    def test_a_file_is_called_what_it_is(self):
+        for name in ("x.h5", "x.csv"):
+            self.assertIn("allowed a file .toml", self.hamflow("convert", "kepler.toml", "--to", "polar", "-o", name, status=2).stderr)
+        done = self.hamflow("convert", "kepler.toml", "--to", "polar", "-o", "no/x.toml", status=3)
+        self.assertIn("no/x.toml cannot be written: there is no folder no", done.stderr)
 
     def test_a_method_that_cannot_run_there(self):
         self.write("stv4.toml", (self.folder / "kepler.toml").read_text().replace('"cg"\nquadrature = 5', '"stv4"'))

@@ -5,7 +5,7 @@ import json
 import pathlib
 import unittest
 
-from command import CommandCase
+from command import ELLIPSE, CommandCase
 
 
 class Errors(CommandCase):
@@ -161,6 +161,42 @@ record_every = true
         self.assertIn("PATH=VALUE", self.complaint("nonsense"))
         for command in ([], ["run"], ["plot"], ["list"], ["show"], ["verify"]):
             self.assertIn("Examples:", self.hamflow(*command, "--help").stdout)
+
+    def test_an_option_without_a_value_takes_no_other_for_it(self):
+        # A run was kept in a folder called --json.
+        for words in (["run", "kepler.toml", "--out=", "--json"], ["run", "kepler.toml", "--out", "--json"],
+                      ["run", "kepler.toml", "--out", "", "--json"], ["compare", "kepler.toml", "--methods=", "--json"],
+                      ["sweep", "kepler.toml", "--vary", "--json"], ["run", "kepler.toml", "--set", "--json"]):
+            done = self.hamflow(*words, status=2)
+            (error,) = json.loads(done.stdout)["errors"]
+            self.assertTrue(words[2].startswith(error["key"]), error)
+            self.assertIn(": found ", error["message"])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["kepler.toml"])
+        # A negative number is none of them.
+        self.hamflow("convert", "--from", "cartesian", "--to", "polar", "--q", "-1,0", "--p", "-1,0")
+
+    def test_every_command_tells_the_parts_of_an_error(self):
+        self.write("bad.toml", ELLIPSE.replace("mass", "mas"))
+        for words in (["run"], ["reverse"], ["compare", "--methods", "stv4"], ["sweep", "--vary", "run.dt=0.1,0.2"],
+                      ["shell"], ["convert", "--to", "polar"]):
+            done = self.hamflow(words[0], "bad.toml", "--json", *words[1:], status=2)
+            (error,) = json.loads(done.stdout)["errors"]
+            self.assertEqual((error["file"], error["line"], error["column"], error["key"]), ("bad.toml", 6, 1, "problem.mas"), words)
+            self.assertIn(error["message"], done.stderr)
+        for vary, key in (("run.dz=1,2", "run.dz"), ("run.dt=1:2", "--vary"), ("run.dt=0.1,0", "run.dt")):
+            done = self.hamflow("sweep", "kepler.toml", "--vary", vary, "--json", "--out", "none", status=2)
+            self.assertEqual({e["key"] for e in json.loads(done.stdout)["errors"]}, {key}, done.stdout)
+
+    def test_verify_takes_methods_or_all_of_them(self):
+        self.assertIn("allowed one of them", self.hamflow("verify", "stv4", "--all", status=2).stderr)
+        self.hamflow("verify", status=2)
+
+    def test_unknown_names_are_answered_by_those_that_are_known(self):
+        for words, allowed in ((["verify", "stv4", "--problem", "foo"], "allowed double-pendulum, duffing"),
+                               (["verify", "stv5"], "allowed verlet, stv4, kahan-li8"),
+                               (["compare", "kepler.toml", "--methods", "leapfrog"], "allowed verlet, stv4, kahan-li8"),
+                               (["new", "foo"], "allowed double-pendulum, duffing")):
+            self.assertIn(allowed, self.hamflow(*words, status=2).stderr)
 
 
 if __name__ == "__main__":

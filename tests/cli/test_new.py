@@ -89,6 +89,31 @@ class New(CommandCase):
                     tried += 1
         self.assertGreaterEqual(tried, 35)
 
+    def test_a_key_that_is_not_set_can_be_set_as_it_stands(self):
+        for name in ("henon-heiles", "central-force", "formula", "gas"):
+            lines = self.hamflow("new", name).stdout.splitlines()
+            for i, line in enumerate(lines):
+                if name == "gas" and line.startswith(("# lyapunov", "# eigenvalues", "# section", "# events")):
+                    continue
+                key = re.match(r"# (lyapunov|eigenvalues|section|events|record_events|checkpoint_every|observables|folder|"
+                               r"walls|cutoff|constraints) = ", line)
+                if not key:
+                    continue
+                chosen = [*lines[:i], line[2:], *lines[i + 1 :]]
+                self.write("chosen.toml", "\n".join(chosen) + "\n")
+                if key[1] == "constraints":  # text that is TOML; a start on them is the user's
+                    self.assertIn("rattle", self.hamflow("run", "chosen.toml", "--out", "none", status=2).stderr)
+                    continue
+                with self.subTest(problem=name, line=line):
+                    self.summary("chosen.toml", "--set", "run.steps=1")
+
+    def test_what_methods_share_is_said_once(self):
+        text = self.hamflow("new", "henon-heiles").stdout
+        self.assertEqual(text.count("# step_control = "), 2)  # reversible, adaptive
+        self.assertEqual(text.count("# max_iterations = "), 1)
+        at = text.index('name = "stv4"')
+        self.assertLess(text.index("# step_control = "), text.index("# Options of", at))  # its own come first
+
     def test_a_changed_key_takes_effect(self):
         self.write("new.toml", self.hamflow("new", "central-force").stdout)
         s = self.summary("new.toml")

@@ -170,6 +170,18 @@ class Plot(CommandCase):
         self.run_some("kepler.toml", "run.steps=0", out="k")
         self.assertNotIn("exact", self.plot("k", kind="orbit"))
 
+    def test_a_curve_that_is_none_of_the_motion_is_not_called_exact(self):
+        # H of a driven oscillator changes: its motion leaves the level curve of the start.
+        self.hamflow("run", str(EXAMPLES / "formulas" / "driven_duffing.toml"), "--set", "run.steps=300", "--out", "d.run")
+        self.hamflow("plot", "d.run", "--kind", "phase", "-o", "d.svg")
+        self.assertNotIn("exact", (self.folder / "d.svg").read_text())
+
+    def test_a_section_without_points_costs_no_run_its_other_figures(self):
+        done = self.hamflow("run", "kepler.toml", "--set", "run.steps=5", "--set", "run.section={coordinate='x'}",
+                            "--set", "output.figures=['section', 'orbit']", "--out", "few.run")
+        self.assertIn("note: a figure is not drawn: found \"section\", but the section has no points", done.stderr)
+        self.assertTrue((self.folder / "few.run" / "figures" / "orbit.svg").exists())
+
     def test_a_section_says_which_it_is(self):
         self.write("h.toml", '[problem]\nname = "henon-heiles"\ninitial = { q = [0, 0.1], p = [0.4, 0] }\n[method]\n'
                              'name = "stv4"\n[run]\ndt = 0.05\nsteps = 4000\nsection = { coordinate = "q1" }\n')

@@ -39,6 +39,25 @@ class Shell(CommandCase):
         self.assertEqual(here["force"], s["evaluations"]["force"])
         self.assertEqual(here["step"], s["steps"])
 
+    def test_all_the_digits_of_the_arithmetic(self):
+        final, s = self.final("run.arithmetic=quad", "run.steps=40", "method={name='stv4'}")
+        here = self.shown("step 40\nshow all\n", "--set", "run.arithmetic=quad", "--set", "method={name='stv4'}")
+        self.assertEqual({key: here[key] for key in ("t", "q", "p")}, final)
+        self.assertEqual(here["energy"], s["energy"]["final"])
+        # An error that no two doubles of the energy show.
+        here = self.shown("step 9\nshow\n", "--set", "run.arithmetic=quad", "--set", "method={name='cg',degree=2}")
+        self.assertLess(abs(here["energy_error"]), 1e-32)
+        self.assertNotEqual(here["energy_error"], 0)
+
+    def test_what_only_runs_measure_is_told(self):
+        sets = [w for text in ("run.section={coordinate='x'}", "run.events=[{expression='x', action='stop'}]") for w in ("--set", text)]
+        self.shell("step 3\n", *sets)
+        self.assertIn("note: run.section, run.events are not used", self.stderr)
+        for words in (["reverse", "kepler.toml"], ["compare", "kepler.toml", "--methods", "stv4", "--dt", "0.1"]):
+            said = self.hamflow(*words, "--set", "run.steps=20", *sets).stderr
+            self.assertIn("note: run.section, run.events are not used", said)
+            self.assertNotIn("not used", self.hamflow(*words, "--set", "run.steps=20", *sets, "--quiet").stderr)
+
     def test_the_numbers_of_run(self):
         self.assert_same_as_run("step 400\n")
         self.assert_same_as_run("step 100\n" * 4)

@@ -225,7 +225,9 @@ TEST(Text, Symbols) {
   EXPECT_EQ(symbol("p12"), "{/:Italic p}_{12}");
   EXPECT_EQ(symbol("p_x3"), "{/:Italic p}_{x3}");
   EXPECT_EQ(symbol("p_phi"), "{/:Italic p}_{φ}");
-  EXPECT_EQ(symbol("x[1]"), "x[1]");
+  EXPECT_EQ(symbol("x[1]"), "{/:Italic x}_{1}");
+  EXPECT_EQ(symbol("p_x[12]"), "{/:Italic p}_{x12}");
+  EXPECT_EQ(symbol("x[n]"), "x[n]");
   EXPECT_EQ(short_number(2.2e-16), "2.2·10^{\u221216}");
 }
 

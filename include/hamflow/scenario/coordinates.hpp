@@ -23,6 +23,8 @@ std::string what_charts_there_are();
 void check_coordinates(const std::string& name);
 /// The same problem in the coordinates `to`. @throws Error when it has none such, naming which problems have some
 const ProblemEntry& in_coordinates(const ProblemEntry& problem, const std::string& to);
+/// A problem without the walls that belong to it, which stand in each of its charts; any other as it is.
+const ProblemEntry& without_own_walls(const ProblemEntry& problem);
 /// The coordinates that an entry is in; empty where there is one chart only.
 std::string coordinates_of(const ProblemEntry& problem);
 

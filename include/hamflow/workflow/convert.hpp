@@ -23,6 +23,8 @@ std::string converted_start_json(const Scenario& scenario, const std::string& to
 /// @throws Error when its problem or its method cannot be used in them   @throws Rejection
 std::string converted_scenario(const Scenario& scenario, const std::string& to,
                                const std::vector<std::string>& sets = {});
+/// The keys of the scenario that are said in its old coordinates, and are not in the converted one.
+std::string left_out_of_converted(const Scenario& scenario, const std::string& to);
 
 /// Whether a path names the folder of a run or an HDF5 file, whatever it is called.
 bool is_run(const std::filesystem::path& path);
@@ -46,6 +48,8 @@ class ConvertedRun {
   double largest_turn() const;
   /// The names of these angles, with commas between.
   const std::string& turning() const;
+  /// Keys of its scenario that the converted one has not.
+  std::string left_out() const;
 
  private:
   class Impl;

@@ -29,7 +29,8 @@ void draw_figure(const FigureRequest& request);
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file);
 
 /// Draws those that the scenario requests in output.figures, each as .svg, .pdf and .png, into figures/ of the folder
-/// of its run.   @throws Error, FileError
-void draw_figures(const Scenario& scenario, const std::filesystem::path& folder);
+/// of its run.   @return why those are missing that what came of the run does not allow: a section without points
+/// @throws FileError
+std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder);
 
 }  // namespace hamflow

@@ -10,7 +10,7 @@ namespace hamflow {
 
 /// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}; the message is the whole line.
 std::string rejection_json(const std::vector<Complaint>& complaints);
-/// The same of lines that belong to no file.
+/// The same of lines, whose parts are read from them.
 std::string rejection_json(const std::vector<std::string>& lines);
 /// {"status": "failed", "error": {kind, message}}
 std::string failure_json(const std::string& kind, const std::string& message);

@@ -33,8 +33,9 @@ std::vector<std::string> wanted(const Figure& figure) {
   return names;
 }
 
-/// x of x1: what numbered columns have in common.
-std::string family(const std::string& name) {
+/// x of x1 and of x[1]: what numbered columns have in common.
+std::string family(const std::string& typed) {
+  const std::string name = without_brackets(typed);
   const std::size_t end = name.find_last_not_of("0123456789");
   return end == std::string::npos ? name : name.substr(0, end + 1);
 }
@@ -60,7 +61,10 @@ std::vector<std::vector<Column>> shared_axes(const Figure& figure) {
 }
 
 std::string label_of(const std::vector<Column>& group) {
-  if (group.size() > 3) return symbol(family(group.front().name));
+  const std::string first = family(group.front().name);
+  const bool numbered =
+      std::all_of(group.begin(), group.end(), [&](const Column& column) { return family(column.name) == first; });
+  if (group.size() > 3 && numbered) return symbol(first);
   return joined(group, [](const Column& column) { return column.label; });
 }
 
