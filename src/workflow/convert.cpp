@@ -76,6 +76,8 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
   }
   if (!scenario.request.start.geometric() && !scenario.bodies) {
     edits.push_back({"problem.initial", start_table(scenario, to, start)});
+    const std::string& velocities = before.velocities.name;  // of a start in its place
+    if (!velocities.empty() && is_given(velocities)) edits.push_back({"problem." + velocities, {}});
   }
   // What is said in names that are there no more (left_out_of_converted).
   if (!scenario.events.empty()) edits.push_back({run_path(run_keys().events), {}});
