@@ -234,6 +234,7 @@
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
+#include "hamflow/run/recorded_part.hpp"
 #include "hamflow/run/recorded_simulation.hpp"
 #include "hamflow/run/recorded_step.hpp"
 #include "hamflow/run/recorded_tangents.hpp"

@@ -49,14 +49,37 @@ StepRecorder recorder_of(const ErasedRun<double>& run, const M& recipe, bool est
   };
 }
 
+/// Whether a method takes steps whose length is recorded.
+template <class P, class A, class M>
+constexpr bool takes_recorded_lengths = requires(typename M::template Stepper<P, A>& stepper, const P& problem,
+                                                 const Trace<double>& h, PhasePoint<A, dynamic>& z) {
+  stepper.step(problem, h, z);
+};
+
+/// Records parts of steps, between walls that are located; empty where nobody takes any, or the method cannot.
+template <Capability c, class A, class M>
+PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
+  using Traced = AnyProblem<Trace<double>, c>;
+  using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
+  if constexpr (!Separable<Traced> || !takes_recorded_lengths<Traced, TA, M>) {
+    return {};
+  } else {
+    if (!run.walls || run.walls->rule != WallRule::event) return {};
+    const std::size_t n = run.functions.size;
+    return [problem = Traced(n, run.functions.trace), exact = Traced(n, run.exact ? run.exact : run.functions.trace),
+            recipe](const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h) {
+      return record_part<TA>(problem, exact, recipe.template bind<Traced, TA>(problem), q, p, h,
+                             most_recorded_operations);
+    };
+  }
+}
+
 /// Records steps of varying length of a method whose steps can have any, of natural Hamiltonians; else empty.
 template <Capability c, class A, class M>
 StepRecorder varying_recorder_of(const ErasedRun<double>& run, const M& recipe, const Request& request) {
   using TA = WithAnyLength<typename TracedArithmetic<A>::type>;
   using Traced = AnyProblem<Trace<double>, c>;
-  using Stepper = typename M::template Stepper<Traced, TA>;
-  if constexpr (!requires(Stepper & stepper, const Traced& problem, const Trace<double>& h,
-                          PhasePoint<TA, dynamic>& z) { stepper.step(problem, h, z); }) {
+  if constexpr (!takes_recorded_lengths<Traced, TA, M>) {
     return {};
   } else {
     const StepControl control = step_control_of(request.method);
@@ -81,6 +104,7 @@ inline std::optional<ErasedRun<double>> with_estimates(const ErasedRun<double>& 
   ErasedRun<double> other = run;
   other.functions.plain = fast.plain;
   other.functions.trace = fast.trace;
+  other.exact = run.functions.trace;
   return other;
 }
 
@@ -114,6 +138,8 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
               !request.record                              ? StepRecorder()
               : step_control_of(request.method).reversible ? varying_recorder_of<c, A>(run, recipe, request)
                                                            : recorder_of<c, A>(run, recipe, estimated),
+              request.record && !step_control_of(request.method).reversible ? part_recorder_of<c, A>(run, recipe)
+                                                                            : PartRecorder(),
               request.watch));
         } else if constexpr (std::is_same_v<R, double> && std::is_same_v<M, Averages>) {
           return requested(std::make_unique<IteratedSimulation<P, decltype(method), A>>(

@@ -245,7 +245,7 @@ class RecordedBlock final : public EnsembleBlock {
   void step_alone(Member& member, std::size_t lane) {
     bring(member, lane, carried_, taken_ - 1);
     if (keeps_start_) member.start = member.simulation->clone();
-    member.lost = member.recorded->step_ordinarily() != Outcome::done;
+    member.lost = member.recorded->step_ordinarily(*member.step) != Outcome::done;
     if (!member.lost) member.recorded->make_ready();
     add_to_sums(lane);
   }

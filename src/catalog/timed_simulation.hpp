@@ -64,8 +64,8 @@ class TimedSimulation final : public Simulation, public RecordedMember {
     return step;
   }
   void make_ready() override { recorded_->make_ready(); }
-  Outcome step_ordinarily() override { return recorded_->step_ordinarily(); }
-  bool stopped_at_wall() const override { return recorded_ != nullptr && recorded_->stopped_at_wall(); }
+  Outcome step_ordinarily(const RecordedStep& undone) override { return recorded_->step_ordinarily(undone); }
+  const RecordedStep* undone_step() const override { return recorded_ != nullptr ? recorded_->undone_step() : nullptr; }
   /// Steps of H(q, p, t) are not differentiated.
   std::shared_ptr<const RecordedStep> tangent_step(RecordedAt) override { return nullptr; }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {

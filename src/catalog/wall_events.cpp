@@ -1,6 +1,7 @@
 #include "wall_events.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/mp.hpp"
@@ -30,12 +31,40 @@ typename WallEvents<R>::Point WallEvents<R>::here(const R& part) const {
 
 template <class R>
 bool WallEvents<R>::fly(const R& part, Point& point) {
-  parts_.back(Parts::Place::flight);
-  outcome_ = parts_.take_part(part * length_);
   flown_ = part;
+  const R length = part * length_;
+  const R* const end = parts_.see_part(length);
+  seen_ = end != nullptr;
+  if (seen_) {
+    const std::size_t n = start_.size();
+    point.part = part;
+    if (point.q.size() != n) point.q = point.rate = V(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      point.q[i] = end[i];
+      point.rate[i] = end[n + i] * length_;
+    }
+    return true;
+  }
+  parts_.back(Parts::Place::flight);
+  outcome_ = parts_.take_part(length);
   if (outcome_ != Outcome::done) return false;
   point = here(part);
   return true;
+}
+
+template <class R>
+Outcome WallEvents<R>::go_to(const R& part) {
+  if (flown_ == part) {
+    if (seen_) parts_.take_seen_part();
+    return Outcome::done;
+  }
+  const R length = part * length_;
+  if (part != R(0) && parts_.see_part(length) != nullptr) {
+    parts_.take_seen_part();
+    return Outcome::done;
+  }
+  parts_.back(Parts::Place::flight);
+  return part == R(0) ? Outcome::done : parts_.take_part(length);
 }
 
 /// What is on a wall as far as numbers can tell.
@@ -48,7 +77,7 @@ template <class R>
 typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit) {
   length_ = length;
   flown_ = R(0);
-  parts_.back(Parts::Place::flight);
+  seen_ = false;
   const Point start = here(R(0));
   start_ = start.q;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
@@ -63,23 +92,27 @@ typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit) {
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const bool leaves = rate(k, start) > R(0);
     const bool comes_in = rate(k, end) < R(0);
+    const bool ends_beyond = beyond(k, end) > R(0);
+    if (!ends_beyond) {
+      if (!leaves || !comes_in) continue;
+      const R ahead = beyond(k, start) + R(2) * rate(k, start);
+      const R behind = beyond(k, end) - R(2) * rate(k, end);
+      if (!(ahead > R(0) && behind > R(0))) continue;
+    }
     Point from = start;
     Point to = end;
-    if (beyond(k, end) > R(0)) {
+    if (ends_beyond) {
       if (beyond(k, start) >= -rounding(k)) {  // thrown back a moment ago, and here again
         if (comes_in) continue;                // rounding alone
         if (!turn(k, start, end, false, from)) return Found::failed;
         if (!(beyond(k, from) < R(0))) return Found::stuck;
       }
     } else {
-      const R ahead = beyond(k, start) + R(2) * rate(k, start);
-      const R behind = beyond(k, end) - R(2) * rate(k, end);
-      if (!leaves || !comes_in || !(ahead > R(0) && behind > R(0))) continue;
       if (!turn(k, start, end, true, to)) return Found::failed;
       if (!(beyond(k, to) > R(0))) continue;
     }
     R part{};
-    if (!locate(k, from, to, part)) return Found::failed;
+    if (!locate(k, std::move(from), std::move(to), part)) return Found::failed;
     if (found == Found::none || part < hit.part) hit = {k, part};
     found = Found::hit;
   }
@@ -92,17 +125,17 @@ bool WallEvents<R>::locate(std::size_t k, Point inside, Point outside, R& part) 
   const R close = rounding(k);
   const R epsilon = std::numeric_limits<R>::epsilon();
   R next = rate(k, inside) > R(0) ? R(inside.part - beyond(k, inside) / rate(k, inside)) : R(0);
+  Point point;
   for (int i = 0; i < most && outside.part - inside.part > 2 * epsilon * outside.part; ++i) {
     if (!(inside.part < next && next < outside.part)) {
       next = inside.part + (outside.part - inside.part) / R(2);
       if (!(inside.part < next && next < outside.part)) break;
     }
-    Point point;
     if (!fly(next, point)) return false;
     const R x = beyond(k, point);
     const R speed = rate(k, point);
     next = speed > R(0) ? R(point.part - (x > R(0) && x <= close ? 2 * close : x) / speed) : R(0);
-    (x > R(0) ? outside : inside) = point;
+    std::swap(x > R(0) ? outside : inside, point);
     if (x <= R(0) && x >= -close) break;
   }
   part = inside.part;

@@ -25,12 +25,13 @@ class WallEvents {
     R part{};
   };
   enum class Found { none, hit, stuck, failed };
-  /// Of the flight of this length from the state that is marked, Place::flight. The state is undefined afterwards.
+  /// Of the flight of this length from the present state, which is marked, Place::flight. The state is undefined
+  /// afterwards.
   /// stuck: the motion stays on a wall, however often it is thrown back; failed: outcome() says how.
   Found first(const R& length, Hit& hit);
   Outcome outcome() const { return outcome_; }
-  /// Whether the state is the one behind this part of the flight.
-  bool stands_at(const R& part) const { return flown_ == part; }
+  /// To the state behind this part of the flight.
+  Outcome go_to(const R& part);
 
   /// Turns the normal velocity at a wall round. @return false where no other momentum has the same energy
   bool reflect(std::size_t coordinate);
@@ -63,7 +64,8 @@ class WallEvents {
   R length_{};
   V start_;  // q
   Outcome outcome_ = Outcome::done;
-  R flown_{};  // the part behind which the state is
+  R flown_{};          // the part behind which the state is, or
+  bool seen_ = false;  // the one that was seen last
 };
 
 }  // namespace hamflow

@@ -59,7 +59,7 @@ class WalledFunctions final : public ForwardingFunctions<S> {
     add_forces(x, f, nullptr);
   }
   bool has_scaled_force() const override { return walls_->soft.empty() && exact_->has_scaled_force(); }
-  void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
+  void scaled_force(const S& factor, const V& q, V& f) const override {
     V x = q;
     const Turned turned = folded(x);
     exact_->scaled_force(factor, x, f);

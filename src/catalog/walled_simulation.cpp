@@ -61,7 +61,7 @@ class WalledSimulation : public Simulation {
     while (steps > 0) {
       const std::int64_t recorded = walls_->rule == WallRule::soft ? 0 : parts_->take_recorded(steps, counted());
       steps -= recorded;
-      looks_closer_ = recorded_ != nullptr && recorded_->stopped_at_wall();
+      undone_ = recorded_ != nullptr ? recorded_->undone_step() : nullptr;
       if (steps == 0) break;
       const std::int64_t some = walls_->rule == WallRule::soft ? steps : 1;
       const Outcome outcome = some == 1 ? take_step() : inner_->advance(some);
@@ -160,10 +160,14 @@ class WalledSimulation : public Simulation {
   }
 
   Outcome take_step() {
+    // What a step begins with is counted as its own, whichever road it takes.
+    if (walls_->rule == WallRule::event) parts_->prepare();
     parts_->mark(Place::step);
-    // A loop that has ended for it says the same as stays_inside.
-    if (walls_->rule == WallRule::event && std::exchange(looks_closer_, false))
+    // A loop that has ended for it says the same as stays_inside, and took as much.
+    if (walls_->rule == WallRule::event && undone_ != nullptr) {
+      add_evaluations(given_up_, std::exchange(undone_, nullptr)->effort);
       return after_walls(bounce(Outcome::done));
+    }
     const Effort before = inner_->effort();
     const Effort given_up_before = given_up_;
     const V q0 = parts_->present_positions();
@@ -173,11 +177,14 @@ class WalledSimulation : public Simulation {
     if (outcome == Outcome::done && stays_inside(q0, v0)) return outcome;
     Effort spent;
     add_evaluations(spent, inner_->effort(), before);
-    outcome = walls_->rule == WallRule::reject   ? reject()
-              : walls_->rule == WallRule::mirror ? mirror()
-                                                 : bounce(outcome);
+    if (walls_->rule == WallRule::event) {
+      parts_->back(Place::step);
+      outcome = bounce(outcome);
+    } else {
+      outcome = walls_->rule == WallRule::reject ? reject(spent) : mirror();
+    }
     if (outcome == Outcome::done) {
-      if (walls_->rule != WallRule::mirror) add_evaluations(given_up_, spent);
+      if (walls_->rule == WallRule::event) add_evaluations(given_up_, spent);
       count_as_one(before, given_up_before);
     }
     return after_walls(outcome);
@@ -224,9 +231,12 @@ class WalledSimulation : public Simulation {
 
   /// The rule of the listing [Sonnleitner2010, pp. 84, 103]: the whole old state with one momentum turned round, of two
   /// walls at once the last; the step's time passes.
-  Outcome reject() {
+  Outcome reject(const Effort& spent) {
     const V q1 = parts_->present_positions();
-    parts_->back(Place::step);
+    if (!parts_->back_counting(Place::step)) {
+      parts_->back(Place::step);
+      add_evaluations(given_up_, spent);
+    }
     std::size_t last = 0;
     for (std::size_t k = 0; k < walls_->sides.size(); ++k) {
       const WallSide<R>& wall = walls_->sides[k];
@@ -269,7 +279,6 @@ class WalledSimulation : public Simulation {
   /// The step in parts, from wall to wall. One that meets none after all is taken whole, with all that is remembered.
   /// @param whole how that one ended
   Outcome bounce(Outcome whole) {
-    parts_->back(Place::step);
     const Effort spent_before = parts_->effort_of_parts();
     const Effort before = inner_->effort();
     const Outcome outcome = fly(parts_->length_of_step());
@@ -296,16 +305,9 @@ class WalledSimulation : public Simulation {
       if (found == WallEvents<R>::Found::failed) return events.outcome();
       if (found == WallEvents<R>::Found::stuck) return stays_on(hit.side);
       const bool is_hit = found == WallEvents<R>::Found::hit;
-      const R part = is_hit ? R(hit.part * left) : left;
-      if (!events.stands_at(is_hit ? hit.part : R(1))) {
-        parts_->back(Place::flight);
-        if (part != R(0)) {
-          const Outcome outcome = parts_->take_part(part);
-          if (outcome != Outcome::done) return outcome;
-        }
-      }
-      if (found == WallEvents<R>::Found::none) return Outcome::done;
-      left -= part;
+      if (const Outcome outcome = events.go_to(is_hit ? hit.part : R(1)); outcome != Outcome::done) return outcome;
+      if (!is_hit) return Outcome::done;
+      left -= hit.part * left;
       const std::size_t coordinate = walls_->sides[hit.side].coordinate;
       if (!events.reflect(coordinate)) return no_other_root(coordinate);
       parts_->forget();
@@ -391,10 +393,10 @@ class WalledSimulation : public Simulation {
   Parts* parts_;              // the same
   RecordedMember* recorded_;  // the same; null where it is none
   std::shared_ptr<const RunWalls<R>> walls_;
-  std::vector<std::int64_t> counts_;  // of each side
-  Effort given_up_;                   // by the search for bounces and by steps that were rejected
-  std::vector<Met> met_;              // in the present step
-  bool looks_closer_ = false;         // the next step may meet a wall
+  std::vector<std::int64_t> counts_;      // of each side
+  Effort given_up_;                       // by the search for bounces and by steps that were rejected
+  std::vector<Met> met_;                  // in the present step
+  const RecordedStep* undone_ = nullptr;  // by recorded steps: the next one, which may meet a wall
   std::string why_;
   std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
   std::function<void(const Bounce&)> told_;
@@ -421,8 +423,8 @@ class WalledMember final : public WalledSimulation<double>, public RecordedMembe
     add_bounces(step, values, counts_);
     recorded_->take_values(step, values, steps);
   }
-  Outcome step_ordinarily() override {
-    looks_closer_ = true;
+  Outcome step_ordinarily(const RecordedStep& undone) override {
+    undone_ = &undone;
     const Outcome outcome = take_step();
     return outcome == Outcome::done ? outcome : explained(outcome);
   }

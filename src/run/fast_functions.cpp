@@ -39,11 +39,11 @@ class FastTraced final : public Forwarding<Trace<double>> {
     const Estimates on(q);
     exact_->force(q, f);
   }
-  void scaled_velocity(const double& factor, const V& p, V& v) const override {
+  void scaled_velocity(const Trace<double>& factor, const V& p, V& v) const override {
     const Estimates on(p);
     exact_->scaled_velocity(factor, p, v);
   }
-  void scaled_force(const double& factor, const V& q, V& f) const override {
+  void scaled_force(const Trace<double>& factor, const V& q, V& f) const override {
     const Estimates on(q);
     exact_->scaled_force(factor, q, f);
   }

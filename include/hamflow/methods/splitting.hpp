@@ -247,8 +247,13 @@ class Splitting {
   void mirror_kept(std::size_t i) {
     if (i < kick_.size()) kick_[i] = -kick_[i];
   }
-  /// To be called when the state was changed from outside.
-  void invalidate() { kick_is_current_ = false; }
+  /// To be called when the state was changed from outside. What was kept goes, so that whoever saves finds the same
+  /// whichever way led there.
+  void invalidate() {
+    kick_is_current_ = false;
+    for (Increment& x : kick_) x = Increment(0);
+    kept_factor_ = Base(0);
+  }
   /// How many threads compute the forces; the bits are the same for any number.
   void use_threads(std::size_t count) requires sums_integers { sums_.use_threads(count); }
   Effort effort() const { return {.force = forces_}; }
@@ -259,8 +264,7 @@ class Splitting {
 
  private:
   using Increment = typename detail::PairSumsOf<P, A, sums_integers>::Increment;
-  static constexpr bool of_any_length =
-      !std::is_same_v<Length, Base>;  // no function of the problem takes such a factor
+  static constexpr bool of_any_length = !std::is_same_v<Length, Base>;  // no kick is kept by such a factor
   static constexpr bool knows_at_run_time = requires(const P& problem) {
     problem.has_scaled_force();
     problem.has_scaled_velocity();
@@ -282,11 +286,9 @@ class Splitting {
   }
   /// Whether the factor of a kick goes into f: not where f serves two kicks of different strength.
   constexpr bool factor_within() const {
-    if constexpr (of_any_length) {
-      return false;
-    } else if constexpr (sums_integers) {
+    if constexpr (sums_integers) {
       return true;
-    } else if constexpr (!HasScaledForce<P, Base, Real>) {
+    } else if constexpr (!HasScaledForce<P, Length, Real>) {
       return false;
     } else if constexpr (knows_at_run_time) {
       return force_takes_factor_ && ends_alike_;
@@ -297,12 +299,10 @@ class Splitting {
     }
   }
   constexpr bool drift_takes_factor() const {
-    if constexpr (of_any_length) {
-      return false;
-    } else if constexpr (HasScaledVelocity<P, Base, Real> && knows_at_run_time) {
+    if constexpr (HasScaledVelocity<P, Length, Real> && knows_at_run_time) {
       return velocity_takes_factor_;
     } else {
-      return HasScaledVelocity<P, Base, Real>;
+      return HasScaledVelocity<P, Length, Real>;
     }
   }
   constexpr Base within(const Length& factor) const {
@@ -323,8 +323,6 @@ class Splitting {
                                        Vector<Increment, n>& f) {
     if constexpr (sums_integers) {
       if (!sums_.evaluate(problem, factor, z, f)) z.arithmetic.momentum.lost = true;
-    } else if constexpr (of_any_length) {
-      force(problem, z.positions(), f);
     } else if (factor_within()) {
       scaled_force(problem, factor, z.positions(), f);
     } else {
@@ -364,9 +362,7 @@ class Splitting {
                                     [[maybe_unused]] auto& late) const {
     Vector<Real, n> v = zeros<Real, n>(z.q.size());
     const bool scaled = drift_takes_factor();
-    if constexpr (of_any_length) {
-      velocity(problem, z.momenta(), v);
-    } else if (scaled) {
+    if (scaled) {
       scaled_velocity(problem, factor, z.momenta(), v);
     } else {
       velocity(problem, z.momenta(), v);

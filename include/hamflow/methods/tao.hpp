@@ -82,6 +82,15 @@ class TaoStep {
   void negate_momenta() {
     if (begun_) copy_.negate_momenta();
   }
+  /// A bounce throws both copies back.
+  void negate_momentum(std::size_t i) {
+    if (begun_) copy_.p[i] = A::Axis::negated(copy_.p[i]);
+    kept_ = false;
+  }
+  void push_momentum(std::size_t i, const Real& change) {
+    if (begun_) copy_.arithmetic.momentum.add(copy_.p[i], change);
+    kept_ = false;
+  }
   /// The second copy, x and y. It begins with the first step.
   const State& copy() const { return copy_; }
   void begin_with(const State& copy) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include "hamflow/core/capability.hpp"
@@ -44,11 +45,11 @@ class Functions {
   virtual void force(const V& q, V& f) const = 0;
   /// M^-1 f of a T quadratic in p. The velocity, but that the time of H(q, p, t) moves whatever f is.
   virtual void inverse_mass_times(const V& f, V& out) const { velocity(f, out); }
-  // Of a problem that has them.
+  // Of a problem that has them. A factor is a number of the recording where steps of any length are recorded.
   virtual bool has_scaled_velocity() const = 0;
   virtual bool has_scaled_force() const = 0;
-  virtual void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const = 0;
-  virtual void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const = 0;
+  virtual void scaled_velocity(const S& factor, const V& p, V& v) const = 0;
+  virtual void scaled_force(const S& factor, const V& q, V& f) const = 0;
   virtual void gradient(const V& q, const V& p, V& dq, V& dp) const = 0;
   virtual void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const = 0;
   virtual void force_and_hessian(const V& q, V& f, M& h) const = 0;
@@ -143,8 +144,8 @@ class FunctionsOf final : public Functions<S> {
   static constexpr bool radial = RadialForces<P>;
   static constexpr bool has_hessian = !first_derivatives_only<S>;
   static constexpr bool in_double = std::is_same_v<S, double> && std::is_same_v<RealOf<P>, double>;
-  static constexpr bool drifts_by = takes_factors<S> && Separable<P> && HasScaledVelocity<P, base_scalar<S>, S>;
-  static constexpr bool kicks_by = takes_factors<S> && Separable<P> && HasScaledForce<P, base_scalar<S>, S>;
+  static constexpr bool drifts_by = takes_factors<S> && Separable<P> && HasScaledVelocity<P, S, S>;
+  static constexpr bool kicks_by = takes_factors<S> && Separable<P> && HasScaledForce<P, S, S>;
 
  public:
   using typename Functions<S>::V;
@@ -191,7 +192,7 @@ class FunctionsOf final : public Functions<S> {
   }
   bool has_scaled_velocity() const override { return drifts_by; }
   bool has_scaled_force() const override { return kicks_by; }
-  void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const override {
+  void scaled_velocity(const S& factor, const V& p, V& v) const override {
     if constexpr (drifts_by && n == dynamic) {
       problem_.scaled_velocity(factor, p, v);
     } else if constexpr (drifts_by) {
@@ -202,7 +203,7 @@ class FunctionsOf final : public Functions<S> {
       absent();
     }
   }
-  void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
+  void scaled_force(const S& factor, const V& q, V& f) const override {
     if constexpr (kicks_by && n == dynamic) {
       problem_.scaled_force(factor, q, f);
     } else if constexpr (kicks_by) {
@@ -450,13 +451,14 @@ class AnyProblem {
   bool has_scaled_velocity() const requires(separable&& takes_factors<R>) { return on<R>().has_scaled_velocity(); }
   bool has_scaled_force() const requires(separable&& takes_factors<R>) { return on<R>().has_scaled_force(); }
   template <class S>
-  requires(separable&& takes_factors<S>) void scaled_velocity(const base_scalar<S>& factor, const Vector<S, dynamic>& p,
+  requires(separable&& takes_factors<S>) void scaled_velocity(const std::type_identity_t<S>& factor,
+                                                              const Vector<S, dynamic>& p,
                                                               Vector<S, dynamic>& v) const {
     on<S>().scaled_velocity(factor, p, v);
   }
   template <class S>
-  requires(separable&& takes_factors<S>) void scaled_force(const base_scalar<S>& factor, const Vector<S, dynamic>& q,
-                                                           Vector<S, dynamic>& f) const {
+  requires(separable&& takes_factors<S>) void scaled_force(const std::type_identity_t<S>& factor,
+                                                           const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
     on<S>().scaled_force(factor, q, f);
   }
   template <class S>

@@ -31,11 +31,11 @@ class FormulaFunctions final : public Functions<S> {
   void force(const V& q, V& f) const override { model_->template force<S>(q, f); }
   bool has_scaled_velocity() const override { return model_->has_scaled(); }
   bool has_scaled_force() const override { return model_->has_scaled(); }
-  void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const override {
-    model_->template scaled_velocity<S>(S(factor), p, v);
+  void scaled_velocity(const S& factor, const V& p, V& v) const override {
+    model_->template scaled_velocity<S>(factor, p, v);
   }
-  void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
-    model_->template scaled_force<S>(S(factor), q, f);
+  void scaled_force(const S& factor, const V& q, V& f) const override {
+    model_->template scaled_force<S>(factor, q, f);
   }
   /// With constraints that of the motion on them, and no gradient: dH/dq + g'^T lambda(q, p), dH/dp.
   void gradient(const V& q, const V& p, V& dq, V& dp) const override {

@@ -26,12 +26,8 @@ class ForwardingFunctions : public Functions<S> {
   void inverse_mass_times(const V& f, V& out) const override { exact_->inverse_mass_times(f, out); }
   bool has_scaled_velocity() const override { return exact_->has_scaled_velocity(); }
   bool has_scaled_force() const override { return exact_->has_scaled_force(); }
-  void scaled_velocity(const base_scalar<S>& factor, const V& p, V& v) const override {
-    exact_->scaled_velocity(factor, p, v);
-  }
-  void scaled_force(const base_scalar<S>& factor, const V& q, V& f) const override {
-    exact_->scaled_force(factor, q, f);
-  }
+  void scaled_velocity(const S& factor, const V& p, V& v) const override { exact_->scaled_velocity(factor, p, v); }
+  void scaled_force(const S& factor, const V& q, V& f) const override { exact_->scaled_force(factor, q, f); }
   void gradient(const V& q, const V& p, V& dq, V& dp) const override { exact_->gradient(q, p, dq, dp); }
   void hessian(const V& q, const V& p, M& qq, M& qp, M& pp) const override { exact_->hessian(q, p, qq, qp, pp); }
   void force_and_hessian(const V& q, V& f, M& h) const override { exact_->force_and_hessian(q, f, h); }

@@ -39,6 +39,14 @@ class InParts : public Base {
     InParts::forget();
     return outcome;
   }
+  void negate_momentum(std::size_t i) override {
+    Base::negate_momentum(i);
+    if constexpr (requires { method_.negate_momentum(i); }) method_.negate_momentum(i);
+  }
+  void push_momentum(std::size_t i, const Real& change) override {
+    Base::push_momentum(i, change);
+    if constexpr (requires { method_.push_momentum(i, change); }) method_.push_momentum(i, change);
+  }
   Effort effort_of_parts() const override { return effort_of_parts_; }
   void forget() override {
     if constexpr (requires { method_.forget_guesses(); }) {
@@ -65,6 +73,9 @@ class InParts : public Base {
   }
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<InParts>(*this); }
 
+ protected:
+  Effort effort_of_parts_;
+
  private:
   void take(const InParts& other) {
     z_ = other.z_;
@@ -80,7 +91,6 @@ class InParts : public Base {
     Marks& operator=(const Marks&) { return *this; }
   };
   Marks marks_;
-  Effort effort_of_parts_;
 };
 
 }  // namespace hamflow

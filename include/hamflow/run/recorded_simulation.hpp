@@ -10,9 +10,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "hamflow/run/in_parts.hpp"
+#include "hamflow/run/recorded_part.hpp"
 #include "hamflow/run/recorded_step.hpp"
 
 namespace hamflow {
@@ -25,17 +27,21 @@ using StepRecorder = std::function<std::optional<RecordedStep>(
 template <class P, class M, Arithmetic A>
 class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public RecordedMember {
   using Base = InParts<SimulationOf<P, M, A>>;
+  using typename StepsInParts<double>::Place;
   using Base::clock_;
   using Base::density_;
+  using Base::effort_of_parts_;
   using Base::method_;
   using Base::probe_;
   using Base::z_;
 
  public:
-  /// @param recorder empty: every step takes the ordinary road   @param watch false: the probe stays as it was
-  RecordedSimulation(SimulationOf<P, M, A> simulation, StepRecorder recorder, bool watch)
+  /// @param recorder empty: every step takes the ordinary road   @param parts empty: so does every part of one
+  /// @param watch false: the probe stays as it was
+  RecordedSimulation(SimulationOf<P, M, A> simulation, StepRecorder recorder, PartRecorder parts, bool watch)
       : Base(std::move(simulation)),
         recorder_(std::make_shared<const StepRecorder>(std::move(recorder))),
+        part_recorder_(std::make_shared<const PartRecorder>(std::move(parts))),
         watch_(watch) {}
 
   Outcome advance(std::int64_t steps) override {
@@ -70,7 +76,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   /// Blocks grow, so that little is taken twice where a check fails.
   std::int64_t take_recorded(std::int64_t steps, std::span<std::int64_t> bounces) override {
     behind_walls_ = true;
-    stopped_ = false;
+    undone_ = nullptr;
     const double h = clock_.step_length();
     const Loop* loop = bounces.empty() ? nullptr : loop_for(h, steps, AtWalls::bounce);
     const bool is_none = loop == nullptr && (bounces.empty() || asked_ >= worth_recording);
@@ -82,7 +88,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     if (!read_values(step, values_)) return 0;  // one step by the ordinary road mends it
     std::int64_t taken = 0;
     std::int64_t block = 32;
-    while (taken < steps && block > 0 && !stopped_) {
+    while (taken < steps && block > 0 && undone_ == nullptr) {
       block = std::min(block, steps - taken);
       kept_values_ = values_;
       const std::int64_t some = loop->steps->take(values_, block);
@@ -93,15 +99,54 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       }
       add_bounces(step, values_, bounces);
       for (std::size_t k = 0; k < step.words; ++k) values_[step.first_word() + k] = 0;
-      stopped_ = step.stops && values_[step.stop()] != 0;
-      taken += stopped_ ? some - 1 : some;
+      if (step.stops && values_[step.stop()] != 0) undone_ = &step;
+      taken += undone_ != nullptr ? some - 1 : some;
       block = std::min(2 * block, BounceWord::most_steps);
     }
     take_values(step, values_, taken);
     return taken;
   }
 
-  bool stopped_at_wall() const override { return stopped_; }
+  const RecordedStep* undone_step() const override { return undone_; }
+
+  void mark(Place place) override {
+    Base::mark(place);
+    if (place != Place::flight) return;
+    is_at_mark_ = true;
+    if (part_) read_state();
+  }
+  Outcome take_part(const double& h) override {
+    is_at_mark_ = false;
+    return Base::take_part(h);
+  }
+  bool back_counting(Place place) override {
+    std::vector<std::int64_t> counts;
+    for_each_counter([&](auto& x) { counts.push_back(static_cast<std::int64_t>(x)); }, method_);
+    Base::back(place);
+    std::size_t k = 0;
+    for_each_counter([&]<class T>(T& x) { x = static_cast<T>(counts[k++]); }, method_);
+    return true;
+  }
+  const double* see_part(const double& h) override {
+    if (!part_ && !make_part(h)) return nullptr;
+    part_values_ = start_of_parts_;
+    part_values_[part_->of.length()] = h;
+    if (!part_->loop->run(part_values_, 1)) return nullptr;
+    const double* const end = part_values_.data() + part_->of.end();
+    for (std::size_t i = 0; i < 2 * part_->of.size + 1; ++i) {
+      if (!(std::abs(end[i]) <= std::numeric_limits<double>::max())) return nullptr;
+    }
+    add_evaluations(effort_of_parts_, part_->of.effort);
+    return end;
+  }
+  void take_seen_part() override {
+    if (!std::exchange(is_at_mark_, false)) Base::back(Place::flight);
+    const double* value = part_values_.data();
+    for_each_carried([&](double& x) { x = *value++; }, z_);
+    const std::int64_t* count = part_->of.counters.data();
+    for_each_counter([&]<class T>(T& x) { x += static_cast<T>(*count++); }, method_);
+    Base::forget();
+  }
   /// Lanes take equal steps.
   std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls) override {
     return Base::varies_steps() ? nullptr : record(at_walls);
@@ -117,7 +162,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     }
   }
   void make_ready() override { Base::prepare(); }
-  Outcome step_ordinarily() override { return ordinary(1); }
+  Outcome step_ordinarily(const RecordedStep& /*undone*/) override { return ordinary(1); }
   double time_after(std::int64_t steps) const override { return static_cast<double>(clock_.time_after(steps)); }
   bool read_values(const RecordedStep& step, std::span<double> values) const override {
     std::fill(values.begin(), values.end(), 0.0);
@@ -148,6 +193,12 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
  private:
   /// Recording and compiling a step costs about as much as so many of them.
   static constexpr std::int64_t worth_recording = 200;
+  /// And parts of one as so many of them.
+  static constexpr int worth_recording_parts = 400;
+  struct PartLoop {
+    RecordedPart of;
+    std::unique_ptr<const StepLoop> loop;
+  };
   struct Loop {
     double h = 0;
     AtWalls at_walls = AtWalls::stop;
@@ -167,6 +218,23 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       step_of_ = {h, at_walls};
     }
     return step_;
+  }
+  [[gnu::cold]] bool make_part(double h) {
+    if (!*part_recorder_ || ++parts_asked_ < worth_recording_parts) return false;
+    parts_asked_ = 0;  // the part that was to be recorded may be one of another branch
+    std::optional<RecordedPart> recorded = (*part_recorder_)(z_.positions(), z_.momenta(), h);
+    if (!recorded) return false;
+    auto loop = make_step_loop(recorded->program);
+    part_ = std::make_shared<const PartLoop>(PartLoop{*std::move(recorded), std::move(loop)});
+    Base::back(Place::flight);
+    is_at_mark_ = true;
+    read_state();
+    return true;
+  }
+  void read_state() {
+    start_of_parts_.resize(part_->of.program.values());
+    double* value = start_of_parts_.data();
+    for_each_carried([&](const double& x) { *value++ = x; }, z_);
   }
   Outcome ordinary(std::int64_t steps) {
     if (watch_) return Base::advance(steps);
@@ -203,6 +271,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   }
 
   std::shared_ptr<const StepRecorder> recorder_;
+  std::shared_ptr<const PartRecorder> part_recorder_;
   bool watch_;
   std::array<std::shared_ptr<const Loop>, 4> loops_;
   std::shared_ptr<const RecordedStep> step_;  // the last one that was recorded, of length step_of_
@@ -211,8 +280,13 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::vector<double> kept_values_;
   std::int64_t asked_ = 0;
   bool behind_walls_ = false;
-  bool stopped_ = false;  // the last recorded steps, at a wall
-  int failures_ = 0;      // of recording
+  const RecordedStep* undone_ = nullptr;
+  int failures_ = 0;  // of recording
+  std::shared_ptr<const PartLoop> part_;
+  std::vector<double> start_of_parts_;  // the values at the mark of the flight
+  std::vector<double> part_values_;     // behind the part that was seen last
+  int parts_asked_ = 0;
+  bool is_at_mark_ = false;  // of the flight
 };
 
 }  // namespace hamflow

@@ -15,6 +15,7 @@
 #include "hamflow/run/carried.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/recorded_walls.hpp"
+#include "hamflow/run/steps_in_parts.hpp"
 
 namespace hamflow {
 
@@ -28,6 +29,7 @@ struct RecordedStep {
   /// loop, or one number that is 1 where a step was left undone and the loop ends.
   std::size_t words = 0;
   bool stops = false;
+  Effort effort{};  // of one step, evaluations alone
   std::size_t first_word() const { return program.values() - 1 - words; }
   std::size_t stop() const { return program.values() - 2; }
 };
@@ -56,10 +58,10 @@ class RecordedMember {
   virtual std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls = AtWalls::stop) = 0;
   /// What the next step begins with is computed now, where a method keeps it and has forgotten it.
   virtual void make_ready() = 0;
-  /// Whether the last recorded steps ended for the next one, which may meet a wall.
-  virtual bool stopped_at_wall() const { return false; }
-  /// One step by the ordinary road.
-  virtual Outcome step_ordinarily() = 0;
+  /// The step before which the last recorded steps ended, because it may meet a wall; null: they did not.
+  virtual const RecordedStep* undone_step() const { return nullptr; }
+  /// A step that was left undone, by the ordinary road.
+  virtual Outcome step_ordinarily(const RecordedStep& undone) = 0;
   /// The step that tangent vectors take from the present state, without a probe; null where there is none.
   virtual std::shared_ptr<const RecordedStep> tangent_step(RecordedAt at) = 0;
   /// The values that are carried into such a step. @return false where what the method keeps is not as recorded: one
@@ -124,6 +126,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
   PhasePoint<A, dynamic> z;
   z.store(cast<Number>(q), cast<Number>(p));
   ConservationProbe<P, Number> probe;
+  if constexpr (varies && requires { method.take_any_steps(); }) method.take_any_steps();
   try {
     probe.start(problem, z.positions(), z.momenta(), Number(time.start));
     auto density = [&] {
@@ -171,6 +174,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     auto z_before = z;
     auto method_before = method;
     if (step() != Outcome::done) return std::nullopt;
+    add_evaluations(recorded.effort, method.effort(), method_before.effort());
     if (recorded.words > 0) {
       if (!remembers_positions_alone<M>()) return std::nullopt;
       // A step that is taken back, or turned, has to be one that does not fail.

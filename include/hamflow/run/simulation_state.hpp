@@ -78,8 +78,8 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   Real present_time() const final { return time(); }
   [[gnu::cold]] Vector<Real, dynamic> present_positions() const final { return values(z_.positions()); }
   [[gnu::cold]] Vector<Real, dynamic> present_momenta() const final { return values(z_.momenta()); }
-  [[gnu::cold]] void negate_momentum(std::size_t i) final { z_.p[i] = A::Axis::negated(z_.p[i]); }
-  [[gnu::cold]] void push_momentum(std::size_t i, const Real& change) final {
+  [[gnu::cold]] void negate_momentum(std::size_t i) override { z_.p[i] = A::Axis::negated(z_.p[i]); }
+  [[gnu::cold]] void push_momentum(std::size_t i, const Real& change) override {
     z_.arithmetic.momentum.add(z_.p[i], change);
   }
   [[gnu::cold]] void mirror_position(std::size_t i, const Real& twice_the_wall) final {

@@ -45,8 +45,15 @@ class StepsInParts {
   virtual void mark(Place /*place*/) { refuse(); }
   /// To what was kept, which stays kept.
   virtual void back(Place /*place*/) { refuse(); }
+  /// The same, but the method goes on counting its work. @return false where it cannot: then nothing was done
+  virtual bool back_counting(Place /*place*/) { return false; }
   /// z <- Psi_h(z), with no kick, force or guess remembered. Clock and probe stay.
   virtual Outcome take_part(const R& /*h*/) { refuse(); }
+  /// Where Psi_h leads from the mark of the flight: q, then dH/dp, for as long as nothing else is asked. Nobody moves.
+  /// Null: only take_part knows.
+  virtual const R* see_part(const R& /*h*/) { return nullptr; }
+  /// Goes where see_part has just looked.
+  virtual void take_seen_part() { refuse(); }
   /// What all parts cost that were ever taken, also those from which there was a way back.
   virtual Effort effort_of_parts() const { refuse(); }
   /// The state was changed: what the method remembers of it is dropped.
