@@ -17,6 +17,8 @@ namespace slimming {
 
 constexpr double unseen = 0.05;  // of a figure some 300 units wide: a tenth of a screen's dot where it fills the page
 
+constexpr double across = 2.25;  // a disc of gnuplot's: radius 1, and a stroke of 0.25 around it
+
 struct Point {
   double x, y;
 };
@@ -146,7 +148,7 @@ std::optional<Disc> disc_in(std::string_view element) {
 /// Discs are dots of a line with round ends, which goes nowhere.
 std::string path_of(const std::vector<Disc>& discs) {
   std::string all = fmt::format("<path fill='none' stroke-linecap='round' stroke='{}' stroke-width='{:g}' d='",
-                                discs[0].colour, 2 * std::strtod(discs[0].scale.c_str(), nullptr));
+                                discs[0].colour, across * std::strtod(discs[0].scale.c_str(), nullptr));
   std::set<std::pair<long, long>> there;
   long x = 0, y = 0;
   for (const Disc& disc : discs) {

@@ -68,7 +68,7 @@ TEST(SlimSvg, DotsBecomeOnePathOfRoundEnds) {
             ") scale(0.63)' color='rgb(1, 2, 3)'/>\n";
   }
   EXPECT_EQ(slim_svg(dots + "</g>\n"),
-            "<path fill='none' stroke-linecap='round' stroke='rgb(1, 2, 3)' stroke-width='1.26' "
+            "<path fill='none' stroke-linecap='round' stroke='rgb(1, 2, 3)' stroke-width='1.4175' "
             "d='M10 20h0m.5 0h0m-1.25 1.1h0'/>\n</g>\n");
 }
 
