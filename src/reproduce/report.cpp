@@ -32,11 +32,8 @@ std::string verdicts_json(const ReproduceReport& report) {
     all["verdicts"][std::string(name(verdict))] = found == counts.end() ? 0 : found->second;
   }
   for (const ExperimentReport& experiment : report.experiments) {
-    Json one{{"id", experiment.info.id},
-             {"thesis", experiment.info.thesis},
-             {"page", experiment.info.page},
-             {"title", experiment.info.title},
-             {"status", experiment.status}};
+    Json one{{"id", experiment.info.id},       {"thesis", experiment.info.thesis},   {"page", experiment.info.page},
+             {"title", experiment.info.title}, {"size", name_of(experiment.extent)}, {"status", experiment.status}};
     if (!experiment.message.empty()) one["message"] = experiment.message;
     all["experiments"].push_back(std::move(one));
     for (const Claim& claim : experiment.claims) all["claims"].push_back(json_of(claim));

@@ -29,16 +29,22 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
+/// Nobody looks at a folder before it is locked.   @throws FileError
+void make(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
 /// @throws FileError
 void prepare(const ReproduceRequest& request) {
   std::error_code error;
-  const bool there = is_there(request.folder);
-  if (there && request.existing == Existing::refuse && !fs::is_empty(request.folder, error)) {
+  const bool is_empty = fs::is_empty(request.folder, error);
+  if (request.existing == Existing::refuse && !is_empty) {
     throw FileError("found " + request.folder.string() +
                     ", which exists; allowed --resume, which does only what is not done, --force, or --out another");
   }
-  if (there && !is_there(request.folder / "verdicts.json") && !fs::is_empty(request.folder, error) &&
-      !is_there(request.folder / "reproduction")) {
+  if (!is_there(request.folder / "verdicts.json") && !is_empty && !is_there(request.folder / "reproduction")) {
     throw FileError("found in " + request.folder.string() +
                     " no reproduction; allowed the folder of one, or a new one");
   }
@@ -102,10 +108,12 @@ class Run {
     if (pulse_ && !pulse_(done_, reports_.size())) stopped_ = true;
     return !stopped_;
   }
-  /// Takes the next experiment until there is none. Results stand at their places, whoever computed them.
+  /// Takes the next experiment until there is none, the last first: long runs are claims of the text, which stand at
+  /// the end, and no thread is left with one. Results stand at their places, whoever computed them.
   void work() {
     const figures::WhileDrawing asks([this] { return go_on(); });
-    for (std::size_t i = next_++; i < reports_.size(); i = next_++) {
+    for (std::size_t taken = next_++; taken < reports_.size(); taken = next_++) {
+      const std::size_t i = reports_.size() - 1 - taken;
       try {
         reports_[i] = carried_out(experiment_of(request_.ids[i]));
       } catch (const std::exception& error) {  // of files: nothing more can be kept
@@ -117,7 +125,7 @@ class Run {
     }
   }
   ExperimentReport carried_out(const Experiment& experiment) {
-    ExperimentReport report{.info = experiment.info, .status = "done"};
+    ExperimentReport report{.info = experiment.info, .status = "done", .extent = request_.extent};
     const fs::path folder = request_.folder / "reproduction" / experiment.info.id;
     const std::string print = fingerprint(experiment, request_.extent);
     if (request_.existing == Existing::resume) {
@@ -167,9 +175,30 @@ class Run {
     }
     report.json = verdicts_json(report);
     report.text = verdicts_text(report);
-    write_text(request_.folder / "verdicts.json", report.json);
-    write_text(request_.folder / "index.html", page_of(report, request_));
+    const ReproduceReport whole = with_others(report);
+    write_text(request_.folder / "verdicts.json", verdicts_json(whole));
+    write_text(request_.folder / "index.html", page_of(whole, request_.folder));
     return report;
+  }
+
+  /// With the experiments that were not asked for and are done in the folder.
+  ReproduceReport with_others(const ReproduceReport& asked) const {
+    ReproduceReport whole{.status = asked.status};
+    for (const Experiment& experiment : all_experiments()) {
+      const auto same = [&](const ExperimentReport& one) { return one.info.id == experiment.info.id; };
+      const auto found = std::find_if(asked.experiments.begin(), asked.experiments.end(), same);
+      if (found != asked.experiments.end()) {
+        whole.experiments.push_back(*found);
+      } else if (auto done = kept_of(experiment, request_.folder / "reproduction" / experiment.info.id)) {
+        whole.experiments.push_back({.info = experiment.info,
+                                     .status = "done",
+                                     .claims = std::move(done->kept.claims),
+                                     .extent = done->extent,
+                                     .seconds = done->kept.seconds,
+                                     .was_done = true});
+      }
+    }
+    return whole;
   }
 
   const ReproduceRequest& request_;
@@ -186,8 +215,9 @@ class Run {
 
 ReproduceReport reproduce(const ReproduceRequest& request,
                           const std::function<bool(std::size_t done, std::size_t all)>& pulse) {
-  prepare(request);
+  make(request.folder);
   const FolderLock lock(request.folder);
+  prepare(request);
   return Run(request, pulse).all();
 }
 

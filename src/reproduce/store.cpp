@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "figure_text.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hdf5_text.hpp"
@@ -60,6 +61,18 @@ void write_csv(const fs::path& file, const Curves& curves) {
   write_text(file, text);
 }
 
+std::string quoted(const std::string& cell) {
+  std::string all = "\"";
+  for (const char c : cell) all += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return all + "\"";
+}
+
+void write_table(const fs::path& file, const Table& table) {
+  std::string text = joined(table.headings, quoted, ",") + "\n";
+  for (const auto& row : table.rows) text += joined(row, quoted, ",") + "\n";
+  write_text(file, text);
+}
+
 void write_h5(const fs::path& file, const Study& study) {
   silence_hdf5();
   WholeFile whole(file, next_name(file));
@@ -106,8 +119,12 @@ Json json_of(const Claim& claim) {
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 std::string fingerprint(const Experiment& experiment, WorkExtent extent) {
-  constexpr const char* names[] = {"quick", "usual", "full"};
-  return std::string(HAMFLOW_VERSION) + " " + names[static_cast<int>(extent)] + " " + experiment.source;
+  return std::string(HAMFLOW_VERSION) + " " + name_of(extent) + " " + experiment.source;
+}
+
+std::string name_of(WorkExtent extent) {
+  constexpr const char* names[] = {"quick", "default", "full"};
+  return names[static_cast<int>(extent)];
 }
 
 std::string fingerprint_of(const std::string& id, WorkExtent extent) { return fingerprint(experiment_of(id), extent); }
@@ -118,7 +135,8 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   fs::create_directories(folder, error);
   if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
   Json all{{"fingerprint", print},   {"seconds", seconds},         {"claims", Json::array()},
-           {"notes", study.notes()}, {"scenarios", Json::array()}, {"figures", Json::array()}};
+           {"notes", study.notes()}, {"scenarios", Json::array()}, {"figures", Json::array()},
+           {"tables", Json::array()}};
   for (const Claim& claim : study.claims()) all["claims"].push_back(json_of(claim));
   for (const KeptScenario& scenario : study.scenarios()) {
     write_text(folder / (scenario.name + ".toml"), scenario.text);
@@ -128,7 +146,12 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   if (!study.curves().empty()) write_h5(folder / "curves.h5", study);
   for (const Drawn& drawn : study.drawn()) {
     for (const std::string& format : formats) figures::draw(drawn.page, folder / (drawn.name + "." + format));
-    all["figures"].push_back({drawn.name, drawn.caption});
+    all["figures"].push_back({drawn.name, drawn.caption, in_words(drawn.page)});
+  }
+  for (const Table& table : study.tables()) {
+    write_table(folder / (table.name + ".csv"), table);
+    all["tables"].push_back(
+        {{"name", table.name}, {"caption", table.caption}, {"headings", table.headings}, {"rows", table.rows}});
   }
   write_text(folder / "result.json", text_of(all));
 }
@@ -145,12 +168,22 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
     for (const Json& claim : all.at("claims")) kept.claims.push_back(claim_in(claim));
     kept.notes = all.at("notes").get<std::vector<std::string>>();
     kept.scenarios = all.at("scenarios").get<std::vector<std::string>>();
-    for (const Json& figure : all.at("figures")) kept.drawings.emplace_back(figure.at(0), figure.at(1));
+    for (const Json& figure : all.at("figures")) kept.drawings.push_back({figure.at(0), figure.at(1), figure.at(2)});
+    for (const Json& table : all.at("tables")) {
+      kept.tables.push_back({table.at("name"), table.at("caption"), table.at("headings"), table.at("rows")});
+    }
     kept.seconds = all.at("seconds");
     return kept;
   } catch (const std::exception&) {  // of another form: carried out again
     return {};
   }
+}
+
+std::optional<KeptOf> kept_of(const Experiment& experiment, const fs::path& folder) {
+  for (const WorkExtent extent : {WorkExtent::quick, WorkExtent::usual, WorkExtent::full}) {
+    if (auto kept = kept_in(folder, fingerprint(experiment, extent))) return KeptOf{*std::move(kept), extent};
+  }
+  return {};
 }
 
 }  // namespace hamflow::reproduction

@@ -15,8 +15,12 @@ namespace hamflow::reproduction {
 struct Kept {
   std::vector<Claim> claims;
   std::vector<std::string> notes;
-  std::vector<std::string> scenarios;                         // their names
-  std::vector<std::pair<std::string, std::string>> drawings;  // name, caption
+  std::vector<Table> tables;
+  std::vector<std::string> scenarios;  // their names
+  struct Drawing {
+    std::string name, caption, in_words;
+  };
+  std::vector<Drawing> drawings;
   double seconds = 0;
 };
 
@@ -27,6 +31,14 @@ std::string text_of(const nlohmann::ordered_json& json);
 /// What decides whether an experiment has to be carried out again: version, extent, and the text of its file.
 std::string fingerprint(const Experiment& experiment, WorkExtent extent);
 std::string fingerprint_of(const std::string& id, WorkExtent extent);
+/// "quick", "default", "full".
+std::string name_of(WorkExtent extent);
+/// What is done of an experiment in its folder, of whichever extent.
+struct KeptOf {
+  Kept kept;
+  WorkExtent extent;
+};
+std::optional<KeptOf> kept_of(const Experiment& experiment, const std::filesystem::path& folder);
 
 /// Writes everything; result.json is the last, so that what a kill interrupts is not taken for done.
 /// @param formats of figures   @throws FileError

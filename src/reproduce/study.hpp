@@ -46,6 +46,14 @@ struct Drawn {
   figures::Page page;
 };
 
+/// Rows of text beneath headings, for what is no curve.
+struct Table {
+  std::string name;
+  std::string caption;
+  std::vector<std::string> headings;
+  std::vector<std::vector<std::string>> rows;
+};
+
 struct KeptScenario {
   std::string name;
   std::string text;
@@ -65,6 +73,7 @@ class Study {
     return extent_ == WorkExtent::quick ? quick : extent_ == WorkExtent::usual ? usual : full;
   }
   const ExperimentInfo& info() const { return info_; }
+  const std::filesystem::path& folder() const { return folder_; }
 
   /// Runs a scenario and keeps its text under that name. Its samples are those that `run.record_every` asks for. A run
   /// of millions of steps has a folder of its own, NAME.run, from which it goes on after a kill.
@@ -88,6 +97,7 @@ class Study {
   void nothing_to_test(const std::string& name, const std::string& why);
 
   void keep(Curves curves) { curves_.push_back(std::move(curves)); }
+  void table(Table table) { tables_.push_back(std::move(table)); }
   void draw(std::string name, std::string caption, figures::Page page) {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
@@ -104,6 +114,7 @@ class Study {
   const std::vector<Claim>& claims() const { return claims_; }
   const std::vector<Curves>& curves() const { return curves_; }
   const std::vector<Drawn>& drawn() const { return drawn_; }
+  const std::vector<Table>& tables() const { return tables_; }
   const std::vector<KeptScenario>& scenarios() const { return scenarios_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -118,6 +129,7 @@ class Study {
   std::vector<Claim> claims_;
   std::vector<Curves> curves_;
   std::vector<Drawn> drawn_;
+  std::vector<Table> tables_;
   std::vector<KeptScenario> scenarios_;
   std::vector<std::string> notes_;
 };

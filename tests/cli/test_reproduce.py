@@ -1,16 +1,62 @@
 """hamflow reproduce: the experiments of both theses; hamflow list experiments, hamflow show ID."""
 
+import html.parser
 import json
 import pathlib
+import re
+import shlex
 import signal
 import subprocess
 import time
 import unittest
+import urllib.parse
+import xml.dom.minidom
 
 from command import HAMFLOW, CommandCase
 
 SOME = ["G2.8", "G2.9", "G2.20", "G3.9", "T3.2", "G1.1"]
 VERDICTS = ["holds", "differs", "cannot hold", "undecided", "nothing to test"]
+
+
+class Page(html.parser.HTMLParser):
+    """What a screen reader and a narrow window need of a page, and what is missing."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.faults, self.headings, self.ids, self.targets, self.commands = [], [], [], [], []
+        self.style = text[text.index("<style>"):text.index("</style>")]
+        self.inside = None
+        without_names = re.sub("http://www.w3.org/(2000/svg|1999/xlink)%22", "", text)  # of the figures' language
+        if re.search("https?://|//[a-z]+[.]", without_names):
+            self.faults.append("an address in the network")
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        if "id" in given:
+            self.ids.append(given["id"])
+        if re.fullmatch("h[1-6]", tag):
+            self.headings.append(int(tag[1]))
+        if tag == "html" and given.get("lang") != "en":
+            self.faults.append("no language")
+        if tag == "img":
+            if len(given.get("alt", "")) < 20:
+                self.faults.append("a figure without words")
+            if not given["src"].startswith("data:image/svg+xml"):
+                self.faults.append("a figure that is elsewhere")
+            xml.dom.minidom.parseString(urllib.parse.unquote(given["src"].split(",", 1)[1]))
+        if tag == "th" and given.get("scope") not in ("row", "col"):
+            self.faults.append("a heading of a table without its scope")
+        if tag == "a":
+            self.targets.append(given["href"].removeprefix("#"))
+        if tag in ("script", "link", "iframe") or "style" in given or "width" in given:
+            self.faults.append(f"{tag} {given}")
+        self.inside = tag
+
+    def handle_data(self, data):
+        if self.inside == "pre":
+            self.commands.append(data)
+            self.inside = None
 
 
 class Reproduce(CommandCase):
@@ -51,6 +97,53 @@ class Reproduce(CommandCase):
     def test_verdicts_do_not_depend_on_threads(self):
         one = self.reproduce(*SOME, "--quick", "--json", "--threads", "1", "--out", "one").stdout
         self.assertEqual(one, self.reproduce(*SOME, "--quick", "--json", "--threads", "2", "--out", "two").stdout)
+
+    def test_notes_and_tables_are_the_same_twice(self):
+        results = []
+        for out in ("one", "two"):
+            self.reproduce("C-polar", "--quick", "--out", out)
+            kept = json.loads((pathlib.Path(self.folder) / out / "reproduction/C-polar/result.json").read_text())
+            del kept["seconds"]
+            results.append(kept)
+        self.assertEqual(*results)
+
+    def test_page_and_verdicts_are_of_all_that_is_done(self):
+        self.reproduce("G2.8", "G1.1", "--quick")
+        added = json.loads(self.reproduce("G2.9", "--quick", "--resume", "--json").stdout)
+        self.assertEqual([e["id"] for e in added["experiments"]], ["G2.9"])
+        again = json.loads(self.reproduce("G1.1", "--force", "--json").stdout)
+        self.assertEqual([e["id"] for e in again["experiments"]], ["G1.1"])
+        whole = self.verdicts("reproduce")
+        self.assertEqual([(e["id"], e["size"]) for e in whole["experiments"]],
+                         [("G1.1", "default"), ("G2.8", "quick"), ("G2.9", "quick")])
+        self.assertEqual({c["id"].split("/")[0] for c in whole["claims"]}, {"G1.1", "G2.8", "G2.9"})
+        self.assertEqual(sum(whole["verdicts"].values()), len(whole["claims"]))
+        page = (pathlib.Path(self.folder) / "reproduce" / "index.html").read_text()
+        for name in ("G1.1", "G2.8", "G2.9"):
+            self.assertIn(f'<h3 id="{name}"', page)
+        self.assertEqual(page.count("<img "), 2)
+
+    def test_page_is_sound(self):
+        self.reproduce(*SOME, "C-polar", "S3.6", "--quick")
+        folder = pathlib.Path(self.folder) / "reproduce"
+        page = Page((folder / "index.html").read_text())
+        self.assertEqual(page.faults, [])
+        self.assertEqual(page.headings[0], 1)
+        for before, after in zip(page.headings, page.headings[1:]):
+            self.assertLessEqual(after, before + 1, "a level of headings is left out")
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        for target in page.targets:
+            self.assertIn(target, page.ids)
+        for width in re.findall(r"(?:width|flex-basis): *([0-9.]+)(px|rem|em)", re.sub(r"max-width[^;]*;", "", page.style)):
+            self.assertLessEqual(float(width[0]) * (1 if width[1] == "px" else 16), 328, "wider than a telephone")
+        self.assertIn("@media print", page.style)
+        words = [word.replace(" ", "-") for word in VERDICTS]
+        for word in words:
+            self.assertIn(f".{word} {{", page.style)
+        runs = [shlex.split(line) for block in page.commands for line in block.splitlines() if " run " in line]
+        self.assertGreater(len(runs), 20)
+        for _, _, scenario in runs:
+            self.assertTrue((folder / scenario).is_file(), scenario)
 
     def test_what_is_wrong_is_told_before_anything_runs(self):
         for args, text in [(["G2.80"], "did you mean G2.8"),

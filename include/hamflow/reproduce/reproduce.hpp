@@ -41,14 +41,15 @@ struct ExperimentReport {
   std::string status;   // "done", "failed", "interrupted"
   std::string message;  // of one that could not be computed
   std::vector<Claim> claims;
+  WorkExtent extent = WorkExtent::usual;
   double seconds = 0;
   bool was_done = false;  // before, and not again
 };
 
 struct ReproduceReport {
-  std::string status;  // "done"; "failed": an experiment could not be computed; "interrupted"
-  std::vector<ExperimentReport> experiments;
-  std::string json;  // verdicts.json
+  std::string status;                         // "done"; "failed": an experiment could not be computed; "interrupted"
+  std::vector<ExperimentReport> experiments;  // those asked for
+  std::string json;  // of them; verdicts.json and the page have all experiments that are done in the folder
   std::string text;  // for people
 };
 

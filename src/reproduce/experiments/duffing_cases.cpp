@@ -93,7 +93,8 @@ void claim_dwelling(Study& study, const Trajectory& figure) {
   }
   study.claim({"dwelling", "the motion stays near r = 0 for a relatively long time", "relatively long"},
               at_least(1, "longer than the whole way from r0 took"),
-              {{dwelling / arrival, 0, fmt::format("time with |r| < {} over the time to come there", near)}});
+              {{dwelling / arrival, 0,
+                fmt::format("time with |r| < {}, as far as the run goes, over the time to come there", near)}});
   // x = r0/cosh(sqrt(2 k lambda/mu) t): the exact separatrix, which comes to r = 0 in infinite time.
   double distance = 0;
   for (std::size_t i = 0; i < figure.size() && figure.t[i] <= 1; ++i) {

@@ -64,7 +64,8 @@ void verlet(Study& study) {
          fmt::format("the error of Stoermer-Verlet is 1/1000 of Runge-Kutta's: at the end, dt = {}", dt), "1/1000"},
         a_thousandth(),
         {{of_verlet / of_rk4, (of_verlet / of_rk4) * (rounding / of_rk4) + rounding / of_rk4,
-          fmt::format("{:.3g} over {:.3g}", of_verlet, of_rk4)}});
+          fmt::format("{:.3g} over {:.3g}", of_verlet, of_rk4)}},
+        Grounds::program, "arithmetic beyond double: Runge-Kutta's error at the end is near rounding here");
     const double verlet_largest = energy_error(verlet), rk4_largest = energy_error(rk4);
     study.claim(
         {fmt::format("largest_{}", dt),

@@ -72,7 +72,8 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
               at_least(0, "the mean change of the angle, in the direction told, is beyond 3 standard errors of 0"),
               {{sign * (angle.mean - all.angle_before), 3 * angle.standard_error(),
                 fmt::format("{} trajectories, {:.5f} before and {:.5f} +- {:.5f} after", angle.members,
-                            all.angle_before, angle.mean, angle.standard_error())}});
+                            all.angle_before, angle.mean, angle.standard_error())}},
+              Grounds::program, "more trajectories: the default size, --full");
   study.claim(
       {"slope_" + name, what + ": the mean slope after reflection", word},
       at_least(0, "the mean change of the slope, in the direction told, is beyond 3 standard errors of 0"),
@@ -81,12 +82,16 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
         fmt::format("{:.4f} before, {:.4f} +- {:.4f} after, median {:.4f}", all.slope_before, slope.mean,
                     slope.standard_error(), median(all.slope))}},
       Grounds::program,
-      "more trajectories; none, where v1 changes its sign within the beam: 1/v1 then has no mean, take the angle");
+      has_mean
+          ? "more trajectories: the default size, --full"
+          : "no number of trajectories: v1 changes its sign within the beam, and 1/v1 has no mean; the claim of the "
+            "angle decides");
   study.claim({"energy_" + name, what + ": the mean kinetic energy of the light body", sign < 0 ? "grows" : "falls"},
               at_least(0, "the mean change, in the direction told, is beyond 3 standard errors of 0"),
               {{-sign * (kinetic.mean - all.kinetic1_before), 3 * kinetic.standard_error(),
                 fmt::format("{:.4f} before, {:.4f} +- {:.4f} after", all.kinetic1_before, kinetic.mean,
-                            kinetic.standard_error())}});
+                            kinetic.standard_error())}},
+              Grounds::program, "more trajectories: the default size, --full");
 }
 
 void draw_beam(Study& study, const Beam& all) {

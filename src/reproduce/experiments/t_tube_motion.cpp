@@ -104,7 +104,9 @@ void momenta(Study& study) {
     study.claim({fmt::format("late_light_{}", rule),
                  fmt::format("P1 of Sim+0.6I lies between -4.29 and 4.29, {}", rule), "4.29", "88"},
                 as_printed("4.29"), {range(attracted.momentum(0), "first 600 time units; the thesis looks at day 6")},
-                Grounds::program, "a run that is captured in the same motion: S-capture");
+                Grounds::program,
+                "the thesis' own start to its last digit: late motions differ from each other, as the captures of "
+                "S-capture show");
   }
   study.claim({"heavy_bound", "P2 stays within its start value, up to a small deviation: what the energy allows",
                "[-100, 100]", "85, 89"},
@@ -187,10 +189,10 @@ void curves(Study& study) {
   for (const char* const rule : rules) {
     const Trajectory path = early(study, rule);
     const double heavy = largest(path.momentum(1));
-    study.claim(
-        {fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
-        as_printed("100.3"),
-        {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; up to what the energy allows"}});
+    study.claim({fmt::format("heavy_{}", rule), fmt::format("range of P2 during the transient, {}", rule), "100.3"},
+                as_printed("100.3"),
+                {{heavy, std::abs(bound_of_heavy(-0.6) - heavy), "first 600 time units; up to what the energy allows"}},
+                Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");
     study.claim({fmt::format("light_{}", rule), fmt::format("range of P1 during the transient, {}", rule), "4.5"},
                 as_printed("4.5"), {range(path.momentum(0), "first 600 time units, and how its halves differ")},
                 Grounds::program, "the part of the run that the thesis shows: its 'Tag2' is not the first ten minutes");

@@ -20,10 +20,10 @@ struct Row {
   double reached = 0;  // t
   double iterations = 0;
   double most = 0;
-  double energy = 0;   // largest |H - H0| over the scale
-  double angular = 0;  // largest |l - l0| over |l0|, at the samples
-  double error = 0;    // distance in the plane from the reference
-  double seconds = 0;
+  double energy = 0;       // largest |H - H0| over the scale
+  double angular = 0;      // largest |l - l0| over |l0|, at the samples
+  double error = 0;        // distance in the plane from the reference
+  double evaluations = 0;  // of the gradient and of second derivatives, a step
   std::string message;
 };
 
@@ -32,12 +32,18 @@ std::array<double, 2> place(const std::vector<double>& q, bool polar) {
   return {q[0] * std::cos(q[1]), q[0] * std::sin(q[1])};
 }
 
+double evaluations_a_step(const Frame& end) {
+  const Effort& effort = end.effort;
+  return static_cast<double>(effort.force + effort.gradient + effort.hessian) /
+         static_cast<double>(std::max<std::int64_t>(end.step, 1));
+}
+
 /// @param scale of the energy: that of the Cartesian run, |T0| + |V0|
 Row measured(const Trajectory& run, bool polar, double scale, const Trajectory* reference) {
   Row row{.done = run.report.status == "done",
           .reached = run.t.back(),
           .energy = run.report.energy.max_error / scale,
-          .seconds = run.report.wall_seconds,
+          .evaluations = evaluations_a_step(run.report.final),
           .message = run.report.message.substr(0, run.report.message.find(';'))};
   for (std::size_t k = 1; k < run.size(); ++k) {
     row.iterations += run.iterations[k] / static_cast<double>(run.size() - 1);
@@ -88,7 +94,7 @@ constexpr std::array<Orbit, 12> orbits{
 
 /// The time that the program of appendix A reaches, with its sums in their order, its start of Newton's method and its
 /// end of it, |R| <= 1e-13.
-double end_of_appendix_a(const Orbit& orbit, const std::vector<double>& q0, const std::vector<double>& p0) {
+double end_of_appendix_a(const Orbit& orbit, const std::vector<double>& q0, const std::vector<double>& p0, long steps) {
   constexpr double mass = 2, dt = 0.1, factor = 2 * mass / dt;
   const auto deriv = [&](double r) -> std::array<double, 2> {
     const double k = orbit.k;
@@ -105,7 +111,7 @@ double end_of_appendix_a(const Orbit& orbit, const std::vector<double>& q0, cons
   };
   const auto& rule = gauss_rule<double>(5);
   std::array<double, 2> q{q0[0], q0[1]}, p{p0[0], p0[1]};
-  for (long step = 0; step < orbit.steps; ++step) {
+  for (long step = 0; step < steps; ++step) {
     std::array<double, 2> next = q, residual{};
     for (int iteration = 0;; ++iteration) {
       std::array<double, 2> sum{};
@@ -134,14 +140,43 @@ double end_of_appendix_a(const Orbit& orbit, const std::vector<double>& q0, cons
     for (std::size_t j = 0; j < 2; ++j) p[j] = factor * (next[j] - q[j]) - p[j];
     q = next;
   }
-  return 0.1 * static_cast<double>(orbit.steps);
+  return 0.1 * static_cast<double>(steps);
 }
+
+/// The orbits on which the programs' tolerance is not reached, in so many steps of 0.1.
+struct Aborts {
+  int of_program = 0, of_hamflow = 0;
+  std::string where;
+
+  void look(Study& study, const Orbit& orbit, const Trajectory& start, long steps) {
+    const std::string name = fmt::format("figure_{}_tolerance", orbit.figure);
+    const double last = 0.1 * static_cast<double>(steps) - 0.05;
+    const double program = end_of_appendix_a(orbit, start.q[0], start.p[0], steps);
+    const double hamflow = study
+                               .try_run(name, scenario(orbit.problem, "cartesian",
+                                                       std::string(element) + "\ncriterion = \"seed\"", "0.1", steps))
+                               .t.back();
+    of_program += program < last ? 1 : 0;
+    of_hamflow += hamflow < last ? 1 : 0;
+    if (program > last && hamflow > last) return;
+    where += fmt::format("{}{} at t = {:.3g} and {:.3g}", where.empty() ? "" : ", ", orbit.figure, program, hamflow);
+  }
+};
 
 void compare(Study& study) {
   std::vector<double> figure, columns[8];
   double lost_polar = 0, lost_cartesian = 0, energy = 0, energy_polar = 0, most_polar = 0, most_cartesian = 0;
   int better = 0, fewer = 0, aborted = 0;
   std::string which;
+  Aborts later;
+  Table table{"coordinates",
+              "Cartesian; polar coordinates, cg(1,5), dt = 0.1",
+              {"figure", "iterations a step", "evaluations of derivatives a step",
+               "largest distance from the exact orbit", "energy error", "angular momentum lost"},
+              {}};
+  const auto both = [](const char* form, double cartesian, double polar) {
+    return fmt::format(fmt::runtime(form), cartesian) + "; " + fmt::format(fmt::runtime(form), polar);
+  };
   for (const Orbit& orbit : orbits) {
     const std::string name = std::string("figure_") + orbit.figure;
     const auto run = [&](const char* end, const char* coordinates, const std::string& method) {
@@ -151,11 +186,12 @@ void compare(Study& study) {
     const double scale = reference.report.energy_scale;
     const Row cartesian = measured(run("_cartesian", "cartesian", element), false, scale, &reference);
     const Row polar = measured(run("_polar", "polar", element), true, scale, &reference);
-    const double ended = end_of_appendix_a(orbit, reference.q[0], reference.p[0]);
+    const double ended = end_of_appendix_a(orbit, reference.q[0], reference.p[0], orbit.steps);
     if (ended < 0.1 * static_cast<double>(orbit.steps) - 0.05) {
       ++aborted;
       which += fmt::format("{}{} at t = {:.3g}", which.empty() ? "" : ", ", orbit.figure, ended);
     }
+    later.look(study, orbit, reference, 1000);
     figure.push_back(std::stod(orbit.figure));
     const std::array<double, 8> values{cartesian.iterations, polar.iterations, cartesian.error,   polar.error,
                                        cartesian.energy,     polar.energy,     cartesian.angular, polar.angular};
@@ -168,13 +204,12 @@ void compare(Study& study) {
     most_cartesian = std::max(most_cartesian, cartesian.most);
     better += polar.error < cartesian.error ? 1 : 0;
     fewer += polar.iterations < cartesian.iterations ? 1 : 0;
-    study.note(fmt::format(
-        "Figure {}: iterations a step {:.3g} Cartesian, {:.3g} polar; distance from the exact orbit "
-        "{:.2g}, {:.2g}; energy {:.1g}, {:.1g}; angular momentum lost {:.2g}, {:.2g}; seconds {:.2g}, "
-        "{:.2g}.",
-        orbit.figure, cartesian.iterations, polar.iterations, cartesian.error, polar.error, cartesian.energy,
-        polar.energy, cartesian.angular, polar.angular, cartesian.seconds, polar.seconds));
+    table.rows.push_back({orbit.figure, both("{:.3g}", cartesian.iterations, polar.iterations),
+                          both("{:.3g}", cartesian.evaluations, polar.evaluations),
+                          both("{:.2g}", cartesian.error, polar.error), both("{:.1g}", cartesian.energy, polar.energy),
+                          both("{:.2g}", cartesian.angular, polar.angular)});
   }
+  study.table(std::move(table));
   study.claim({"angular_polar", "the element keeps p_phi in polar coordinates, equation 2.97", "p2 - p1 = 0", "35"},
               at_most(1e-15, "one equation has no other term: at most rounding"),
               {{lost_polar, 0, "largest relative loss over the twelve orbits"}});
@@ -205,6 +240,13 @@ void compare(Study& study) {
               {{static_cast<double>(aborted), 0,
                 fmt::format("the program of appendix A, statement by statement, dt = 0.1; aborts: {}",
                             which.empty() ? "none" : which)}});
+  study.claim(
+      {"tolerance_later", "the same when the runs of the figures go on to t = 100", "1e-13", "30"},
+      none_of("figures whose run aborts"),
+      {{static_cast<double>(later.of_program), 0,
+        fmt::format("the program of appendix A, statement by statement; by it and by hamflow: {}",
+                    later.where.empty() ? "none" : later.where)},
+       {static_cast<double>(later.of_hamflow), 0, "hamflow with the programs' tolerance, criterion = \"seed\""}});
   study.keep({"comparison",
               {{"figure", figure},
                {"iterations_cartesian", columns[0]},
@@ -220,6 +262,11 @@ void compare(Study& study) {
 void stiff(Study& study) {
   std::vector<double> of_k, of_dt, of_polar, reached, iterations, energies, angular;
   double kept = 0, lost = 0, lost_cartesian = 0, ended = 0;
+  Table table{"stiff",
+              "cg(1,5), 1000 steps, r from 1 to 1.1",
+              {"k", "dt", "dt over the radial period", "coordinates", "Newton", "iterations a step",
+               "evaluations of derivatives a step", "energy error", "angular momentum lost", "tolerance 1e-13"},
+              {}};
   for (const char* k : {"1000", "1e6"}) {
     const double period = 1 / std::sqrt(2 * std::stod(k));  // of V'' = 4 k at r = 1 with mu = 2: 2 pi times this
     for (const char* dt : {"0.1", "0.01", "0.001"}) {
@@ -246,17 +293,16 @@ void stiff(Study& study) {
         iterations.push_back(row.iterations);
         energies.push_back(row.energy);
         angular.push_back(row.angular);
-        study.note(fmt::format(
-            "k = {}, dt = {} ({:.3g} of the radial period), {}: {} iterations a step {:.3g} (at most {:g}), energy "
-            "{:.1g} of "
-            "its scale, angular momentum {:.2g}, {:.2g} s. Tolerance 1e-13: {}.",
-            k, dt, std::stod(dt) / (6.283185 * period), coordinates,
-            row.done ? "converges;" : fmt::format("ends at t = {:.4g}: {};", row.reached, row.message), row.iterations,
-            row.most, row.energy, row.angular, row.seconds,
-            seed.report.status == "done" ? std::string("reached") : fmt::format("ends at t = {:.4g}", seed.t.back())));
+        table.rows.push_back(
+            {k, dt, fmt::format("{:.3g}", std::stod(dt) / (6.283185 * period)), coordinates,
+             row.done ? "converges" : fmt::format("ends at t = {:.4g}: {}", row.reached, row.message),
+             fmt::format("{:.3g}, at most {:g}", row.iterations, row.most), fmt::format("{:.3g}", row.evaluations),
+             fmt::format("{:.1g}", row.energy), fmt::format("{:.2g}", row.angular),
+             seed.report.status == "done" ? std::string("reached") : fmt::format("ends at t = {:.4g}", seed.t.back())});
       }
     }
   }
+  study.table(std::move(table));
   study.nothing_to_test("results", "announced for k = 1000 and 10^6; the thesis prints no result of them");
   study.claim({"energy", "the element keeps the energy, however stiff, as long as it converges", "constant", "10"},
               at_most(1e-10, "rounding over 1000 steps, relative to the scale of the energy"),
@@ -265,7 +311,7 @@ void stiff(Study& study) {
               at_most(1e-15, "one equation has no other term"),
               {{lost, 0, fmt::format("largest relative loss; in Cartesian coordinates {:.3g}", lost_cartesian)}});
   study.claim({"tolerance", "Newton's method reaches the tolerance 1e-13 of the programs for k = 10^6", "1e-13", "30"},
-              none_of("runs that end"),
+              none_of("runs that end before their last step"),
               {{ended, 0, "of three dt, Cartesian coordinates, as the programs are written"}});
   study.keep({"runs",
               {{"k", of_k},
