@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "hamflow/core/number.hpp"
+#include "hamflow/problems/solar_system.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/gas.hpp"
@@ -13,13 +14,43 @@ namespace hamflow {
 
 namespace {
 
+bool is_solar_system(const Scenario& scenario) { return scenario.request.problem == SolarSystem<double>::name; }
+
 /// Of the bodies, one after the other; a problem that has one mass has one.
 std::vector<double> masses_of(const Scenario& scenario) {
   const Parameters<double> parameters(scenario.request.parameters);
   for (const char* name : {"masses", "mass"}) {
     if (parameters.has(name)) return parameters.list(name);
   }
-  return {};
+  return is_solar_system(scenario) ? SolarSystem<double>::masses() : std::vector<double>();
+}
+
+/// Of the one problem that brings numbers along. All others have the units of the input.
+struct Units {
+  std::string length, momentum, angular_momentum;
+  ColumnUnits columns{};
+};
+Units units_of(const Scenario& scenario) {
+  if (!is_solar_system(scenario)) return {};
+  return {"AU",
+          "solar mass AU/day",
+          "solar mass AU^2/day",
+          {.t = "day", .q = "AU", .p = "solar mass AU/day", .energy = "solar mass AU^2/day^2"}};
+}
+
+std::string unit_of(const InvariantInfo& invariant, const Units& units) {
+  switch (invariant.terms) {
+    case Terms::moments:
+      return units.angular_momentum;
+    case Terms::momentum:
+    case Terms::momenta:
+      return units.momentum;
+    case Terms::centre_of_mass:
+      return units.length;
+    case Terms::other:
+      break;
+  }
+  return "";
 }
 
 /// What the particles of a gas say of themselves in H5MD; of other problems nothing.
@@ -59,7 +90,7 @@ std::vector<InvariantColumn> invariant_columns(const Scenario& scenario) {
       scenario.problem->invariant_sizes(scenario.request.parameters, scenario.start_q.size());
   std::vector<InvariantColumn> all;
   for (std::size_t i = 0; i < declared.size(); ++i) {
-    all.push_back({declared[i].name, sizes[i], declared[i].meaning, {}});
+    all.push_back({declared[i].name, sizes[i], declared[i].meaning, unit_of(declared[i], units_of(scenario))});
   }
   return all;
 }
@@ -111,6 +142,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .momenta = names.p,
           .masses = named ? masses_of(scenario) : std::vector<double>(),
           .particles = std::move(particles),
+          .units = units_of(scenario).columns,
           .digits_length = longest_digits(request.arithmetic)};
 }
 

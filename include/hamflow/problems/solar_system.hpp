@@ -12,8 +12,10 @@ class SolarSystem : public Gravity<R> {
   SolarSystem(const Parameters<R>& /*none*/, std::size_t /*18*/) : SolarSystem() {}
   SolarSystem() : Gravity<R>(masses(), evaluate_number<R>(gravitational_constant), R(0), 3) {}
 
+  static constexpr const char* name = "solar-system";
+
   static ProblemInfo info() {
-    ProblemInfo all{.name = "solar-system",
+    ProblemInfo all{.name = name,
                     .formula =
                         "H = sum |p_i|^2/(2 m_i) - G sum_{i<j} m_i m_j/r_ij: Sun, Jupiter, Saturn, Uranus, "
                         "Neptune, Pluto; AU, days, solar masses",
@@ -34,6 +36,12 @@ class SolarSystem : public Gravity<R> {
     }
     return all;
   }
+  /// Of the Sun with the inner planets, Jupiter, Saturn, Uranus, Neptune, Pluto, in solar masses.
+  static std::vector<R> masses() {
+    std::vector<R> all;
+    for (const Body& body : bodies) all.push_back(evaluate_number<R>(body.mass));
+    return all;
+  }
   static std::string refused_size(const Parameters<R>&, std::size_t size) {
     return size == 18 ? std::string() : "18 numbers, three for each of Sun, Jupiter, Saturn, Uranus, Neptune, Pluto";
   }
@@ -52,12 +60,6 @@ class SolarSystem : public Gravity<R> {
       {"0.0000437273164546", {"8.3101420", "-16.2901086", "-7.2521278"}, {"0.00354178", "0.00137102", "0.00055029"}},
       {"0.0000517759138449", {"11.4707666", "-25.7294829", "-10.8169456"}, {"0.00288930", "0.00114527", "0.00039677"}},
       {"1/1.3e8", {"-15.5387357", "-25.2225594", "-3.1902382"}, {"0.00276725", "-0.00170702", "-0.00136504"}}};
-
-  static std::vector<R> masses() {
-    std::vector<R> all;
-    for (const Body& body : bodies) all.push_back(evaluate_number<R>(body.mass));
-    return all;
-  }
 };
 
 }  // namespace hamflow
