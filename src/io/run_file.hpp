@@ -104,6 +104,8 @@ struct RunSamples {
   std::vector<double> section_t;                                         // of the points of a section
   std::vector<std::vector<double>> section_q;
   std::vector<std::vector<double>> section_p;
+  std::vector<double> wall_t;  // of the bounces that were recorded
+  std::vector<std::vector<double>> wall_q;
 };
 
 /// @throws FileError naming the file and what is wrong with it
