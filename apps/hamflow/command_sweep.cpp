@@ -56,7 +56,8 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
 }
 
 /// Without a figure there is nothing to colour.
-std::string refused_colour(const std::string& colour) {
+std::string refused_colour(const std::string& colour, bool mean) {
+  if (mean) return "--mean: error: found --mean without --figure; allowed beside --figure FILE";
   return colour.empty() ? "" : "--colour: error: found " + colour + " without --figure; allowed beside --figure FILE";
 }
 
@@ -75,8 +76,8 @@ int sweep_command(const SweepCommandOptions& options) {
     print_notes(sweep.notes(), options.quiet);
     if (!sweep.complaints().empty()) throw RejectedLines{sweep.complaints()};
     const bool draws = !options.figure.empty();
-    const std::string wrong =
-        draws ? sweep.refused_figure(options.figure, options.colour) : refused_colour(options.colour);
+    const std::string wrong = draws ? sweep.refused_figure(options.figure, options.colour, options.mean)
+                                    : refused_colour(options.colour, options.mean);
     if (!wrong.empty()) throw RejectedLines{{wrong}};
     require_folder_of(options.figure);
     const bool writes = options.out != "none";
@@ -85,7 +86,7 @@ int sweep_command(const SweepCommandOptions& options) {
     const SweepReport report = carry_out(sweep, options);
     print(sweep, report, writes, options);
     if (!draws || report.status == "failed") return exit_status(report.status);
-    const int drawn = written_behind_report([&] { sweep.draw(options.figure, options.colour); });
+    const int drawn = written_behind_report([&] { sweep.draw(options.figure, options.colour, options.mean); });
     return drawn != exit_done ? drawn : exit_status(report.status);
   });
 }

@@ -35,6 +35,7 @@ struct SweepCommandOptions {
   bool quiet = false;
   std::string figure;  // a file; empty: none
   std::string colour;  // a column; empty: the section where there is one, else energy/max_error
+  bool mean = false;   // of columns, over all varied keys but the first
 };
 int sweep_command(const SweepCommandOptions& options);
 

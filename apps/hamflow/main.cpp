@@ -119,6 +119,9 @@ int main(int argc, char** argv) {
       ->add_option("--colour", sweep.colour,
                    "the column to draw, e.g. observables/lyapunov1 [the section; without one energy/max_error]")
       ->type_name("COLUMN");
+  sweep_command->add_flag("--mean", sweep.mean,
+                          "draw the mean of --colour over all varied keys but the first, with its standard error; of "
+                          "several columns with commas between");
   sweep_command->add_flag("--force", sweep.force, "replace the sweep in an existing folder");
   sweep_command->add_flag("--resume", sweep.resume,
                           "go on with the sweep in an existing folder: members that are done are not run again");

@@ -50,6 +50,8 @@ struct FigureData : FigureSamples {
   FigureParticles particles{};
   /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.
   FigureSamples opening{};
+  /// t and q of the samples with the located bounces between them, where a line has its corners; empty without any.
+  FigureSamples path{};
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;
   std::vector<std::pair<std::string, std::vector<double>>> observables{};  // expressions of the user, at each sample

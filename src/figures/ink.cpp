@@ -46,6 +46,9 @@ std::string drawn(const Series& series) {
     case Ink::marks:
       return fmt::format("with points linecolor rgb '{}' linewidth 0.6 pointtype {} pointsize 0.5", colour,
                          series.mark.shape);
+    case Ink::bars:
+      return fmt::format("with yerrorbars linecolor rgb '{}' linewidth 0.5 pointtype {} pointsize 0.3", colour,
+                         series.mark.shape);
     case Ink::band:
     case Ink::fields:
       break;
@@ -97,6 +100,9 @@ std::vector<std::string> data_lines(const Panel& panel, const Series& series) {
     const double upper = series.ink == Ink::band ? panel.y.place(series.value[i]) : 0;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(upper)) {
       lines.emplace_back();
+    } else if (series.ink == Ink::bars) {
+      lines.push_back(fmt::format("{:.12g} {:.12g} {:.12g} {:.12g}", x, y, panel.y.place(curve.y[i] - series.value[i]),
+                                  panel.y.place(curve.y[i] + series.value[i])));
     } else if (series.ink == Ink::band) {
       lines.push_back(fmt::format("{:.12g} {:.12g} {:.12g}", x, y, upper));
     } else {
@@ -124,7 +130,7 @@ std::vector<std::string> styles(const Series& series) {
                                    : std::string("points pointtype 7 pointsize 0.5");
     return {"1:2 " + drawn(series) + " notitle, NaN with " + larger + " linecolor rgb '" + colour + "'" + name};
   }
-  return {"1:2 " + drawn(series) + name};
+  return {(series.ink == Ink::bars ? "1:2:3:4 " : "1:2 ") + drawn(series) + name};
 }
 
 }  // namespace hamflow::figures

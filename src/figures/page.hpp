@@ -13,8 +13,8 @@
 namespace hamflow::figures {
 
 /// How a series is drawn; `marked` is a line through marks, `marks` are those alone, `level` is a dashed line behind
-/// the others, `band` the field between two lines, `fields` are coloured rectangles.
-enum class Ink { exact, dots, fine_dots, line, path, place, zero, centre, marked, marks, level, band, fields };
+/// the others, `band` the field between two lines, `fields` are coloured rectangles, `bars` marks with their errors.
+enum class Ink { exact, dots, fine_dots, line, path, place, zero, centre, marked, marks, level, band, fields, bars };
 
 /// What distinguishes the series of a page.
 struct Mark {
@@ -28,8 +28,9 @@ struct Series {
   std::string name;  // in the legend above the panel, enhanced text; empty: not listed
   Curve curve;
   Mark mark{};
-  /// Of Ink::band the upper line. Of Ink::fields a number for each rectangle, in colours of the panel's axis z; a
-  /// rectangle is two points of the curve, its lower left and its upper right corner.
+  /// Of Ink::band the upper line. Of Ink::bars how far a bar reaches up and down. Of Ink::fields a number for each
+  /// rectangle, in colours of the panel's axis z; a rectangle is two points of the curve, its lower left and its upper
+  /// right corner.
   std::vector<double> value{};
 };
 

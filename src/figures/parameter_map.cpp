@@ -43,7 +43,12 @@ Axis key_axis(const ParameterMap& map) {
 Panel curves_over(const ParameterMap& map) {
   Panel panel;
   panel.x = key_axis(map);
-  panel.y = value_axis(map.value, padding);
+  std::vector<double> reached = map.value;
+  for (std::size_t i = 0; i < map.error.size(); ++i) {
+    reached.push_back(map.value[i] - map.error[i]);
+    reached.push_back(map.value[i] + map.error[i]);
+  }
+  panel.y = value_axis(reached, padding);
   panel.y_label = map.value_label;
   panel.aspect = 0.62;
   constexpr int shapes[] = {7, 5, 9, 13, 11, 6, 4, 8};
@@ -59,11 +64,17 @@ Panel curves_over(const ParameterMap& map) {
     std::stable_sort(own.begin(), own.end(), [&](std::size_t a, std::size_t b) { return map.x[a] < map.x[b]; });
     const bool separate = own.size() <= most_separate_dots;
     // Between words there is nothing that a line could show.
-    const Ink ink = !map.x_words.empty() ? Ink::marks : separate ? Ink::marked : Ink::line;
+    const Ink ink = !map.error.empty()     ? Ink::bars
+                    : !map.x_words.empty() ? Ink::marks
+                    : separate             ? Ink::marked
+                                           : Ink::line;
     Series series{.ink = ink, .name = names[n]};
     series.mark = mark_of(n);
     series.mark.shape = shapes[n % 8];
     for (const std::size_t i : own) series.curve.add(map.x[i], map.value[i]);
+    for (const std::size_t i : own) {
+      if (!map.error.empty()) series.value.push_back(map.error[i]);
+    }
     panel.series.push_back(std::move(series));
   }
   return panel;

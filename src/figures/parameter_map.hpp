@@ -21,6 +21,7 @@ struct ParameterMap {
   std::vector<std::string> x_words;  // names of x = 0, 1, 2, ...; empty: x are numbers
   std::vector<std::string> line;     // of each member, the name of its curve; empty: one curve
   std::vector<std::string> notes;    // below the map
+  std::vector<double> error{};       // of each value, a bar up and down; empty: none, as where y is not
 };
 
 /// Writes svg, pdf or png by the extension of `file`. Values that are all positive and span more than two decades are

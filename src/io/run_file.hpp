@@ -107,6 +107,8 @@ struct RunSamples {
   std::vector<double> section_t;                                         // of the points of a section
   std::vector<std::vector<double>> section_q;
   std::vector<std::vector<double>> section_p;
+  std::vector<double> wall_t;  // of the bounces that were recorded
+  std::vector<std::vector<double>> wall_q;
 };
 
 /// @param most_coordinates above them q and p stay empty, and description.dimension says how many there are

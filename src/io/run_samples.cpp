@@ -197,6 +197,13 @@ RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coor
     run.section_p = by_coordinate(section_p, p_width, points);
     run.description.section = true;
   }
+  if (H5Lexists(file, "events", H5P_DEFAULT) > 0 && H5Lexists(file, "events/wall", H5P_DEFAULT) > 0) {
+    run.wall_t = read_column(file, "events/wall/t", one);
+    const std::vector<double> wall_q = read_column(file, "events/wall/q", one);
+    const std::size_t bounces = std::min(run.wall_t.size(), wall_q.size() / q_width);
+    run.wall_t.resize(bounces);
+    run.wall_q = by_coordinate(wall_q, q_width, bounces);
+  }
   return run;
 }
 

@@ -84,6 +84,28 @@ void add_section(const Section& section, const StateNames& names, RunSamples& sa
   data.section_text = section_text(section, names);
 }
 
+/// The samples and the bounces, in the order of their times; nothing where bounces are not located.
+FigureSamples path_of(const Scenario& scenario, const RunSamples& samples) {
+  const auto walls = walls_among(scenario.request.variant);
+  if (!walls || walls->rule != WallRule::event || samples.wall_t.empty()) return {};
+  const std::size_t n = samples.q.size();
+  const double forward = samples.t.back() < samples.t.front() ? -1 : 1;
+  FigureSamples path;
+  path.q.resize(n);
+  const auto add = [&](double t, const std::vector<std::vector<double>>& q, std::size_t k) {
+    path.t.push_back(t);
+    for (std::size_t i = 0; i < n; ++i) path.q[i].push_back(q[i][k]);
+  };
+  std::size_t bounce = 0;
+  for (std::size_t k = 0; k < samples.t.size(); ++k) {
+    for (; bounce < samples.wall_t.size() && forward * samples.wall_t[bounce] < forward * samples.t[k]; ++bounce) {
+      add(samples.wall_t[bounce], samples.wall_q, bounce);
+    }
+    add(samples.t[k], samples.q, k);
+  }
+  return path;
+}
+
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
   std::vector<std::pair<std::string, std::string>> facts{{"problem", request.problem}};
@@ -156,6 +178,7 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   data.space = space_of(scenario, size);
   data.particles = particles_of(scenario, source, size, data.space);
   data.bodies = names_of_bodies(scenario.request.problem);
+  data.path = path_of(scenario, samples);
   data.t = std::move(samples.t);
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);
@@ -198,6 +221,16 @@ FigureSamples opening_of(const fs::path& run) {
   opening.p.resize(n);
   std::size_t sample = 0;
   Frame frame;
+  const auto walls = walls_among(scenario.request.variant);
+  if (walls && walls->rule == WallRule::event) {  // a line has its corners there
+    simulation->tell_bounces([&](const Bounce& bounce) {
+      opening.t.push_back(bounce.time);
+      for (std::size_t i = 0; i < n; ++i) {
+        opening.q[i].push_back(bounce.q[i]);
+        opening.p[i].push_back(bounce.p[i]);
+      }
+    });
+  }
   for (std::int64_t k = 0; k <= steps; ++k) {
     if (k > 0 && simulation->advance(1) != Outcome::done) break;
     simulation->look(frame);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -185,7 +186,93 @@ Figure section_figure_of(const Sweep& sweep) {
   return figure;
 }
 
+/// What is wrong with a column; empty if nothing is.
+std::string refused_column(const Sweep& sweep, const std::string& colour) {
+  std::vector<std::string> columns;
+  for (const DrawnColumn& column : drawn_columns(sweep)) columns.push_back(column.name);
+  if (colour.empty() || std::find(columns.begin(), columns.end(), colour) != columns.end()) return {};
+  const auto whole = std::find_if(columns.begin(), columns.end(),
+                                  [&](const std::string& column) { return column.ends_with("/" + colour); });
+  const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
+  const bool exponent = colour.find("lyapunov") != std::string::npos && meant.empty();
+  return "--colour: error: found " + colour + "; allowed " + joined(columns) + meant +
+         (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : "");
+}
+
+std::vector<std::string> columns_to_average(const std::string& columns) {
+  return columns.empty() ? std::vector<std::string>{usual_colour} : split_list(columns);
+}
+
+/// Of numbers that are independent; both are 0 for none, the error for one.
+struct MeanOfMembers {
+  std::size_t count = 0;
+  double mean = 0;
+  double squares = 0;  // of the distances from the mean, updated one by one
+  void add(double x) {
+    ++count;
+    const double before = x - mean;
+    mean += before / static_cast<double>(count);
+    squares += before * (x - mean);
+  }
+  double standard_error() const {
+    const auto n = static_cast<double>(count);
+    return count < 2 ? 0 : std::sqrt(squares / (n - 1) / n);
+  }
+};
+
 }  // namespace
+
+std::string refused_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns) {
+  const std::string wrong = refused_figure_file(file);
+  if (!wrong.empty()) return "--figure: error: " + wrong;
+  const std::vector<std::size_t> free = sweep.varied().free_keys();
+  if (free.size() < 2) {
+    return "--mean: error: found one key that is varied by itself; allowed two or more: the mean is over all but the "
+           "first";
+  }
+  for (const std::string& column : columns_to_average(columns)) {
+    if (const std::string refused = refused_column(sweep, column); !refused.empty()) return refused;
+  }
+  return {};
+}
+
+void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns) {
+  const Varied& varied = sweep.varied();
+  const std::size_t over = varied.free_keys().front();
+  const Vary& key = varied.keys()[over];
+  const std::vector<std::string> names = columns_to_average(columns);
+  const std::vector<DrawnColumn> all = drawn_columns(sweep);
+  ParameterMap figure;
+  figure.title = title_of(sweep);
+  figure.x_label = key_label(sweep, key.path);
+  figure.value_label = names.size() == 1 ? "mean of " + value_label(sweep, names[0]) : "mean";
+  if (!key.is_number()) {
+    for (const std::string& text : key.texts) figure.x_words.push_back(figures::escaped(text));
+  }
+  for (const std::string& name : names) {
+    const auto column = std::find_if(all.begin(), all.end(), [&](const DrawnColumn& one) { return one.name == name; });
+    std::vector<MeanOfMembers> means(key.texts.size());
+    std::vector<double> x(means.size());
+    for (std::size_t member = 0; member < sweep.members(); ++member) {
+      const std::size_t place = varied.place(member, over);
+      x[place] = key.is_number() ? varied.number(member, over) : static_cast<double>(place);
+      // What a member that broke off reached belongs to another time than the others.
+      if (sweep.rows()[member].status == Outcome::done) means[place].add(column->numbers[member]);
+    }
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      const bool known = means[k].count > 0;
+      figure.x.push_back(x[k]);
+      figure.value.push_back(known ? means[k].mean : std::numeric_limits<double>::quiet_NaN());
+      figure.error.push_back(known ? means[k].standard_error() : 0);
+      if (names.size() > 1) figure.line.push_back(value_label(sweep, name));
+    }
+  }
+  const std::size_t each = sweep.members() / key.texts.size();
+  figure.notes.push_back("bars: the standard error of the mean over " + std::to_string(each) + " members");
+  const std::string note = note_of(sweep, false);
+  if (!note.empty()) figure.notes.push_back(note);
+  write_parameter_map(figure, file);
+}
 
 std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour) {
   const std::string wrong = refused_figure_file(file);
@@ -206,17 +293,7 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
     return fmt::format("--figure: error: found {} values of {}, a line each; allowed up to {}", lines.texts.size(),
                        lines.path, most_map_lines);
   }
-  std::vector<std::string> columns;
-  for (const DrawnColumn& column : drawn_columns(sweep)) columns.push_back(column.name);
-  if (!colour.empty() && std::find(columns.begin(), columns.end(), colour) == columns.end()) {
-    const auto whole = std::find_if(columns.begin(), columns.end(),
-                                    [&](const std::string& column) { return column.ends_with("/" + colour); });
-    const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
-    const bool exponent = colour.find("lyapunov") != std::string::npos && meant.empty();
-    return "--colour: error: found " + colour + "; allowed " + joined(columns) + meant +
-           (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : "");
-  }
-  return {};
+  return refused_column(sweep, colour);
 }
 
 void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& column) {

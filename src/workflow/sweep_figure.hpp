@@ -14,4 +14,9 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
 /// @throws Error, FileError
 void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
 
+/// The same of the means of columns, commas between, over all varied keys but the first, with their standard errors.
+std::string refused_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);
+/// @throws Error, FileError
+void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);
+
 }  // namespace hamflow

@@ -143,8 +143,8 @@ const std::vector<std::string>& ScenarioSweep::notes() const { return impl_->not
 std::int64_t ScenarioSweep::total_steps() const { return impl_->sweep->total_steps(); }
 std::int64_t ScenarioSweep::steps_before() const { return impl_->sweep->steps_before(); }
 
-std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column) const {
-  return refused_sweep_figure(*impl_->sweep, file, column);
+std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column, bool mean) const {
+  return mean ? refused_mean_figure(*impl_->sweep, file, column) : refused_sweep_figure(*impl_->sweep, file, column);
 }
 
 SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
@@ -192,8 +192,8 @@ std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
   return json_text(summary);
 }
 
-void ScenarioSweep::draw(const fs::path& file, const std::string& column) const {
-  draw_sweep_figure(*impl_->sweep, file, column);
+void ScenarioSweep::draw(const fs::path& file, const std::string& column, bool mean) const {
+  (mean ? draw_mean_figure : draw_sweep_figure)(*impl_->sweep, file, column);
 }
 
 }  // namespace hamflow

@@ -356,6 +356,18 @@ steps = 333
         for column in ("final/q1", "final/p2", "invariants/angular_momentum/final", "varied/run.dt"):
             self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "run.dt=0.01:0.1:4", "--out", "none",
                          "--quiet", "--figure", "column.svg", "--colour", column)
+        # Means over the second key of a column that is the second key, and of one more.
+        self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "method.name=verlet,stv4",
+                     "--vary", "run.dt=0.01:0.1:4", "--out", "none", "--quiet", "--figure", "mean.svg",
+                     "--mean", "--colour", "varied/run.dt,energy/max_error")
+        self.assertIn("over 4 members", (self.folder / "mean.svg").read_text())
+        for options, words in ((("--figure", "mean.svg", "--mean"), "allowed two or more"),
+                               (("--mean",), "allowed beside --figure FILE"),
+                               (("--figure", "mean.svg", "--mean", "--colour", "final/q1,max_error",
+                                 "--vary", "problem.orbit.r_aph=2:3:5"), "did you mean energy/max_error?")):
+            done = self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.01:0.1:4", "--out", "none", *options,
+                                status=2)
+            self.assertIn(words, done.stderr)
         for options, words in ((("--colour", "energy/least"), "allowed varied/run.dt"),
                                (("--colour", "final/q3"), "did you mean final/q1?"),
                                (("--colour", "max_error"), "did you mean energy/max_error?"),

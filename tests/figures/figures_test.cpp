@@ -203,6 +203,16 @@ TEST_F(Figures, OrbitLiesWhereItShould) {
   EXPECT_NEAR(std::stod(at[2]), 0.5 * (top + bottom), 0.05);
 }
 
+/// A path behind walls has its corners where bounces were, between samples.
+TEST_F(Figures, AnOrbitReachesItsBounces) {
+  FigureData data = ellipse(20);
+  const auto reaches_seven = [&] { return drawn(data, "orbit").find(">7<") != std::string::npos; };
+  EXPECT_FALSE(reaches_seven());
+  data.path.t = {data.t[0], 0.05, data.t[1]};
+  data.path.q = {{data.q[0][0], 0, data.q[0][1]}, {data.q[1][0], 7.2, data.q[1][1]}};
+  EXPECT_TRUE(reaches_seven() || drawn(data, "orbit").find(">6<") != std::string::npos);
+}
+
 TEST_F(Figures, PhasePlaneShowsTheClosedLevelCurve) {
   const std::string svg = drawn(oscillator(), "phase");
   const std::vector<Pixel> line = line_of(svg, "exact");

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "hamflow/core/error.hpp"
+#include "ink.hpp"
 #include "page_size.hpp"
 #include "parameter_map.hpp"
 #include "work_precision.hpp"
@@ -206,6 +207,26 @@ TEST_F(Pages, ACurveOverOneKeyIsAPanel) {
   EXPECT_NE(bytes_of(folder_ / "curve.svg").find(">max error<"), std::string::npos);
   map.value = {nan, nan, nan};
   EXPECT_THROW(write_parameter_map(map, folder_ / "nothing.svg"), Error);
+}
+
+TEST_F(Pages, MeansHaveBarsOfTheirErrors) {
+  figures::Panel panel;
+  panel.x = figures::fit_axis({0, 1}, 0, {7});
+  panel.y = figures::fit_axis({0, 10}, 0, {7});
+  figures::Series series{.ink = figures::Ink::bars};
+  series.curve = {{0.5}, {4}};
+  series.value = {1};
+  double x = 0, y = 0, low = 0, high = 0;
+  std::istringstream(figures::data_lines(panel, series).at(0)) >> x >> y >> low >> high;
+  EXPECT_EQ(y - low, high - y);
+  EXPECT_EQ(panel.y.place(5), high);
+  EXPECT_NE(figures::styles(series).at(0).find("1:2:3:4 with yerrorbars"), std::string::npos);
+
+  // The axis has room for the bars, not for the means alone.
+  ParameterMap map{"t-tube", "v", "", "mean", {1, 2, 3}, {}, {4, 5, 6}, {}, {}, {}};
+  map.error = {0.1, 30, 0.1};
+  write_parameter_map(map, folder_ / "mean.svg");
+  EXPECT_NE(bytes_of(folder_ / "mean.svg").find("30<"), std::string::npos);
 }
 
 TEST_F(Pages, WordsAreLinesOrPlacesOfAnAxis) {

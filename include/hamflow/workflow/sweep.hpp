@@ -47,7 +47,8 @@ class ScenarioSweep {
   const std::vector<std::string>& notes() const;
   /// What is wrong with a figure of this sweep: with the file's name, the keys varied or the column; empty if nothing
   /// is. Without a column: the section of all members, where one is asked for, else energy/max_error.
-  std::string refused_figure(const std::filesystem::path& file, const std::string& column) const;
+  /// @param column also several, commas between, with `mean`: their means over all keys but the first one varied
+  std::string refused_figure(const std::filesystem::path& file, const std::string& column, bool mean = false) const;
   /// Of all members together.
   std::int64_t total_steps() const;
   /// Of members that were finished before.
@@ -68,8 +69,9 @@ class ScenarioSweep {
   SweepReport run(const std::function<bool(std::int64_t steps)>& pulse = {});
   /// The summary with a row for each member; without them where there are more than 10^4.
   std::string json_with_rows(const SweepReport& report) const;
-  /// A column over the one or two keys varied, or the section of all members.   @throws Error, FileError
-  void draw(const std::filesystem::path& file, const std::string& column) const;
+  /// A column over the one or two keys varied, or the section of all members; or, over the first key, means of columns
+  /// over the values of all others, with their standard errors.   @throws Error, FileError
+  void draw(const std::filesystem::path& file, const std::string& column, bool mean = false) const;
 
  private:
   class Impl;

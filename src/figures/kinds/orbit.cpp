@@ -104,7 +104,8 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
         if (bodies(data) <= most_named_bodies) how.name = body_name(data, body);
       }
       if (!with_names) how.name.clear();
-      const Curve track = in_plane(data, data, body, plane);
+      const FigureSamples& samples = data;
+      const Curve track = in_plane(data, data.path.q.empty() ? samples : data.path, body, plane);
       x.include(track.x);
       y.include(track.y);
       if (exact) {
