@@ -201,6 +201,7 @@
 #include "hamflow/problems/support/energy_start.hpp"
 #include "hamflow/problems/support/fast_kernel.hpp"
 #include "hamflow/problems/support/from_functions.hpp"
+#include "hamflow/problems/support/gas_system.hpp"
 #include "hamflow/problems/support/generalised.hpp"
 #include "hamflow/problems/support/gravity.hpp"
 #include "hamflow/problems/support/hooke_flow.hpp"

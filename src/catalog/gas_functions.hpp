@@ -3,7 +3,7 @@
 
 #include "erased.hpp"
 #include "hamflow/formula/model.hpp"
-#include "hamflow/problems/support/pair_system.hpp"
+#include "hamflow/problems/support/gas_system.hpp"
 #include "pair_list.hpp"  // generated from the folder of pair laws
 
 namespace hamflow {
@@ -17,7 +17,7 @@ struct GasShape {
 };
 
 template <class R>
-using Gas = PairSystem<R, PairLaws<R>>;
+using Gas = GasSystem<R, PairLaws<R>>;
 
 /// @param size coordinates of all particles
 template <class R>

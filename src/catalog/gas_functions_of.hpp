@@ -14,15 +14,12 @@ PairLaws<R> law_of(const GasShape& shape, const Parameters<R>& given) {
 template <class R>
 Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t size) {
   using Model = typename Gas<R>::Model;
-  auto model = std::make_shared<Model>(Model{.law = law_of(shape, given)});
+  auto model = std::make_shared<Model>(law_of(shape, given));
   model->space = static_cast<std::size_t>(static_cast<double>(given["dimension"]));
   const std::size_t particles = size / model->space;
-  model->masses = given.list("masses");
-  model->masses.resize(particles, model->masses.front());
-  for (const R& mass : model->masses) {
-    model->inverse_masses.push_back(R(1) / mass);
-    model->total_mass += mass;
-  }
+  std::vector<R> masses = given.list("masses");
+  masses.resize(particles, masses.front());
+  model->set_masses(std::move(masses));
   model->scale = given["scale"];
   model->scale_squared = model->scale * model->scale;
   if (shape.cutoff != CutoffKind::none) {

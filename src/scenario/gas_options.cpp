@@ -39,7 +39,9 @@ GasOptions declared() {
             .condition = "with start = \"lattice\""};
   o.masses = {.name = Keys::masses,
               .default_value = "1",
-              .meaning = "of all particles, or one for each",
+              .meaning =
+                  "of all particles, or one for each: inertia alone, phi is that of every pair (gravity between "
+                  "unequal masses is n-body)",
               .range = Range::positive,
               .type = OptionType::number_or_list};
   o.dimension = {

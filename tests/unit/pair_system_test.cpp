@@ -1,6 +1,4 @@
 // Forces and Hessians of every pair law, cut-off and container against dual numbers, and what ends at a cut-off.
-#include "hamflow/problems/support/pair_system.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,12 +7,13 @@
 #include "hamflow/core/dual.hpp"
 #include "hamflow/problems/pairs/lennard_jones.hpp"
 #include "hamflow/problems/pairs/newton.hpp"
+#include "hamflow/problems/support/gas_system.hpp"
 
 namespace hamflow::test {
 namespace {
 
 using Laws = std::variant<pairs::LennardJones<double>, pairs::Newton<double>>;
-using System = PairSystem<double, Laws>;
+using System = GasSystem<double, Laws>;
 using D = Dual<double, 1>;
 
 struct Case {
@@ -32,10 +31,9 @@ pairs::LennardJones<double> usual_law() {
 pairs::Newton<double> newton() { return pairs::Newton<double>(Parameters<double>(Texts{{"softening", "0.1"}})); }
 
 System system_of(const Case& c, std::size_t space) {
-  auto model = std::make_shared<System::Model>(System::Model{.law = c.law});
+  auto model = std::make_shared<System::Model>(c.law);
   model->space = space;
-  model->masses = {1, 2, 0.5, 1, 3};
-  for (const double m : model->masses) model->inverse_masses.push_back(1 / m);
+  model->set_masses({1, 2, 0.5, 1, 3});
   model->scale = 1.25;
   model->scale_squared = 1.25 * 1.25;
   model->cutoff = std::visit([&](const auto& law) { return Cutoff<double>(c.cutoff, 1.9, 1.2, law); }, c.law);

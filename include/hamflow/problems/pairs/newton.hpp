@@ -16,15 +16,24 @@ class Newton {
             .parameters = {{"softening", "0", "length", Range::not_negative}}};
   }
 
+  // With a strength, and d = r^2 + softening^2: strength phi, and c of the force -c (x_i - x_j) on i.
+  template <class T, class S>
+  static S energy(const T& strength, const S& d) {
+    return -strength / sqrt(d);
+  }
+  template <class T, class S>
+  static S pull(const T& strength, const S& d) {
+    return strength / (d * sqrt(d));
+  }
+
   /// phi as a function of u = r^2, and its derivatives by u.
   template <class S>
   S value(const S& u) const {
-    return R(-1) / sqrt(S(u + softening_squared_));
+    return energy(R(1), S(u + softening_squared_));
   }
   template <class S>
   S first(const S& u) const {
-    const S d = u + softening_squared_;
-    return R(0.5) / (d * sqrt(d));
+    return pull(R(0.5), S(u + softening_squared_));
   }
   template <class S>
   S second(const S& u) const {

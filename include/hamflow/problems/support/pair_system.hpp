@@ -1,49 +1,55 @@
-// N particles with forces between all pairs, in the plane or in space, in a container:
-//   H = sum |p_i|^2/(2 m_i) + (1/S^2) sum_{i<j} phi(S r_ij) + V of the container,
-// phi one of several pair laws, with or without a cut-off, S a scale of lengths. q = [x1, y1(, z1), x2, ...], particle
-// by particle.   [Sonnleitner2010, ch. 1.7, 3a] A pair law is a class with value(u), first(u) and second(u), phi and
-// its derivatives by u = r^2 (problems/pairs). Which one it is, is known at run time: a branch that is always taken the
-// same way costs little beside a quotient, and each law more would have every loop compiled once more for each number
-// type. What pairs give and what the container gives are separate functions: the first can be computed by others.
+// N particles with forces between all pairs, in the plane or in space: H = sum |p_i|^2/(2 m_i) + sum_{i<j} V_ij(r_ij).
+// q = [x1, y1(, z1), x2, ...], particle by particle. What a pair gives is the model's: gravity.hpp, gas_system.hpp. The
+// force of a pair is computed once and given to both with opposite signs, so that the total momentum is kept to the
+// last rounding of the sums.
 #pragma once
 
 #include <array>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/radial_forces.hpp"
-#include "hamflow/problems/support/container.hpp"
-#include "hamflow/problems/support/cutoff.hpp"
 
 namespace hamflow {
 
-/// What all functions of one pair system share.
-template <class R, class Law>
-struct PairModel {
-  std::size_t space = 2;
-  std::vector<R> inverse_masses;  // one for each particle
-  std::vector<R> masses;
+/// The particles of a model.
+template <class R>
+struct Particles {
+  std::size_t space = 2;  // or 3
+  std::vector<R> masses;  // one for each particle
+  std::vector<R> inverse_masses;
   R total_mass{};
-  Law law;  // a variant of pair laws
-  R scale{1};
-  R scale_squared{1};
-  Cutoff<R> cutoff;
-  ContainerKind container = ContainerKind::none;
-  SoftWall<R> wall;      // of a circle
-  std::vector<R> edges;  // of a periodic box
-  std::vector<R> half_edges;
+
+  void set_masses(std::vector<R> given) {
+    masses = std::move(given);
+    inverse_masses.clear();
+    total_mass = R(0);
+    for (const R& mass : masses) {
+      inverse_masses.push_back(R(1) / mass);
+      total_mass += mass;
+    }
+  }
 };
 
 /// Copies share their model.
-/// @tparam Laws a std::variant of pair laws with parameters of type R
-template <class R, class Laws>
+/// @tparam M Particles<R> with, for the particles i and j,
+///   square(d, axes)     u, from d = q_i - q_j, which may become that of the nearest images; what follows is asked at u
+///   ends(u)             whether they are out of each other's reach, for good of all kicks
+///   energy(u, i, j)     V_ij
+///   pull(u, i, j)       c of the force -c d on i, c d on j
+///   pull_times(factor)  a function of (u, i, j): factor times c, for kicks of the lattice
+///   bend(u, i, j)       a function of (d, k, l): the entry k, l of d^2 V_ij/dq_i^2
+///   strength(i, j), radial_law(u)   as RadialForces has them, u = r^2
+///   turns_freely(), moves_freely()  whether angular, and linear, momentum is conserved
+///   sums_by_rows        whether V is the sum of the sums over j, or one sum
+/// and, where it can, bend_times(factor, u, i, j): the same as `bend`, for kicks of the lattice.
+template <class R, class M>
 class PairSystem {
  public:
   using Real = R;
-  using Model = PairModel<R, Laws>;
+  using Model = M;
   static constexpr std::size_t dimension = dynamic;
   static constexpr bool quadratic_kinetic = true;
 
@@ -73,164 +79,87 @@ class PairSystem {
   }
   template <class S>
   S potential(const Vector<S, dynamic>& q) const {
-    return pair_potential(q) + container_potential(q);
+    return space() == 2 ? potential_in<2>(q) : potential_in<3>(q);
   }
   template <class S>
   void force(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
-    pair_forces(q, f);
-    add_container_forces(q, f);
+    if (space() == 2) {
+      forces_in<2>(q, f);
+    } else {
+      forces_in<3>(q, f);
+    }
   }
   template <class S>
-  void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f, Matrix<S, dynamic>& h) const {
+  void force_and_hessian(const Vector<S, dynamic>& q, Vector<S, dynamic>& f, Matrix<S, dynamic>& hessian) const {
     force(q, f);
     for (std::size_t i = 0; i < size(); ++i) {
-      for (std::size_t j = 0; j < size(); ++j) h[i][j] = S(R(0));
+      for (std::size_t j = 0; j < size(); ++j) hessian[i][j] = S(R(0));
     }
     for (std::size_t i = 0; i < particles(); ++i) {
-      for (std::size_t j = i + 1; j < particles(); ++j) add_pair(q, i, j, h);
-    }
-    if (model_->container != ContainerKind::circle) return;
-    for (std::size_t i = 0; i < particles(); ++i) {
-      const std::size_t at = i * space();
-      const auto [first, second] = model_->wall.bend(q.begin() + at, space(), i);
-      for (std::size_t k = 0; k < space(); ++k) {
-        h[at + k][at + k] += first;
-        for (std::size_t l = 0; l < space(); ++l) h[at + k][at + l] += second * q[at + k] * q[at + l];
-      }
-    }
-  }
-
-  // The part of the pairs.
-  template <class S>
-  S pair_potential(const Vector<S, dynamic>& q) const {
-    S sum(R(0));
-    for (std::size_t i = 0; i < particles(); ++i) {
-      S row(R(0));
-      for (std::size_t j = i + 1; j < particles(); ++j) {
-        S d[3]{};
-        row += value(square_of(q, i, j, d));
-      }
-      sum += row;
-    }
-    return sum;
-  }
-  template <class S>
-  void pair_forces(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
-    for (S& x : f) x = S(R(0));
-    const std::size_t n = space();
-    for (std::size_t i = 0; i < particles(); ++i) {
-      S total[3]{};
-      for (std::size_t j = i + 1; j < particles(); ++j) {
-        S d[3]{};
-        const S c = R(-2) * first(square_of(q, i, j, d));
-        for (std::size_t k = 0; k < n; ++k) {
-          const S push = c * d[k];
-          total[k] += push;
-          f[j * n + k] -= push;
-        }
-      }
-      for (std::size_t k = 0; k < n; ++k) f[i * n + k] += total[k];
-    }
-  }
-  // And that of the container.
-  template <class S>
-  S container_potential(const Vector<S, dynamic>& q) const {
-    S sum(R(0));
-    if (model_->container != ContainerKind::circle) return sum;
-    for (std::size_t i = 0; i < particles(); ++i) sum += model_->wall.potential(q.begin() + i * space(), space(), i);
-    return sum;
-  }
-  template <class S>
-  void add_container_forces(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
-    if (model_->container != ContainerKind::circle) return;
-    for (std::size_t i = 0; i < particles(); ++i) {
-      const std::size_t at = i * space();
-      const S pull = model_->wall.pull(q.begin() + at, space(), i);
-      for (std::size_t k = 0; k < space(); ++k) f[at + k] += pull * q[at + k];
+      for (std::size_t j = i + 1; j < particles(); ++j) add_pair(q, i, j, hessian);
     }
   }
 
   // As PairwiseForces, for the lattice: each contribution is rounded, and integers are summed. Row i holds the pairs i,
-  // j > i; numbering the particles otherwise changes no bit of a contribution. The wall's are those of single
-  // particles.
+  // j > i. Every operation is symmetric in i and j or changes its sign, so that numbering the particles otherwise
+  // changes no bit of a contribution.
   std::size_t pair_rows() const { return particles(); }
   std::size_t pairs_in_row(std::size_t i) const { return particles() - 1 - i; }
   template <class F, class Difference, class Sink>
-  void pair_kicks(const F& factor, const Difference& difference, std::size_t begin, std::size_t end, Sink& sink) const {
+  void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
+                  Sink& sink) const {
+    if (space() == 2) {
+      pair_kicks_in<2>(factor, difference, first, last, sink);
+    } else {
+      pair_kicks_in<3>(factor, difference, first, last, sink);
+    }
+  }
+  /// The same of -third V''(q) v besides.
+  template <class F, class Difference, class Sink>
+  void pair_gradient_kicks(const F& factor, const F& third, const Vector<F, dynamic>& v, const Difference& difference,
+                           std::size_t first, std::size_t last, Sink& sink) const requires
+      requires(const Model& model, const F& u) {
+    model.bend_along(u, 0, 0, u);
+  }
+  {
     const std::size_t n = space();
-    const F twice = R(2) * factor;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       for (std::size_t j = i + 1; j < particles(); ++j) {
         F d[3]{};
-        F u(R(0));
+        F w[3]{};  // v_i - v_j
+        F dw(0);
         for (std::size_t k = 0; k < n; ++k) {
           d[k] = difference(i * n + k, j * n + k);
-          if (model_->container == ContainerKind::periodic) to_nearest(k, d[k]);
-          u += d[k] * d[k];
+          w[k] = v[i * n + k] - v[j * n + k];
+          dw += d[k] * w[k];
         }
-        if (model_->cutoff.ends(F(model_->scale_squared * u))) continue;
-        const F c = twice * first(u);
-        for (std::size_t k = 0; k < n; ++k) sink(j * n + k, i * n + k, c * d[k]);
+        const F u = model_->square(d, n);
+        const auto [pull, along] = model_->bend_along(u, i, j, dw);
+        for (std::size_t k = 0; k < n; ++k) {
+          sink(j * n + k, i * n + k, factor * (pull * d[k]) + third * along(d[k], w[k]));
+        }
       }
     }
   }
-  /// @param position the k-th coordinate   @param sink (k, r): adds r to the k-th momentum
-  template <class F, class Position, class Sink>
-  void single_kicks(const F& factor, const Position& position, const Sink& sink) const {
-    if (model_->container != ContainerKind::circle) return;
-    const std::size_t n = space();
-    for (std::size_t i = 0; i < particles(); ++i) {
-      F q[3]{};
-      for (std::size_t k = 0; k < n; ++k) q[k] = position(i * n + k);
-      const F pull = factor * model_->wall.pull(q, n, i);
-      for (std::size_t k = 0; k < n; ++k) sink(i * n + k, pull * q[k]);
-    }
-  }
 
-  /// (1/S^2) phi(S r) as a function of u = r^2, and its derivatives by u.
-  template <class S>
-  S value(const S& u) const {
-    const S w = model_->scale_squared * u;
-    if (model_->cutoff.ends(w)) return S(R(0));
-    return std::visit([&](const auto& law) { return S(model_->cutoff.value(w, S(law.value(w)))); }, model_->law) /
-           model_->scale_squared;
-  }
-  template <class S>
-  S first(const S& u) const {
-    const S w = model_->scale_squared * u;
-    if (model_->cutoff.ends(w)) return S(R(0));
-    return std::visit([&](const auto& law) { return S(model_->cutoff.first(w, S(law.first(w)), law)); }, model_->law);
-  }
-  template <class S>
-  S second(const S& u) const {
-    const S w = model_->scale_squared * u;
-    if (model_->cutoff.ends(w)) return S(R(0));
-    return model_->scale_squared *
-           std::visit([&](const auto& law) { return S(model_->cutoff.second(w, S(law.second(w)), law)); }, model_->law);
-  }
-
-  // As RadialForces, without a container: who offers it looks.
+  // As RadialForces.
   std::size_t radial_space() const { return space(); }
   std::vector<RadialTerm<R>> radial_terms() const {
     std::vector<RadialTerm<R>> terms;
     for (std::size_t i = 0; i < particles(); ++i) {
-      for (std::size_t j = i + 1; j < particles(); ++j) terms.push_back({i * space(), j * space(), R(1)});
+      for (std::size_t j = i + 1; j < particles(); ++j) {
+        terms.push_back({i * space(), j * space(), model_->strength(i, j)});
+      }
     }
     return terms;
   }
   template <class S>
   RadialLaw<S> radial_law(const S& u) const {
-    return {value(u), first(u), second(u)};
+    return model_->radial_law(u);
   }
 
-  /// Angular momentum, linear momentum and centre of mass, as far as the container leaves them.
-  bool turns_freely() const {
-    return model_->container == ContainerKind::none || model_->container == ContainerKind::circle;
-  }
-  bool moves_freely() const {
-    return model_->container == ContainerKind::none || model_->container == ContainerKind::periodic;
-  }
-  /// In place: they are asked for at every step.
+  /// How many numbers angular momentum, linear momentum and centre of mass have, as far as the model leaves them. In
+  /// place: they are asked for at every step.
   struct Sizes {
     std::array<std::size_t, 3> entry{};
     std::size_t count = 0;
@@ -241,15 +170,16 @@ class PairSystem {
   };
   Sizes invariant_sizes() const {
     Sizes sizes;
-    if (turns_freely()) sizes.entry[sizes.count++] = space() == 2 ? 1 : 3;
-    for (int i = 0; moves_freely() && i < 2; ++i) sizes.entry[sizes.count++] = space();
+    if (model_->turns_freely()) sizes.entry[sizes.count++] = space() == 2 ? 1 : 3;
+    for (int i = 0; model_->moves_freely() && i < 2; ++i) sizes.entry[sizes.count++] = space();
     return sizes;
   }
   template <class S>
   Vector<S, dynamic> invariants(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p, const S& t) const {
     const std::size_t n = space();
-    const std::size_t rotations = turns_freely() ? (n == 2 ? 1 : 3) : 0;
-    Vector<S, dynamic> all(rotations + (moves_freely() ? 2 * n : 0));
+    const bool moves = model_->moves_freely();
+    const std::size_t rotations = model_->turns_freely() ? (n == 2 ? 1 : 3) : 0;
+    Vector<S, dynamic> all(rotations + (moves ? 2 * n : 0));
     for (std::size_t i = 0; i < particles(); ++i) {
       const std::size_t at = i * n;
       if (rotations == 1) all[0] += q[at] * p[at + 1] - q[at + 1] * p[at];
@@ -258,55 +188,92 @@ class PairSystem {
         const std::size_t b = at + (k + 2) % 3;
         all[k] += q[a] * p[b] - q[b] * p[a];
       }
-      for (std::size_t k = 0; moves_freely() && k < n; ++k) {
+      for (std::size_t k = 0; moves && k < n; ++k) {
         all[rotations + k] += p[at + k];
         all[rotations + n + k] += q[at + k] * model_->masses[i];
       }
     }
-    for (std::size_t k = 0; moves_freely() && k < n; ++k) {
+    for (std::size_t k = 0; moves && k < n; ++k) {
       S& centre = all[rotations + n + k];
       centre = (centre - all[rotations + k] * t) / total_mass();
     }
     return all;
   }
 
- private:
-  /// r^2 of a pair, and d = q_i - q_j, in a periodic box that of the nearest images.
+ protected:
+  /// u of a pair, and d.
   template <class S>
   S square_of(const Vector<S, dynamic>& q, std::size_t i, std::size_t j, S* d) const {
     const std::size_t n = space();
-    S u(R(0));
-    for (std::size_t k = 0; k < n; ++k) {
-      d[k] = q[i * n + k] - q[j * n + k];
-      if (model_->container == ContainerKind::periodic) to_nearest(k, d[k]);
-      u += d[k] * d[k];
-    }
-    return u;
+    for (std::size_t k = 0; k < n; ++k) d[k] = q[i * n + k] - q[j * n + k];
+    return model_->square(d, n);
   }
-  /// Edge by edge: particles that have gone far are many edges apart, but each comparison is one that recordings know.
-  template <class S>
-  void to_nearest(std::size_t k, S& d) const {
-    const R& edge = model_->edges[k];
-    const S half(model_->half_edges[k]);
-    if constexpr (std::is_same_v<S, double>) {
-      d -= edge * std::nearbyint(d / edge);
-    } else {
-      if (!(d <= S(R(1e6) * edge) && S(R(-1e6) * edge) <= d)) return;  // no number, or as good as none
-      while (half < d) d -= edge;
-      while (d < -half) d += edge;
+
+ private:
+  template <std::size_t Space, class S>
+  S potential_in(const Vector<S, dynamic>& q) const {
+    S sum(R(0));
+    for (std::size_t i = 0; i < particles(); ++i) {
+      S row(R(0));
+      for (std::size_t j = i + 1; j < particles(); ++j) {
+        S d[Space];
+        for (std::size_t k = 0; k < Space; ++k) d[k] = q[i * Space + k] - q[j * Space + k];
+        const S u = model_->square(d, Space);
+        (Model::sums_by_rows ? row : sum) += model_->energy(u, i, j);
+      }
+      if constexpr (Model::sums_by_rows) sum += row;
+    }
+    return sum;
+  }
+  template <std::size_t Space, class S>
+  void forces_in(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
+    for (S& x : f) x = S(R(0));
+    const std::size_t count = particles();
+    for (std::size_t i = 0; i < count; ++i) {
+      const S* const a = q.begin() + i * Space;
+      S* const on_a = f.begin() + i * Space;
+      S total[Space]{};
+      for (std::size_t j = i + 1; j < count; ++j) {
+        const S* const b = q.begin() + j * Space;
+        S* const on_b = f.begin() + j * Space;
+        S d[Space];
+        for (std::size_t k = 0; k < Space; ++k) d[k] = a[k] - b[k];
+        const S u = model_->square(d, Space);
+        const S c = model_->pull(u, i, j);
+        for (std::size_t k = 0; k < Space; ++k) {
+          const S pull = c * d[k];
+          total[k] += pull;
+          on_b[k] += pull;
+        }
+      }
+      for (std::size_t k = 0; k < Space; ++k) on_a[k] -= total[k];
     }
   }
-  /// -F of the pair by q: 2 phi' I + 4 phi'' d d^T in the blocks ii and jj, its negative in ij and ji.
+  template <std::size_t Space, class F, class Difference, class Sink>
+  void pair_kicks_in(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
+                     Sink& sink) const {
+    const auto pull = model_->pull_times(factor);
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t j = i + 1; j < particles(); ++j) {
+        F d[Space];
+        for (std::size_t k = 0; k < Space; ++k) d[k] = difference(i * Space + k, j * Space + k);
+        const F u = model_->square(d, Space);
+        if (model_->ends(u)) continue;
+        const F c = pull(u, i, j);
+        for (std::size_t k = 0; k < Space; ++k) sink(j * Space + k, i * Space + k, c * d[k]);
+      }
+    }
+  }
+  /// d^2 V_ij/dq_i^2 in the blocks ii and jj, its negative in ij and ji.
   template <class S>
   void add_pair(const Vector<S, dynamic>& q, std::size_t i, std::size_t j, Matrix<S, dynamic>& h) const {
     const std::size_t n = space();
     S d[3]{};
     const S u = square_of(q, i, j, d);
-    const S slope = R(2) * first(u);
-    const S bend = R(4) * second(u);
+    const auto bend = model_->bend(u, i, j);
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t l = 0; l < n; ++l) {
-        const S entry = (k == l ? slope : S(R(0))) + bend * d[k] * d[l];
+        const S entry = bend(d, k, l);
         h[i * n + k][i * n + l] += entry;
         h[j * n + k][j * n + l] += entry;
         h[i * n + k][j * n + l] -= entry;
