@@ -15,9 +15,7 @@ struct Pair {
 struct Quotients {
   Part first;
   Part second;
-  HAMFLOW_INLINE void begin(double numerator, const Part& a, const Part& b) {
-    first = all<Part>(numerator) / (a * b);
-  }
+  HAMFLOW_INLINE void begin(double numerator, const Part& a, const Part& b) { first = all<Part>(numerator) / (a * b); }
   HAMFLOW_INLINE void end(double, const Part& a, const Part& b) {
     second = first * a;
     first = first * b;
