@@ -149,7 +149,8 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
   const unsigned rest = (1u << (rows.particles - whole)) - 1;
   double* force[Space];
   for (int k = 0; k < Space; ++k) force[k] = scratch.memory + static_cast<std::size_t>(k) * scratch.row;
-  for (std::size_t i = first; i < last;) {
+  std::size_t i = first;
+  while (i < last) {
     const std::size_t own = i / 16 * 16;
     const std::size_t end = own + 16 < last ? own + 16 : last;
     alignas(64) double own_force[Space][16] = {};  // added when no other row of the sixteen reads it any more
