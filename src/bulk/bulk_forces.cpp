@@ -213,7 +213,7 @@ class BulkForces::Workspace {
     const std::size_t roomy = (row + row / 4) / 8 * 8;
     memory_.resize(workers());
     for (std::size_t w = 0; w < workers(); ++w) {
-      memory_[w].resize(10 * roomy);
+      memory_[w].resize(8 * roomy);
       scratch_[w] = {memory_[w].data(), roomy};
     }
   }
@@ -221,10 +221,7 @@ class BulkForces::Workspace {
   double pass(const double* q, double* f, bool with_energy) {
     ++counts_.evaluations;
     knows_ = false;
-    double sum = 0;
-    const std::size_t size = system_.space * system_.particles;
-    for (std::size_t i = 0; i < size; ++i) sum += std::abs(q[i]);
-    if (!(sum <= std::numeric_limits<double>::max())) return nothing(q, f);
+    if (!(size_of(q) <= std::numeric_limits<double>::max())) return nothing(q, f);
     rows_.force = f;
     if (lists()) {
       sum_lists(q, with_energy);
@@ -236,6 +233,17 @@ class BulkForces::Workspace {
     std::memcpy(known_at_.data(), q, bytes());
     knows_ = true;
     return known_;
+  }
+  /// The sum of |q|, in partial sums, which do not wait for each other.
+  double size_of(const double* q) const {
+    double sums[8] = {};
+    const std::size_t size = system_.space * system_.particles;
+    std::size_t i = 0;
+    for (; i + 8 <= size; i += 8) {
+      for (std::size_t k = 0; k < 8; ++k) sums[k] += std::abs(q[i + k]);
+    }
+    for (; i < size; ++i) sums[0] += std::abs(q[i]);
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
   }
   /// Positions that are no finite numbers stand in no cell; their forces are none.
   double nothing(const double*, double* f) const {
@@ -269,17 +277,33 @@ class BulkForces::Workspace {
       for (std::size_t k = 0; k < space; ++k) x_[k][i] = q[i * space + k];
     }
     const bulk::SumRows sum = kernels_->all[static_cast<std::size_t>(system_.law)][space - 2][with_energy];
-    const std::size_t size = space * x_room_;
-    run(row_blocks_.size() - 1, [&](std::size_t, std::size_t b) {
-      double* const forces = block_forces_.data() + b * size;
-      std::fill(forces, forces + size, 0.0);
+    std::fill(total_.data(), total_.data() + space * x_room_, 0.0);
+    const auto sum_block = [&](std::size_t b, double* forces) {
+      const std::size_t from = row_blocks_[b] / 16 * 16;  // a block adds nothing to rows before its own
+      for (std::size_t k = 0; k < space; ++k) std::fill(forces + k * x_room_ + from, forces + (k + 1) * x_room_, 0.0);
       return sum(rows_, row_blocks_[b], row_blocks_[b + 1], {}, {forces, x_room_});
-    });
+    };
+    const auto add_block = [&](std::size_t b, const double* forces) {
+      for (std::size_t k = 0; k < space; ++k) {
+        double* const total = total_.data() + k * x_room_;
+        for (std::size_t i = row_blocks_[b]; i < system_.particles; ++i) total[i] += forces[k * x_room_ + i];
+      }
+    };
+    // The blocks' forces are added in their order; one thread does so while they are near.
+    const std::size_t blocks = row_blocks_.size() - 1;
+    const std::size_t size = space * x_room_;
+    if (team_) {
+      run(blocks, [&](std::size_t, std::size_t b) { return sum_block(b, block_forces_.data() + b * size); });
+      for (std::size_t b = 0; b < blocks; ++b) add_block(b, block_forces_.data() + b * size);
+    } else {
+      for (std::size_t b = 0; b < blocks; ++b) {
+        sum_block(b, block_forces_.data());
+        add_block(b, block_forces_.data());
+      }
+    }
     for (std::size_t i = 0; i < system_.particles; ++i) {
       for (std::size_t k = 0; k < space; ++k) {
-        double force = 0;
-        for (std::size_t b = 0; b + 1 < row_blocks_.size(); ++b) force += block_forces_[b * size + k * x_room_ + i];
-        rows_.force[i * space + k] = force * scaled_.of_force;
+        rows_.force[i * space + k] = total_[k * x_room_ + i] * scaled_.of_force;
       }
     }
     counts_.pairs += system_.particles * (system_.particles - 1) / 2;
@@ -298,6 +322,7 @@ class BulkForces::Workspace {
       held = 0;
     }
     block_forces_.resize((row_blocks_.size() - 1) * system_.space * x_room_);
+    total_.resize(system_.space * x_room_);
   }
 
   template <class Work>
@@ -336,6 +361,7 @@ class BulkForces::Workspace {
   std::size_t x_room_ = 0;
   std::vector<std::size_t> row_blocks_;
   bulk::Numbers block_forces_;
+  bulk::Numbers total_;
   bulk::Numbers energy_;
   std::vector<bulk::Numbers> memory_;
   std::vector<bulk::Scratch> scratch_;

@@ -1,5 +1,6 @@
-// Eight numbers in as many registers as the instruction set at hand needs for them: the same operations in the same
-// order for each. Included by kernel_body.hpp, within the namespace of an instruction set.
+// Eight numbers in as many registers as the instruction set at hand needs for them, or those of one register, a part of
+// them: the same operations in the same order for each. Included by kernel_body.hpp, within the namespace of an
+// instruction set.
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define HAMFLOW_NATIVE_BYTES 64
@@ -15,46 +16,61 @@ typedef long long NativeBits __attribute__((vector_size(HAMFLOW_NATIVE_BYTES)));
 constexpr int lanes = HAMFLOW_NATIVE_BYTES / 8;
 constexpr int natives = 8 / lanes;
 
-struct Eight {
-  Native v[natives];
+/// Long computations go part by part: all eight at once need more registers than there are.
+template <int N>
+struct Group {
+  Native v[N];
 };
-#define HAMFLOW_EACH for (int n = 0; n < natives; ++n)
+using Eight = Group<natives>;
+using Part = Group<1>;
+#define HAMFLOW_EACH for (int n = 0; n < N; ++n)
 
-HAMFLOW_INLINE Eight all(double x) {
-  Eight r;
-  HAMFLOW_EACH r.v[n] = x - Native{};
+template <class G = Eight>
+HAMFLOW_INLINE G all(double x) {
+  G r;
+  for (auto& v : r.v) v = x - Native{};
   return r;
 }
-HAMFLOW_INLINE Eight load(const double* from) {
-  Eight r;
-  HAMFLOW_EACH __builtin_memcpy(&r.v[n], from + n * lanes, sizeof(Native));
+template <class G = Eight>
+HAMFLOW_INLINE G load(const double* from) {
+  G r;
+  for (auto& v : r.v) {
+    __builtin_memcpy(&v, from, sizeof v);
+    from += lanes;
+  }
   return r;
 }
-HAMFLOW_INLINE void store(const Eight& x, double* to) {
+template <int N>
+HAMFLOW_INLINE void store(const Group<N>& x, double* to) {
   HAMFLOW_EACH __builtin_memcpy(to + n * lanes, &x.v[n], sizeof(Native));
 }
-HAMFLOW_INLINE Eight operator+(const Eight& a, const Eight& b) {
-  Eight r;
+template <int N>
+HAMFLOW_INLINE Group<N> operator+(const Group<N>& a, const Group<N>& b) {
+  Group<N> r;
   HAMFLOW_EACH r.v[n] = a.v[n] + b.v[n];
   return r;
 }
-HAMFLOW_INLINE Eight operator-(const Eight& a, const Eight& b) {
-  Eight r;
+template <int N>
+HAMFLOW_INLINE Group<N> operator-(const Group<N>& a, const Group<N>& b) {
+  Group<N> r;
   HAMFLOW_EACH r.v[n] = a.v[n] - b.v[n];
   return r;
 }
-HAMFLOW_INLINE Eight operator*(const Eight& a, const Eight& b) {
-  Eight r;
+template <int N>
+HAMFLOW_INLINE Group<N> operator*(const Group<N>& a, const Group<N>& b) {
+  Group<N> r;
   HAMFLOW_EACH r.v[n] = a.v[n] * b.v[n];
   return r;
 }
-HAMFLOW_INLINE Eight operator/(const Eight& a, const Eight& b) {
-  Eight r;
+template <int N>
+HAMFLOW_INLINE Group<N> operator/(const Group<N>& a, const Group<N>& b) {
+  Group<N> r;
   HAMFLOW_EACH r.v[n] = a.v[n] / b.v[n];
   return r;
 }
-HAMFLOW_INLINE Eight root(const Eight& a) {
-  Eight r;
+template <int N>
+HAMFLOW_INLINE Group<N> root(const Group<N>& a) {
+  Group<N> r;
 #if HAMFLOW_NATIVE_BYTES == 64
   HAMFLOW_EACH r.v[n] = (Native)_mm512_sqrt_pd((__m512d)a.v[n]);
 #elif HAMFLOW_NATIVE_BYTES == 32
@@ -65,8 +81,9 @@ HAMFLOW_INLINE Eight root(const Eight& a) {
   return r;
 }
 /// 0 where x is below it. NaN stays.
-HAMFLOW_INLINE Eight not_below_zero(const Eight& x) {
-  Eight r;
+template <int N>
+HAMFLOW_INLINE Group<N> not_below_zero(const Group<N>& x) {
+  Group<N> r;
 #if HAMFLOW_NATIVE_BYTES == 64
   HAMFLOW_EACH r.v[n] = (Native)_mm512_max_pd(_mm512_setzero_pd(), (__m512d)x.v[n]);
 #elif HAMFLOW_NATIVE_BYTES == 32
@@ -77,9 +94,10 @@ HAMFLOW_INLINE Eight not_below_zero(const Eight& x) {
   return r;
 }
 /// a b + c, one rounding in kernel fast, two in kernel exact.
-HAMFLOW_INLINE Eight times_plus(const Eight& a, const Eight& b, const Eight& c) {
+template <int N>
+HAMFLOW_INLINE Group<N> times_plus(const Group<N>& a, const Group<N>& b, const Group<N>& c) {
 #if HAMFLOW_BULK_FAST
-  Eight r;
+  Group<N> r;
 #if HAMFLOW_NATIVE_BYTES == 64
   HAMFLOW_EACH r.v[n] = (Native)_mm512_fmadd_pd((__m512d)a.v[n], (__m512d)b.v[n], (__m512d)c.v[n]);
 #else
@@ -91,9 +109,10 @@ HAMFLOW_INLINE Eight times_plus(const Eight& a, const Eight& b, const Eight& c) 
 #endif
 }
 /// c - a b, likewise.
-HAMFLOW_INLINE Eight minus_times(const Eight& c, const Eight& a, const Eight& b) {
+template <int N>
+HAMFLOW_INLINE Group<N> minus_times(const Group<N>& c, const Group<N>& a, const Group<N>& b) {
 #if HAMFLOW_BULK_FAST
-  Eight r;
+  Group<N> r;
 #if HAMFLOW_NATIVE_BYTES == 64
   HAMFLOW_EACH r.v[n] = (Native)_mm512_fnmadd_pd((__m512d)a.v[n], (__m512d)b.v[n], (__m512d)c.v[n]);
 #else
@@ -117,36 +136,71 @@ HAMFLOW_INLINE unsigned below(const Eight& x, const Eight& limit) {
 #else
   unsigned bits = 0;
 #if HAMFLOW_NATIVE_BYTES == 32
-  HAMFLOW_EACH bits |= (unsigned)_mm256_movemask_pd(_mm256_cmp_pd((__m256d)x.v[n], (__m256d)limit.v[n], _CMP_NGE_UQ))
-                       << (n * lanes);
+  for (int n = 0; n < natives; ++n)
+    bits |= (unsigned)_mm256_movemask_pd(_mm256_cmp_pd((__m256d)x.v[n], (__m256d)limit.v[n], _CMP_NGE_UQ))
+            << (n * lanes);
 #else
-  HAMFLOW_EACH bits |= (unsigned)_mm_movemask_pd(_mm_cmpnge_pd((__m128d)x.v[n], (__m128d)limit.v[n])) << (n * lanes);
+  for (int n = 0; n < natives; ++n)
+    bits |= (unsigned)_mm_movemask_pd(_mm_cmpnge_pd((__m128d)x.v[n], (__m128d)limit.v[n])) << (n * lanes);
 #endif
   return bits;
 #endif
 }
-/// x where a bit is set, else another number.
-HAMFLOW_INLINE Eight where(unsigned bits, const Eight& x, double other) {
-  Eight r;
+
+/// Which numbers of a part count.
 #if HAMFLOW_NATIVE_BYTES == 64
-  r.v[0] = (Native)_mm512_mask_mov_pd(_mm512_set1_pd(other), (__mmask8)bits, (__m512d)x.v[0]);
+using Mask = __mmask8;
 #else
-  HAMFLOW_EACH {
-    NativeBits mask;
-    for (int k = 0; k < lanes; ++k) mask[k] = -(long long)((bits >> (n * lanes + k)) & 1);
-    r.v[n] = (Native)(((NativeBits)x.v[n] & mask) | ((NativeBits)(other - Native{}) & ~mask));
+using Mask = NativeBits;
+struct Masks {
+  long long of[1 << lanes][lanes];
+};
+constexpr Masks every_mask() {
+  Masks m{};
+  for (int bits = 0; bits < 1 << lanes; ++bits) {
+    for (int k = 0; k < lanes; ++k) m.of[bits][k] = -((bits >> k) & 1);
   }
-#endif
-  return r;
+  return m;
 }
+alignas(HAMFLOW_NATIVE_BYTES) constexpr Masks masks = every_mask();
+#endif
+/// @param bits of the eight @param part which of their parts
+HAMFLOW_INLINE Mask mask_of(unsigned bits, [[maybe_unused]] int part) {
+#if HAMFLOW_NATIVE_BYTES == 64
+  return (Mask)bits;
+#else
+  Mask mask;
+  __builtin_memcpy(&mask, masks.of[(bits >> (part * lanes)) & ((1u << lanes) - 1)], sizeof mask);
+  return mask;
+#endif
+}
+/// x where the mask says so, else another number.
+HAMFLOW_INLINE Part where(Mask mask, const Part& x, double other) {
+#if HAMFLOW_NATIVE_BYTES == 64
+  return {{(Native)_mm512_mask_mov_pd(_mm512_set1_pd(other), mask, (__m512d)x.v[0])}};
+#else
+  return {{(Native)(((NativeBits)x.v[0] & mask) | ((NativeBits)(other - Native{}) & ~mask))}};
+#endif
+}
+
+typedef double Four __attribute__((vector_size(32)));
+typedef double Two __attribute__((vector_size(16)));
 
 /// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)).
 HAMFLOW_INLINE double sum_of(const Eight& x) {
-  double e[8];
-  store(x, e);
-  return ((e[0] + e[4]) + (e[2] + e[6])) + ((e[1] + e[5]) + (e[3] + e[7]));
+#if HAMFLOW_NATIVE_BYTES == 16
+  const Two two = (x.v[0] + x.v[2]) + (x.v[1] + x.v[3]);
+#else
+#if HAMFLOW_NATIVE_BYTES == 64
+  const Four four =
+      __builtin_shufflevector(x.v[0], x.v[0], 0, 1, 2, 3) + __builtin_shufflevector(x.v[0], x.v[0], 4, 5, 6, 7);
+#else
+  const Four four = x.v[0] + x.v[1];
+#endif
+  const Two two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+#endif
+  return two[0] + two[1];
 }
-
 #if HAMFLOW_NATIVE_BYTES == 32
 /// Which halves of numbers go where when those of four bits are moved together.
 struct Packing {
@@ -174,7 +228,7 @@ HAMFLOW_INLINE void append(unsigned bits, const Eight& x, double* to) {
 #if HAMFLOW_NATIVE_BYTES == 64
   _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, (__m512d)x.v[0]));
 #elif HAMFLOW_NATIVE_BYTES == 32
-  HAMFLOW_EACH {
+  for (int n = 0; n < natives; ++n) {
     const unsigned four = (bits >> (4 * n)) & 15;
     const __m256i halves = _mm256_load_si256((const __m256i*)packed.halves[four]);
     _mm256_storeu_si256((__m256i*)to, _mm256_permutevar8x32_epi32((__m256i)x.v[n], halves));
@@ -222,7 +276,7 @@ HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eig
   z.v[0] = (Native)_mm512_permutex2var_pd(xz, high, xz2);
   w.v[0] = (Native)_mm512_permutex2var_pd(yw, high, yw2);
 #elif HAMFLOW_NATIVE_BYTES == 32
-  HAMFLOW_EACH {
+  for (int n = 0; n < natives; ++n) {
     const __m256d a = _mm256_load_pd(row(4 * n));
     const __m256d b = _mm256_load_pd(row(4 * n + 1));
     const __m256d c = _mm256_load_pd(row(4 * n + 2));
@@ -237,7 +291,7 @@ HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eig
     w.v[n] = (Native)_mm256_permute2f128_pd(yw, yw2, 0x31);
   }
 #else
-  HAMFLOW_EACH {
+  for (int n = 0; n < natives; ++n) {
     const __m128d a = _mm_load_pd(row(2 * n));
     const __m128d a2 = _mm_load_pd(row(2 * n) + 2);
     const __m128d b = _mm_load_pd(row(2 * n + 1));

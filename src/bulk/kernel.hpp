@@ -48,7 +48,7 @@ struct Candidates {
   const std::uint32_t* counts = nullptr;  // of each row
 };
 
-/// With lists, of one worker: for two rows each u, d_x, d_y, d_z, w of those in range. Without, of one block of rows:
+/// With lists, of one worker: for two rows each d_x, d_y, d_z, w of those in range. Without, of one block of rows:
 /// the forces that it adds, coordinate by coordinate.
 struct Scratch {
   double* memory = nullptr;

@@ -1,6 +1,5 @@
 // The kernels, compiled once for each instruction set: HAMFLOW_BULK_KERNELS names their table, HAMFLOW_BULK_FAST is 0
-// or
-// 1. Everything is of this file alone: an inline function of a library, compiled here, could be linked elsewhere.
+// or 1. Everything is of this file alone: an inline function of a library, compiled here, could be linked elsewhere.
 #include <immintrin.h>
 
 #include "kernel.hpp"
@@ -13,13 +12,25 @@ namespace {
 
 constexpr std::size_t most_lanes = 8;
 
+/// work(Index<0>), work(Index<1>), ...: written out, so that what is indexed stands in registers.
+template <int n>
+struct Index {
+  static constexpr int value = n;
+};
+template <int count, int at = 0, class Work>
+HAMFLOW_INLINE void each(const Work& work) {
+  if constexpr (at < count) {
+    work(Index<at>{});
+    each<count, at + 1>(work);
+  }
+}
+
 /// The partial sums of one row.
 template <int Space>
 struct Sums {
   Eight force[Space];
   Eight energy;
 };
-
 template <int Space>
 HAMFLOW_INLINE Sums<Space> nothing() {
   Sums<Space> sums;
@@ -27,54 +38,106 @@ HAMFLOW_INLINE Sums<Space> nothing() {
   sums.energy = all(0);
   return sums;
 }
-template <int Space, bool Energy>
-HAMFLOW_INLINE void add(const Pair& pair, const Eight (&d)[Space], Sums<Space>& sums) {
-  for (int k = 0; k < Space; ++k) sums.force[k] = times_plus(pair.c, d[k], sums.force[k]);
-  if constexpr (Energy) sums.energy = sums.energy + pair.phi;
-}
-template <int Space, bool Energy>
-HAMFLOW_INLINE void write(const Rows& rows, std::size_t particle, double w, const Sums<Space>& sums) {
-  const double strength = rows.times_strength ? w : 1;
-  for (int k = 0; k < Space; ++k) {
-    rows.force[particle * Space + k] = sum_of(sums.force[k]) * (rows.force_factor * strength);
-  }
-  if constexpr (Energy) rows.energy[particle] = sum_of(sums.energy) * strength;
-}
 
-/// u and the differences of eight pairs.
+/// A part of eight pairs: u and the differences.
 template <int Space>
 struct Distance {
-  Eight u;
-  Eight d[Space];
+  Part u;
+  Part d[Space];
 };
 
-/// Sixteen pairs.
-template <class L, class C, int Space, bool Energy>
-struct Sixteen {
-  Distance<Space> a;
-  Distance<Space> b;
-  Eight weights_a;
-  Eight weights_b;
-  typename L::Inverses s;
+/// Rows i .. i + Tile - 1 of the same sixteen particles, which share what is read and written of the others.
+template <class L, int Space, bool Energy, int Tile>
+struct RowTile {
+  Part centre[Tile][Space];
+  Part weight[Tile];
+  Sums<Space> sums[Tile];
 
-  HAMFLOW_INLINE void begin(const Law& law) { s.begin(L::numerator(law), L::base(law, a.u), L::base(law, b.u)); }
-  HAMFLOW_INLINE void end(const Law& law, Sums<Space>& sums) {
-    s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
-    add<Space, Energy>(C::of(law, a.u, weights_a, L::of(law, s.first, weights_a), L::weighs), a.d, sums);
-    add<Space, Energy>(C::of(law, b.u, weights_b, L::of(law, s.second, weights_b), L::weighs), b.d, sums);
+  HAMFLOW_INLINE RowTile(const Rows& rows, std::size_t i) {
+    each<Tile>([&](auto row) __attribute__((always_inline)) {
+      constexpr int t = decltype(row)::value;
+      for (int k = 0; k < Space; ++k) centre[t][k] = all<Part>(rows.x[k][i + t]);
+      weight[t] = all<Part>(L::weighs ? rows.w[i + t] : 1);
+      sums[t] = nothing<Space>();
+    });
   }
-  /// Those whose bits are set; what the others hold does not count.
-  HAMFLOW_INLINE void add_some(const Law& law, unsigned bits, Sums<Space>& sums) {
-    a.u = where(bits, a.u, 1);
-    b.u = where(bits >> 8, b.u, 1);
-    begin(law);
-    s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
-    Pair pair = C::of(law, a.u, weights_a, L::of(law, s.first, weights_a), L::weighs);
-    add<Space, Energy>({where(bits, pair.c, 0), where(bits, pair.phi, 0)}, a.d, sums);
-    pair = C::of(law, b.u, weights_b, L::of(law, s.second, weights_b), L::weighs);
-    add<Space, Energy>({where(bits >> 8, pair.c, 0), where(bits >> 8, pair.phi, 0)}, b.d, sums);
+  /// @param bits of the sixteen from j on, row by row: which of them count, where only some do
+  template <bool Some>
+  HAMFLOW_INLINE void visit(const Rows& rows, const Law& law, std::size_t j, const unsigned (&bits)[Tile],
+                            double* const (&force)[Space]) {
+    each<natives>([&](auto part) __attribute__((always_inline)) {
+      constexpr int n = decltype(part)::value;
+      const std::size_t a = j + n * lanes;
+      const std::size_t b = a + 8;
+      Part x[2][Space];
+      Part other[2][Space];
+      for (int k = 0; k < Space; ++k) {
+        x[0][k] = load<Part>(rows.x[k] + a);
+        x[1][k] = load<Part>(rows.x[k] + b);
+        if constexpr (Tile > 1) {
+          other[0][k] = load<Part>(force[k] + a);
+          other[1][k] = load<Part>(force[k] + b);
+        }
+      }
+      each<Tile>([&](auto row) __attribute__((always_inline)) {
+        constexpr int t = decltype(row)::value;
+        const auto from = [&](const Part(&at)[Space]) __attribute__((always_inline)) {
+          Distance<Space> r;
+          for (int k = 0; k < Space; ++k) {
+            r.d[k] = centre[t][k] - at[k];
+            r.u = k == 0 ? r.d[k] * r.d[k] : times_plus(r.d[k], r.d[k], r.u);
+          }
+          return r;
+        };
+        const auto both = [&](const Pair& pair, const Distance<Space>& r, Part(&others)[Space], std::size_t at)
+            __attribute__((always_inline)) {
+          for (int k = 0; k < Space; ++k) {
+            const Part push = pair.c * r.d[k];
+            sums[t].force[k].v[n] = sums[t].force[k].v[n] + push.v[0];
+            if constexpr (Tile > 1) {
+              others[k] = others[k] - push;
+            } else {
+              store(load<Part>(force[k] + at) - push, force[k] + at);
+            }
+          }
+          if constexpr (Energy) sums[t].energy.v[n] = sums[t].energy.v[n] + pair.phi.v[0];
+        };
+        const auto weights = [&](std::size_t at) __attribute__((always_inline)) {
+          return L::weighs ? weight[t] * load<Part>(rows.w + at) : weight[t];
+        };
+        Distance<Space> to_a = from(x[0]);
+        Distance<Space> to_b = from(x[1]);
+        [[maybe_unused]] const Mask counts_a = mask_of(bits[t], n);
+        [[maybe_unused]] const Mask counts_b = mask_of(bits[t] >> 8, n);
+        if constexpr (Some) {
+          to_a.u = where(counts_a, to_a.u, 1);
+          to_b.u = where(counts_b, to_b.u, 1);
+        }
+        typename L::Inverses s;
+        s.begin(L::numerator(law), L::base(law, to_a.u), L::base(law, to_b.u));
+        s.end(L::numerator(law), L::base(law, to_a.u), L::base(law, to_b.u));
+        Pair pair = L::of(law, s.first, weights(a));
+        if constexpr (Some) pair = {where(counts_a, pair.c, 0), where(counts_a, pair.phi, 0)};
+        both(pair, to_a, other[0], a);
+        pair = L::of(law, s.second, weights(b));
+        if constexpr (Some) pair = {where(counts_b, pair.c, 0), where(counts_b, pair.phi, 0)};
+        both(pair, to_b, other[1], b);
+      });
+      if constexpr (Tile > 1) {
+        for (int k = 0; k < Space; ++k) {
+          store(other[0][k], force[k] + a);
+          store(other[1][k], force[k] + b);
+        }
+      }
+    });
   }
 };
+
+/// Rows at a time where there are registers for them.
+template <int Space>
+constexpr int rows_of_tile = natives > 1  ? 1
+                             : Space == 2 ? 4
+                                          : 2;
 
 /// All pairs i < j of the rows i, each once: j is added to the (j mod 8)-th partial sum of the row, and what it feels
 /// to the forces of these rows (Scratch), which are summed over rows later.
@@ -83,72 +146,45 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
                       const Scratch& scratch) {
   const Law law = rows.law;
   const std::size_t whole = rows.particles / 16 * 16;
+  const unsigned rest = (1u << (rows.particles - whole)) - 1;
   double* force[Space];
   for (int k = 0; k < Space; ++k) force[k] = scratch.memory + static_cast<std::size_t>(k) * scratch.row;
-  for (std::size_t i = first; i < last; ++i) {
-    Eight centre[Space];
-    for (int k = 0; k < Space; ++k) centre[k] = all(rows.x[k][i]);
-    const Eight own_weight = all(L::weighs ? rows.w[i] : 1);
-    Sums<Space> sums = nothing<Space>();
-    const auto at = [&](std::size_t j) __attribute__((always_inline)) {
-      Distance<Space> r;
-      for (int k = 0; k < Space; ++k) {
-        r.d[k] = centre[k] - load(rows.x[k] + j);
-        r.u = k == 0 ? r.d[k] * r.d[k] : times_plus(r.d[k], r.d[k], r.u);
-      }
-      return r;
-    };
-    const auto weights = [&](std::size_t j) __attribute__((always_inline)) {
-      return L::weighs ? own_weight * load(rows.w + j) : own_weight;
-    };
-    const auto both = [&](std::size_t j, const Pair& pair, const Distance<Space>& r) __attribute__((always_inline)) {
-      for (int k = 0; k < Space; ++k) {
-        const Eight other = load(force[k] + j);
-#if HAMFLOW_BULK_FAST
-        sums.force[k] = times_plus(pair.c, r.d[k], sums.force[k]);
-        store(minus_times(other, pair.c, r.d[k]), force[k] + j);
-#else
-        const Eight push = pair.c * r.d[k];
-        sums.force[k] = sums.force[k] + push;
-        store(other - push, force[k] + j);
-#endif
-      }
-      if constexpr (Energy) sums.energy = sums.energy + pair.phi;
-    };
-    const auto visit_some = [&](std::size_t j, unsigned bits) {
-      Distance<Space> a = at(j);
-      Distance<Space> b = at(j + 8);
-      a.u = where(bits, a.u, 1);
-      b.u = where(bits >> 8, b.u, 1);
-      typename L::Inverses s;
-      s.begin(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
-      s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
-      Pair pair = L::of(law, s.first, weights(j));
-      both(j, {where(bits, pair.c, 0), where(bits, pair.phi, 0)}, a);
-      pair = L::of(law, s.second, weights(j + 8));
-      both(j + 8, {where(bits >> 8, pair.c, 0), where(bits >> 8, pair.phi, 0)}, b);
-    };
+  std::size_t i = first;
+  while (i < last) {
     const std::size_t own = i / 16 * 16;
-    const unsigned later = (0xfffeu << (i - own)) & 0xffff;
-    const unsigned rest = (1u << (rows.particles - whole)) - 1;
-    visit_some(own, own < whole ? later : later & rest);
-    for (std::size_t j = own + 16; j < whole; j += 16) {
-      const Distance<Space> a = at(j);
-      const Distance<Space> b = at(j + 8);
-      typename L::Inverses s;
-      s.begin(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
-      s.end(L::numerator(law), L::base(law, a.u), L::base(law, b.u));
-      both(j, L::of(law, s.first, weights(j)), a);
-      both(j + 8, L::of(law, s.second, weights(j + 8)), b);
+    const std::size_t end = own + 16 < last ? own + 16 : last;
+    alignas(64) double own_force[Space][16] = {};  // added when no other row of the sixteen reads it any more
+    const auto add_rows = [&](auto tile) __attribute__((always_inline)) {
+      constexpr int Tile = decltype(tile)::value;
+      RowTile<L, Space, Energy, Tile> t(rows, i);
+      unsigned bits[Tile];
+      for (unsigned r = 0; r < Tile; ++r) bits[r] = (0xfffeu << (i + r - own)) & (own < whole ? 0xffff : rest);
+      t.template visit<true>(rows, law, own, bits, force);
+      for (std::size_t j = own + 16; j < whole; j += 16) t.template visit<false>(rows, law, j, bits, force);
+      if (own < whole && rest != 0) {
+        for (unsigned& r : bits) r = rest;
+        t.template visit<true>(rows, law, whole, bits, force);
+      }
+      for (std::size_t r = 0; r < Tile; ++r) {
+        for (int k = 0; k < Space; ++k) own_force[k][i + r - own] = sum_of(t.sums[r].force[k]);
+        if constexpr (Energy) rows.energy[i + r] = sum_of(t.sums[r].energy);
+      }
+      i += Tile;
+    };
+    constexpr int Tile = rows_of_tile<Space>;
+    while (i + Tile <= end) add_rows(Index<Tile>{});
+    if constexpr (Tile > 1) {
+      while (i < end) add_rows(Index<1>{});
     }
-    if (own < whole && rest != 0) visit_some(whole, rest);
-    for (int k = 0; k < Space; ++k) force[k][i] += sum_of(sums.force[k]);
-    if constexpr (Energy) rows.energy[i] = sum_of(sums.energy);
+    for (int k = 0; k < Space; ++k) {
+      for (std::size_t j = 0; j < 16; j += 8)
+        store(load(force[k] + own + j) + load(own_force[k] + j), force[k] + own + j);
+    }
   }
   return 0;
 }
 
-/// Those in range of one row, moved together.
+/// The differences of those in range of one row, and their w, moved together.
 template <class L, int Space, bool Images>
 HAMFLOW_INLINE std::size_t pack(const Rows& rows, std::size_t i, const std::uint32_t* slots, std::size_t count,
                                 double* to, std::size_t stride) {
@@ -171,12 +207,47 @@ HAMFLOW_INLINE std::size_t pack(const Rows& rows, std::size_t i, const std::uint
     }
     unsigned bits = below(u, limit);
     if (count - j < most_lanes) bits &= (1u << (count - j)) - 1;
-    append(bits, u, to + found);
-    for (int k = 0; k < Space; ++k) append(bits, d[k], to + static_cast<std::size_t>(k + 1) * stride + found);
-    if constexpr (L::weighs) append(bits, x[3], to + 4 * stride + found);
+    for (int k = 0; k < Space; ++k) append(bits, d[k], to + static_cast<std::size_t>(k) * stride + found);
+    if constexpr (L::weighs) append(bits, x[3], to + 3 * stride + found);
     found += static_cast<std::size_t>(__builtin_popcount(bits));
   }
   return found;
+}
+
+/// Sixteen pairs of one row, or some of them. u is made again, with the bits that it had: that is less than to move it.
+template <class L, class C, int Space, bool Energy, bool Some>
+HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t stride, unsigned bits,
+                                Sums<Space>& sums) {
+  each<natives>([&](auto part) __attribute__((always_inline)) {
+    constexpr int n = decltype(part)::value;
+    Distance<Space> r[2];
+    Part w[2];
+    Mask counts[2];
+    each<2>([&](auto half) __attribute__((always_inline)) {
+      constexpr int h = decltype(half)::value;
+      counts[h] = mask_of(bits >> (8 * h), n);
+      const double* const here = from + 8 * h + n * lanes;
+      for (int k = 0; k < Space; ++k) {
+        r[h].d[k] = load<Part>(here + static_cast<std::size_t>(k) * stride);
+        if constexpr (Some) r[h].d[k] = where(counts[h], r[h].d[k], 0);  // what was there before may be no number
+        r[h].u = k == 0 ? r[h].d[k] * r[h].d[k] : times_plus(r[h].d[k], r[h].d[k], r[h].u);
+      }
+      if constexpr (Some) r[h].u = where(counts[h], r[h].u, 1);
+      w[h] = L::weighs ? load<Part>(here + 3 * stride) : all<Part>(1);
+    });
+    typename L::Inverses s;
+    s.begin(L::numerator(law), L::base(law, r[0].u), L::base(law, r[1].u));
+    s.end(L::numerator(law), L::base(law, r[0].u), L::base(law, r[1].u));
+    each<2>([&](auto half) __attribute__((always_inline)) {
+      constexpr int h = decltype(half)::value;
+      Pair pair = C::of(law, r[h].u, w[h], L::of(law, h == 0 ? s.first : s.second, w[h]), L::weighs);
+      if constexpr (Some) pair = {where(counts[h], pair.c, 0), where(counts[h], pair.phi, 0)};
+      for (int k = 0; k < Space; ++k) {
+        sums.force[k].v[n] = times_plus(pair.c, r[h].d[k], Part{{sums.force[k].v[n]}}).v[0];
+      }
+      if constexpr (Energy) sums.energy.v[n] = sums.energy.v[n] + pair.phi.v[0];
+    });
+  });
 }
 
 /// Neighbours in range by lists: the k-th is added to the (k mod 8)-th partial sum. While one row is summed the next
@@ -188,7 +259,7 @@ std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, 
   std::uint64_t pairs = 0;
   const auto packed_row = [&](std::size_t i) __attribute__((always_inline)) {
     const std::size_t row = i - first;
-    double* const to = scratch.memory + (row % 2) * 5 * scratch.row;
+    double* const to = scratch.memory + (row % 2) * 4 * scratch.row;
     const std::uint32_t* const slots = candidates.slots + candidates.begins[row];
     const std::size_t count = candidates.counts[row];
     return rows.plain[i] ? pack<L, Space, false>(rows, i, slots, count, to, scratch.row)
@@ -196,39 +267,23 @@ std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, 
   };
   std::size_t next = first < last ? packed_row(first) : 0;
   for (std::size_t i = first; i < last; ++i) {
-    const double* const from = scratch.memory + ((i - first) % 2) * 5 * scratch.row;
+    const double* const from = scratch.memory + ((i - first) % 2) * 4 * scratch.row;
     const std::size_t count = next;
     if (i + 1 < last) next = packed_row(i + 1);
     pairs += count;
     Sums<Space> sums = nothing<Space>();
-    const auto at = [&](std::size_t j) __attribute__((always_inline)) {
-      Distance<Space> r;
-      r.u = load(from + j);
-      for (int k = 0; k < Space; ++k) r.d[k] = load(from + static_cast<std::size_t>(k + 1) * scratch.row + j);
-      return r;
-    };
-    const auto weights = [&](std::size_t j) __attribute__((always_inline)) {
-      return L::weighs ? load(from + 4 * scratch.row + j) : all(1);
-    };
-    const auto sixteen = [&](std::size_t j) __attribute__((always_inline)) {
-      return Sixteen<L, C, Space, Energy>{at(j), at(j + 8), weights(j), weights(j + 8), {}};
-    };
     std::size_t j = 0;
     for (; j + 16 <= count; j += 16) {
-      auto now = sixteen(j);
-      now.begin(law);
-      now.end(law, sums);
+      add_sixteen<L, C, Space, Energy, false>(law, from + j, scratch.row, 0xffff, sums);
     }
-    if (j < count) {
-      const unsigned bits = (1u << (count - j)) - 1;
-      auto rest = sixteen(j);
-      for (int k = 0; k < Space; ++k) {  // what was there before may be no number
-        rest.a.d[k] = where(bits, rest.a.d[k], 0);
-        rest.b.d[k] = where(bits >> 8, rest.b.d[k], 0);
-      }
-      rest.add_some(law, bits, sums);
+    if (j < count) add_sixteen<L, C, Space, Energy, true>(law, from + j, scratch.row, (1u << (count - j)) - 1, sums);
+    const std::size_t particle = rows.number[i];
+    const double strength = rows.times_strength ? rows.at[4 * i + 3] : 1;
+    for (int k = 0; k < Space; ++k) {
+      rows.force[particle * Space + static_cast<std::size_t>(k)] =
+          sum_of(sums.force[k]) * (rows.force_factor * strength);
     }
-    write<Space, Energy>(rows, rows.number[i], L::weighs ? rows.at[4 * i + 3] : 1, sums);
+    if constexpr (Energy) rows.energy[particle] = sum_of(sums.energy) * strength;
   }
   return pairs;
 }

@@ -6,7 +6,7 @@
 
 #include "csv_file.hpp"
 #include "hamflow/core/hash.hpp"
-#include "hamflow/core/inverse_cube.hpp"
+#include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr double checkpoint_seconds = 10;
 const char* const what_to_do = "; give --out another folder, or --force to begin anew";
 
-std::string instruction_set() { return std::string(name(fast_kernel_instruction_set())); }
+std::string instruction_set(const Scenario& scenario) { return std::string(fast_instruction_set(scenario.request)); }
 
 std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
@@ -64,8 +64,8 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     complain("hamflow", std::string("found version " HAMFLOW_VERSION "; allowed with --resume version ") +
                             checkpoint.version + ", with which the run began");
   }
-  if (scenario.request.kernel == "fast" && checkpoint.instruction_set != instruction_set()) {
-    complain(run_path(run_keys().kernel), "found \"fast\" with the instruction set " + instruction_set() +
+  if (scenario.request.kernel == "fast" && checkpoint.instruction_set != instruction_set(scenario)) {
+    complain(run_path(run_keys().kernel), "found \"fast\" with the instruction set " + instruction_set(scenario) +
                                               "; allowed with --resume the instruction set " +
                                               checkpoint.instruction_set + ", with which the run began");
   }
@@ -76,7 +76,7 @@ Checkpoint beginning_of(const Scenario& scenario, const std::string& identity) {
   Checkpoint checkpoint;
   checkpoint.identity = identity;
   checkpoint.version = HAMFLOW_VERSION;
-  checkpoint.instruction_set = instruction_set();
+  checkpoint.instruction_set = instruction_set(scenario);
   for (const auto& [key, setting] : scenario.settings) {
     checkpoint.keys.push_back(key);
     checkpoint.values.push_back(setting.text);

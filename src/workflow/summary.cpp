@@ -11,7 +11,6 @@
 
 #include "bounce_names.hpp"
 #include "certificate_json.hpp"
-#include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
@@ -241,7 +240,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["method"] = describe(scenario.request.method).name;
   s["arithmetic"] = scenario.request.arithmetic;
   s["kernel"] = scenario.request.kernel;
-  if (scenario.request.kernel == "fast") s["instruction_set"] = std::string(name(fast_kernel_instruction_set()));
+  if (scenario.request.kernel == "fast") s["instruction_set"] = std::string(fast_instruction_set(scenario.request));
   if (scenario.request.arithmetic == "lattice") {
     s["lattice"] = {{"position", scenario.request.position_unit}, {"momentum", scenario.request.momentum_unit}};
   }

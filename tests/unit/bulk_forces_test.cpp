@@ -319,6 +319,48 @@ TEST(BulkForces, HaveTheSameBitsForAnyThreadsWithoutLists) {
   }
 }
 
+/// Of what kernel exact makes of a jittered lattice: forces and potential.
+std::uint64_t hash_of_forces(BulkPairSystem s, std::size_t per_side, BulkSet set) {
+  const auto q = lattice(s.space, per_side, 0.15, -0.5 * static_cast<double>(per_side));
+  s.particles = q.size() / s.space;
+  if (s.law == Kind::newton) {
+    for (std::size_t i = 0; i < s.particles; ++i) s.strengths.push_back(0.5 + static_cast<double>(i % 5));
+  }
+  std::vector<double> f(q.size());
+  const BulkForces forces(s, BulkKernel::exact, set);
+  forces.use_threads(2);
+  f.push_back(forces.force_and_potential(q.data(), f.data()));
+  std::uint64_t hash = 1;
+  for (const double y : f) hash = hash * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(y);
+  return hash;
+}
+
+// Runs are resumed by later versions: the bits of exact are part of what it promises. Only +, -, *, / and roots make
+// them, so that these hashes hold on every machine.
+TEST(BulkForces, HaveTheBitsThatTheyHadInTheFirstVersion) {
+  BulkPairSystem s;
+  s.sigma = 1.1;
+  s.radius = 2.45;
+  s.inner = 1.9;
+  BulkPairSystem attracting = s;
+  attracting.space = 3;
+  attracting.law = Kind::newton;
+  attracting.softening = 0.125;
+  for (const BulkSet set : sets()) {
+    EXPECT_EQ(hash_of_forces(s, 3, set), 0x39fd4901f4eb2fd8u);  // one group of sixteen
+    EXPECT_EQ(hash_of_forces(s, 11, set), 0xd0854eaf899fb467u);
+    EXPECT_EQ(hash_of_forces(attracting, 4, set), 0x1da201ed15af95a8u);  // whole groups of sixteen
+    EXPECT_EQ(hash_of_forces(attracting, 5, set), 0x9206d22c70d2af74u);
+    BulkPairSystem cut = s;
+    cut.cutoff = Cutoff::force_shifted;
+    cut.edges = {11, 11.5, 0};
+    EXPECT_EQ(hash_of_forces(cut, 11, set), 0x239e0efc26587eacu);
+    cut = attracting;
+    cut.cutoff = Cutoff::smooth;
+    EXPECT_EQ(hash_of_forces(cut, 6, set), 0x0a64ea4336f16596u);
+  }
+}
+
 TEST(BulkForces, GiveThePotentialOfTheLastForceWithoutAnotherPass) {
   const BulkPairSystem s = melt(2, 8);
   auto q = lattice(2, 8, 0.1, 0);
