@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from command import EXAMPLES, HAMFLOW, CommandCase
+from command import HAMFLOW, CommandCase
 
 LONG = """
 [problem]
@@ -89,17 +89,6 @@ class Files(CommandCase):
     def test_out_none_writes_nothing(self):
         self.hamflow("run", "kepler.toml", "--out", "none", "--set", "output.figures=['orbit']")
         self.assertEqual([p.name for p in self.folder.iterdir()], ["kepler.toml"])
-
-    def test_what_the_planets_are_measured_in(self):
-        import h5py
-        self.hamflow("run", str(EXAMPLES / "solar_system.toml"), "--set", "run.steps=2", "--set", "output.figures=[]", "--out", "sun.run")
-        with h5py.File(self.folder / "sun.run" / "run.h5") as file:
-            units = {name: file[name].attrs["unit"] for name in ("t", "q", "p", "energy")}
-            self.assertEqual(units, {"t": "day", "q": "AU", "p": "solar mass AU/day", "energy": "solar mass AU^2/day^2"})
-            self.assertEqual(len(file.attrs["masses"]), 6)
-        self.hamflow("run", "kepler.toml")
-        with h5py.File(self.folder / "kepler.run" / "run.h5") as file:
-            self.assertNotIn("unit", file["q"].attrs)  # those of the input
 
     def test_a_full_disk_is_said(self):
         done = self.hamflow("list", "methods")

@@ -111,6 +111,13 @@ class FilesDocument(CommandCase):
         self.hamflow("run", eight, "--set", "output.figures=[]", "--set", "run.steps=10", "--out", "eight", "--quiet")
         self.assertEqual(self.looked_up(names, "eight/run.h5")[1], [f"p_{x}{i}" for i in (1, 2, 3) for x in "xy"])
         self.assertEqual(self.looked_up("f.attrs['masses'].tolist()", "eight/run.h5"), [1, 1, 1])
+        self.assertFalse(self.looked_up("'unit' in f['q'].attrs", "eight/run.h5"))  # those of the input
+        self.hamflow("run", EXAMPLES / "solar_system.toml", "--set", "output.figures=[]", "--set", "run.steps=2", "--out", "sun",
+                     "--quiet")
+        units = "[f[name].attrs['unit'].decode() for name in ('t', 'q', 'p', 'energy', 'invariants/angular_momentum')]"
+        self.assertEqual(self.looked_up(units, "sun/run.h5"),
+                         ["day", "AU", "solar mass AU/day", "solar mass AU^2/day^2", "solar mass AU^2/day"])
+        self.assertAlmostEqual(self.looked_up("f.attrs['masses'].tolist()", "sun/run.h5")[0], 1.00000597682)
         # Every dataset of samples says what its columns are.
         untold = ("[name for name in ('t', 'step', 'q', 'p', 'energy', 'invariants/angular_momentum', 'solver/force',"
                   "'solver/gradient', 'solver/hessian', 'solver/linear_solves', 'events/halved')"
