@@ -11,11 +11,14 @@ namespace hamflow::app {
 
 int reverse_command(const ReverseOptions& options) {
   return guarded(options.json, [&] {
+    const bool writes = !options.out.empty() && options.out != "none";
+    if (options.resume && !writes)
+      throw Error("found --resume without a folder; allowed with --out DIR, where the reversal is");
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
     note_unused_measures(scenario, "a reversal takes every step and asks what came back", options.quiet);
     ReversalSettings settings;
-    if (options.out != "none") settings.folder = options.out;
+    if (writes) settings.folder = options.out;
     settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
     settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
     catch_interrupts();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/inverse_cube.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 
 namespace hamflow {
@@ -73,6 +74,46 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
                                                  dt, whose, period / (2 * steps_per_period))));
 }
 
+/// Where two Lennard-Jones particles repel each other with no energy left, in the lengths of the positions; 0 of
+/// others.
+double core_of(const Scenario& scenario) {
+  if (scenario.request.problem != GasKeys::problem) return 0;
+  const auto pair = scenario.request.variant.find(GasKeys::pair);
+  if (pair != scenario.request.variant.end() && pair->second != "lennard-jones") return 0;
+  const Parameters<double> given(scenario.request.parameters);
+  const bool usual_form = given.has("sigma") || given.has("epsilon");
+  const double zero = given.has("sigma") ? given["sigma"] : usual_form ? 1 : std::pow(0.5, 1.0 / 6);
+  return zero / given[GasKeys::scale];
+}
+
+double fastest(const Scenario& scenario, const std::vector<double>& p) {
+  const Parameters<double> given(scenario.request.parameters);
+  const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
+  std::vector<double> masses = given.list(GasKeys::masses);
+  masses.resize(p.size() / space, masses.front());
+  double most = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    double square = 0;
+    for (std::size_t c = i * space; c < (i + 1) * space; ++c) square += p[c] * p[c];
+    most = std::max(most, std::sqrt(square) / masses[i]);
+  }
+  return most;
+}
+
+/// Two particles that pass through each other within one step leave next to nothing in the energy, and turn nowhere.
+void add_passing(const Scenario& scenario, const Frame& end, Json& all) {
+  const double core = core_of(scenario);
+  if (core == 0) return;
+  const double speed = std::max(fastest(scenario, scenario.start_p), fastest(scenario, end.p));
+  const double move = speed * std::abs(scenario.dt);
+  if (!(4 * move > core)) return;
+  all.push_back(warning(
+      "long_step",
+      fmt::format("a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
+                  "other: they may pass through each other unseen; try dt = {:.2g} or less",
+                  move, core, core / (20 * speed))));
+}
+
 /// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.
 double radial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
               const std::vector<double>& p) {
@@ -134,6 +175,7 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation
             scenario.request.problem, describe(scenario.request.method).carries_copy ? ", a larger omega" : "")));
   }
   if (turns != nullptr) add_long_step(scenario, summary, *turns, all);
+  if (all.empty() || all.back()["kind"] != "long_step") add_passing(scenario, end, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
       has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {
     all.push_back(warning("falls_into_centre",

@@ -146,6 +146,7 @@ class Reverse(CommandCase):
         (self.folder / "r" / "reversal.bin").unlink()
         self.assertIn("no checkpoint", self.hamflow("reverse", "kepler.toml", *sets, "--resume", status=3).stderr)
         self.assertIn("--force", self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--force", status=2).stderr)
+        self.assertIn("--out DIR", self.hamflow("reverse", "kepler.toml", "--resume", status=2).stderr)
 
     def test_ctrl_c(self):
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", "--json", "--set", "method={name='stv4'}", "--set",

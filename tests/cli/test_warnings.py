@@ -99,6 +99,15 @@ class Warnings(CommandCase):
             self.assertEqual(text.returncode, 0, text.stderr)
             self.assertEqual(json.loads(text.stdout)["warnings"], [], example.name)
 
+    def test_two_particles_through_each_other(self):
+        two = 'name = "gas"\ncontainer = {{ kind = "none" }}\n{}initial = {{ q = [-3.05, 0, 3, 0.1], p = [{}, 0, -{}, 0] }}'
+        for keys, p in (("", 20), ("masses = 2\n", 40)):
+            through = self.warned(two.format(keys, p, p), "verlet", "dt = 0.1\nsteps = 4")
+            self.assertEqual(through, ["long_step"], keys)
+        self.assertEqual(self.warned(two.format("sigma = 40\n", 1, 1), "verlet", "dt = 0.1\nsteps = 0"), [])
+        self.assertEqual(self.warned(two.format('pair = "newton"\n', 20, 20), "verlet", "dt = 0.1\nsteps = 4"), [])
+        self.assertEqual(self.warned(two.format("", 1, 1), "verlet", "dt = 0.02\nsteps = 100"), [])
+
     def test_good_runs_are_left_in_peace(self):
         rng = random.Random(8)
         problems = {  # and the shortest period that their motion shows
