@@ -397,8 +397,8 @@ void claim_captures(Study& study, Counts& reject) {
       {"cause", "each capture happens in the block of 10^6 steps of a two-to-one rejection", "artefact"},
       none_of("captures without such a rejection in the block before the first regular one"),
       {{without, reject.captured.empty() ? unknown : 0.0,
-        fmt::format("{} captures, the rejection at most {:.2g} blocks before; one happens every {:.3g} blocks, so that "
-                    "by chance a share of {:.2g} would have it there",
+        fmt::format("the first {} captures, the rejection at most {:.2g} blocks before; one happens every {:.3g} "
+                    "blocks, so that by chance a share of {:.2g} would have it there",
                     looked_at, longest, tried / std::max(events, 1.0), 1 - std::exp(-events / std::max(tried, 1.0)))}},
       Grounds::program, "runs in which reject captures: the default size");
 }
