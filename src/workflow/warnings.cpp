@@ -175,7 +175,7 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation
             scenario.request.problem, describe(scenario.request.method).carries_copy ? ", a larger omega" : "")));
   }
   if (turns != nullptr) add_long_step(scenario, summary, *turns, all);
-  if (all.empty() || all.back()["kind"] != "long_step") add_passing(scenario, end, all);
+  if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
       has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {
     all.push_back(warning("falls_into_centre",

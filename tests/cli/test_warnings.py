@@ -105,6 +105,7 @@ class Warnings(CommandCase):
             through = self.warned(two.format(keys, p, p), "verlet", "dt = 0.1\nsteps = 4")
             self.assertEqual(through, ["long_step"], keys)
         self.assertEqual(self.warned(two.format("sigma = 40\n", 1, 1), "verlet", "dt = 0.1\nsteps = 0"), [])
+        self.assertEqual(self.warned(two.format("", 20, 20), "verlet", "dt = 0.1\nsteps = 0"), [], "none has moved")
         self.assertEqual(self.warned(two.format('pair = "newton"\n', 20, 20), "verlet", "dt = 0.1\nsteps = 4"), [])
         self.assertEqual(self.warned(two.format("", 1, 1), "verlet", "dt = 0.02\nsteps = 100"), [])
 
