@@ -31,6 +31,7 @@
 #include "hamflow/core/pool.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/radial_forces.hpp"
+#include "hamflow/core/short_array.hpp"
 #include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/core/text.hpp"

@@ -42,14 +42,77 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
   return name;
 }
 
+/// The expectations of the thesis [Sonnleitner2010, p. 64], written down apart from the claims.
+struct Expectation {
+  const char* method;
+  int order;
+  bool symplectic, symmetric, reversible;
+};
+constexpr Expectation expected[]{{"euler", 1, false, false, false},  {"euler-a", 1, true, false, false},
+                                 {"euler-b", 1, true, false, false}, {"verlet", 2, true, true, true},
+                                 {"stv4", 4, true, true, true},      {"rk4", 4, false, false, false}};
+
+void expect_properties(const Expectation& e, const PropertyRow& row) {
+  for (const Measurement& m : row.on) {
+    EXPECT_EQ(m.order.is(e.order), Finding::yes) << m.order.slope;
+    EXPECT_EQ(m.symplectic.holds == Finding::yes, e.symplectic) << m.symplectic.defect;
+    EXPECT_EQ(m.symmetric.holds == Finding::yes, e.symmetric) << m.symmetric.defect;
+    EXPECT_EQ(m.reversible.holds == Finding::yes, e.reversible) << m.reversible.defect;
+    EXPECT_EQ(m.weakly_reversible.holds, Finding::yes) << m.weakly_reversible.defect;
+    EXPECT_TRUE(m.cost.explicit_step);
+    EXPECT_EQ(m.energy.conserving(e.order), Conservation::no);
+  }
+}
+
+/// Nobody conserves the energy, on any problem, but the elements with two points and more. Not all are asked: the
+/// energy error of a table of order 6 and more is so near rounding that its exponent is not that of the limit.
+constexpr const char* asked_for_conservation[]{"euler", "euler-a", "euler-b",  "verlet",  "verlet-dkd",
+                                               "stv4",  "suzuki4", "yoshida6", "rk4",     "chin4a",
+                                               "pefrl", "cg(1,1)", "cg(1,2)",  "cg(1,5)", "cg(1,auto)"};
+
+/// The symplectic ones do not drift, on any problem, and Runge and Kutta do.
+constexpr const char* asked_for_drift[]{"verlet", "stv4", "yoshida6", "rk4", "euler"};
+
 class Claims : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Claims, AreWhatIsMeasured) {
-  std::vector<Region> regions = default_regions(parse_method(GetParam()));
+  const std::string& method = GetParam();
+  std::vector<Region> regions = default_regions(parse_method(method));
   // The slowest by far: on the others by verify --all.
-  if (GetParam() == "itoh-abe" || GetParam().starts_with("rattle")) regions.resize(1);
-  const std::vector<PropertyRow> rows{measure_method(parse_method(GetParam()), regions)};
+  if (method == "itoh-abe" || method.starts_with("rattle")) regions.resize(1);
+  const std::vector<PropertyRow> rows{measure_method(parse_method(method), regions)};
   EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
+
+  const auto is_this = [&](const char* name) { return method == name; };
+  for (const Expectation& e : expected) {
+    if (is_this(e.method)) expect_properties(e, rows[0]);
+  }
+  if (std::any_of(std::begin(asked_for_conservation), std::end(asked_for_conservation), is_this)) {
+    const bool element = describe(parse_method(method)).energy_conserving != Conservation::no;
+    for (const Measurement& m : rows[0].on) {
+      EXPECT_EQ(m.energy.conserving(rows[0].claims.order) != Conservation::no, element)
+          << "on " << m.problem << ": level " << m.energy.level << ", drift " << name(m.energy.drift.drift);
+    }
+  }
+  if (std::any_of(std::begin(asked_for_drift), std::end(asked_for_drift), is_this)) {
+    for (const Measurement& m : rows[0].on) {
+      EXPECT_EQ(m.energy.drift.drift == DriftClass::bounded, rows[0].claims.symplectic) << "on " << m.problem;
+    }
+  }
+}
+
+TEST(Expected, WhatIsAskedOfSomeMethodsIsAskedOfMeasuredOnesOnBothProblems) {
+  const std::vector<std::string> measured = method_names();
+  std::vector<std::string> asked(std::begin(asked_for_conservation), std::end(asked_for_conservation));
+  asked.insert(asked.end(), std::begin(asked_for_drift), std::end(asked_for_drift));
+  for (const Expectation& e : expected) asked.emplace_back(e.method);
+  for (const std::string& name : asked) {
+    EXPECT_EQ(std::count(measured.begin(), measured.end(), name), 1) << name;
+    const std::vector<Region> regions = default_regions(parse_method(name));
+    ASSERT_EQ(regions.size(), 2u) << name;
+    EXPECT_EQ(regions[0].problem, "pendulum");
+    EXPECT_EQ(regions[1].problem, "henon-heiles");
+  }
 }
 
 /// Tables differ in their coefficients alone, which the other tests look at. What a problem can do to the one kernel
@@ -97,6 +160,9 @@ class SharedClaims : public ::testing::TestWithParam<Share> {};
 
 TEST_P(SharedClaims, HoldOnEveryOtherProblem) {
   const auto& [method, part, parts] = GetParam();
+  const MethodSpec spec = parse_method(method);
+  std::vector<Region> regions;
+  std::vector<Measurement> found;
   std::size_t count = 0;
   for (const ProblemEntry& problem : problems()) {
     if (count++ % parts != part) continue;
@@ -108,10 +174,15 @@ TEST_P(SharedClaims, HoldOnEveryOtherProblem) {
     // Every step of a constant force rounds alike: the 10^7 steps to which its order is followed sum that up.
     if (describe(parse_method(method)).carries_copy && problem.info.name == "free-fall") continue;
     SCOPED_TRACE(problem.info.name + ": " + problem.info.formula);
-    const std::vector<Region> regions{region_of(problem.info.name, variant)};
-    const std::vector<PropertyRow> rows{measure_method(parse_method(method), regions)};
+    regions.push_back(region_of(problem.info.name, variant));
+    const auto map = step_map_on(regions.back(), spec);
+    found.push_back(measure(*map, regions.back()));
+    const std::vector<PropertyRow> rows{judge(map->claims(), {found.back()})};
     EXPECT_TRUE(rows[0].agrees()) << rows[0].differing() << '\n' << property_table(rows);
   }
+  // What measure_method does besides, here once: runs on the Kepler ellipse and three bodies are in every certificate.
+  if (regions.empty()) return;
+  EXPECT_EQ(certificate_of(spec, regions, found).reversals.size(), regions.size());
 }
 
 /// Implicit methods that are compiled once for all problems, beside pendulum and henon-heiles: where H is not
@@ -139,61 +210,6 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, ClaimsBeside,
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, SharedClaims, ::testing::ValuesIn(shares()), share_name);
 INSTANTIATE_TEST_SUITE_P(Catalogue, Claims, ::testing::ValuesIn(method_names()), test_name);
-
-/// The expectations of the thesis [Sonnleitner2010, p. 64], written down apart from the claims.
-TEST(Expected, PropertiesOfTheMethodsOfTheThesis) {
-  struct Expectation {
-    const char* method;
-    int order;
-    bool symplectic, symmetric, reversible;
-  };
-  const std::vector<Region> regions = default_regions();
-  for (const Expectation& e : {Expectation{"euler", 1, false, false, false},
-                               {"euler-a", 1, true, false, false},
-                               {"euler-b", 1, true, false, false},
-                               {"verlet", 2, true, true, true},
-                               {"stv4", 4, true, true, true},
-                               {"rk4", 4, false, false, false}}) {
-    const PropertyRow row = measure_method(parse_method(e.method), regions);
-    SCOPED_TRACE(e.method);
-    for (const Measurement& m : row.on) {
-      EXPECT_EQ(m.order.is(e.order), Finding::yes) << m.order.slope;
-      EXPECT_EQ(m.symplectic.holds == Finding::yes, e.symplectic) << m.symplectic.defect;
-      EXPECT_EQ(m.symmetric.holds == Finding::yes, e.symmetric) << m.symmetric.defect;
-      EXPECT_EQ(m.reversible.holds == Finding::yes, e.reversible) << m.reversible.defect;
-      EXPECT_EQ(m.weakly_reversible.holds, Finding::yes) << m.weakly_reversible.defect;
-      EXPECT_TRUE(m.cost.explicit_step);
-      EXPECT_EQ(m.energy.conserving(e.order), Conservation::no);
-    }
-  }
-}
-
-TEST(Expected, NobodyConservesEnergyButTheElementsWithTwoPointsAndMore) {
-  const std::vector<Region> regions = default_regions();
-  // Not all: the energy error of a table of order 6 and more is so near rounding that its exponent is not that of the
-  // limit.
-  for (const char* name : {"euler", "euler-a", "euler-b", "verlet", "verlet-dkd", "stv4", "suzuki4", "yoshida6", "rk4",
-                           "chin4a", "pefrl", "cg(1,1)", "cg(1,2)", "cg(1,5)", "cg(1,auto)"}) {
-    const MethodSpec spec = parse_method(name);
-    const bool element = describe(spec).energy_conserving != Conservation::no;
-    for (const Region& region : regions) {
-      const auto map = step_map_on(region, spec);
-      const EnergyMeasurement energy = measure_energy(*map, region);
-      EXPECT_EQ(energy.conserving(map->claims().order) != Conservation::no, element)
-          << name << " on " << region.problem << ": level " << energy.level << ", drift "
-          << hamflow::name(energy.drift.drift);
-    }
-  }
-}
-
-TEST(Expected, SymplecticOnesDoNotDriftAndRungeKuttaDoes) {
-  for (const char* name : {"verlet", "stv4", "yoshida6", "rk4", "euler"}) {
-    for (const Region& region : default_regions()) {
-      const auto map = step_map_on(region, parse_method(name));
-      EXPECT_EQ(measure_energy(*map, region).drift.drift == DriftClass::bounded, map->claims().symplectic) << name;
-    }
-  }
-}
 
 TEST(Expected, AnOscillationInStepWithTheBlocksIsNoDrift) {
   // Of the starts on the pendulum one has a period that fits so nearly into a block that its oscillation is seen to
@@ -303,12 +319,11 @@ TEST(Expected, NamesOfOneMapHaveItsBitsAndItsClaims) {
 
 TEST(Judgement, OnOneProblemAPropertyMayHoldByItsMerit) {
   // The midpoint rule conserves quadratic Hamiltonians; on two problems the other one shows that it is no conserver.
-  const std::vector<Region> one{region_of("harmonic")};
   const std::vector<Region> two{region_of("harmonic"), region_of("pendulum")};
-  const PropertyRow alone = measure_method(parse_method("cg(1,1)"), one);
+  const PropertyRow both = measure_method(parse_method("cg(1,1)"), two);
+  const PropertyRow alone = judge(both.claims, {both.on.at(0)});
   EXPECT_EQ(alone["energy conserving"].measured, "yes");
   EXPECT_TRUE(alone.agrees());
-  const PropertyRow both = measure_method(parse_method("cg(1,1)"), two);
   EXPECT_EQ(both["energy conserving"].measured, "no");
   EXPECT_TRUE(both.agrees());
 }

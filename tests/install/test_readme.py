@@ -36,7 +36,7 @@ class Readme(unittest.TestCase):
                         continue
                     in_clone = "build/release" in command
                     done = subprocess.run(command.replace("build/release", str(BUILD)), shell=True, cwd=ROOT if in_clone else empty,
-                                          env=environment, capture_output=True, text=True, timeout=120)
+                                          env=environment, capture_output=True, text=True, timeout=500)
                     expected = re.search(r"# exit (\d+)", command)
                     self.assertEqual(done.returncode, int(expected[1]) if expected else 0, done.stdout[-2000:] + done.stderr[-2000:])
                     ran += 1

@@ -112,6 +112,37 @@ TEST(Dense, ASingularMatrixGivesEntriesThatAreNotFinite) {
   EXPECT_FALSE(std::isfinite(solve(Matrix<double, 1>{Vector<double, 1>{0}}, {1})[0]));
 }
 
+/// Few equations with one right side are solved by hand; those with two, which are the same here, by Eigen.
+template <class R>
+void expect_bits_of_eigen(std::size_t size, std::uint64_t seed) {
+  std::uint64_t drawn = 0;
+  const auto draw = [&] {
+    const double x = counter_uniform(seed, drawn++);
+    return static_cast<R>(seed % 3 == 0 ? std::round(2 * x) : x);  // with equal pivots, zeros and singular matrices
+  };
+  std::vector<R> m(size * size);
+  std::vector<R> one(size);
+  for (R& x : m) x = draw();
+  for (R& x : one) x = draw();
+  std::vector<R> two(2 * size);
+  for (std::size_t i = 0; i < size; ++i) two[2 * i] = two[2 * i + 1] = one[i];
+  detail::solve_large(m.data(), one.data(), size, 1);
+  detail::solve_large(m.data(), two.data(), size, 2);
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool same = one[i] == two[2 * i] && std::signbit(one[i]) == std::signbit(two[2 * i]);
+    EXPECT_TRUE(same || (std::isnan(one[i]) && std::isnan(two[2 * i]))) << size << " equations of seed " << seed;
+  }
+}
+
+TEST(Dense, FewEquationsAreSolvedWithTheBitsOfMany) {
+  for (std::size_t size = 1; size <= 6; ++size) {
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+      expect_bits_of_eigen<double>(size, seed);
+      expect_bits_of_eigen<long double>(size, seed);
+    }
+  }
+}
+
 TEST(Dense, MaxNormIsTheLargestAbsoluteEntry) { EXPECT_EQ(max_norm(Vector<double, 3>{1, -3, 2}), 3); }
 
 }  // namespace

@@ -12,57 +12,53 @@ namespace hamflow {
 class Pool {
  public:
   static void* take(std::size_t bytes) {
-    Pool* const pool = mine();
     const std::size_t k = exponent(bytes);
-    if (pool != nullptr && pool->free_[k] != nullptr) {
-      Block* const block = pool->free_[k];
-      pool->free_[k] = block->next;
-      return block;
-    }
-    return ::operator new (std::size_t{1} << k);
+    Block* const block = free_[k];
+    if (block == nullptr) return ::operator new (std::size_t{1} << k);
+    free_[k] = block->next;
+    return block;
   }
   static void give(void* memory, std::size_t bytes) {
-    Pool* const pool = mine();
-    if (pool == nullptr) {  // the thread is about to end, and so has its pool
+    if (phase_ != Phase::alive && !begins()) {  // the thread is about to end, and so has its pool
       ::operator delete(memory);
       return;
     }
     const std::size_t k = exponent(bytes);
-    pool->free_[k] = new (memory) Block{pool->free_[k]};
+    free_[k] = new (memory) Block{free_[k]};
   }
-
-  Pool(const Pool&) = delete;
-  Pool& operator=(const Pool&) = delete;
 
  private:
   struct Block {
     Block* next;
   };
+  /// What ends with the thread. Apart from the blocks, so that these are looked at without asking whether it has begun.
+  struct End {
+    ~End() {
+      phase_ = Phase::gone;
+      for (Block*& first : free_) {
+        while (first != nullptr) {
+          Block* const next = first->next;
+          ::operator delete(first);
+          first = next;
+        }
+      }
+    }
+  };
   static constexpr std::size_t sizes = 48;
   enum class Phase : char { unborn, alive, gone };
 
-  Pool() { phase_ = Phase::alive; }
-  ~Pool() {
-    phase_ = Phase::gone;
-    for (Block* block : free_) {
-      while (block != nullptr) {
-        Block* const next = block->next;
-        ::operator delete(block);
-        block = next;
-      }
-    }
-  }
-  static Pool* mine() {
-    if (phase_ == Phase::gone) return nullptr;
-    static thread_local Pool pool;
-    return &pool;
+  [[gnu::cold, gnu::noinline]] static bool begins() {
+    if (phase_ == Phase::gone) return false;
+    static thread_local const End end;
+    phase_ = Phase::alive;
+    return true;
   }
   static std::size_t exponent(std::size_t bytes) {
     return static_cast<std::size_t>(std::bit_width((bytes < 16 ? 16 : bytes) - 1));
   }
 
-  static inline thread_local Phase phase_ = Phase::unborn;
-  Block* free_[sizes]{};
+  static inline constinit thread_local Phase phase_ = Phase::unborn;
+  static inline constinit thread_local Block* free_[sizes]{};
 };
 
 /// The pool as an allocator of the standard library.

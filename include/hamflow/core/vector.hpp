@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "hamflow/core/pool.hpp"
+#include "hamflow/core/short_array.hpp"
 
 namespace hamflow {
 
@@ -31,8 +34,16 @@ struct Vector {
   friend bool operator==(const Vector&, const Vector&) = default;
 };
 
-/// A vector whose length is chosen at run time, a value like the others. Its memory comes from a pool, so that the
-/// temporaries of a step cost no call of the allocator once the first steps are taken.
+namespace detail {
+/// What many numbers are kept in: those with a destructor of their own, of any number of digits, are not moved about.
+template <class R>
+using Numbers = std::conditional_t<std::is_trivially_copyable_v<R> && std::is_trivially_destructible_v<R>,
+                                   ShortArray<R>, std::vector<R, PoolAllocator<R>>>;
+}  // namespace detail
+
+/// A vector whose length is chosen at run time, a value like the others. A few numbers stand in place, and the memory
+/// of more comes from a pool, so that the temporaries of a step cost no call of the allocator once the first steps are
+/// taken.
 template <class R>
 struct Vector<R, dynamic> {
   using value_type = R;
@@ -51,7 +62,7 @@ struct Vector<R, dynamic> {
   friend bool operator==(const Vector&, const Vector&) = default;
 
  private:
-  std::vector<R, PoolAllocator<R>> entry;
+  detail::Numbers<R> entry;
 };
 
 /// A square matrix of any size, row after row in one piece: m[row] is a pointer to its first entry.
@@ -64,12 +75,13 @@ struct Vector<Vector<R, dynamic>, dynamic> {
 
   R* operator[](std::size_t row) { return entry.data() + row * size_; }
   const R* operator[](std::size_t row) const { return entry.data() + row * size_; }
+  const R* data() const { return entry.data(); }
   std::size_t size() const { return size_; }
   friend bool operator==(const Vector&, const Vector&) = default;
 
  private:
   std::size_t size_ = 0;
-  std::vector<R, PoolAllocator<R>> entry;
+  detail::Numbers<R> entry;
 };
 
 /// N x N numbers, m[row][column].

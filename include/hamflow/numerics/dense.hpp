@@ -35,7 +35,11 @@ void invert_small(const Matrix<R, N>& m, Matrix<R, N>& out);
 template <class R, std::size_t N>
 R determinant_small(const Matrix<R, N>& m);
 
-/// The entries row after row.
+/// The entries row after row, as those of any size stand already.
+template <class R>
+const Matrix<R, dynamic>& flat(const Matrix<R, dynamic>& m) {
+  return m;
+}
 template <class R, std::size_t N>
 std::vector<R, PoolAllocator<R>> flat(const Matrix<R, N>& m) {
   std::vector<R, PoolAllocator<R>> all(m.size() * m.size());
