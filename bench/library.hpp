@@ -65,9 +65,10 @@ Run run_typed_fast(const Task& task, const Recipe& recipe, std::int64_t steps) {
 }
 
 /// A whole request. Recording and compiling, once in a run, is not timed; neither are the steps before it.
-inline Run run_recorded(const hamflow::Request& request, std::int64_t steps) {
+/// @param until_recorded how many steps that takes
+inline Run run_recorded(const hamflow::Request& request, std::int64_t steps, std::int64_t until_recorded = 300) {
   const auto simulation = hamflow::make_simulation(request);
-  const std::int64_t before = std::min<std::int64_t>(steps / 2, 300);
+  const std::int64_t before = std::min(steps / 2, until_recorded);
   if (simulation->advance(before) != hamflow::Outcome::done) throw std::runtime_error("no steps");
   Run run = run_block(*simulation, steps - before);
   run.nanoseconds *= static_cast<double>(steps) / static_cast<double>(steps - before);

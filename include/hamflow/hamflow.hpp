@@ -234,6 +234,7 @@
 #include "hamflow/run/iteration_runner.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/parts_in_numbers.hpp"
 #include "hamflow/run/probe.hpp"
 #include "hamflow/run/recorded_iteration.hpp"
 #include "hamflow/run/recorded_part.hpp"

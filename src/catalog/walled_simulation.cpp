@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <stdexcept>
 
+#include "flight_in_numbers.hpp"
 #include "hamflow/core/archive.hpp"
 #include "hamflow/run/recorded_step.hpp"
 #include "wall_events.hpp"
@@ -16,7 +19,8 @@ namespace {
 template <class R>
 struct RunWalls {
   WallRule rule = WallRule::event;
-  bool in_steps = false;  // a recorded step can take a bounce
+  bool in_steps = false;      // a recorded step can take a bounce
+  bool turns_single = false;  // a bounce is p_i -> -p_i and nothing else, for certain
   std::vector<WallSide<R>> sides;
   std::vector<std::string> names;  // of their coordinates
   std::shared_ptr<const Functions<R>> functions;
@@ -38,6 +42,24 @@ bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& fun
   return true;
 }
 
+/// Whether -p_i in place of p_i leaves H as it is to the last bit, which terms that are written otherwise than as
+/// squares need not do; of some momenta.
+bool keep_last_bits(const RunWalls<double>& walls, const Functions<double>& functions,
+                    const Vector<double, dynamic>& q) {
+  std::uint32_t any = 1;
+  for (int n = 0; n < 16; ++n) {
+    auto p = zeros_like(q);
+    for (double& x : p) x = 0x1p-31 * static_cast<double>(any = any * 1664525u + 1013904223u) - 1;
+    const double energy = functions.energy(q, p);
+    for (const WallSide<double>& wall : walls.sides) {
+      auto turned = p;
+      turned[wall.coordinate] = -p[wall.coordinate];
+      if (!(functions.energy(q, turned) == energy)) return false;
+    }
+  }
+  return true;
+}
+
 template <class R>
 class WalledSimulation : public Simulation {
   using Parts = StepsInParts<R>;
@@ -49,9 +71,13 @@ class WalledSimulation : public Simulation {
       : inner_(std::move(inner)),
         parts_(dynamic_cast<Parts*>(inner_.get())),
         recorded_(dynamic_cast<RecordedMember*>(inner_.get())),
+        in_numbers_(dynamic_cast<MovesInNumbers*>(inner_.get())),
         walls_(std::move(walls)),
         counts_(walls_->sides.size()) {
     if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
+    if constexpr (std::is_same_v<R, double>) {
+      if (walls_->turns_single && in_numbers_ != nullptr) flight_.emplace(*walls_->functions, walls_->sides);
+    }
   }
 
   Outcome advance(std::int64_t steps) final {
@@ -162,12 +188,17 @@ class WalledSimulation : public Simulation {
   Outcome take_step() {
     // What a step begins with is counted as its own, whichever road it takes.
     if (walls_->rule == WallRule::event) parts_->prepare();
-    parts_->mark(Place::step);
     // A loop that has ended for it says the same as stays_inside, and took as much.
-    if (walls_->rule == WallRule::event && undone_ != nullptr) {
+    const bool is_undone = walls_->rule == WallRule::event && undone_ != nullptr;
+    if (is_undone) {
       add_evaluations(given_up_, std::exchange(undone_, nullptr)->effort);
-      return after_walls(bounce(Outcome::done));
+      if (bounce_in_numbers()) {
+        tell();
+        return Outcome::done;
+      }
     }
+    parts_->mark(Place::step);
+    if (is_undone) return after_walls(bounce(Outcome::done));
     const Effort before = inner_->effort();
     const Effort given_up_before = given_up_;
     const V q0 = parts_->present_positions();
@@ -294,6 +325,34 @@ class WalledSimulation : public Simulation {
     return parts_->complete_step();
   }
 
+  /// The same where that is no more than machine code, without a way back. @return false: nothing was done
+  bool bounce_in_numbers() {
+    if constexpr (std::is_same_v<R, double>) {
+      PartsInNumbers* const numbers = flight_ ? in_numbers_->parts_in_numbers() : nullptr;
+      if (numbers == nullptr) return false;
+      const std::size_t n = numbers->part().size;
+      const auto bounced = [&](std::size_t side, double after) {
+        met_.push_back({side, after});
+        for (std::size_t i = 0; told_ && i < n; ++i) {
+          if (i == 0) met_.back().q = met_.back().p = V(n);
+          met_.back().q[i] = numbers->position(i);
+          met_.back().p[i] = numbers->momentum(i);
+        }
+        return met_.size() <= most_bounces;
+      };
+      const Effort before = inner_->effort();
+      if (flight_->take(*numbers, parts_->length_of_step(), bounced) && !met_.empty() && in_numbers_->land()) {
+        Effort kept;
+        add_evaluations(kept, inner_->effort(), before);
+        add_evaluations(given_up_, numbers->effort(), kept);
+        if (parts_->complete_step() != Outcome::done) throw std::logic_error("hamflow: a part that was seen is none");
+        return true;
+      }
+      met_.clear();
+    }
+    return false;
+  }
+
   /// Psi_length with bounces, which are listed in met_.
   Outcome fly(const R& length) {
     R left = length;
@@ -390,12 +449,14 @@ class WalledSimulation : public Simulation {
   }
 
   std::unique_ptr<Simulation> inner_;
-  Parts* parts_;              // the same
-  RecordedMember* recorded_;  // the same; null where it is none
+  Parts* parts_;                // the same
+  RecordedMember* recorded_;    // the same; null where it is none
+  MovesInNumbers* in_numbers_;  // the same
   std::shared_ptr<const RunWalls<R>> walls_;
-  std::vector<std::int64_t> counts_;      // of each side
-  Effort given_up_;                       // by the search for bounces and by steps that were rejected
-  std::vector<Met> met_;                  // in the present step
+  std::vector<std::int64_t> counts_;  // of each side
+  Effort given_up_;                   // by the search for bounces and by steps that were rejected
+  std::vector<Met> met_;              // in the present step
+  std::optional<FlightInNumbers> flight_;
   const RecordedStep* undone_ = nullptr;  // by recorded steps: the next one, which may meet a wall
   std::string why_;
   std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
@@ -453,9 +514,14 @@ std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const
   behind->functions = other.functions.plain;
   if constexpr (std::is_same_v<R, double>) {
     if (walls.hard()) {
-      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule});
+      const bool few = other.functions.size <= 64;  // steps of more are too long to be recorded, or gain little
+      const bool keep_energy =
+          few && walls.rule == WallRule::reject && keep_last_bits(*behind, *other.functions.plain, other.q);
+      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule, keep_energy});
+      behind->turns_single = (walls.rule == WallRule::reject || (few && walls.rule == WallRule::event)) &&
+                             turn_single_momenta(*behind, other.functions);
       // Compensated positions are mirrored as sums of two numbers, forces of the first alone.
-      behind->in_steps = (walls.rule == WallRule::reject && turn_single_momenta(*behind, other.functions)) ||
+      behind->in_steps = (walls.rule == WallRule::reject && behind->turns_single) ||
                          (walls.rule == WallRule::mirror && request.arithmetic == "double");
     }
   }

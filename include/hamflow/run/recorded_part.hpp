@@ -10,21 +10,11 @@
 #include "hamflow/methods/step_density.hpp"
 #include "hamflow/numerics/program_of_tape.hpp"
 #include "hamflow/run/carried.hpp"
+#include "hamflow/run/parts_in_numbers.hpp"
 #include "hamflow/run/steps_in_parts.hpp"
 
 namespace hamflow {
 
-/// The values of the program: those of the archive of the state, h, then q, dH/dp and H at the end.
-struct RecordedPart {
-  Program program;
-  std::size_t state = 0;                 // how many values the archive of the state has
-  std::size_t size = 0;                  // of q
-  Effort effort;                         // of one part
-  std::vector<std::int64_t> counters{};  // what one part adds to the counters that the method archives, in their order
-
-  std::size_t length() const { return state; }
-  std::size_t end() const { return state + 1; }
-};
 /// From a state, with a length to begin with. Nothing where a part is no straight line.
 using PartRecorder = std::function<std::optional<RecordedPart>(const Vector<double, dynamic>& q,
                                                                const Vector<double, dynamic>& p, double h)>;

@@ -25,7 +25,7 @@ using StepRecorder = std::function<std::optional<RecordedStep>(
     RecordedAt at, AtWalls at_walls)>;
 
 template <class P, class M, Arithmetic A>
-class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public RecordedMember {
+class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public RecordedMember, public MovesInNumbers {
   using Base = InParts<SimulationOf<P, M, A>>;
   using typename StepsInParts<double>::Place;
   using Base::clock_;
@@ -73,7 +73,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return ordinary(steps);
   }
 
-  /// Blocks grow, so that little is taken twice where a check fails.
+  /// Blocks grow, so that little is taken twice where a check fails; one that ends at a wall has not failed.
   std::int64_t take_recorded(std::int64_t steps, std::span<std::int64_t> bounces) override {
     behind_walls_ = true;
     undone_ = nullptr;
@@ -87,14 +87,16 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     Base::prepare();
     if (!read_values(step, values_)) return 0;  // one step by the ordinary road mends it
     std::int64_t taken = 0;
-    std::int64_t block = 32;
+    std::int64_t block = block_;
+    bool has_failed = false;
     while (taken < steps && block > 0 && undone_ == nullptr) {
-      block = std::min(block, steps - taken);
+      const std::int64_t most = std::min(block, steps - taken);
       kept_values_ = values_;
-      const std::int64_t some = loop->steps->take(values_, block);
+      const std::int64_t some = loop->steps->take(values_, most);
       if (some < 0 || !are_finite()) {
         values_.swap(kept_values_);
-        block /= 2;  // to the step that fails
+        block = most / 2;  // to the step that fails
+        has_failed = true;
         continue;
       }
       add_bounces(step, values_, bounces);
@@ -103,6 +105,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       taken += undone_ != nullptr ? some - 1 : some;
       block = std::min(2 * block, BounceWord::most_steps);
     }
+    block_ = has_failed ? first_block : block;
     take_values(step, values_, taken);
     return taken;
   }
@@ -113,7 +116,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     Base::mark(place);
     if (place != Place::flight) return;
     is_at_mark_ = true;
-    if (part_) read_state();
+    if (numbers_) read_state();
   }
   Outcome take_part(const double& h) override {
     is_at_mark_ = false;
@@ -128,24 +131,26 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return true;
   }
   const double* see_part(const double& h) override {
-    if (!part_ && !make_part(h)) return nullptr;
-    part_values_ = start_of_parts_;
-    part_values_[part_->of.length()] = h;
-    if (!part_->loop->run(part_values_, 1)) return nullptr;
-    const double* const end = part_values_.data() + part_->of.end();
-    for (std::size_t i = 0; i < 2 * part_->of.size + 1; ++i) {
-      if (!(std::abs(end[i]) <= std::numeric_limits<double>::max())) return nullptr;
-    }
-    add_evaluations(effort_of_parts_, part_->of.effort);
+    if (!numbers_ && !make_part(h)) return nullptr;
+    const double* const end = numbers_->look(h);
+    if (end != nullptr) add_evaluations(effort_of_parts_, numbers_->part().effort);
     return end;
   }
   void take_seen_part() override {
     if (!std::exchange(is_at_mark_, false)) Base::back(Place::flight);
-    const double* value = part_values_.data();
-    for_each_carried([&](double& x) { x = *value++; }, z_);
-    const std::int64_t* count = part_->of.counters.data();
-    for_each_counter([&]<class T>(T& x) { x += static_cast<T>(*count++); }, method_);
-    Base::forget();
+    numbers_->go();
+    take_numbers(1);
+  }
+  PartsInNumbers* parts_in_numbers() override {
+    if (!numbers_) return nullptr;
+    read_state();
+    return &*numbers_;
+  }
+  bool land() override {
+    const double error = std::abs(numbers_->energy() - probe_.initial_energy());
+    if (!(error <= std::numeric_limits<double>::max())) return false;
+    take_numbers(numbers_->parts());
+    return true;
   }
   /// Lanes take equal steps.
   std::shared_ptr<const RecordedStep> recorded_step(AtWalls at_walls) override {
@@ -193,12 +198,9 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
  private:
   /// Recording and compiling a step costs about as much as so many of them.
   static constexpr std::int64_t worth_recording = 200;
+  static constexpr std::int64_t first_block = 32;
   /// And parts of one as so many of them.
   static constexpr int worth_recording_parts = 400;
-  struct PartLoop {
-    RecordedPart of;
-    std::unique_ptr<const StepLoop> loop;
-  };
   struct Loop {
     double h = 0;
     AtWalls at_walls = AtWalls::stop;
@@ -224,17 +226,22 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     parts_asked_ = 0;  // the part that was to be recorded may be one of another branch
     std::optional<RecordedPart> recorded = (*part_recorder_)(z_.positions(), z_.momenta(), h);
     if (!recorded) return false;
-    auto loop = make_step_loop(recorded->program);
-    part_ = std::make_shared<const PartLoop>(PartLoop{*std::move(recorded), std::move(loop)});
+    numbers_.emplace(*std::move(recorded));
     Base::back(Place::flight);
     is_at_mark_ = true;
     read_state();
     return true;
   }
   void read_state() {
-    start_of_parts_.resize(part_->of.program.values());
-    double* value = start_of_parts_.data();
+    double* value = numbers_->begin();
     for_each_carried([&](const double& x) { *value++ = x; }, z_);
+  }
+  void take_numbers(std::int64_t parts) {
+    const double* value = numbers_->state();
+    for_each_carried([&](double& x) { x = *value++; }, z_);
+    const std::int64_t* count = numbers_->part().counters.data();
+    for_each_counter([&]<class T>(T& x) { x += static_cast<T>(parts * *count++); }, method_);
+    Base::forget();
   }
   Outcome ordinary(std::int64_t steps) {
     if (watch_) return Base::advance(steps);
@@ -278,13 +285,12 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::pair<double, AtWalls> step_of_{};
   std::vector<double> values_;
   std::vector<double> kept_values_;
+  std::int64_t block_ = first_block;
   std::int64_t asked_ = 0;
   bool behind_walls_ = false;
   const RecordedStep* undone_ = nullptr;
   int failures_ = 0;  // of recording
-  std::shared_ptr<const PartLoop> part_;
-  std::vector<double> start_of_parts_;  // the values at the mark of the flight
-  std::vector<double> part_values_;     // behind the part that was seen last
+  std::optional<PartsInNumbers> numbers_;
   int parts_asked_ = 0;
   bool is_at_mark_ = false;  // of the flight
 };

@@ -173,7 +173,11 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     const detail::TracedFields before = detail::traced_fields(z, method, probe, density);
     auto z_before = z;
     auto method_before = method;
+    auto probe_before = probe;
     if (step() != Outcome::done) return std::nullopt;
+    const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
+    const auto seen = z;  // before walls
+    bool is_seen = false;
     add_evaluations(recorded.effort, method.effort(), method_before.effort());
     if (recorded.words > 0) {
       if (!remembers_positions_alone<M>()) return std::nullopt;
@@ -184,7 +188,15 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
       if (!(size <= std::numeric_limits<double>::max())) return std::nullopt;
       std::vector<Number> met;
       if (walls->rule == WallRule::reject) {
-        met = reject_within<Number>(walls->sides, z_before, method_before, z, method);
+        Number thrown_back(0);
+        met = reject_within<Number>(walls->sides, z_before, method_before, z, method, thrown_back);
+        // A state that is thrown back has the energy that it had. The step's own last state is looked at instead: its
+        // root is one that the last force had, too.
+        if (watch && walls->keep_energy && detail::invariant_sizes(problem).empty()) {
+          if (!probe.look(problem, seen.positions(), seen.momenta(), t)) return std::nullopt;
+          detail::choose_all(thrown_back, probe_before, probe);
+          is_seen = true;
+        }
       } else if constexpr (requires { method.mirror_kept(0); }) {
         met = mirror_within<Number>(walls->sides, z, method);
         const Vector<Number, dynamic> q1 = z.positions();
@@ -196,8 +208,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
       }
       for (std::size_t k = 0; k < words.size(); ++k) words[k] += met[k];
     }
-    const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
-    if (watch && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
+    if (watch && !is_seen && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
     detail::TracedFields after = detail::traced_fields(z, method, probe, density);
     if (at == RecordedAt::steady) {
       recorded.fields = detail::carried_fields(before, after, counts);

@@ -16,6 +16,7 @@ namespace hamflow {
 struct StepWalls {
   std::vector<WallSide<double>> sides;
   WallRule rule = WallRule::event;
+  bool keep_energy = false;  // a bounce leaves H as it was, to the last bit
 };
 
 /// What a recorded step does where it may meet a wall.
@@ -102,14 +103,15 @@ void choose_all(const S& flag, Objects& from, Others& to) {
 
 /// The rule "reject" within a recorded step, see WalledSimulation: from the state before and what the method kept to
 /// that behind the step, `z` and `method`.
+/// @param any above 0 where the step is rejected
 /// @return what is added to each word of counts
 template <class S, class State, class M>
 std::vector<S> reject_within(const std::vector<WallSide<double>>& sides, State& before, M& method_before, State& z,
-                             M& method) {
+                             M& method, S& any) {
   using Axis = typename decltype(State::arithmetic)::Axis;
   const auto q1 = z.positions();
   std::vector<S> words(BounceWord::words(sides.size()), S(0));
-  S any(0);
+  any = S(0);
   S met_here(0);  // of one coordinate, whose walls are not both met
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const std::size_t i = sides[k].coordinate;
