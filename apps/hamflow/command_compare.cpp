@@ -12,6 +12,7 @@
 #include "hamflow/workflow/compare.hpp"
 #include "progress.hpp"
 #include "run_keys.hpp"
+#include "wall_checks.hpp"
 
 namespace hamflow::app {
 
@@ -70,6 +71,7 @@ class RequestReader {
         one.method = method;
         if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
         if (why_not.empty()) why_not = refused_fast_step(one);
+        if (why_not.empty()) why_not = refused_walls(one);
         if (why_not.empty() && describe(method).varies_steps) {
           why_not = "allowed step_control=fixed: steps of varying length do not end at the same time";
         }
@@ -85,6 +87,11 @@ class RequestReader {
     }
   }
 
+  std::string refused_walls(const Request& one) const {
+    const std::string why_not = refused_by_walls(one, *scenario_.problem, scenario_.start_q);
+    return why_not.empty() ? "" : "problem.wall_rule = \"" + rule_of_walls(one) + "\" " + why_not;
+  }
+
   /// The nearest number of steps that ends at t_end.
   void read_steps(const std::string& text) {
     if (text.empty()) {
@@ -93,8 +100,11 @@ class RequestReader {
     }
     for (const std::string& part : split_list(text)) {
       double dt = 0;
+      bool backwards = false;
       try {
-        dt = std::abs(evaluate_number<double>(part));
+        const double given = evaluate_number<double>(part);
+        backwards = given * request.t_end < 0;
+        dt = std::abs(given);
       } catch (const Error& error) {
         complain("--dt", "found '" + part + "'; allowed numbers with commas between (" + error.what() + ")");
         continue;
@@ -104,6 +114,10 @@ class RequestReader {
         complain("--dt", "found '" + part + "'; allowed a number other than 0 that fits into t_end = " +
                              shortest(request.t_end) + " less than 2^53 times");
         continue;
+      }
+      if (backwards && part.find('-') != std::string::npos) {
+        notes.push_back("dt = " + part + " goes away from t_end = " + shortest(request.t_end) +
+                        "; dt = " + shortest(dt) + " is taken");
       }
       const auto steps = std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
       const double fitting = std::abs(request.t_end) / static_cast<double>(steps);

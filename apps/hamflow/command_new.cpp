@@ -60,8 +60,23 @@ const ProblemEntry& chosen(const NewOptions& options) {
     const std::string chart =
         variant.contains(FormulaKeys::coordinates) ? variant[FormulaKeys::coordinates] : "cartesian";
     variant = central_formula_example(chart);
+    return usual_problem(options.problem, variant);
   }
-  return usual_problem(options.problem, variant);
+  const auto lacking = [&](const ProblemEntry& entry) {
+    return std::find_if(variant.begin(), variant.end(), [&](const auto& choice) {
+      return std::find(entry.info.variant.begin(), entry.info.variant.end(), std::pair(choice.first, choice.second)) ==
+             entry.info.variant.end();
+    });
+  };
+  // A choice may be one of other choices alone: the dimension of a pendulum is one in Cartesian coordinates.
+  const ProblemEntry& usual = usual_problem(options.problem, variant);
+  const auto lacks = lacking(usual);
+  if (lacks == variant.end()) return usual;
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name == options.problem && lacking(entry) == variant.end()) return entry;
+  }
+  throw Error(fmt::format("--{}: found {}, of which there is no choice beside the others; allowed without it",
+                          lacks->first, lacks->second));
 }
 
 /// What the problem declares; else where `hamflow verify` measures, since a run is bounded and regular there.

@@ -29,6 +29,7 @@ int reverse_command(const ReverseOptions& options) {
     };
     const ReversalReport report = reverse_scenario(scenario, settings);
     std::cout << (options.json ? report.json : report.text);
+    print_warnings(report.warnings);
     if (report.status == "failed") print_error(report.message, report.hint);
     return exit_status(report.status);
   });

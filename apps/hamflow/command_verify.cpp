@@ -1,7 +1,13 @@
 // hamflow verify METHOD...|--all [--problem P] [--json]: the property table, measured.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -44,26 +50,77 @@ struct Job {
   std::optional<Region> at_walls{};
 };
 
-/// The rows in the order of the jobs, measured on all cores.
-std::vector<PropertyRow> measure_all(const std::vector<Job>& jobs, const std::vector<Region>& given) {
-  std::vector<std::optional<PropertyRow>> measured(jobs.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      const auto& [method, at_walls] = jobs[i];
-      measured[i] = at_walls ? measure_at_walls(method, *at_walls)
-                             : measure_method(method, given.empty() ? default_regions(method) : given);
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    for (std::size_t k = 1; k < std::min(cores, jobs.size()); ++k) helpers.emplace_back(work);
-    work();
+/// What is measured, on all cores: the main thread waits, so that it can say what is there when it is interrupted.
+class Measuring {
+ public:
+  Measuring(const std::vector<Job>& jobs, const std::vector<Region>& given)
+      : jobs_(jobs), given_(given), measured_(jobs.size()) {
+    const std::size_t all = std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), jobs.size());
+    at_work_ = all;
+    for (std::size_t k = 0; k < all; ++k) helpers_.emplace_back([this] { work(); });
   }
-  std::vector<PropertyRow> rows;
-  for (auto& row : measured) rows.push_back(std::move(*row));
-  return rows;
+
+  /// Until all is measured, or an interrupt.   @return false when interrupted
+  bool wait() {
+    std::unique_lock lock(mutex_);
+    while (at_work_ > 0 && !interrupted()) finished_.wait_for(lock, std::chrono::milliseconds(20));
+    if (at_work_ > 0) return false;
+    if (failure_) std::rethrow_exception(failure_);
+    return true;
+  }
+  /// Those that are there, in the order of the jobs.
+  std::vector<PropertyRow> rows() {
+    const std::lock_guard lock(mutex_);
+    std::vector<PropertyRow> all;
+    for (const auto& row : measured_) {
+      if (row) all.push_back(*row);
+    }
+    return all;
+  }
+
+ private:
+  void work() {
+    try {
+      for (std::size_t i = next_++; i < jobs_.size(); i = next_++) {
+        const auto& [method, at_walls] = jobs_[i];
+        PropertyRow row = at_walls ? measure_at_walls(method, *at_walls)
+                                   : measure_method(method, given_.empty() ? default_regions(method) : given_);
+        const std::lock_guard lock(mutex_);
+        measured_[i] = std::move(row);
+      }
+    } catch (...) {
+      next_ = jobs_.size();
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    --at_work_;
+    finished_.notify_all();
+  }
+
+  const std::vector<Job>& jobs_;
+  const std::vector<Region>& given_;
+  std::vector<std::optional<PropertyRow>> measured_;
+  std::atomic<std::size_t> next_{0};
+  std::size_t at_work_ = 0;
+  std::exception_ptr failure_;
+  std::mutex mutex_;
+  std::condition_variable finished_;
+  std::vector<std::jthread> helpers_;  // the last member: they end before what they use
+};
+
+/// What was measured before an interrupt, as the whole would have been printed. Helpers that are still at work have
+/// nothing to save: the process ends without them.
+[[noreturn]] void end_interrupted(const std::vector<PropertyRow>& rows, bool json) {
+  if (json) {
+    nlohmann::json all = nlohmann::json::parse(property_json(rows));
+    all["status"] = "interrupted";
+    std::cout << all.dump(2) << '\n';
+  } else if (!rows.empty()) {
+    std::cout << property_table(rows);
+  }
+  std::cout.flush();
+  std::_Exit(exit_interrupted);
 }
 }  // namespace
 
@@ -77,7 +134,7 @@ int verify_command(const VerifyOptions& options) {
     for (const Region& region : regions) {
       for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
     }
-    end_on_interrupts();
+    catch_interrupts();
     std::vector<Job> jobs;
     const auto at_walls = regions.empty() ? std::nullopt : region_at_walls(options.problem);
     for (const MethodSpec& spec : specs) {
@@ -87,7 +144,9 @@ int verify_command(const VerifyOptions& options) {
         jobs.push_back({spec, at_walls});
       }
     }
-    const std::vector<PropertyRow> rows = measure_all(jobs, regions);
+    Measuring measuring(jobs, regions);
+    if (!measuring.wait()) end_interrupted(measuring.rows(), options.json);
+    const std::vector<PropertyRow> rows = measuring.rows();
     std::cout << (options.json ? property_json(rows) : property_table(rows));
     const bool all_agree = std::all_of(rows.begin(), rows.end(), [](const PropertyRow& row) { return row.agrees(); });
     return all_agree ? exit_done : exit_failed;

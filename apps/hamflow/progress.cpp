@@ -6,14 +6,11 @@
 
 #include <cstdio>
 
-#include "commands.hpp"
-
 namespace hamflow::app {
 
 namespace {
 volatile sig_atomic_t asked_to_stop = 0;
 extern "C" void note_interrupt(int) { asked_to_stop = 1; }
-extern "C" void end_now(int) { _exit(exit_interrupted); }
 
 void handle_interrupts(void (*handler)(int)) {
   struct sigaction action {};
@@ -30,8 +27,6 @@ void catch_interrupts() {
   asked_to_stop = 0;
   handle_interrupts(note_interrupt);
 }
-
-void end_on_interrupts() { handle_interrupts(end_now); }
 
 bool interrupted() { return asked_to_stop != 0; }
 

@@ -11,8 +11,6 @@ namespace hamflow::app {
 /// From now on Ctrl-C only asks to stop.
 void catch_interrupts();
 bool interrupted();
-/// From now on Ctrl-C ends the command at once, with the status of what was stopped: nothing is there to be saved.
-void end_on_interrupts();
 
 class Progress {
  public:

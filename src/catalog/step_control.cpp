@@ -43,7 +43,13 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
   const MethodEntry& entry = find_method(method.name);
   if (!declares(*entry.family)) return std::nullopt;
   const StepControl control = step_control_of(method);
-  if (!control.reversible) return std::nullopt;  // equal steps follow no monitor
+  if (!control.reversible) {
+    const auto monitor = method.options.find(monitor_option);
+    if (monitor == method.options.end()) return std::nullopt;
+    return RefusedOption{monitor_option, "found \"" + monitor->second +
+                                             "\" with steps of equal length, which follow none; allowed with " +
+                                             step_control_option + " = \"" + reversible_steps + "\""};
+  }
   const MethodInfo info = entry.family->describe(entry.index, method.options);
   if (!info.symmetric) {
     return RefusedOption{step_control_option, std::string("found \"") + reversible_steps + "\" with " + info.name +

@@ -33,6 +33,19 @@ std::vector<Column> columns_of(const FigureData& data) {
   return all;
 }
 
+std::string unit_of(const Figure& figure, Sort sort) {
+  const FigureUnits units = units_of(figure);
+  return sort == Sort::time       ? units.t
+         : sort == Sort::position ? units.q
+         : sort == Sort::momentum ? units.p
+         : sort == Sort::energy   ? units.energy
+                                  : "";
+}
+
+std::string axis_label(const Figure& figure, const Column& column) {
+  return in_unit(column.label, unit_of(figure, column.sort));
+}
+
 std::vector<std::string> column_names(const FigureData& data) {
   std::vector<std::string> names;
   for (const Column& column : columns_of(data)) names.push_back(column.name);

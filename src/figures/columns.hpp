@@ -19,6 +19,10 @@ struct Column {
   std::function<std::vector<double>()> values;  // of the data that it was made of, as long as they live
 };
 
+/// Of a column of one of the runs of a figure.
+std::string unit_of(const Figure& figure, Sort sort);
+/// Its label with its unit.
+std::string axis_label(const Figure& figure, const Column& column);
 /// All that can be drawn over each other: t, coordinates, momenta, energy, energy-error, observables, diagnostics.
 std::vector<Column> columns_of(const FigureData& data);
 /// Their names.

@@ -31,6 +31,12 @@ struct FigureParticles {
   std::function<std::vector<double>(std::size_t sample)> positions{};
 };
 
+/// Of a problem that brings its numbers along, enhanced text; empty where units are those of the input.
+struct FigureUnits {
+  std::string t{}, q{}, p{}, energy{};
+  bool operator==(const FigureUnits&) const = default;
+};
+
 struct FigureData : FigureSamples {
   std::string title;                     // e.g. "central-force, cg(1,5), dt = 0.1"
   std::string label{};                   // of a run among several, in the legend
@@ -46,6 +52,7 @@ struct FigureData : FigureSamples {
   std::vector<double> curve_y;
   /// Dimension of space where q is [x1, y1(, z1), x2, ...] of several bodies, or the place of one; 0 otherwise.
   std::size_t space = 0;
+  FigureUnits units{};
   std::vector<std::string> bodies{};  // their names, where they have some; empty: body 1, body 2, ...
   FigureParticles particles{};
   /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.

@@ -105,6 +105,19 @@ Curve dots_on_line(const Curve& track, const Panel& panel) {
   return thin_out(track, static_cast<std::size_t>(std::clamp(path_length(printed), 40.0, most)));
 }
 
+FigureUnits units_of(const Figure& figure) {
+  const FigureUnits& first = figure.runs.front().units;
+  const bool shared =
+      std::all_of(figure.runs.begin(), figure.runs.end(), [&](const FigureData& run) { return run.units == first; });
+  return shared ? first : FigureUnits{};
+}
+
+std::string in_unit(const std::string& label, const std::string& unit) {
+  return unit.empty() ? label : label + " in " + unit;
+}
+
+std::string time_label(const Figure& figure) { return in_unit("{/:Italic t}", units_of(figure).t); }
+
 Panel panel_over(const Extent& times, const std::string& label) {
   Panel panel;
   panel.x = fit_axis(times, 0, {7, 40});

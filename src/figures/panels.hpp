@@ -43,6 +43,12 @@ void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y);
 double start_of(const std::vector<double>& energy);
 /// max(|H0|, |T0| + |V0|), 1 where it is none.
 double scale_of(const FigureData& data);
+/// Those that all runs of a figure share.
+FigureUnits units_of(const Figure& figure);
+/// "x in AU"; the label alone where there is no unit.
+std::string in_unit(const std::string& label, const std::string& unit);
+/// The time, with its unit.
+std::string time_label(const Figure& figure);
 /// The scale as a symbol; empty where it is 1.
 std::string scale_name(const FigureData& data);
 /// (H - H0)/scale at every sample. Where the difference overflows the quotient need not.

@@ -71,6 +71,9 @@ GasStart gas_in_corner(std::int64_t n, std::size_t space) {
 }
 
 GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
+  if (std::filesystem::is_directory(file)) {
+    throw Error("found the folder " + file.string() + "; allowed a CSV of particles, or the run.h5 of a run");
+  }
   std::ifstream in(file);
   if (!in) throw Error("found no file " + file.string() + " that can be read; allowed a CSV of particles");
   std::vector<std::string> names;
@@ -80,6 +83,7 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
   const std::string allowed = "; allowed a first row with " + joined(names) + ", and mass if there is one for each";
   std::string line;
   if (!std::getline(in, line)) throw Error("found the empty file " + file.string() + allowed);
+  if (constexpr std::string_view mark = "\xef\xbb\xbf"; line.starts_with(mark)) line.erase(0, mark.size());
   const std::vector<std::string> head = cells_of(line);
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
@@ -89,6 +93,9 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
   }
   const auto mass = std::find(head.begin(), head.end(), "mass");
   for (const std::string& name : head) {
+    if (std::count(head.begin(), head.end(), name) > 1) {
+      throw Error("found the column '" + name + "' twice in " + file.string() + allowed);
+    }
     if (name == "mass" || std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw Error("found the column '" + name + "' in " + file.string() + suggestion(name, names) + allowed);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hamflow/methods/step_control.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {
@@ -56,9 +57,23 @@ bool same_option(const OptionInfo& a, const OptionInfo& b) {
          a.range.least == b.range.least && a.range.most == b.range.most;
 }
 
+namespace {
+/// The monitor of steps of varying length, where --set asks for equal ones, which follow none.
+bool has_replaced_monitor(const toml::table& method, const Texts& options_of_set_name) {
+  if (!method.contains(monitor_option)) return false;
+  const auto in_name = options_of_set_name.find(step_control_option);
+  if (in_name != options_of_set_name.end()) return in_name->second == fixed_steps;
+  const toml::node* const control = method.get(step_control_option);
+  return control != nullptr && is_set(*control) && control->value<std::string>() == fixed_steps;
+}
+}  // namespace
+
 std::vector<std::string> replaced_method_keys(const toml::table& method, const std::string& file_method) {
   const toml::node* name = method.get(method_name_key().name);
-  if (name == nullptr || !is_set(*name)) return {};
+  if (name == nullptr) return {};
+  if (!is_set(*name)) {
+    return has_replaced_monitor(method, {}) ? std::vector<std::string>{monitor_option} : std::vector<std::string>{};
+  }
   MethodSpec spec;
   try {
     spec = parse_method(name->value_or(std::string()));
@@ -78,6 +93,9 @@ std::vector<std::string> replaced_method_keys(const toml::table& method, const s
     const std::string option(key.str());
     if (is_set(node) || !contains(all_method_keys(), option)) continue;
     if (!applies(option) || spec.options.contains(option)) replaced.push_back(option);
+  }
+  if (has_replaced_monitor(method, spec.options) && !contains(replaced, monitor_option)) {
+    replaced.push_back(monitor_option);
   }
   return replaced;
 }

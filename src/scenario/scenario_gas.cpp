@@ -1,4 +1,5 @@
 // [problem] with the gas: words that choose its entry of the catalogue, its parameters, and where the particles begin.
+#include <cctype>
 #include <cmath>
 
 #include "gas_options.hpp"
@@ -146,6 +147,19 @@ void ScenarioReader::read_gas(TomlTable& table) {
   request.parameters = complete(scenario_.problem->info, parameters);
 }
 
+namespace {
+/// Where a formula names the time, from 1; 0 where it does not.
+std::size_t column_of_time(const std::string& formula) {
+  const auto in_name = [&](std::size_t i) {
+    return i < formula.size() && (std::isalnum(static_cast<unsigned char>(formula[i])) != 0 || formula[i] == '_');
+  };
+  for (std::size_t i = 0; i < formula.size(); ++i) {
+    if (formula[i] == 't' && !in_name(i + 1) && (i == 0 || !in_name(i - 1))) return i + 1;
+  }
+  return 0;
+}
+}  // namespace
+
 /// phi = "..." and its parameters.
 void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
   const GasOptions& o = gas_options();
@@ -166,9 +180,18 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
   }
   try {
     const Choices field = central_formula_choices(*phi, typed, "cartesian");
+    if (const std::size_t column = column_of_time(*phi); column > 0) {
+      throw FormulaError(FormulaKeys::central_potential,
+                         "found \"" + *phi + "\", column " + std::to_string(column) +
+                             ": the time t; allowed r, parameters, numbers: a pair law is the same at all times");
+    }
     scenario_.request.variant[GasKeys::phi] = *phi;
     scenario_.request.variant[GasKeys::parameters] = field.at(FormulaKeys::parameters);
     parameters.insert(typed.begin(), typed.end());
+    FormulaTexts texts;
+    texts.potential = *phi;
+    texts.parameters = typed;
+    refuse_unused_parameters(table, texts);
   } catch (const FormulaError& error) {
     table.complain_in(error.key == FormulaKeys::central_potential ? GasKeys::phi : error.key, error.what());
   }

@@ -1,6 +1,7 @@
 // [method]: its name, and the options that its family declares.
 #include <algorithm>
 
+#include "hamflow/methods/step_control.hpp"
 #include "method_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -17,6 +18,10 @@ void ScenarioReader::read_method(TomlTable& table) {
   const std::vector<std::string> dropped = replaced_method_keys(table.node(), file_method_);
   for (const std::string& key : dropped) {
     table.know(key);
+    if (key == monitor_option && find_option(find_method(spec.name).family->options, key) != nullptr) {
+      scenario_.notes.push_back(table.full(key) + " is not used: steps of equal length follow no monitor");
+      continue;
+    }
     scenario_.notes.push_back(
         table.full(key) + " of the file is not used: " + table.full(method_name_key().name) + " is set to " +
         spec.name +

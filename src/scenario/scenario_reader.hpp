@@ -72,6 +72,7 @@ class ScenarioReader {
   void read_orbit(TomlTable& table);
   void refuse_derived(TomlTable& table, const StartInfo& start, const std::string& because);
   void read_bodies(TomlTable& table);
+  bool check_masses(TomlTable& table);
   bool check_size(TomlTable& table);
   void read_initial(TomlTable& table);
   void read_start_energy(TomlTable& initial);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hamflow/run/gas.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
 
@@ -205,11 +206,24 @@ void ScenarioReader::read_frame(TomlTable& table) {
   scenario_.request.start.barycentric = frame.value_or(usual) == StartFrames::barycentric;
 }
 
+/// A gas whose start nobody typed: the particles are counted, and it is their masses that may be too many or too few.
+bool ScenarioReader::check_masses(TomlTable& table) {
+  const Request& request = scenario_.request;
+  const std::size_t size = request.start.q.size();
+  if (scenario_.problem->refused_size(request.parameters, size).empty()) return true;
+  const auto space = static_cast<std::size_t>(number_value(request.parameters.at(GasKeys::dimension)));
+  table.complain(GasKeys::masses, "found " + std::to_string(list_parts(request.parameters.at(GasKeys::masses)).size()) +
+                                      " numbers; allowed one, or " + std::to_string(size / space) +
+                                      ", one for each particle");
+  return false;
+}
+
 /// Where the size of the problem follows from the start.
 bool ScenarioReader::check_size(TomlTable& table) {
   const StartSpec& spec = scenario_.request.start;
   if (spec.geometric()) return true;
   const std::size_t before = complaints_.size();
+  if (!table.has("initial") && scenario_.request.problem == GasKeys::problem) return check_masses(table);
   TomlTable at = table.has("initial") ? table.table("initial") : table;
   const auto check = [&](const char* key, std::size_t size) {
     const std::string why_not = scenario_.problem->refused_size(scenario_.request.parameters, size);

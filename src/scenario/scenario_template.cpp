@@ -200,7 +200,7 @@ class TemplateWriter {
         }
       }
       std::string code = key;
-      const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
+      const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
       const char* const mark = is_number ? "" : "\"";
       code.append(" = ").append(mark).append(value).append(mark);
       page_.line(code, joined(all));

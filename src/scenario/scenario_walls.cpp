@@ -6,6 +6,7 @@
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
+#include "wall_checks.hpp"
 
 namespace hamflow {
 
@@ -136,73 +137,90 @@ void ScenarioReader::read_walls(TomlTable& table) {
   scenario_.problem = &find_problem(scenario_.request.problem, scenario_.request.variant);
 }
 
-/// What only shows beside method and arithmetic.
-void ScenarioReader::check_walls() {
-  const auto walls = walls_among(scenario_.request.variant);
-  if (!walls || scenario_.problem == nullptr || scenario_.start_q.empty() || !has_method()) return;
-  const WallKeys& keys = wall_keys();
-  TomlTable table = root_.table("problem");
-  const MethodSpec& method = scenario_.request.method;
-  const MethodInfo info = describe(method);
-  const bool on_lattice = scenario_.request.arithmetic == "lattice";
-  const std::string& rule = wall_rules()[static_cast<std::size_t>(walls->rule)];
-  const auto refuse = [&](const std::string& why) {
-    table.complain(
-        table.has(keys.wall_rule.name) || !table.has(keys.walls.name) ? keys.wall_rule.name : keys.walls.name,
-        "found \"" + rule + "\" " + why);
-  };
+std::string refused_by_walls(const Request& request, const ProblemEntry& problem, const std::vector<double>& start_q) {
+  const auto walls = walls_among(request.variant);
+  if (!walls) return {};
+  const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
-    refuse("with steps of varying length, which walls would cut; allowed \"soft\", or step_control = \"fixed\"");
+    return "with steps of varying length, which walls would cut; allowed \"soft\", or step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {
-    refuse("with " + info.name +
+    return "with " + info.name +
            ", which carries a second copy of the state that meets walls elsewhere; allowed "
-           "\"soft\", or another method");
+           "\"soft\", or another method";
   }
-  if (walls->rule == WallRule::event && on_lattice) {
-    refuse("on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"");
+  if (walls->rule == WallRule::event && request.arithmetic == "lattice") {
+    return "on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"";
   }
-  if (walls->rule != WallRule::mirror) return;
-  const bool drifts = find_method(method.name).family->not_on_lattice.empty();
+  if (walls->rule != WallRule::mirror) return {};
+  const bool drifts = find_method(request.method.name).family->not_on_lattice.empty();
   if (!drifts) {
-    refuse("with " + info.name +
+    return "with " + info.name +
            ", which has no drifts to be reflected; allowed \"event\", \"reject\", or a splitting "
-           "method, e.g. stv4");
-    return;
+           "method, e.g. stv4";
   }
-  const ProblemEntry& problem = *scenario_.problem;
-  const Texts& parameters = scenario_.request.parameters;
   const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {
     if (problem.info.name == GasKeys::problem) break;  // each particle has its mass
-    std::vector<double> p(scenario_.start_q.size(), 0.0);
+    std::vector<double> p(start_q.size(), 0.0);
     p[wall.index] = 1;
-    const std::vector<double> v = problem.rates(parameters, scenario_.start_q, p);
+    const std::vector<double> v = problem.rates(request.parameters, start_q, p);
     for (std::size_t k = 0; k < v.size(); ++k) {
       if (quadratic && (k == wall.index || v[k] == 0)) continue;
-      refuse("where the velocity of " + wall.coordinate +
+      return "where the velocity of " + wall.coordinate +
              (quadratic ? " depends on other momenta too"
                         : " is not a "
                           "constant times its momentum") +
-             ": a reflected drift would not be one of H; allowed \"event\", \"reject\"");
-      return;
+             ": a reflected drift would not be one of H; allowed \"event\", \"reject\"";
     }
   }
-  if (!on_lattice) return;
+  return {};
+}
+
+std::string rule_of_walls(const Request& request) {
+  const auto walls = walls_among(request.variant);
+  return walls ? wall_rules()[static_cast<std::size_t>(walls->rule)] : std::string();
+}
+
+/// What only shows beside method and arithmetic.
+void ScenarioReader::check_walls() {
+  const Request& request = scenario_.request;
+  const auto walls = walls_among(request.variant);
+  if (!walls || scenario_.problem == nullptr || scenario_.start_q.empty() || !has_method()) return;
+  const WallKeys& keys = wall_keys();
+  TomlTable table = root_.table("problem");
+  const auto refuse = [&](const std::string& why) {
+    table.complain(
+        table.has(keys.wall_rule.name) || !table.has(keys.walls.name) ? keys.wall_rule.name : keys.walls.name,
+        "found \"" + rule_of_walls(request) + "\" " + why);
+  };
+  const std::string why_not = refused_by_walls(request, *scenario_.problem, scenario_.start_q);
+  if (!why_not.empty()) return refuse(why_not);
+  if (walls->rule != WallRule::mirror || request.arithmetic != "lattice") return;
+  const double unit = request.position_unit;
+  double most = 0;
+  std::vector<std::string> notes;
   for (const Walls::Interval& wall : walls->intervals) {
     for (const std::string& text : {wall.min, wall.max}) {
       if (text.empty()) continue;
       const double at = number_value(text);
-      const double unit = scenario_.request.position_unit;
       if (std::abs(at) > 0x1p51 * unit) {
         refuse("with a wall at " + text + " and a unit of " + shortest(unit) +
                "; allowed walls within 2^51 units, behind which positions are still exact in double");
         return;
       }
-      scenario_.notes.push_back("the wall of " + wall.coordinate + " at " + text + " is moved by " +
-                                shortest(on_half_lattice(at, unit) - at) + ", to half a unit of the lattice");
+      const double moved = on_half_lattice(at, unit) - at;
+      if (moved == 0) continue;
+      most = std::max(most, std::abs(moved));
+      notes.push_back("the wall of " + wall.coordinate + " at " + text + " is moved by " + shortest(moved) +
+                      ", to half a unit of the lattice");
     }
   }
+  if (notes.empty()) return;
+  if (request.problem == GasKeys::problem) {  // the same for each of its particles
+    notes = {"the walls of the box are moved by up to " + shortest(most) + ", to half a unit of the lattice"};
+  }
+  scenario_.notes.insert(scenario_.notes.end(), notes.begin(), notes.end());
 }
 
 }  // namespace hamflow

@@ -178,6 +178,8 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   data.space = space_of(scenario, size);
   data.particles = particles_of(scenario, source, size, data.space);
   data.bodies = names_of_bodies(scenario.request.problem);
+  const ColumnUnits units = column_units(scenario);
+  data.units = {units.t.empty() ? "" : units.t + "s", units.q, units.p, units.energy};
   data.path = path_of(scenario, samples);
   data.t = std::move(samples.t);
   data.q = std::move(samples.q);

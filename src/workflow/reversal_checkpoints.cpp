@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* reversal_file = "reversal.bin";
 constexpr const char* reversal_record = "reversal";
+constexpr const char* there_record = "there";  // what warnings ask of the way there
 constexpr double seconds_between = 10;
 
 std::uint64_t hash_of_text(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
@@ -33,6 +34,13 @@ ReversalProgress progress_in(const Checkpoint& checkpoint) {
   return progress;
 }
 
+template <class Archive>
+void archive_there(Archive& ar, ReversalProgress& progress, TurnWatch& turns) {
+  Excursion& energy = progress.energy_there;
+  ar(energy.initial, energy.final, energy.max_error);
+  turns.archive(ar);
+}
+
 }  // namespace
 
 std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path& folder) {
@@ -40,7 +48,9 @@ std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path
   Checkpoint checkpoint = read_checkpoint(folder / reversal_file);
   std::vector<Complaint> complaints = differences(scenario, checkpoint);
   try {
-    if (progress_in(checkpoint).turned && scenario.steps != checkpoint.steps && complaints.empty()) {
+    // A short one leaves no state, but it is complete all the same.
+    const bool turned = progress_in(checkpoint).turned || checkpoint.summary_hash != 0;
+    if (turned && scenario.steps != checkpoint.steps && complaints.empty()) {
       const std::string steps = run_path(run_keys().steps);
       complaints.push_back({scenario.file, 1, 1, steps,
                             "found " + std::to_string(scenario.steps) + " steps; allowed with --resume the " +
@@ -66,11 +76,18 @@ ReversalCheckpoints::ReversalCheckpoints(const Scenario& scenario, Simulation& s
     : simulation_(simulation),
       file_(folder / reversal_file),
       every_(scenario.checkpoint_every),
-      checkpoint_(beginning_of(scenario, from != nullptr ? from->identity : new_identity())) {
+      checkpoint_(beginning_of(scenario, from != nullptr ? from->identity : new_identity())),
+      turns_(scenario.dt, takes_equal_steps(simulation.method())) {
   if (from != nullptr && !has_only_begun(*from)) {
     try {
       simulation.restore(from->simulation);
       progress_ = progress_in(*from);
+      for (const ObserverRecord& record : from->observers) {
+        if (record.name != there_record) continue;
+        Reader ar(record.bytes);
+        archive_there(ar, progress_, turns_);
+        ar.finish();
+      }
     } catch (const Error& error) {
       throw FileError("the checkpoint " + file_.string() + " cannot be used: " + error.what());
     }
@@ -99,7 +116,9 @@ void ReversalCheckpoints::write() {
   checkpoint_.simulation = simulation_.save();
   Writer ar;
   progress_.archive(ar);
-  checkpoint_.observers = {{reversal_record, ar.take()}};
+  Writer there;
+  archive_there(there, progress_, turns_);
+  checkpoint_.observers = {{reversal_record, ar.take()}, {there_record, there.take()}};
   write_checkpoint(file_, checkpoint_);
   last_ = Clock::now();
 }

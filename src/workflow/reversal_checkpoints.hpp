@@ -7,6 +7,7 @@
 #include "checkpoint.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/verify/reversal_progress.hpp"
+#include "hamflow/verify/turns.hpp"
 
 namespace hamflow {
 
@@ -24,6 +25,8 @@ class ReversalCheckpoints final : public Observer {
   ReversalCheckpoints(const Scenario& scenario, Simulation& simulation, const std::filesystem::path& folder,
                       const Checkpoint* from);
   ReversalProgress& progress() { return progress_; }
+  /// What the coordinates did on the way there.
+  TurnWatch& turns() { return turns_; }
 
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
@@ -40,6 +43,7 @@ class ReversalCheckpoints final : public Observer {
   std::int64_t every_;
   Checkpoint checkpoint_;
   ReversalProgress progress_;
+  TurnWatch turns_;
   Clock::time_point last_ = Clock::now();
 };
 

@@ -13,6 +13,7 @@
 #include "reverse_file.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
+#include "warnings.hpp"
 
 namespace hamflow {
 
@@ -59,9 +60,35 @@ Json state(const Frame& frame) {
   if (!frame.digits.q.empty()) return {{"q", frame.digits.q}, {"p", frame.digits.p}};
   return {{"q", frame.q}, {"p", frame.p}};
 }
+
+/// Watches the way there alone: on the way back every coordinate turns with the momenta.
+class WayThere final : public Observer {
+ public:
+  WayThere(TurnWatch& turns, std::int64_t steps) : turns_(turns), steps_(steps) {}
+  std::int64_t next_due(std::int64_t step) const override {
+    const std::int64_t due = turns_.next_due(step);
+    return due > steps_ ? never : due;
+  }
+  Verdict observe(const Frame& frame) override { return turns_.observe(frame); }
+
+ private:
+  TurnWatch& turns_;
+  std::int64_t steps_;
+};
+
+/// What is nonsense about the motion that was reversed. Both ways count where the way back is the same motion.
+Json warnings_about(const Scenario& scenario, const Simulation& simulation, const Reversal& r, bool same_motion,
+                    const Excursion& there, const TurnWatch& turns) {
+  Json known = Json::object();
+  if (scenario.problem->describe_orbit) known["orbit"] = orbit_of(scenario);
+  return warnings_of(scenario, known, same_motion ? simulation.energy() : there, simulation.energy_scale(), r.turn,
+                     &turns);
+}
+
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
 
-Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report) {
+Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report,
+             const Json& warnings) {
   const Reversal& r = report.reversal;
   const MethodInfo method = describe(scenario.request.method);
   const bool done = r.outcome == Outcome::done;
@@ -88,6 +115,7 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
     s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
     s["pair_evaluations"] = simulation.effort().force * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
   }
+  s["warnings"] = warnings;
   if (s["status"] == "failed") {
     RunResult result;
     result.outcome = r.outcome;
@@ -136,7 +164,8 @@ std::string readable_reversal(const Json& s) {
 
 namespace {
 
-ReversalReport report_of(const Scenario& scenario, const Simulation& simulation, Reversal reversal) {
+ReversalReport report_of(const Scenario& scenario, const Simulation& simulation, Reversal reversal,
+                         const Excursion& there, const TurnWatch& turns) {
   ReversalReport report;
   report.reversal = std::move(reversal);
   const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
@@ -154,7 +183,9 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }
-  const Json json = json_of(scenario, simulation, report);
+  const Json json =
+      json_of(scenario, simulation, report, warnings_about(scenario, simulation, r, even && !timed, there, turns));
+  report.warnings = warning_lines(json);
   report.status = json["status"].get<std::string>();
   if (json.contains("error")) {
     report.message = json["error"]["message"].get<std::string>();
@@ -169,8 +200,12 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
 
 ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bool(std::int64_t)>& pulse) {
   const auto simulation = make_simulation(scenario.request);
-  Reversal reversal = reverse(*simulation, scenario.steps, pulse);
-  return report_of(scenario, *simulation, std::move(reversal));
+  TurnWatch turns(scenario.dt, takes_equal_steps(simulation->method()));
+  WayThere way_there(turns, scenario.steps);
+  Observer* const observers[] = {&way_there};
+  ReversalProgress progress;
+  Reversal reversal = reverse(*simulation, scenario.steps, pulse, observers, progress);
+  return report_of(scenario, *simulation, std::move(reversal), progress.energy_there, turns);
 }
 
 ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings) {
@@ -200,13 +235,15 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
       report.status = json["status"].get<std::string>();
       report.expected_bit_exact = json["expected_bit_exact"].get<bool>();
       report.note = json["note"].get<std::string>();
+      report.warnings = warning_lines(json);
       report.text = readable_reversal(json);
       return report;
     }
   }
   const auto simulation = make_simulation(scenario.request);
   ReversalCheckpoints checkpoints(scenario, *simulation, settings.folder, from ? &*from : nullptr);
-  Observer* const observers[] = {&checkpoints};
+  WayThere way_there(checkpoints.turns(), scenario.steps);
+  Observer* const observers[] = {&way_there, &checkpoints};
   Reversal reversal = reverse(
       *simulation, scenario.steps,
       [&](std::int64_t step) {
@@ -216,7 +253,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
         return goes_on;
       },
       observers, checkpoints.progress());
-  ReversalReport report = report_of(scenario, *simulation, std::move(reversal));
+  ReversalReport report =
+      report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().energy_there, checkpoints.turns());
   const Reversal& r = report.reversal;
   write_reverse_file(settings.folder / "reverse.h5", scenario.text, r.start, r.turn,
                      r.outcome == Outcome::done ? &r.end : nullptr);

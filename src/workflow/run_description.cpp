@@ -113,6 +113,8 @@ std::vector<InvariantColumn> csv_columns(const Scenario& scenario) {
   return all;
 }
 
+ColumnUnits column_units(const Scenario& scenario) { return units_of(scenario).columns; }
+
 RunDescription description_of(const Scenario& scenario, std::size_t samples) {
   const Request& request = scenario.request;
   const MethodInfo method = describe(request.method);

@@ -19,6 +19,9 @@ std::vector<double> observable_values(const Scenario& scenario, const Frame& fra
 /// What trajectory.csv has beside the state: invariants, then observables.
 std::vector<InvariantColumn> csv_columns(const Scenario& scenario);
 
+/// Of the problem that brings numbers along; empty where units are those of the input.
+ColumnUnits column_units(const Scenario& scenario);
+
 /// @param samples expected
 RunDescription description_of(const Scenario& scenario, std::size_t samples);
 

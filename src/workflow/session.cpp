@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/methods/step_control.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
+#include "wall_checks.hpp"
 
 namespace hamflow {
 
@@ -104,8 +106,15 @@ void Session::set_method(const MethodSpec& method) {
       next.method.options.emplace(option.name, before->second);
     }
   }
+  const auto control = next.method.options.find(step_control_option);
+  const bool varies = control != next.method.options.end() && control->second == reversible_steps;
+  if (!varies && !method.options.contains(monitor_option)) next.method.options.erase(monitor_option);
   if (const auto refused = refused_option(next.method)) {
     throw Error(method.name + ": " + refused->name + ": " + refused->message);
+  }
+  if (const std::string why_not = refused_by_walls(next, *scenario_.problem, scenario_.start_q); !why_not.empty()) {
+    throw Error("method: found " + describe(next.method).name + " beside problem.wall_rule = \"" + rule_of_walls(next) +
+                "\" " + why_not);
   }
   change(next, "method = " + describe(next.method).name);
   remember(next.method);

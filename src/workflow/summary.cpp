@@ -53,10 +53,10 @@ Json parameters_of(const Scenario& scenario) {
   const auto without = without_walls(choices);
   for (const auto& [key, value] : scenario.problem->info.variant) {
     if (!without.contains(key)) continue;
-    // Those of the problem `formula` are its texts, which the scenario has.
-    const bool is_text = scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters;
-    const bool is_number = std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
-    if (!structure || !is_text) parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
+    // Those of the problem `formula` are its texts, which the scenario has; the values of parameters stand below.
+    if (scenario.problem->info.name == FormulaKeys::problem || key == FormulaKeys::parameters) continue;
+    const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
+    parameters[key] = is_number ? Json(std::stoi(value)) : Json(value);
   }
   if (const auto walls = walls_among(scenario.request.variant)) {
     if (scenario.request.problem == GasKeys::problem && without.at(GasKeys::container) == ContainerNames::box) {
@@ -114,16 +114,6 @@ Json bodies_of(const Scenario& scenario, const Frame& frame) {
                    {"velocity", std::vector<double>(body.velocity.begin(), body.velocity.end())}});
   }
   return all;
-}
-
-/// What the effective potential tells of the start.
-Json orbit_of(const Scenario& scenario) {
-  Json facts = Json::object();
-  for (const auto& [name, value] :
-       scenario.problem->describe_orbit(scenario.request.parameters, scenario.start_q, scenario.start_p)) {
-    std::visit([&, key = name](const auto& x) { facts[key] = x; }, value);
-  }
-  return facts;
 }
 
 /// The state that follows from the energy of a start, in the digits of the run.
@@ -226,6 +216,15 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
 }  // namespace
 
 std::string status_of(Outcome outcome) { return is_failure(outcome) ? "failed" : std::string(name(outcome)); }
+
+Json orbit_of(const Scenario& scenario) {
+  Json facts = Json::object();
+  for (const auto& [name, value] :
+       scenario.problem->describe_orbit(scenario.request.parameters, scenario.start_q, scenario.start_p)) {
+    std::visit([&, key = name](const auto& x) { facts[key] = x; }, value);
+  }
+  return facts;
+}
 
 Json summary_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result,
                 const RunCertificate* certificate, const Measures* measures, const TurnWatch* turns) {

@@ -159,11 +159,14 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, doubl
 }
 
 Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns) {
-  Json all = Json::array();
-  const Excursion energy = simulation.energy();
-  const double scale = simulation.energy_scale();
   Frame end;
   simulation.look(end);
+  return warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns);
+}
+
+Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, double scale, const Frame& end,
+                 const TurnWatch* turns) {
+  Json all = Json::array();
   if (is_energy_nonsense(scenario, energy, scale, end)) {
     all.push_back(warning(
         "energy_error",

@@ -18,6 +18,10 @@ namespace hamflow {
 /// @param summary its energy, orbit, exact and final   @param turns null where nobody has watched
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
                                    const Simulation& simulation, const TurnWatch* turns);
+/// The same of a motion that ended elsewhere than the simulation stands.
+/// @param summary its orbit   @param end where it ended
+nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
+                                   const Excursion& energy, double scale, const Frame& end, const TurnWatch* turns);
 /// "kind: message" of each, for the terminal; none of a summary without the key.
 std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 

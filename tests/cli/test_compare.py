@@ -336,6 +336,23 @@ class Compare(CommandCase):
         done = self.hamflow("compare", "fall.toml", "--methods", "stv4", "--set", "run.steps=300", status=1)
         self.assertRegex(done.stderr, r"no reference: the motion cannot be followed beyond t = (0\.9|1)")
 
+    def test_what_walls_refuse_in_a_run_they_refuse_here(self):
+        self.write("wall.toml", "[problem]\nname = 'harmonic'\ninitial = { q = [0], p = [1] }\n"
+                   "walls = [{ coordinate = 'q', max = 0.5 }]\n[method]\nname = 'verlet'\n[run]\ndt = 0.1\nsteps = 50\n")
+        for method, rule in (("cg(1,5)", "mirror"), ("rk4", "mirror"), ("tao4", "event"), ("tao4", "reject")):
+            words = ("--set", f"problem.wall_rule={rule}")
+            asked = self.hamflow("run", "wall.toml", "--out", "none", *words, "--set", f"method.name='{method}'", status=2).stderr
+            told = self.hamflow("compare", "wall.toml", *words, "--methods", f"verlet,{method}", status=2).stderr
+            self.assertIn(f"--methods: error: found '{method}'", told)
+            self.assertIn(asked.split('" with ')[1].strip(), told)
+        self.hamflow("compare", "wall.toml", "--methods", "verlet,cg(1,5)")
+
+    def test_a_step_that_goes_the_other_way_is_noted(self):
+        told = self.hamflow("compare", "kepler.toml", "--methods", "verlet", "--dt", "-0.1").stderr
+        self.assertIn("note: dt = -0.1 goes away from t_end = 40; dt = 0.1 is taken", told)
+        self.assertNotIn("goes away", self.hamflow("compare", "kepler.toml", "--methods", "verlet", "--dt", "-0.1", "--set",
+                                                   "run.dt=-0.1").stderr)
+
     def test_a_comparison_without_a_reference_states_no_uncertainty(self):
         reference = json.loads(self.stopped(signal.SIGTERM, "henon.toml", "--json"))["reference"]
         self.assertEqual((reference["kind"], reference["uncertainty"]), ("none", None))

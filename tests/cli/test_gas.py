@@ -79,6 +79,32 @@ class Gas(CommandCase):
         (self.folder / "start.csv").unlink()
         self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
 
+    def test_files_of_other_programs(self):
+        text = (GAS % 'start = "file"\nfile = "start.csv"').replace("particles_per_side = 4\n", "")
+        self.write("file.toml", text.replace("steps = 20", "steps = 0"))
+        (self.folder / "start.csv").write_bytes(b"\xef\xbb\xbfx,y,p_x,p_y\r\n0,0,1,0\r\n1,0,0,0\r\n")  # as spreadsheets do
+        self.assertEqual(self.summary("file.toml")["final"]["q"], [0, 0, 1, 0])
+        self.write("start.csv", "x,y,p_x,p_y,x\n0,0,1,0,3\n")
+        self.assertIn("found the column 'x' twice", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
+        told = self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.file=.", status=2).stderr
+        self.assertIn("found the folder", told)
+
+    def test_a_typed_pair_without_parameters(self):
+        typed = self.gas('pair = "formula"\nphi = "r^-12 - 2*r^-6"')
+        named = self.gas()
+        for x, y in zip(typed["final"]["q"], named["final"]["q"]):
+            self.assertAlmostEqual(x, y, delta=1e-12)
+        self.assertEqual(typed["parameters"]["phi"], "r^-12 - 2*r^-6")
+        for keys in ("", "\nparameters = { b = 2 }"):  # what is kept of them is no parameter itself
+            s = self.gas('pair = "formula"\nphi = "r^-12 - %s*r^-6"%s' % ("b" if keys else "2", keys))
+            self.assertNotIn("parameters", s["parameters"])
+
+    def test_one_note_for_the_walls_of_all_particles(self):
+        box = 'container = { kind = "box", size = [4.1, 4.3] }'
+        self.write("gas.toml", GAS % box)
+        notes = self.hamflow("run", "gas.toml", "--out", "none", "--set", "run.arithmetic=lattice").stderr
+        self.assertEqual(notes.count("half a unit of the lattice"), 1, notes)
+
     def test_the_last_sample_of_a_run(self):
         self.write("gas.toml", GAS % "")
         self.hamflow("run", "gas.toml")
@@ -152,6 +178,8 @@ class Gas(CommandCase):
                 ('pair = "lennard_jones"', 'did you mean lennard-jones'),
                 ('pair = "formula"', "phi"),
                 ('pair = "formula"\nphi = "r^-2 - s"', "s"),
+                ('pair = "formula"\nphi = "exp(-t*r)"', "problem.phi: found \"exp(-t*r)\", column 6: the time t"),
+                ('pair = "formula"\nphi = "k/r"\nparameters = { k = 1, l = 2 }', "parameters.l: found a parameter that stands in no"),
                 ('phi = "1/r"', 'with pair = "formula"'),
                 ('pair = "newton"\nepsilon = 1', "epsilon"),
                 ("softening = 0.1", "softening"),
@@ -169,7 +197,7 @@ class Gas(CommandCase):
                 ('cutoff = { radius = 2, kind = "smooth", inner = 2 }', "inner below radius"),
                 ('cutoff = { radius = 2, inner = 1 }', "smooth"),
                 ('cutoff = { kind = "shifted" }', "radius"),
-                ("masses = [1, 2, 3]", "3 particles"),
+                ("masses = [1, 2, 3]", "problem.masses: found 3 numbers; allowed one, or 16"),
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
                 ('wall_rule = "mirror"', "walls"),

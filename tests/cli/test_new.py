@@ -120,6 +120,17 @@ class New(CommandCase):
         self.assertEqual((s["parameters"]["potential"], s["parameters"]["coordinates"]), ("kepler", "cartesian"))
         self.assertNotEqual(self.summary("new.toml", "--set", "problem.mass=2")["final"], s["final"])
 
+    def test_no_choice_is_dropped(self):
+        for arguments, lines in ((["pendulum", "--dimension", "3"], ['coordinates = "cartesian"', "dimension = 3"]),
+                                 (["pendulum", "--constraint_form", "multiplier"], ['constraint_form = "multiplier"'])):
+            text = self.hamflow("new", *arguments).stdout
+            for line in lines:
+                self.assertIn(line, text)
+            self.write("new.toml", text)
+            self.assertEqual(self.summary("new.toml")["status"], "done")
+        done = self.hamflow("new", "double-pendulum", "--coordinates", "cartesian", "--angles", "relative", status=2)
+        self.assertIn("--angles: found relative", done.stderr)
+
     def test_wrong_requests(self):
         for arguments, words in (
             (["pendulun"], "did you mean pendulum?"),

@@ -32,6 +32,21 @@ class Plot(CommandCase):
         extra = [part for text in sets for part in ("--set", text)]
         self.hamflow("run", name, "--out", out, "--quiet", "--set", "output.figures=[]", *extra)
 
+    def test_units_of_the_planets(self):
+        """Of the one problem that brings its numbers along; of others units are those of the input."""
+        self.run_some(str(EXAMPLES / "solar_system.toml"), "run.steps=20", out="s")
+        momentum = "solar mass AU/day"
+        for kind, axes in (("orbit", ("x in AU", "y in AU")), ("energy", ("t in days", "H in solar mass AU2/day2")),
+                           ("energy-error", ("t in days",)), ("tracks", ("x in AU",)), ("particles", ("y in AU",))):
+            written = self.plot("s", kind=kind)
+            for axis in axes:
+                self.assertTrue(any(axis in text for text in written), f"{kind}: {axis} among {written}")
+        written = self.plot("s", "--y", "x1,p_x1", kind="time")
+        self.assertTrue(any("in AU" in text for text in written) and any(momentum in text for text in written), written)
+        self.hamflow("run", "kepler.toml", "--out", "k", "--quiet")
+        self.assertFalse(any(" in " in text for kind in ("orbit", "time", "energy") for text in self.plot("k", kind=kind)))
+        self.assertFalse(any(" in " in text for text in self.plot("k", "s", kind="energy-error")))
+
     def test_labels_of_every_example_and_kind(self):
         """A label is a name that the problem has: no kind of any example shows another."""
         allowed = re.compile(r"[-\u2212+=|/()., ·×∞\w]*")
@@ -66,9 +81,9 @@ class Plot(CommandCase):
     def test_planes_of_space(self):
         self.run_some(str(EXAMPLES / "solar_system.toml"), "run.steps=30", out="sun")
         labels = self.plot("sun", kind="orbit")
-        self.assertEqual([labels.count(axis) for axis in "xyz"], [2, 2, 2])
+        self.assertEqual([labels.count(f"{axis} in AU") for axis in "xyz"], [2, 2, 2])
         self.assertTrue({"Sun", "Jupiter", "Saturn", "Uranus", "Neptune", "Pluto"} <= set(labels), labels)
-        self.assertEqual([self.plot("sun", "--y", "z", kind="orbit").count(axis) for axis in "xyz"], [1, 0, 1])
+        self.assertEqual([self.plot("sun", "--y", "z", kind="orbit").count(f"{axis} in AU") for axis in "xyz"], [1, 0, 1])
         self.assertIn("allowed x, y, z", self.refused("sun", "--kind", "orbit", "--y", "w"))
 
     def test_time_shows_the_columns_that_are_chosen(self):

@@ -148,6 +148,50 @@ class Reverse(CommandCase):
         self.assertIn("--force", self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--force", status=2).stderr)
         self.assertIn("--out DIR", self.hamflow("reverse", "kepler.toml", "--resume", status=2).stderr)
 
+    def test_another_number_of_steps_of_a_short_one(self):
+        """One that left no state on the way, but is complete."""
+        sets = ("--set", "method={name='stv4'}", "--out", "r")
+        self.hamflow("reverse", "kepler.toml", *sets)
+        for steps in (401, 4000, 399):
+            told = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", f"run.steps={steps}", status=2).stderr
+            self.assertIn(f"run.steps: found {steps} steps", told)
+        self.assertIn("nothing to do", self.hamflow("reverse", "kepler.toml", *sets, "--resume").stderr)
+
+    def test_warnings(self):
+        nonsense = ("--set", "method={name='stv4'}", "--set", "run.dt=30", "--set", "run.steps=50")
+        done = self.hamflow("reverse", "kepler.toml", *nonsense, "--json", "--quiet")
+        warnings = json.loads(done.stdout)["warnings"]
+        self.assertEqual([w["kind"] for w in warnings], ["energy_error", "long_step"])
+        self.assertEqual(done.stderr.splitlines(), [f"warning: {w['kind']}: {w['message']}" for w in warnings])
+        run = self.hamflow("run", "kepler.toml", *nonsense, "--out", "none", "--quiet").stderr
+        self.assertEqual([line.split(": ")[1] for line in run.splitlines() if line.startswith("warning")],
+                         ["energy_error", "long_step"])
+        for again in ((), ("--resume",)):  # also of one that is complete
+            kept = self.hamflow("reverse", "kepler.toml", *nonsense, "--out", "r", *again)
+            self.assertEqual(kept.stderr.count("warning: "), 2)
+        self.assertEqual(self.reverse("kepler.toml", "--set", "method={name='stv4'}")["warnings"], [])
+        # H(q, -p) is another H: energies of the way back say nothing.
+        self.write("sextic.toml", "[problem]\nname='sextic'\ninitial={q=[0.6],p=[0.9]}\n[method]\nname='stv4'\n"
+                   "[run]\ndt=0.02\nsteps=500\n")
+        self.assertEqual(self.reverse("sextic.toml")["warnings"], [])
+        # A fall into the centre after the turn is none: the way there is what there is.
+        self.write("fall.toml", "[problem]\nname='central-force'\npotential='kepler'\ninitial={q=[1,0],p=[0,0]}\n"
+                   "[method]\nname='verlet'\n[run]\ndt=0.001\nsteps=900\n")
+        self.assertEqual(self.reverse("fall.toml")["warnings"], [])
+
+    def test_warnings_of_one_that_was_stopped(self):
+        sets = ("--set", "method={name='stv4'}", "--set", "run.dt=3", "--set",
+                "run.steps=2_000_000", "--json")
+        whole = json.loads(self.hamflow("reverse", "kepler.toml", *sets).stdout)["warnings"]
+        self.assertIn("long_step", [w["kind"] for w in whole])
+        process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", *sets, "--out", "r"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        time.sleep(0.15)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        on = self.hamflow("reverse", "kepler.toml", *sets, "--out", "r", "--resume")
+        self.assertEqual(json.loads(on.stdout)["warnings"], whole)
+
     def test_ctrl_c(self):
         process = subprocess.Popen([HAMFLOW, "reverse", "kepler.toml", "--json", "--set", "method={name='stv4'}", "--set",
                                     "run.steps=1000000000"], cwd=self.folder, stdout=subprocess.PIPE, text=True)

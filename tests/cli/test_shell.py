@@ -49,6 +49,15 @@ class Shell(CommandCase):
         self.assertLess(abs(here["energy_error"]), 1e-32)
         self.assertNotEqual(here["energy_error"], 0)
 
+    def test_a_method_that_walls_refuse(self):
+        self.write("wall.toml", "[problem]\nname = 'harmonic'\ninitial = { q = [0], p = [1] }\n"
+                   "walls = [{ coordinate = 'q', max = 0.5 }]\n[method]\nname = 'verlet'\n[run]\ndt = 0.1\nsteps = 50\n")
+        for method, rule in (("tao4", "event"), ("cg", "mirror")):
+            for before in ("", "step 3\n"):
+                self.shell(f"{before}method {method}\nstep 3\n", "--set", f"problem.wall_rule={rule}", status=2, scenario="wall.toml")
+                self.assertIn(f'beside problem.wall_rule = "{rule}" with {method}', self.stderr)
+        self.shell("method cg\nstep 3\n", scenario="wall.toml")
+
     def test_what_only_runs_measure_is_told(self):
         sets = [w for text in ("run.section={coordinate='x'}", "run.events=[{expression='x', action='stop'}]") for w in ("--set", text)]
         self.shell("step 3\n", *sets)

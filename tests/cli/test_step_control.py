@@ -166,6 +166,26 @@ class StepControl(CommandCase):
             s = self.summary("kepler.toml", "--set", f"method={{name='{name}', step_control='fixed'}}", "--set", "run.steps=3")
             self.assertAlmostEqual(s["final"]["t"], 0.3)
 
+    def test_a_monitor_that_nothing_follows(self):
+        for arguments in (("--set", "method={name='stv4', monitor='distance'}"), ("--set", "method.name='stv4(monitor=distance)'"),
+                          ("--set", "method={name='stv4', step_control='fixed', monitor='arclength'}", "--set", "run.steps=3")):
+            if "step_control" in arguments[1]:
+                self.assertIn("note: method.monitor", self.hamflow("run", "kepler.toml", *arguments, "--out", "none").stderr)
+            else:
+                self.assertIn('allowed with step_control = "reversible"', self.refused(*arguments))
+        for words in (("verify", "verlet(monitor=distance)"), ("compare", "kepler.toml", "--methods", "verlet(monitor=distance)")):
+            self.assertIn('allowed with step_control = "reversible"', self.hamflow(*words, status=2).stderr)
+        # One of the file gives way to equal steps that are asked for, in what is kept, too.
+        text = (self.folder / "kepler.toml").read_text().replace('name = "cg"\nquadrature = 5', 'name = "stv4"\n'
+                                                                 'step_control = "reversible"\nmonitor = "distance"')
+        self.write("varying.toml", text)
+        for fixed in ("method.step_control=fixed", "method.name='verlet(step_control=fixed)'"):
+            told = self.hamflow("run", "varying.toml", "--set", fixed, "--out", "r", "--force").stderr
+            self.assertIn("note: method.monitor is not used", told)
+            self.hamflow("plot", "r", "--kind", "energy", "-o", "f.svg")  # reads the scenario that it kept
+        self.write("varying.toml", text.replace('"reversible"', '"fixed"'))
+        self.assertIn("varying.toml", self.hamflow("run", "varying.toml", "--out", "none", status=2).stderr)
+
     def test_a_density_that_fails(self):
         done = self.hamflow("run", "kepler.toml", *DISTANCE, "--set", "run.dt=20", "--out", "none", "--json", status=1)
         error = json.loads(done.stdout)["error"]

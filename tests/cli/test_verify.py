@@ -17,6 +17,18 @@ class Verify(CommandCase):
             process.send_signal(asked)
             self.assertEqual(process.wait(timeout=10), 130)
 
+    def test_ctrl_c_says_what_is_there(self):
+        process = subprocess.Popen([HAMFLOW, "verify", "--all", "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=10)
+        self.assertEqual(process.returncode, 130)
+        answer = json.loads(out)
+        self.assertEqual(answer["status"], "interrupted")
+        names = [m["name"] for m in json.loads(self.hamflow("list", "methods", "--json").stdout)]
+        for method in answer["methods"]:
+            self.assertIn(method["method"].split("(")[0], names)
+
     def test_table_of_claims_and_measurements(self):
         out = self.hamflow("verify", "stv4", "cg(1,5)").stdout
         self.assertIn("claimed / measured", out)

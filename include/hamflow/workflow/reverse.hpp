@@ -16,8 +16,9 @@ struct ReversalReport {
   std::string message;  // of a failure, a sentence
   std::string hint;     // and what can be done
   Reversal reversal;
-  bool expected_bit_exact = false;  // whether problem, method and arithmetic promise every bit
-  std::string note;                 // what a distance means here; empty where it speaks for itself
+  bool expected_bit_exact = false;    // whether problem, method and arithmetic promise every bit
+  std::string note;                   // what a distance means here; empty where it speaks for itself
+  std::vector<std::string> warnings;  // what is nonsense about the motion itself
   std::string json;
   std::string text;  // for people
 };

@@ -36,7 +36,7 @@ Page page(const Figure& figure) {
   Extent times;
   for (const FigureData& run : figure.runs) times.include(run.t);
   for (const auto& [name, label] : labels) {
-    Panel panel = panel_over(times, "{/:Italic t}");
+    Panel panel = panel_over(times, time_label(figure));
     Extent range;
     for (std::size_t run = 0; run < figure.runs.size(); ++run) {
       for (const auto& [column, values] : figure.runs[run].diagnostics) {

@@ -36,7 +36,7 @@ Page page(const Figure& figure) {
     scale = std::max(scale, scale_of(run));
   }
   scale = std::max(scale, range.largest());
-  Panel panel = panel_over(times, "{/:Italic t}");
+  Panel panel = panel_over(times, time_label(figure));
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
     add_over_time(panel, figure.runs[run].t, figure.runs[run].energy, series_of(figure, run));
   }
@@ -50,7 +50,7 @@ Page page(const Figure& figure) {
     range.include(std::min(start + scale, most));
   }
   panel.y = fit_axis(range, padding, {6});
-  panel.y_label = energy_name + (figure.runs.front().has_time ? energy_of_time : "");
+  panel.y_label = in_unit(energy_name + (figure.runs.front().has_time ? energy_of_time : ""), units_of(figure).energy);
   return {figure.runs.front().title, {panel}};
 }
 }  // namespace energy

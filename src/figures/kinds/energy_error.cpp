@@ -101,7 +101,7 @@ Page page(const Figure& figure) {
     in_double = in_double && run.energy_difference.empty();
   }
   const bool logarithmic = is_logarithmic(errors);
-  Panel panel = panel_over(times, "{/:Italic t}");
+  Panel panel = panel_over(times, time_label(figure));
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
     Series how = series_of(figure, run);
     if (!how.name.empty() && largest(errors[run]) == 0) how.name += " (0)";

@@ -123,8 +123,8 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
   }
   fit_equal_axes(panel, x, y);
   const std::vector<std::string> names = columns(one);
-  panel.x_label = symbol(names[plane.first]);
-  panel.y_label = symbol(names[plane.second]);
+  panel.x_label = in_unit(symbol(names[plane.first]), units_of(figure).q);
+  panel.y_label = in_unit(symbol(names[plane.second]), units_of(figure).q);
   if (exact) {
     panel.series.push_back({Ink::exact, "exact", {one.curve_x, one.curve_y}});
     tracks[0].curve = dots_on_line(tracks[0].curve, panel);

@@ -36,8 +36,9 @@ Panel panel_of(const FigureData& data, const std::vector<double>& positions, Pla
   fit_equal_axes(panel, ends[plane.first], ends[plane.second]);
   panel.x.step = plain_axis(panel.x.low, panel.x.high, {5, 18}).step;  // there may be three beside each other
   const std::vector<std::string> names = axes_of_space(of.space);
-  panel.x_label = symbol(names[plane.first]) + ",  " + time_text(data.t[sample]);
-  panel.y_label = symbol(names[plane.second]);
+  panel.x_label = in_unit(symbol(names[plane.first]), data.units.q) + ",  " + time_text(data.t[sample]) +
+                  (data.units.t.empty() ? "" : " " + data.units.t);
+  panel.y_label = in_unit(symbol(names[plane.second]), data.units.q);
   if (Curve around = outline(of, plane); !around.x.empty()) panel.series.push_back({Ink::exact, "", around});
   const std::vector<std::size_t> drawn = some_of(of.count, most_drawn);
   if (!of.gas && of.count <= 12) {

@@ -84,8 +84,8 @@ Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns,
   }
   panel.x = fit_axis(x, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 18});
   panel.y = fit_axis(y, padding, {columns == 1 ? 7U : 5U});
-  panel.x_label = column_of(one, plane.first).label;
-  panel.y_label = column_of(one, plane.second).label;
+  panel.x_label = axis_label(figure, column_of(one, plane.first));
+  panel.y_label = axis_label(figure, column_of(one, plane.second));
   panel.aspect = columns == 1 ? 0.7 : 1;
   const bool whole = one.coordinates.size() == 1 && plane == Plane{one.coordinates[0], one.momenta[0]};
   if (figure.runs.size() == 1 && whole && one.hamiltonian_1d && std::isfinite(start_of(one.energy))) {

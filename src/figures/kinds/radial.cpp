@@ -127,7 +127,7 @@ Page page(const Figure& figure) {
   }
   panel.x = fit_axis(r, 0, {7, 40});
   panel.y = fit_axis(g, padding, {7});
-  panel.x_label = "{/:Italic r}";
+  panel.x_label = in_unit("{/:Italic r}", units_of(figure).q);
   panel.y_label = "{/:Italic g}({/:Italic r})";
   panel.series.push_back({Ink::zero, "", {{r.low, r.high}, {1, 1}}});
   panel.series.insert(panel.series.end(), curves.begin(), curves.end());

@@ -47,8 +47,8 @@ Page page(const Figure& figure) {
   }
   panel.x = fit_axis(q, padding, {7, 40});
   panel.y = fit_axis(p, padding, {7});
-  panel.x_label = symbol(one.section_coordinate);
-  panel.y_label = symbol(one.section_momentum);
+  panel.x_label = in_unit(symbol(one.section_coordinate), units_of(figure).q);
+  panel.y_label = in_unit(symbol(one.section_momentum), units_of(figure).p);
   panel.aspect = 0.8;
   Page all{one.title, {panel}};
   if (!one.section_text.empty()) all.notes.push_back(one.section_text);

@@ -85,7 +85,7 @@ Page page(const Figure& figure) {
   }
   Page all{figure.runs.front().title, {}};
   for (const std::vector<Column>& group : shared_axes(figure)) {
-    Panel panel = panel_over(range, column_of(figure.runs.front(), x_name).label);
+    Panel panel = panel_over(range, axis_label(figure, column_of(figure.runs.front(), x_name)));
     if (!over_time) panel.x = fit_axis(range, padding, {7, 40});
     Extent values;
     for (std::size_t run = 0; run < figure.runs.size(); ++run) {
@@ -99,7 +99,7 @@ Page page(const Figure& figure) {
       }
     }
     panel.y = fit_axis(values, padding, {6});
-    panel.y_label = label_of(group);
+    panel.y_label = in_unit(label_of(group), unit_of(figure, group.front().sort));
     panel.aspect = over_time ? 0.42 : 0.7;
     all.panels.push_back(std::move(panel));
   }

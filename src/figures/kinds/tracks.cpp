@@ -21,8 +21,8 @@ Panel panel_of(const FigureData& data, const std::vector<std::vector<double>>& p
   const FigureParticles& of = data.particles;
   const std::vector<std::string> names = axes_of_space(of.space);
   Panel panel;
-  panel.x_label = symbol(names[plane.first]);
-  panel.y_label = symbol(names[plane.second]);
+  panel.x_label = in_unit(symbol(names[plane.first]), data.units.q);
+  panel.y_label = in_unit(symbol(names[plane.second]), data.units.q);
   Extent x;
   Extent y;
   const Curve around = outline(of, plane);
