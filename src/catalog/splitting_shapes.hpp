@@ -45,14 +45,15 @@ inline MethodAdvice advice_of(const TableAdvice& own, const MethodInfo& info, bo
   return advice;
 }
 
-/// The decimal places to which a coefficient is known: all, where it is an expression or a short decimal.
+/// The significant digits to which a coefficient is known: all, where it is an expression or a short decimal.
 inline int known_digits(std::string_view coefficient) {
   constexpr std::size_t longest_exact = 17;  // no set of the literature has decimals that long on purpose
   if (coefficient.size() <= longest_exact || coefficient.find_first_not_of("-.0123456789") != std::string_view::npos) {
     return unlimited_digits;
   }
-  const std::size_t point = coefficient.find('.');
-  return point == std::string_view::npos ? unlimited_digits : static_cast<int>(coefficient.size() - point - 1);
+  const std::string_view digits =
+      coefficient.substr(std::min(coefficient.find_first_of("123456789"), coefficient.size()));
+  return static_cast<int>(digits.size() - (digits.find('.') == std::string_view::npos ? 0 : 1));
 }
 /// The fewest among several.
 template <std::size_t count>
