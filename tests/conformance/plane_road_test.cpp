@@ -9,9 +9,9 @@
 namespace hamflow {
 namespace {
 
-using Problem = CentralForce<double, Kepler>;
+using PlaneKepler = CentralForce<double, Kepler>;
 
-void expect_the_same(const CgOptions& options, const Problem& problem, const Vector<double, 2>& p, double h) {
+void expect_bits_of_newton(const CgOptions& options, const PlaneKepler& problem, const Vector<double, 2>& p, double h) {
   CgOptions watched = options;
   watched.diagnostics = true;
   auto straight = simulate(problem, Cg{options}, {1, 0}, p, h);
@@ -32,13 +32,13 @@ void expect_the_same(const CgOptions& options, const Problem& problem, const Vec
 }
 
 TEST(PlaneRoad, HasTheBitsOfNewton) {
-  static_assert(TakesTwo<Problem>);
+  static_assert(TakesTwo<PlaneKepler>);
   for (const double h : {0.3, 0.1, 0.01, -0.1, 2.0}) {
     for (const int points : {1, 2, 3, 4, 5, 8, 33, 64}) {
       for (const double k : {1.0, 0.3, -1.0}) {
-        const Problem problem(2.0, Kepler<double>(k));
-        expect_the_same({.quadrature = points}, problem, {0, 1.7}, h);
-        expect_the_same({.quadrature = points, .max_iterations = 2, .halve = true}, problem, {0.1, 0.9}, h);
+        const PlaneKepler problem(2.0, Kepler<double>(k));
+        expect_bits_of_newton({.quadrature = points}, problem, {0, 1.7}, h);
+        expect_bits_of_newton({.quadrature = points, .max_iterations = 2, .halve = true}, problem, {0.1, 0.9}, h);
       }
     }
   }
