@@ -18,7 +18,7 @@ class Extrapolation {
     if (remembered_ < 3) ++remembered_;
   }
   /// @pre not empty
-  V predicted() const {
+  [[gnu::always_inline]] V predicted() const {
     V x = last_[0];
     for (std::size_t i = 0; i < x.size(); ++i) {
       x[i] = remembered_ == 1   ? last_[0][i]

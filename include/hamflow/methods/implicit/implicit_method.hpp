@@ -58,7 +58,11 @@ class ImplicitMethod {
 
   /// @param options those of E::Setup
   template <class Options>
-  ImplicitMethod(const P& problem, const Options& options) : setup_(problem, options), options_(setup_.newton()) {}
+  ImplicitMethod(const P& problem, const Options& options) : setup_(problem, options), options_(setup_.newton()) {
+    if constexpr (goes_straight) {
+      straight_ = !options_.tolerance && !options_.diagnostics && !setup_.automatic();
+    }
+  }
 
   MethodInfo info() const { return setup_.info(); }
 
@@ -140,6 +144,10 @@ class ImplicitMethod {
 
  private:
   static constexpr int deepest_halving = 10;
+  /// Most steps go a road that the equations know by themselves, with the bits of Newton's.
+  static constexpr bool goes_straight = requires(const E& step, const typename E::Memory& memory) {
+    step.straight(memory, 1);
+  };
 
   static std::string end_of_solution(const NewtonLog& log) {
     if (log.solved_part() <= 0) return "";
@@ -147,9 +155,10 @@ class ImplicitMethod {
            " of its length";
   }
 
-  Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {
+  [[gnu::always_inline]] Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {
     const long long before = effort_.linear_solves;
-    const Outcome outcome = attempt(problem, h, z, 0, unknowns, nullptr);
+    const Outcome outcome =
+        solved_straight(problem, h, z, unknowns) ? Outcome::done : attempt(problem, h, z, 0, unknowns, nullptr);
     if (outcome != Outcome::done) return outcome;
     const long long solves = effort_.linear_solves - before;
     effort_.solves_min = effort_.steps == 0 || solves < effort_.solves_min ? solves : effort_.solves_min;
@@ -193,6 +202,30 @@ class ImplicitMethod {
   template <class Mark>
   void return_to(const Mark& points) {
     if constexpr (requires { setup_.return_to(points); }) setup_.return_to(points);
+  }
+
+  /// In place, in the loop over steps: what others get the address of lies in memory on the way from step to step.
+  [[gnu::always_inline]] bool solved_straight(const P& problem, const Real& h, PhasePoint<A, n>& z,
+                                              Unknowns* unknowns) {
+    if constexpr (goes_straight) {
+      if (!straight_ || !newton_.trusts_memory()) [[unlikely]]
+        return false;
+      const Vector<Real, n> q0 = z.positions();
+      const Vector<Real, n> p0 = z.momenta();
+      const auto end =
+          E(setup_, problem, h, q0, p0, effort_).straight(newton_.memory().predicted(), options_.max_iterations);
+      if (end.corrections == 0) [[unlikely]]
+        return false;
+      for (std::size_t i = 0; i < n; ++i) {
+        add(z.arithmetic.position, z.q[i], end.d[i]);
+        add(z.arithmetic.momentum, z.p[i], end.impulse[i]);
+      }
+      newton_.remember({end.impulse[0], end.impulse[1]});
+      if (unknowns != nullptr) *unknowns = {end.d[0], end.d[1], end.impulse[0], end.impulse[1]};
+      return true;
+    } else {
+      return false;
+    }
   }
 
   using Solution = typename Newton<E>::Solution;
@@ -309,6 +342,7 @@ class ImplicitMethod {
   Effort effort_{};
   StepDiagnostics diagnostics_{};
   Newton<E> newton_;
+  bool straight_ = false;  // nothing is asked for that the straight road does not tell
 };
 
 }  // namespace hamflow

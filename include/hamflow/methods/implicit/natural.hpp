@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "hamflow/methods/implicit/energy_gain.hpp"
+#include "hamflow/methods/implicit/plane_road.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 
 namespace hamflow {
@@ -61,6 +62,16 @@ class NaturalElement : public SegmentEquations<P, R> {
   }
   [[gnu::always_inline]] V started(const V& impulse) const { return displacement(impulse, Real(0.5)); }
 
+  /// The whole iteration at once, as it mostly goes (plane_road.hpp); where it goes otherwise nothing is counted.
+  [[gnu::always_inline]] PlaneEnd straight(const V& impulse,
+                                           int most) const requires TakesTwo<P> && std::same_as<Real, double> {
+    const PlaneEnd end = plane_road(problem_, rule_, h_, q0_, p0_, impulse, flight_, most);
+    const long long evaluations = static_cast<long long>(end.corrections) * rule_.points;
+    effort_.force += evaluations;
+    effort_.hessian += evaluations;
+    effort_.linear_solves += end.corrections;
+    return end;
+  }
   [[gnu::always_inline]] void evaluate(const V& d, Point& at) const {
     at.stiffness = zero_matrix(q0_);
     integrate(d, at.sum, at.stiffness);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hamflow/core/inverse_cube.hpp"
+#include "hamflow/core/two.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 #include "hamflow/problems/support/kepler_flow.hpp"
 
@@ -11,6 +12,8 @@ namespace hamflow {
 template <class R>
 class Kepler {
  public:
+  static constexpr bool takes_two = true;
+
   explicit Kepler(R k = R(1)) : k_(k) {}
   explicit Kepler(const Parameters<R>& given) : Kepler(given["k"]) {}
 

@@ -36,6 +36,7 @@ class CentralForce {
   using Real = R;
   static constexpr std::size_t dimension = 2;
   static constexpr bool quadratic_kinetic = true;
+  static constexpr bool takes_two = potentials::takes_two<Potential<R>>;
 
   CentralForce(R mass, Potential<R> potential) : mass_(mass), inverse_mass_(R(1) / mass), potential_(potential) {}
   explicit CentralForce(const Parameters<R>& given) : CentralForce(given["mass"], Potential<R>(given)) {}

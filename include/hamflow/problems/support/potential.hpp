@@ -36,6 +36,12 @@ template <class V, class S, class F>
 concept HasScaledSlope = requires(const V& potential, const S& u, const F& factor) {
   potential.slope(u, factor);
 };
+/// Static, takes_two = true: `derivatives` takes Two (core/two.hpp) as well as numbers, having no branches and no
+/// functions but roots. Newton in the plane is faster for it. Default: false.
+template <class V>
+inline constexpr bool takes_two = requires {
+  requires V::takes_two;
+};
 /// fast_slope(u, factor): the same by other operations, for kernel = "fast". Default: there is none.
 template <class V, class S, class F>
 concept HasFastSlope = requires(const V& potential, const S& u, const F& factor) {
