@@ -31,11 +31,11 @@ MpDigits::MpDigits(int digits) : before_(bits_in_use) {
 MpDigits::~MpDigits() { bits_in_use = before_; }
 mpfr_prec_t MpDigits::bits() { return bits_in_use == 0 ? bits_for(50) : bits_in_use; }
 
-MpNumber::MpNumber() {
+MpNumber::MpNumber() noexcept {
   mpfr_init2(number_, MpDigits::bits());
   mpfr_set_zero(number_, 1);
 }
-MpNumber::MpNumber(const MpNumber& other) {
+MpNumber::MpNumber(const MpNumber& other) noexcept {
   mpfr_init2(number_, mpfr_get_prec(other.number_));
   mpfr_set(number_, other.number_, MPFR_RNDN);
 }
@@ -43,7 +43,7 @@ MpNumber::MpNumber(MpNumber&& other) noexcept {
   mpfr_init2(number_, MPFR_PREC_MIN);
   mpfr_swap(number_, other.number_);
 }
-MpNumber& MpNumber::operator=(const MpNumber& other) {
+MpNumber& MpNumber::operator=(const MpNumber& other) noexcept {
   if (this != &other) {
     mpfr_set_prec(number_, mpfr_get_prec(other.number_));
     mpfr_set(number_, other.number_, MPFR_RNDN);
@@ -52,78 +52,78 @@ MpNumber& MpNumber::operator=(const MpNumber& other) {
 }
 MpNumber::~MpNumber() { mpfr_clear(number_); }
 
-MpNumber operator-(const MpNumber& a) {
+MpNumber operator-(const MpNumber& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_neg(x, a.raw(), MPFR_RNDN); });
 }
 
 using Traits = ExtendedTraits<MpNumber>;
-MpNumber Traits::from(long x) {
+MpNumber Traits::from(long x) noexcept {
   return made_by([&](mpfr_ptr y) { mpfr_set_si(y, x, MPFR_RNDN); });
 }
-MpNumber Traits::from(double x) {
+MpNumber Traits::from(double x) noexcept {
   return made_by([&](mpfr_ptr y) { mpfr_set_d(y, x, MPFR_RNDN); });
 }
-MpNumber Traits::from(long double x) {
+MpNumber Traits::from(long double x) noexcept {
   return made_by([&](mpfr_ptr y) { mpfr_set_ld(y, x, MPFR_RNDN); });
 }
-MpNumber Traits::add(const T& a, const T& b) {
+MpNumber Traits::add(const T& a, const T& b) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_add(x, a.raw(), b.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::subtract(const T& a, const T& b) {
+MpNumber Traits::subtract(const T& a, const T& b) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_sub(x, a.raw(), b.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::multiply(const T& a, const T& b) {
+MpNumber Traits::multiply(const T& a, const T& b) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_mul(x, a.raw(), b.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::divide(const T& a, const T& b) {
+MpNumber Traits::divide(const T& a, const T& b) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_div(x, a.raw(), b.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::abs(const T& a) {
+MpNumber Traits::abs(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_abs(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::sqrt(const T& a) {
+MpNumber Traits::sqrt(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_sqrt(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::exp(const T& a) {
+MpNumber Traits::exp(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_exp(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::log(const T& a) {
+MpNumber Traits::log(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_log(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::sin(const T& a) {
+MpNumber Traits::sin(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_sin(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::cos(const T& a) {
+MpNumber Traits::cos(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_cos(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::tan(const T& a) {
+MpNumber Traits::tan(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_tan(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::asin(const T& a) {
+MpNumber Traits::asin(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_asin(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::acos(const T& a) {
+MpNumber Traits::acos(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_acos(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::atan(const T& a) {
+MpNumber Traits::atan(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_atan(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::sinh(const T& a) {
+MpNumber Traits::sinh(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_sinh(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::cosh(const T& a) {
+MpNumber Traits::cosh(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_cosh(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::tanh(const T& a) {
+MpNumber Traits::tanh(const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_tanh(x, a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::atan2(const T& y, const T& a) {
+MpNumber Traits::atan2(const T& y, const T& a) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_atan2(x, y.raw(), a.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::pow(const T& a, const T& b) {
+MpNumber Traits::pow(const T& a, const T& b) noexcept {
   return made_by([&](mpfr_ptr x) { mpfr_pow(x, a.raw(), b.raw(), MPFR_RNDN); });
 }
-MpNumber Traits::pi() {
+MpNumber Traits::pi() noexcept {
   return made_by([](mpfr_ptr x) { mpfr_const_pi(x, MPFR_RNDN); });
 }
 MpNumber Traits::read(std::string_view text) {
@@ -146,14 +146,14 @@ MpNumber power_of_two(mpfr_exp_t exponent) {
   return made_by([&](mpfr_ptr x) { mpfr_set_ui_2exp(x, 1, exponent, MPFR_RNDN); });
 }
 }  // namespace
-MpNumber Traits::epsilon() { return power_of_two(1 - static_cast<mpfr_exp_t>(MpDigits::bits())); }
+MpNumber Traits::epsilon() noexcept { return power_of_two(1 - static_cast<mpfr_exp_t>(MpDigits::bits())); }
 // Far inside MPFR's own range, which is at least 2^(2^30): no physical quantity is larger.
-MpNumber Traits::max() { return power_of_two(mpfr_exp_t{1} << 28); }
-MpNumber Traits::min() { return power_of_two(-(mpfr_exp_t{1} << 28)); }
-MpNumber Traits::infinity() {
+MpNumber Traits::max() noexcept { return power_of_two(mpfr_exp_t{1} << 28); }
+MpNumber Traits::min() noexcept { return power_of_two(-(mpfr_exp_t{1} << 28)); }
+MpNumber Traits::infinity() noexcept {
   return made_by([](mpfr_ptr x) { mpfr_set_inf(x, 1); });
 }
-MpNumber Traits::nan() {
+MpNumber Traits::nan() noexcept {
   return made_by([](mpfr_ptr x) { mpfr_set_nan(x); });
 }
 

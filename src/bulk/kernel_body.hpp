@@ -16,12 +16,24 @@ constexpr std::size_t most_lanes = 8;
 template <int n>
 struct Index {
   static constexpr int value = n;
+  constexpr operator int() const { return n; }
 };
 template <int count, int at = 0, class Work>
 HAMFLOW_INLINE void each(const Work& work) {
   if constexpr (at < count) {
     work(Index<at>{});
     each<count, at + 1>(work);
+  }
+}
+/// work(0), work(1), ... for the parts of eight numbers. Four parts of two numbers fit into no registers anyway: they
+/// take a loop, a quarter of the code.
+template <class Work>
+HAMFLOW_INLINE void each_part(const Work& work) {
+  if constexpr (natives > 2) {
+#pragma GCC unroll 1
+    for (int n = 0; n < natives; ++n) work(n);
+  } else {
+    each<natives>(work);
   }
 }
 
@@ -65,8 +77,7 @@ struct RowTile {
   template <bool Some>
   HAMFLOW_INLINE void visit(const Rows& rows, const Law& law, std::size_t j, const unsigned (&bits)[Tile],
                             double* const (&force)[Space]) {
-    each<natives>([&](auto part) __attribute__((always_inline)) {
-      constexpr int n = decltype(part)::value;
+    each_part([&](const auto n) __attribute__((always_inline)) {
       const std::size_t a = j + n * lanes;
       const std::size_t b = a + 8;
       Part x[2][Space];
@@ -184,10 +195,11 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
   return 0;
 }
 
-/// The differences of those in range of one row, and their w, moved together.
-template <class L, int Space, bool Images>
-HAMFLOW_INLINE std::size_t pack(const Rows& rows, std::size_t i, const std::uint32_t* slots, std::size_t count,
-                                double* to, std::size_t stride) {
+/// The differences of those in range of one row, and their w, moved together. Called once a row: within the kernels it
+/// would be compiled a hundred times.
+template <bool Weighs, int Space, bool Images>
+[[gnu::noinline]] std::size_t pack(const Rows& rows, std::size_t i, const std::uint32_t* slots, std::size_t count,
+                                   double* to, std::size_t stride) {
   Eight centre[Space];
   for (int k = 0; k < Space; ++k) centre[k] = all(rows.at[4 * i + static_cast<std::size_t>(k)]);
   const Eight limit = all(rows.law.cut_squared);
@@ -208,7 +220,7 @@ HAMFLOW_INLINE std::size_t pack(const Rows& rows, std::size_t i, const std::uint
     unsigned bits = below(u, limit);
     if (count - j < most_lanes) bits &= (1u << (count - j)) - 1;
     for (int k = 0; k < Space; ++k) append(bits, d[k], to + static_cast<std::size_t>(k) * stride + found);
-    if constexpr (L::weighs) append(bits, x[3], to + 3 * stride + found);
+    if constexpr (Weighs) append(bits, x[3], to + 3 * stride + found);
     found += static_cast<std::size_t>(__builtin_popcount(bits));
   }
   return found;
@@ -218,8 +230,7 @@ HAMFLOW_INLINE std::size_t pack(const Rows& rows, std::size_t i, const std::uint
 template <class L, class C, int Space, bool Energy, bool Some>
 HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t stride, unsigned bits,
                                 Sums<Space>& sums) {
-  each<natives>([&](auto part) __attribute__((always_inline)) {
-    constexpr int n = decltype(part)::value;
+  each_part([&](const auto n) __attribute__((always_inline)) {
     Distance<Space> r[2];
     Part w[2];
     Mask counts[2];
@@ -262,8 +273,8 @@ std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, 
     double* const to = scratch.memory + (row % 2) * 4 * scratch.row;
     const std::uint32_t* const slots = candidates.slots + candidates.begins[row];
     const std::size_t count = candidates.counts[row];
-    return rows.plain[i] ? pack<L, Space, false>(rows, i, slots, count, to, scratch.row)
-                         : pack<L, Space, true>(rows, i, slots, count, to, scratch.row);
+    return rows.plain[i] ? pack<L::weighs, Space, false>(rows, i, slots, count, to, scratch.row)
+                         : pack<L::weighs, Space, true>(rows, i, slots, count, to, scratch.row);
   };
   std::size_t next = first < last ? packed_row(first) : 0;
   for (std::size_t i = first; i < last; ++i) {

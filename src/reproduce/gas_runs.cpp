@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json_text.hpp"
+
 namespace hamflow::reproduction {
 
 double GasRun::scale_number() const {
@@ -33,7 +35,7 @@ std::string gas_scenario(const GasRun& run) {
 
 Return there_and_back(Study& study, const GasRun& run) {
   const ReversalReport report = study.reverse(name_of(run), gas_scenario(run));
-  const auto json = nlohmann::json::parse(report.json);
+  const auto json = read_json(report.json);
   Return all;
   all.done = report.status == "done";
   all.message = report.message;

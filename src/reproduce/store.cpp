@@ -11,6 +11,7 @@
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hdf5_text.hpp"
+#include "json_text.hpp"
 #include "run_folder.hpp"
 #include "whole_file.hpp"
 
@@ -116,7 +117,7 @@ Json json_of(const Claim& claim) {
   return all;
 }
 
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string text_of(const Json& json) { return written_json(json, 2) + "\n"; }
 
 std::string fingerprint(const Experiment& experiment, WorkExtent extent) {
   return std::string(HAMFLOW_VERSION) + " " + name_of(extent) + " " + experiment.source;
@@ -161,7 +162,7 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
   if (!in) return {};
   std::stringstream text;
   text << in.rdbuf();
-  const Json all = Json::parse(text.str(), nullptr, false);
+  const Json all = read_if_json(text.str());
   if (all.is_discarded() || !all.is_object() || all.value("fingerprint", "") != print) return {};
   try {
     Kept kept;

@@ -8,6 +8,7 @@
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/workflow/sweep.hpp"
+#include "json_text.hpp"
 
 namespace hamflow::reproduction {
 
@@ -36,7 +37,7 @@ std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::ve
   }
   const SweepReport report = sweep.run([&](std::int64_t) { return study.goes_on(); });
   if (report.status == "interrupted") throw Stopped{};
-  const auto table = nlohmann::json::parse(sweep.json_with_rows(report));
+  const auto table = read_json(sweep.json_with_rows(report));
   std::vector<TubeMember> members;
   for (const auto& row : table.at("rows")) {
     TubeMember member;

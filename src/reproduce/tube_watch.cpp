@@ -7,10 +7,12 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "json_text.hpp"
 #include "run_folder.hpp"
 
 namespace hamflow::reproduction {
@@ -143,7 +145,7 @@ std::vector<TubeWatch> watch_some(const Study& study, const TubeSet& set, std::s
 constexpr std::size_t kept_together = 32;  // the widest block of lanes
 
 std::string json_of(const std::vector<TubeWatch>& watches) {
-  nlohmann::json all = nlohmann::json::array();
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const TubeWatch& one : watches) {
     all.push_back({{"blocks", one.blocks},
                    {"bounces", one.bounces},
@@ -152,13 +154,15 @@ std::string json_of(const std::vector<TubeWatch>& watches) {
                    {"q", one.q},
                    {"p", one.p}});
   }
-  return all.dump() + "\n";
+  return written_json(all) + "\n";
 }
 
 /// Empty where the file holds none, or others.
 std::vector<TubeWatch> kept_watches(const std::filesystem::path& file, std::span<const TubeStart> starts) {
   std::ifstream in(file);
-  const auto all = nlohmann::json::parse(in, nullptr, false);
+  std::stringstream text;
+  text << in.rdbuf();
+  const auto all = read_if_json(text.str());
   if (!all.is_array() || all.size() != starts.size()) return {};
   std::vector<TubeWatch> watches;
   try {

@@ -7,6 +7,7 @@
 #include "csv_file.hpp"
 #include "hamflow/core/hash.hpp"
 #include "hamflow/run/gas.hpp"
+#include "json_text.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
 
@@ -111,7 +112,7 @@ std::optional<std::string> own_summary(const Checkpoint& checkpoint, const fs::p
 }
 
 bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const std::string& summary) {
-  const auto own = nlohmann::json::parse(summary);
+  const auto own = read_json(summary);
   if (own.contains("stopped_by")) return true;  // by an event: there is no way on
   return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps && own.value("status", "") == "done";
 }
@@ -123,9 +124,9 @@ void check_summary(const std::string& own, const fs::path& folder) {
     throw FileError("the summary " + (folder / "summary.json").string() + " is not of this run: " + why +
                     "; move it elsewhere" + what_to_do);
   };
-  const auto found = nlohmann::json::parse(*text, nullptr, false);
+  const auto found = read_json_by_keys(*text);
   if (!found.is_object()) refuse("it is no JSON object");
-  const auto expected = nlohmann::json::parse(own);
+  const auto expected = read_json_by_keys(own);
   for (const char* key : {"problem", "method", "arithmetic", "kernel", "parameters", "dt"}) {
     if (found.contains(key) && found[key] != expected[key]) refuse(std::string(key) + " differs");
   }

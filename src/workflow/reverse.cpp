@@ -7,6 +7,7 @@
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
+#include "json_text.hpp"
 #include "number_text.hpp"
 #include "reversal_checkpoints.hpp"
 #include "reversal_measures.hpp"
@@ -231,7 +232,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
       note("the reversal is complete: there is nothing to do");
       ReversalReport report;
       report.json = *kept;
-      const Json json = Json::parse(*kept);
+      const Json json = read_json(*kept);
       report.status = json["status"].get<std::string>();
       report.expected_bit_exact = json["expected_bit_exact"].get<bool>();
       report.note = json["note"].get<std::string>();

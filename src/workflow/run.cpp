@@ -9,6 +9,7 @@
 
 #include "gnuplot.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
+#include "json_text.hpp"
 #include "resume.hpp"
 #include "run_folder.hpp"
 #include "run_mark.hpp"
@@ -154,7 +155,7 @@ class ScenarioRun {
     report.was_complete = true;
     report.wall_seconds = seconds_before_;
     report.json = json;
-    describe(Json::parse(json), report);
+    describe(read_json(json), report);
     return report;
   }
 

@@ -17,6 +17,7 @@
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
+#include "json_text.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
 #include "run_description.hpp"
@@ -320,6 +321,6 @@ Json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen) {
           {"max_error", seen.max_error}};
 }
 
-std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string json_text(const Json& json) { return written_json(json, 2) + "\n"; }
 
 }  // namespace hamflow

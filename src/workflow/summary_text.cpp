@@ -6,6 +6,7 @@
 
 #include "certificate_json.hpp"
 #include "hamflow/core/text.hpp"
+#include "json_text.hpp"
 #include "measures/measure.hpp"
 #include "number_text.hpp"
 #include "summary.hpp"
@@ -108,7 +109,7 @@ std::string readable(const Json& s) {
                             s["newton"]["mean"].get<double>(), s["newton"]["max"].get<long long>(),
                             s["newton"]["stagnated"].get<long long>()));
   }
-  for (const auto& [key, value] : s["events"].items()) text += row("event " + key, value.dump());
+  for (const auto& [key, value] : s["events"].items()) text += row("event " + key, written_json(value));
   for (const MeasureKind& kind : measure_kinds()) {
     if (s.contains(kind.key)) text += row(kind.label, kind.text(s[kind.key]));
   }

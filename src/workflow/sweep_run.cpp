@@ -6,6 +6,7 @@
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/workflow/sweep.hpp"
+#include "json_text.hpp"
 #include "measures/measures.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
@@ -186,7 +187,7 @@ std::vector<std::string> ScenarioSweep::keep_in(const fs::path& folder, Existing
 std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
   const Sweep& sweep = *impl_->sweep;
   if (sweep.members() > most_rows_in_summary) return report.json;
-  Json summary = Json::parse(report.json);
+  Json summary = read_json(report.json);
   summary["rows"] = Json::array();
   for (std::size_t member = 0; member < sweep.members(); ++member) summary["rows"].push_back(sweep_row(sweep, member));
   return json_text(summary);

@@ -17,6 +17,7 @@
 #include "../time_panels.hpp"
 #include "../tube_watch.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "json_text.hpp"
 
 namespace hamflow::reproduction {
 
@@ -180,7 +181,7 @@ Exponents exponents_after(Study& study, const TubeSet& set, const TubeWatch& see
   const auto over = [&](std::int64_t length, const char* which) {
     const Trajectory run = study.run(fmt::format("{}_{}", name, which),
                                      scenario_of_start(set, seen.start, length, seen.q, seen.p), {"run.lyapunov=1"});
-    return nlohmann::json::parse(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
+    return read_json(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
   };
   return {over(steps, "shorter"), over(4 * steps, "longer"), static_cast<double>(steps) * std::stod(set.run.dt)};
 }
