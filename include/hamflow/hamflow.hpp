@@ -234,6 +234,7 @@
 #include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/iterated_simulation.hpp"
 #include "hamflow/run/iteration_runner.hpp"
+#include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/parts_in_numbers.hpp"

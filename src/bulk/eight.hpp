@@ -202,9 +202,10 @@ HAMFLOW_INLINE double sum_of(const Eight& x) {
   return two[0] + two[1];
 }
 #if HAMFLOW_NATIVE_BYTES == 32
-/// Which halves of numbers go where when those of four bits are moved together.
+/// Which halves of numbers, and which whole ones of 32 bits, go where when those of four bits are moved together.
 struct Packing {
   int halves[16][8];
+  int wholes[16][4];
 };
 constexpr Packing packing() {
   Packing p{};
@@ -214,6 +215,7 @@ constexpr Packing packing() {
       if ((bits >> k) & 1) {
         p.halves[bits][2 * to] = 2 * k;
         p.halves[bits][2 * to + 1] = 2 * k + 1;
+        p.wholes[bits][to] = k;
         ++to;
       }
     }
@@ -246,6 +248,14 @@ HAMFLOW_INLINE void append(unsigned bits, const std::uint32_t* from, std::uint32
 #if HAMFLOW_NATIVE_BYTES == 64
   const __m256i x = _mm256_loadu_si256((const __m256i*)from);
   _mm256_storeu_si256((__m256i*)to, _mm256_maskz_compress_epi32((__mmask8)bits, x));
+#elif HAMFLOW_NATIVE_BYTES == 32
+  for (int n = 0; n < 2; ++n) {
+    const unsigned four = (bits >> (4 * n)) & 15;
+    const __m128i wholes = _mm_load_si128((const __m128i*)packed.wholes[four]);
+    const __m128 x = _mm_castsi128_ps(_mm_loadu_si128((const __m128i*)(from + 4 * n)));
+    _mm_storeu_si128((__m128i*)to, _mm_castps_si128(_mm_permutevar_ps(x, wholes)));
+    to += __builtin_popcount(four);
+  }
 #else
   for (int k = 0; k < 8; ++k) {
     *to = from[k];

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hamflow::bulk {
 
@@ -15,6 +16,11 @@ constexpr std::size_t worth_sharing = 4096;
 
 /// The nearest whole number of |x| < 2^51, as the kernels round.
 double nearest(double x) { return (x + 0x1.8p52) - 0x1.8p52; }
+
+/// Later lists may be longer: layers of particles cross into the cells of a block. What is never used costs nothing.
+void make_room(std::size_t size, std::vector<std::uint32_t>& list) {
+  if (list.capacity() < size + size / 2) list.reserve(2 * size + 64);
+}
 
 /// work(worker, block) for each block, by all threads where there are more.
 template <class Work>
@@ -52,7 +58,9 @@ void Neighbours::prepare(const Box& box, std::size_t particles, std::size_t work
 
 double Neighbours::wrapped(double x, std::size_t k) const {
   const double edge = box_.edges[k];
-  return edge == 0 ? x : x - nearest(x / edge) * edge;
+  // The same without a division, where most particles are: the quotient rounds to 0.
+  if (std::abs(x) < 0.499 * edge || edge == 0) return x;
+  return x - nearest(x / edge) * edge;
 }
 
 /// Cells not smaller than the reach of the lists, and not many more than particles.
@@ -158,55 +166,79 @@ std::size_t Neighbours::cells_beside(std::size_t cell, std::size_t* beside) cons
 /// The particles in and around a cell in the order of their numbers, by marks that are read in that order; where cells
 /// are small beside the box, those of their images that are nearest to the cell.
 void Neighbours::gather(std::size_t cell, Desk& desk) const {
-  auto& [marks, words, summary] = desk.marks;
+  auto& [marks, words] = desk.marks;
   std::size_t beside[27];
   const std::size_t cells = cells_beside(cell, beside);
+  std::size_t lowest = words.size();
+  std::size_t highest = 0;
   for (std::size_t c = 0; c < cells; ++c) {
-    for (std::size_t slot = cell_begins_[beside[c]]; slot < cell_begins_[beside[c] + 1]; ++slot) {
+    const std::size_t begin = cell_begins_[beside[c]];
+    const std::size_t end = cell_begins_[beside[c] + 1];
+    if (begin == end) continue;
+    // Numbers ascend, so that most of a cell are of one word of words: its marks are put there together.
+    std::size_t word = number_[begin] / 4096;
+    std::uint64_t in_word = 0;
+    lowest = std::min(lowest, word);
+    for (std::size_t slot = begin; slot < end; ++slot) {
       const std::size_t number = number_[slot];
       marks[number / 64] |= std::uint64_t{1} << (number % 64);
-      words[number / 4096] |= std::uint64_t{1} << (number / 64 % 64);
-      summary[number / 262144] |= std::uint64_t{1} << (number / 4096 % 64);
+      if (number / 4096 != word) {
+        words[word] |= in_word;
+        word = number / 4096;
+        in_word = 0;
+      }
+      in_word |= std::uint64_t{1} << (number / 64 % 64);
     }
+    words[word] |= in_word;
+    highest = std::max(highest, word);
   }
-  double middle[3] = {};
-  double inverse[3] = {};
-  std::size_t rest = cell;
-  for (std::size_t k = 0; k < box_.space; ++k) {
-    middle[k] = corner_[k] + (static_cast<double>(rest % cells_[k]) + 0.5) * cell_edge_[k];
-    rest /= cells_[k];
-    inverse[k] = by_shift_ && box_.edges[k] != 0 ? 1 / box_.edges[k] : 0;
-  }
+  std::uint32_t* const slots = desk.slots.data();
+  const std::size_t first_own = cell_begins_[cell];
+  const std::size_t all_own = cell_begins_[cell + 1] - first_own;
   std::size_t own = 0;
   std::size_t found = 0;
-  const auto enter = [&](std::size_t number) {
-    const std::uint32_t slot = slot_of_[number];
-    desk.slots[found] = slot;
-    for (std::size_t k = 0; k < box_.space; ++k) {
-      const double x = x_[k][slot];
-      desk.x[k][found] = x - nearest((x - middle[k]) * inverse[k]) * box_.edges[k];
-    }
-    if (slot >= cell_begins_[cell] && slot < cell_begins_[cell + 1])
-      desk.own[own++] = static_cast<std::uint32_t>(found);
-    ++found;
-  };
-  for (std::size_t a = 0; a < summary.size(); ++a) {
-    for (std::uint64_t& in_a = summary[a]; in_a != 0; in_a &= in_a - 1) {
+  for (std::size_t a = lowest; a <= highest; ++a) {
+    for (std::uint64_t in_a = std::exchange(words[a], 0); in_a != 0; in_a &= in_a - 1) {
       const std::size_t b = 64 * a + static_cast<std::size_t>(std::countr_zero(in_a));
-      for (std::uint64_t& in_b = words[b]; in_b != 0; in_b &= in_b - 1) {
-        const std::size_t c = 64 * b + static_cast<std::size_t>(std::countr_zero(in_b));
-        for (std::uint64_t& in_c = marks[c]; in_c != 0; in_c &= in_c - 1) {
-          enter(64 * c + static_cast<std::size_t>(std::countr_zero(in_c)));
-        }
+      for (std::uint64_t in_b = std::exchange(marks[b], 0); in_b != 0; in_b &= in_b - 1) {
+        const std::uint32_t slot = slot_of_[64 * b + static_cast<std::size_t>(std::countr_zero(in_b))];
+        slots[found] = slot;
+        desk.own[own] = static_cast<std::uint32_t>(found);
+        own += slot - first_own < all_own ? 1 : 0;
+        ++found;
       }
     }
   }
   desk.count = found;
+  std::size_t rest = cell;
+  for (std::size_t k = 0; k < box_.space; ++k) {
+    const std::size_t at = rest % cells_[k];
+    rest /= cells_[k];
+    const double* const from = x_[k].data();
+    double* const to = desk.x[k].data();
+    const bool inside = at > 0 && at + 1 < cells_[k];
+    if (!by_shift_ || box_.edges[k] == 0 || inside) {
+      for (std::size_t i = 0; i < found; ++i) to[i] = from[slots[i]];
+      continue;
+    }
+    const double middle = corner_[k] + (static_cast<double>(at) + 0.5) * cell_edge_[k];
+    const double inverse = 1 / box_.edges[k];
+    for (std::size_t i = 0; i < found; ++i) {
+      const double x = from[slots[i]];
+      to[i] = x - nearest((x - middle) * inverse) * box_.edges[k];
+    }
+  }
 }
 
-/// The rows of a block follow each other like the slots: in a cell both are in the order of numbers.
+/// The rows of a block follow each other like the slots: in a cell both are in the order of numbers. They are written
+/// at the desk, so that a block gets its memory at once and leaves none behind that it has outgrown.
 void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const {
-  block.slots.clear();
+  std::vector<std::uint32_t>& rows = desk.rows;
+  std::size_t used = 0;
+  if (!made_) {
+    make_room(block.last - block.first, block.begins);
+    make_room(block.last - block.first, block.counts);
+  }
   block.begins.clear();
   block.counts.clear();
   for (std::size_t cell = block.first_cell; cell < block.last_cell; ++cell) {
@@ -223,22 +255,16 @@ void Neighbours::find_rows(Block& block, Desk& desk, const FindNear* near) const
       crowd.inverse_edge[k] = box_.edges[k] == 0 ? 0 : 1 / box_.edges[k];
     }
     for (std::size_t i = 0; i < own; ++i) {
-      const std::size_t count = near[by_shift_ ? 0 : 1](crowd, desk.own[i], desk.found.data());
-      block.begins.push_back(static_cast<std::uint32_t>(block.slots.size()));
+      if (rows.size() < used + desk.count + 16) rows.resize(2 * (used + desk.count + 16));
+      const std::size_t count = near[by_shift_ ? 0 : 1](crowd, desk.own[i], rows.data() + used);
+      block.begins.push_back(static_cast<std::uint32_t>(used));
       block.counts.push_back(static_cast<std::uint32_t>(count));
-      block.slots.insert(block.slots.end(), desk.found.begin(),
-                         desk.found.begin() + static_cast<std::ptrdiff_t>(count));
-      while (block.slots.size() % 8 != 0) block.slots.push_back(desk.slots[desk.own[i]]);
+      used += count;
+      while (used % 8 != 0) rows[used++] = desk.slots[desk.own[i]];
     }
   }
-  if (made_) return;
-  // Later lists may be longer: layers of particles cross into the cells of a block. What is never used costs nothing.
-  const auto make_room = [](std::vector<std::uint32_t>& list) {
-    if (list.capacity() < list.size() + list.size() / 2) list.reserve(2 * list.size() + 64);
-  };
-  make_room(block.slots);
-  make_room(block.begins);
-  make_room(block.counts);
+  if (!made_) make_room(used, block.slots);
+  block.slots.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(used));
 }
 
 /// For what stands in and around any cell.
@@ -252,9 +278,18 @@ void Neighbours::clear_desks() {
     if (desk.slots.size() >= needed) continue;
     const std::size_t room = needed + needed / 4;
     desk.slots.resize(room);
-    desk.found.resize(room);
     desk.own.resize(room);
     for (std::size_t k = 0; k < box_.space; ++k) desk.x[k].resize(room);
+  }
+}
+
+/// Every desk has room for the rows of any block, and for longer ones later, as blocks have.
+void Neighbours::widen_desks() {
+  std::size_t most = 0;
+  for (const Block& block : blocks()) most = std::max(most, block.slots.size());
+  for (Desk& desk : desks_) {
+    const std::size_t room = 2 * most + desk.slots.size() + 16;
+    if (desk.rows.size() < room) desk.rows.resize(room);
   }
 }
 
@@ -286,6 +321,7 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
     plain_[slot] = plain;
   }
   share(team, used_blocks_, [&](std::size_t worker, std::size_t b) { find_rows(blocks_[b], desks_[worker], near); });
+  if (!made_) widen_desks();
   longest_ = 0;
   for (const Block& block : blocks()) {
     for (const std::uint32_t count : block.counts) longest_ = std::max<std::size_t>(longest_, count);
@@ -294,15 +330,15 @@ void Neighbours::make(const double* q, const FindNear* near, ThreadTeam* team) {
   place(q, team);
 }
 
+template <std::size_t Space>
 void Neighbours::place_slots(const double* q, std::size_t first, std::size_t last, Desk& desk) {
-  const std::size_t space = box_.space;
   double most = 0;
   double next = 0;
   for (std::size_t slot = first; slot < last; ++slot) {
     double moved = 0;
-    for (std::size_t k = 0; k < space; ++k) {
-      const double x = q[number_[slot] * space + k];
-      const double d = x - made_at_[slot * space + k];
+    for (std::size_t k = 0; k < Space; ++k) {
+      const double x = q[number_[slot] * Space + k];
+      const double d = x - made_at_[slot * Space + k];
       moved += d * d;
       at_[4 * slot + k] = wrapped(x, k);
     }
@@ -318,7 +354,13 @@ bool Neighbours::place(const double* q, ThreadTeam* team) {
   for (Desk& desk : desks_) desk.moved[0] = desk.moved[1] = 0;
   const std::size_t pieces = particles_ < worth_sharing ? 1 : particles_ / 1024;
   share(team, pieces, [&](std::size_t worker, std::size_t piece) {
-    place_slots(q, particles_ * piece / pieces, particles_ * (piece + 1) / pieces, desks_[worker]);
+    const std::size_t first = particles_ * piece / pieces;
+    const std::size_t last = particles_ * (piece + 1) / pieces;
+    if (box_.space == 2) {
+      place_slots<2>(q, first, last, desks_[worker]);
+    } else {
+      place_slots<3>(q, first, last, desks_[worker]);
+    }
   });
   double most = 0;
   double next = 0;

@@ -72,9 +72,9 @@ class Neighbours {
     std::vector<std::uint32_t> slots;
     std::vector<std::uint32_t> own;  // places of those in the cell
     std::size_t count = 0;
-    std::vector<std::uint32_t> found;
-    // A bit for each particle, for each word of such bits, for each word of those.
-    std::array<std::vector<std::uint64_t>, 3> marks;
+    std::vector<std::uint32_t> rows;  // of a block
+    // A bit for each particle, and for each word of such bits.
+    std::array<std::vector<std::uint64_t>, 2> marks;
     double moved[2] = {0, 0};  // the largest two squares of displacements
   };
   double wrapped(double x, std::size_t k) const;
@@ -82,9 +82,11 @@ class Neighbours {
   void sort_into_cells(const double* q);
   void divide_rows();
   void clear_desks();
+  void widen_desks();
   std::size_t cells_beside(std::size_t cell, std::size_t* beside) const;
   void gather(std::size_t cell, Desk& desk) const;
   void find_rows(Block& block, Desk& desk, const FindNear* near) const;
+  template <std::size_t Space>
   void place_slots(const double* q, std::size_t first, std::size_t last, Desk& desk);
 
   Box box_;

@@ -10,6 +10,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/recorded_step.hpp"
 #include "step_control.hpp"
 #include "typed_problem.hpp"
@@ -193,7 +194,9 @@ static bool beats_loops(const Program& program) {
          share * count(Instruction::divide, Instruction::square_root) >= program.operations.size();
 }
 
-std::unique_ptr<Simulation> make_simulation(const Request& request) {
+std::unique_ptr<Simulation> make_simulation(const Request& request) { return make_simulation_of(Request(request)); }
+
+std::unique_ptr<Simulation> make_simulation_of(Request request) {
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
   check_arithmetic(request.arithmetic);
   const std::string why_not = refusal(request.method, request.arithmetic);
@@ -210,10 +213,10 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) {
   }
   const std::string one_thread = refused_threads(request, problem);
   if (!one_thread.empty()) throw Error("threads = " + std::to_string(request.threads) + ": " + one_thread);
-  Request full = request;
-  full.parameters = complete(problem.info, request.parameters);
-  const int digits = digits_beyond_double(request.arithmetic);
-  const MethodFamily& family = *find_method(request.method.name).family;
+  Request full = std::move(request);
+  full.parameters = complete(problem.info, full.parameters);
+  const int digits = digits_beyond_double(full.arithmetic);
+  const MethodFamily& family = *find_method(full.method.name).family;
   if (family.completed) full.method.options = family.completed(full.method.options, digits);
   // Steps of varying length are taken behind virtual calls, one by one, in every arithmetic.
   if (digits > 0 || step_control_of(full.method).reversible) return problem.simulate_erased(full);

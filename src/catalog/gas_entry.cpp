@@ -221,6 +221,15 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), spec));
 }
 
+/// The texts of a start that has been read are not kept: those of a million particles take as much memory as their
+/// lists of neighbours. (A binding of every member: one more of them does not compile.)
+Request without_start(const Request& request) {
+  const auto& [problem, variant, parameters, start, method, dt, arithmetic, kernel, position_unit, momentum_unit,
+               threads, watch, record] = request;
+  return {problem, variant,       parameters,    {},      method, dt,    arithmetic,
+          kernel,  position_unit, momentum_unit, threads, watch,  record};
+}
+
 /// With pairs by the engine, where it takes them: steps are then not recorded, whose sums would have another order.
 ErasedFunctions<double> in_bulk(ErasedFunctions<double> functions, const Gas<double>& gas,
                                 const Parameters<double>& given, Request& request) {
@@ -250,7 +259,7 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   }
   if (!simulation) {
     ErasedFunctions<R> functions = gas_functions<R>(shape, given, size);
-    Request asked = request;
+    Request asked = without_start(request);
     if constexpr (std::is_same_v<R, double>) functions = in_bulk(std::move(functions), gas, given, asked);
     simulation = simulate_erased<R>({std::move(functions), std::move(s.q), std::move(s.p), h}, asked);
   }

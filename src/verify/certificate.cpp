@@ -134,6 +134,10 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
 
 namespace {
 
+/// From so many coordinates on, a run and its reversal are not in memory together: each has its own lists of
+/// neighbours.
+constexpr std::size_t coordinates_in_memory_once = 100'000;
+
 double roundings_of(const Simulation& simulation) {
   const Effort effort = simulation.effort();
   return std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
@@ -188,8 +192,9 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
 
 }  // namespace
 
-RunCertificate certify(const Request& request, const ProblemEntry& problem, const Simulation& simulation,
+RunCertificate certify(const Request& request, const ProblemEntry& problem, std::unique_ptr<Simulation>& of_the_run,
                        const EnergyBlocks& blocks, std::int64_t steps_taken) {
+  const Simulation& simulation = *of_the_run;
   RunCertificate found;
   const auto [series, unit] = series_of(request, problem, simulation, blocks.state());
   found.drift = classify_run(series);
@@ -211,7 +216,17 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, cons
   if (steps_taken > 0) {
     std::optional<double> period;
     if (found.drift.periods) period = static_cast<double>(steps_taken) / *found.drift.periods;
+    const bool is_large = size > coordinates_in_memory_once;
+    std::vector<std::byte> saved;
+    if (is_large) {
+      saved = of_the_run->save();
+      of_the_run.reset();
+    }
     found.reversal = reversal_evidence(request, problem, steps_taken, period);
+    if (is_large) {
+      of_the_run = make_simulation(request);
+      of_the_run->restore(saved);
+    }
   }
   return found;
 }

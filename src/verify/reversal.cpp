@@ -1,6 +1,7 @@
 // Forward, negate the momenta, forward, negate: the experiment that finds every step that is not reversible.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hamflow/core/hash.hpp"
 #include "hamflow/verify/reversal_progress.hpp"
@@ -15,6 +16,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }
 double largest_entry(const std::vector<double>& a) { return largest_difference(a, std::vector<double>(a.size())); }
 
+/// All but the states at the start and at the turn, which are the progress's.
 /// @param there, back   observers of either way
 Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
                    std::span<Observer* const> there, std::span<Observer* const> back, ReversalProgress& progress) {
@@ -27,7 +29,6 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
     progress.first = simulation.step();
     progress.begun = true;
   }
-  found.start = progress.start;
   found.start_hash = progress.start_hash;
   const std::int64_t first = progress.first;
   const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
@@ -46,7 +47,6 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
       progress.turned = true;
     }
   }
-  found.turn = progress.turn;
   found.turn_hash = progress.turn_hash;
   if (!progress.turned) return found;
   if (!go(first + 2 * steps, back)) {
@@ -60,16 +60,16 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
   simulation.look(found.end);
   found.end_hash = fnv1a(simulation.bits());
   const FrameDigits& to = found.end.digits;
-  const FrameDigits& from = found.start.digits;
+  const FrameDigits& from = progress.start.digits;
   if (from.q.empty()) {
     found.distance =
-        std::max(largest_difference(found.end.q, found.start.q), largest_difference(found.end.p, found.start.p));
+        std::max(largest_difference(found.end.q, progress.start.q), largest_difference(found.end.p, progress.start.p));
   } else {
     const LongNumber in_q = hamflow::largest_difference(to.q, from.q);
     const LongNumber in_p = hamflow::largest_difference(to.p, from.p);
     found.distance = at_most(in_q, in_p) ? in_p : in_q;
   }
-  const double size = std::max(largest_entry(found.start.q), largest_entry(found.start.p));
+  const double size = std::max(largest_entry(progress.start.q), largest_entry(progress.start.p));
   found.relative_distance = size > 0 ? quotient(found.distance, size) : found.distance;
   found.bit_exact = simulation.bits() == progress.bits;
   return found;
@@ -80,12 +80,18 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
                  std::span<Observer* const> there) {
   ReversalProgress progress;
-  return carry_out(simulation, steps, pulse, there, {}, progress);
+  Reversal found = carry_out(simulation, steps, pulse, there, {}, progress);
+  found.start = std::move(progress.start);
+  found.turn = std::move(progress.turn);
+  return found;
 }
 
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
                  std::span<Observer* const> observers, ReversalProgress& progress) {
-  return carry_out(simulation, steps, pulse, observers, observers, progress);
+  Reversal found = carry_out(simulation, steps, pulse, observers, observers, progress);
+  found.start = progress.start;
+  found.turn = progress.turn;
+  return found;
 }
 
 }  // namespace hamflow

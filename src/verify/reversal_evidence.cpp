@@ -7,6 +7,7 @@
 
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "rounding.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr double moved = 0x1p-36;  // of the size of q and of p: 2^16 roundings, and far from where motions part
 constexpr double parted = 1e-3;    // of the size: no longer a small difference
 constexpr std::int64_t most_waypoints = 64;                // at which two motions are compared
-constexpr std::int64_t most_kept = std::int64_t{1} << 25;  // coordinates of all of them: half a gigabyte, with momenta
+constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates of all of them: 128 MB, with momenta
 
 double largest_of(const std::vector<double>& xs) {
   double most = 0;
@@ -26,7 +27,7 @@ double largest_of(const std::vector<double>& xs) {
   return most;
 }
 
-/// Keeps the states of a motion at up to `most_waypoints` of its steps, of very large systems at fewer.
+/// Keeps the states of a motion at up to `most_waypoints` of its steps, of very large systems at fewer: at least four.
 class Waypoints final : public Observer {
  public:
   Waypoints(std::int64_t steps, std::size_t size)
@@ -56,8 +57,31 @@ class Waypoints final : public Observer {
   std::vector<std::vector<double>> p_;
 };
 
+/// How far another motion is from those states, at the same steps. It keeps none of its own.
+class DistancesFrom final : public Observer {
+ public:
+  explicit DistancesFrom(const Waypoints& way) : way_(way) {}
+  std::int64_t next_due(std::int64_t step) const override { return way_.next_due(step); }
+  Verdict observe(const Frame& frame) override {
+    const std::size_t i = distances_.size();
+    if (i == way_.count()) return Verdict::stop;
+    double distance = 0;
+    for (std::size_t k = 0; k < frame.q.size(); ++k) {
+      distance = std::max({distance, std::abs(way_.q(i)[k] - frame.q[k]), std::abs(way_.p(i)[k] - frame.p[k])});
+    }
+    distances_.push_back(distance);
+    return Verdict::go_on;
+  }
+  const std::vector<double>& all() const { return distances_; }
+
+ private:
+  const Waypoints& way_;
+  std::vector<double> distances_;
+};
+
 std::vector<std::string> moved_by(const std::vector<double>& x, double size, std::uint64_t seed) {
   std::vector<std::string> texts;
+  texts.reserve(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double sign = counter_bits(seed, i) % 2 == 0 ? 1 : -1;
     texts.push_back(shortest(x[i] + sign * moved * size));
@@ -66,12 +90,14 @@ std::vector<std::string> moved_by(const std::vector<double>& x, double size, std
 }
 
 /// The run itself has all threads that can be started here: one thread gives the same bits.
-std::unique_ptr<Simulation> simulation_beside_the_run(Request request) {
+std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
+  Request plain = request;
+  plain.watch = false;
   try {
-    return make_simulation(request);
+    return make_simulation(plain);
   } catch (const Error&) {
-    request.threads = 1;
-    return make_simulation(request);
+    plain.threads = 1;
+    return make_simulation(plain);
   }
 }
 
@@ -91,17 +117,13 @@ Parting parting(const Request& request, const Reversal& reversal, const Waypoint
   other.start = {};
   other.start.q = moved_by(reversal.start.q, way.q_size(), 1);
   other.start.p = moved_by(reversal.start.p, way.p_size(), 2);
-  Waypoints beside(reversal.steps, reversal.start.q.size());
+  DistancesFrom beside(way);
   Observer* const watch[] = {&beside};
-  const auto simulation = make_simulation(other);
+  const auto simulation = make_simulation_of(std::move(other));
   Parting found;
-  if (run(*simulation, reversal.steps, watch) != Outcome::done || beside.count() != way.count()) return found;
+  if (run(*simulation, reversal.steps, watch) != Outcome::done || beside.all().size() != way.count()) return found;
   double squares = 0;
-  for (std::size_t i = 0; i < way.count(); ++i) {
-    double distance = 0;
-    for (std::size_t k = 0; k < way.q(i).size(); ++k) {
-      distance = std::max({distance, std::abs(way.q(i)[k] - beside.q(i)[k]), std::abs(way.p(i)[k] - beside.p(i)[k])});
-    }
+  for (const double distance : beside.all()) {
     if (!std::isfinite(distance)) return found;
     found.furthest = std::max(found.furthest, distance);
     squares += distance * distance;
@@ -172,7 +194,7 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
 
 /// The step of the first bounce; 0: there is none in so many steps.
 std::int64_t first_bounce(const Request& request, std::int64_t steps) {
-  const auto simulation = make_simulation(request);
+  const auto simulation = simulation_beside_the_run(request);
   std::int64_t first = 0;
   simulation->tell_bounces([&](const Bounce& bounce) {
     if (first == 0) first = bounce.step;
@@ -205,22 +227,20 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     return found;
   }
   const double at_least = std::min(period ? std::ceil(*period) : 1000.0, 1000.0);
-  Request plain = request;
-  plain.watch = false;
-  const auto simulation = simulation_beside_the_run(plain);
+  auto simulation = simulation_beside_the_run(request);
   Frame start;
   simulation->look(start);
   const auto most = static_cast<std::int64_t>(1e8 / static_cast<double>(std::max<std::size_t>(1, start.q.size())));
   found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(at_least));
   const bool walled = has_hard_walls(request);
-  if (walled) found.steps = std::max(found.steps, first_bounce(plain, std::min(steps_taken, most)));
+  if (walled) found.steps = std::max(found.steps, first_bounce(request, std::min(steps_taken, most)));
   found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
   simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
   Waypoints way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
-  const Reversal reversal = reverse(*simulation, found.steps, {}, watch);
+  Reversal reversal = reverse(*simulation, found.steps, {}, watch);
   if (reversal.outcome != Outcome::done) {
     found.reason = "a step of the way there or back failed: " +
                    (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
@@ -231,7 +251,10 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const Effort effort = simulation->effort();
     const double actions =
         std::max(1.0, static_cast<double>(effort.force + effort.gradient) / static_cast<double>(2 * found.steps));
-    std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, simulation->energy_scale(), actions);
+    const double scale = simulation->energy_scale();
+    simulation.reset();  // another one is made, and two of a million particles need not have their lists at a time
+    reversal.end = {};
+    std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, scale, actions);
   }
   if (walled && found.bounces == 0) found.reason += "; no bounce was met";
   if (found.steps < steps_taken) {

@@ -138,7 +138,7 @@ class ScenarioRun {
         seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.steps_taken = simulation_->step();
     RunReport report;
-    report.certificate = certify(scenario_.request, *scenario_.problem, *simulation_, blocks_, result.steps_taken);
+    report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken);
     const Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
     report.file_trouble = result.file_trouble;
     report.outcome = result.outcome;

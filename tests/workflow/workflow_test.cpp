@@ -214,6 +214,47 @@ TEST_F(Workflow, ReversalComparisonSweepAndSession) {
 }
 
 /// Of a gas a sample is positions, momenta and velocities.
+/// The simulation of a large run makes room for its reversal: another one takes its place, in the same state.
+TEST(LargeRuns, ReportWhatTheirSimulationSaysOfItself) {
+  const Scenario gas = accepted(read_scenario_text(R"(
+[problem]
+name = "gas"
+particles_per_side = 230
+scale = 115
+container = { kind = "periodic", size = [2.01, 2.01] }
+cutoff = 2.5
+masses = 1e4
+[method]
+name = "verlet"
+[run]
+dt = 0.01
+steps = 3
+)",
+                                                   "gas", {}));
+  const RunReport report = run_scenario(gas);
+  const auto simulation = make_simulation(gas.request);
+  ASSERT_EQ(simulation->advance(3), Outcome::done);
+  Frame frame;
+  simulation->look(frame);
+  ASSERT_GT(frame.q.size(), 100'000U);
+  EXPECT_EQ(report.final.q, frame.q);
+  EXPECT_EQ(report.final.p, frame.p);
+  EXPECT_EQ(report.final.step, 3);
+  EXPECT_EQ(report.final.effort.force, frame.effort.force);
+  EXPECT_EQ(report.energy.initial, simulation->energy().initial);
+  EXPECT_EQ(report.energy.final, simulation->energy().final);
+  EXPECT_EQ(report.energy.max_error, simulation->energy().max_error);
+  EXPECT_EQ(report.energy_scale, simulation->energy_scale());
+  ASSERT_FALSE(report.invariants.empty());
+  for (std::size_t i = 0; i < report.invariants.size(); ++i) {
+    EXPECT_EQ(report.invariants[i].initial, simulation->invariants().at(i).initial);
+    EXPECT_EQ(report.invariants[i].final, simulation->invariants().at(i).final);
+    EXPECT_EQ(report.invariants[i].max_error, simulation->invariants().at(i).max_error);
+  }
+  ASSERT_TRUE(report.certificate && report.certificate->reversal);
+  EXPECT_EQ(report.certificate->reversal->proves, ReversalProof::to_rounding);
+}
+
 TEST(Samples, OfManyParticlesAreAsManyAsOneGibibyteHolds) {
   for (const char* steps : {"6000", "1000000", "3000"}) {
     const std::string text = std::string(R"(

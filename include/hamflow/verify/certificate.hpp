@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -135,8 +136,9 @@ struct RunCertificate {
   std::optional<ReversalEvidence> reversal;  // none: no step was taken
 };
 
+/// @param simulation of the run; that of a large system is another one afterwards, in the same state
 /// @param steps_taken of which the reversal takes a small part over again, on a simulation of its own
-RunCertificate certify(const Request& request, const ProblemEntry& problem, const Simulation& simulation,
+RunCertificate certify(const Request& request, const ProblemEntry& problem, std::unique_ptr<Simulation>& simulation,
                        const EnergyBlocks& blocks, std::int64_t steps_taken);
 
 }  // namespace hamflow
