@@ -42,6 +42,10 @@ class Arithmetic(CommandCase):
         self.assertIn("are known here to", result.stderr)
         s = self.run_with("method.name=stv4", "run.steps=3", "run.arithmetic=mp(80)")
         self.assertGreater(len(s["final"]["q"][0]), 75)
+        # -1.17... has 39 places behind the point: significant digits count.
+        self.run_with("method.name=yoshida6", "run.steps=3", "run.arithmetic=mp(40)")
+        self.hamflow("run", KEPLER, "--set", "method.name=yoshida6", "--set", "run.arithmetic=mp(41)", "--out", "none",
+                     status=2)
 
     def test_a_closed_form_in_double_judges_no_further_than_it_is_known(self):
         accurate = ("method={name='dop853',tolerance=1e-20}", "run.dt=0.1", "run.steps=2000", "run.arithmetic=quad")
