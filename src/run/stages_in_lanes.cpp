@@ -292,7 +292,6 @@ double StagesInLanes::distance_of(std::span<const double> other) const {
 bool StagesInLanes::end(std::span<double> x, std::span<double> dq, std::span<double> dp, std::span<double> next) {
   if (!run(*finish_)) return false;
   // Two sums side by side, of q and of p, each as detail::KeptSum.
-  using Two = double __attribute__((vector_size(16)));
   for (std::size_t a = 0; a < at_.n; ++a) {
     const double* const impulse = row(at_.at_end() + a);
     const double* const d = row(at_.d() + a);
