@@ -47,6 +47,8 @@ class Observed : public E {
   static inline thread_local Last last;
 
   using E::E;
+  /// The road of most steps (plane_road.hpp) shows no last point; by Newton the bits are the same.
+  void straight(const auto&, int) const = delete;
   auto taken(typename E::Variables& x, const typename E::Point& at) const { return E::taken(x, at); }
   auto taken(typename E::Variables& x, const typename E::Point& at, const typename E::Variables& correction) const {
     last = {x, at, {}};
