@@ -409,9 +409,9 @@ void carry_out(Study& study) {
   claim_late_motions(study);
   // Of the listing's rule more: its rate decides how many captures the others should have. Lanes make a step of it a
   // thirtieth of what one of event costs, for its bounces are located. Of the others so many that no capture at all
-  // would leave the ratio clearly below a half: some 18 expected ones.
+  // would leave the ratio clearly below a half: some 16 expected ones.
   const int starts = study.sized(2, 64, 512), of_reject = study.sized(2, 256, 2048);
-  const int of_event = study.sized(2, 112, 512), of_soft = study.sized(2, 88, 512);
+  const int of_event = study.sized(2, 96, 512), of_soft = study.sized(2, 72, 512);
   const auto set_of = [](const std::string& rule, const std::string& method, const std::string& dt, std::size_t blocks,
                          std::vector<std::string> sets = {}) {
     TubeSet set{.run = {.rule = rule, .method = method, .dt = dt}, .sets = std::move(sets), .blocks = blocks};
