@@ -314,7 +314,7 @@ TEST(Walls, TooManyBounces) {
 
 /// The force of a soft wall is the derivative of its potential, and it ends where the wall is.
 TEST(Walls, SoftWalls) {
-  for (const char* exponent : {"1", "2", "3", "2.5"}) {
+  for (const char* exponent : {"1", "2", "3", "6", "7", "2.5"}) {
     Request request =
         with_problem("harmonic", {}, {{"mass", "1"}, {"omega", "1"}}, {"0.1"}, {"0.5"}, "cg(2,auto)", "0.01");
     Walls walls;
