@@ -159,20 +159,19 @@ Model::Model(const FormulaTexts& texts) {
   label_ = "formula";
   for (const auto& [key, text] : choices_of(texts)) label_ += " " + key + " = " + text;
   const std::size_t n = size();
-  using Keys = FormulaKeys;
   const auto refuse = [](const std::string& key, const std::string& message) { throw FormulaError(key, message); };
   const bool whole = !texts.hamiltonian.empty();
   const bool split = !texts.kinetic.empty() && !texts.potential.empty();
   if (whole && (!texts.kinetic.empty() || !texts.potential.empty())) {
-    refuse(Keys::hamiltonian, "found it beside " +
-                                  std::string(texts.kinetic.empty() ? Keys::potential : Keys::kinetic) +
-                                  "; allowed hamiltonian, or kinetic and potential");
+    refuse(FormulaKeys::hamiltonian,
+           "found it beside " + std::string(texts.kinetic.empty() ? FormulaKeys::potential : FormulaKeys::kinetic) +
+               "; allowed hamiltonian, or kinetic and potential");
   }
   if (!whole && !split) {
     const bool none = texts.kinetic.empty() && texts.potential.empty();
-    refuse(none                    ? Keys::hamiltonian
-           : texts.kinetic.empty() ? Keys::kinetic
-                                   : Keys::potential,
+    refuse(none                    ? FormulaKeys::hamiltonian
+           : texts.kinetic.empty() ? FormulaKeys::kinetic
+                                   : FormulaKeys::potential,
            "found none; allowed hamiltonian, or kinetic and potential");
   }
 
@@ -188,15 +187,15 @@ Model::Model(const FormulaTexts& texts) {
   const auto read = [&](const std::string& key, const std::string& text) { return read_with(symbols_, key, text); };
   std::vector<int> roots;
   if (whole) {
-    roots.push_back(read(Keys::hamiltonian, texts.hamiltonian));
+    roots.push_back(read(FormulaKeys::hamiltonian, texts.hamiltonian));
   } else {
-    roots.push_back(read(Keys::kinetic, texts.kinetic));
-    roots.push_back(read(Keys::potential, texts.potential));
+    roots.push_back(read(FormulaKeys::kinetic, texts.kinetic));
+    roots.push_back(read(FormulaKeys::potential, texts.potential));
   }
   const std::size_t first_invariant = roots.size();
   std::set<std::string> known_invariants;
   for (const auto& [name, text] : texts.invariants) {
-    const std::string key = std::string(Keys::invariants) + "." + name;
+    const std::string key = std::string(FormulaKeys::invariants) + "." + name;
     if (!known_invariants.insert(name).second)
       refuse(key, "found the name " + name + " a second time; allowed names that differ");
     roots.push_back(read(key, text));
@@ -204,7 +203,7 @@ Model::Model(const FormulaTexts& texts) {
   }
   const std::size_t first_constraint = roots.size();
   for (std::size_t k = 0; k < texts.constraints.size(); ++k) {
-    const std::string key = std::string(Keys::constraints) + "[" + std::to_string(k) + "]";
+    const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
       roots.push_back(read_into(graph, texts.constraints[k], symbols_, &needed));
     } catch (const Error&) {  // said with the names that are allowed in it
@@ -217,7 +216,7 @@ Model::Model(const FormulaTexts& texts) {
     }
   }
   structure_.constraints = texts.constraints.size();
-  structure_.multiplier = texts.constraint_form == Keys::multiplier;
+  structure_.multiplier = texts.constraint_form == FormulaKeys::multiplier;
   std::erase_if(symbols_.known, [&](const auto& entry) { return !needed.contains(entry.first); });
 
   std::vector<bool> fixed(symbols_.names.size(), true);
@@ -225,7 +224,7 @@ Model::Model(const FormulaTexts& texts) {
   for (std::size_t i = 0; i <= 2 * n; ++i) fixed[i] = false;
   derivation_ = std::make_unique<Derivation>(graph, fixed);
   Derivation& d = *derivation_;
-  const std::string key = whole ? Keys::hamiltonian : Keys::potential;
+  const std::string key = whole ? FormulaKeys::hamiltonian : FormulaKeys::potential;
   try {
     if (whole) {
       d.h = d.forms.of_node(roots[0]);
@@ -243,8 +242,8 @@ Model::Model(const FormulaTexts& texts) {
                           ", parameters and t; else hamiltonian");
         }
       };
-      foreign(d.t, 0, Keys::kinetic, "momenta");
-      foreign(d.v, n, Keys::potential, "coordinates");
+      foreign(d.t, 0, FormulaKeys::kinetic, "momenta");
+      foreign(d.v, n, FormulaKeys::potential, "coordinates");
       d.h = d.forms.sum({d.t, d.v});
       if (d.forms.depends(d.t, static_cast<int>(time_symbol()))) d.t = d.v = -1;
     }
@@ -312,18 +311,17 @@ Model::Model(const FormulaTexts& texts) {
 }
 
 void Model::derive_constraints(const std::vector<int>& values) {
-  using Keys = FormulaKeys;
   Derivation& d = *derivation_;
   const std::size_t n = size();
   if (!structure_.quadratic_kinetic) {
-    throw FormulaError(Keys::constraints,
+    throw FormulaError(FormulaKeys::constraints,
                        "found constraints beside an H that is not p^T M^-1 p/2 + V(q) with constant M; allowed such "
                        "an H, or none");
   }
   std::vector<Derivation::Output> of_gradients;
   std::vector<Derivation::Output> of_bends;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::string key = std::string(Keys::constraints) + "[" + std::to_string(k) + "]";
+    const std::string key = std::string(FormulaKeys::constraints) + "[" + std::to_string(k) + "]";
     try {
       const int g = d.forms.of_node(values[k]);
       for (std::size_t i = n; i <= 2 * n; ++i) {

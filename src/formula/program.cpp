@@ -53,7 +53,7 @@ Instruction instruction_of(Op op) {
 
 class ProgramWriter {
  public:
-  ProgramWriter(const Code& code, const std::vector<double>& constants) : code_(code) {
+  ProgramWriter(const Code& code, const std::vector<double>& constants) {
     program_.constants = constants;
     places_.resize(code.places());
     std::size_t place = 0;
@@ -94,7 +94,6 @@ class ProgramWriter {
     return step.b < 0 ? add(instruction_of(step.op), at(step.a)) : add(instruction_of(step.op), at(step.a), at(step.b));
   }
 
-  const Code& code_;
   Program program_;
   std::vector<Operand> places_;
 };

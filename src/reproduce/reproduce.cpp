@@ -14,6 +14,7 @@
 #include "hamflow/core/error.hpp"
 #include "report.hpp"
 #include "run_folder.hpp"
+#include "shared_work.hpp"
 #include "store.hpp"
 
 namespace hamflow {
@@ -88,12 +89,11 @@ void begin_in(const fs::path& folder, const std::string& print, bool resume) {
 class Run {
  public:
   Run(const ReproduceRequest& request, const std::function<bool(std::size_t, std::size_t)>& pulse)
-      : request_(request), pulse_(pulse), reports_(request.ids.size()) {}
+      : request_(request), pulse_(pulse), reports_(request.ids.size()), shared_(number_of_threads()) {}
 
   ReproduceReport all() {
     std::vector<std::thread> others;
-    const int most = std::min<int>(request_.threads, static_cast<int>(request_.ids.size()));
-    for (int i = 1; i < most; ++i) others.emplace_back([this] { work(); });
+    for (std::size_t i = 1; i < number_of_threads(); ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
     if (!trouble_.empty())
@@ -102,6 +102,8 @@ class Run {
   }
 
  private:
+  std::size_t number_of_threads() const { return static_cast<std::size_t>(std::max(request_.threads, 1)); }
+
   bool go_on() {
     if (stopped_) return false;
     const std::lock_guard one(mutex_);
@@ -123,6 +125,7 @@ class Run {
       }
       ++done_;
     }
+    shared_.help();
   }
   ExperimentReport carried_out(const Experiment& experiment) {
     ExperimentReport report{.info = experiment.info, .status = "done", .extent = request_.extent};
@@ -143,7 +146,7 @@ class Run {
     const auto begin = std::chrono::steady_clock::now();
     begin_in(folder, print, request_.existing == Existing::resume);
     Study study(
-        experiment.info, request_.extent, [this] { return go_on(); }, folder);
+        experiment.info, request_.extent, [this] { return go_on(); }, folder, shared_);
     try {
       experiment.carry_out(study);
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -208,6 +211,7 @@ class Run {
   std::atomic<std::size_t> done_ = 0;
   std::atomic<bool> stopped_ = false;
   std::mutex mutex_;
+  SharedWork shared_;
   std::string trouble_;
 };
 

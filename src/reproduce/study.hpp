@@ -11,6 +11,7 @@
 #include "hamflow/reproduce/reproduce.hpp"
 #include "hamflow/workflow/reverse.hpp"
 #include "page.hpp"
+#include "shared_work.hpp"
 
 namespace hamflow::reproduction {
 
@@ -65,8 +66,13 @@ struct Stopped {};
 class Study {
  public:
   /// @param folder of the experiment, in which long runs keep their checkpoints
-  Study(ExperimentInfo info, WorkExtent extent, std::function<bool()> go_on, std::filesystem::path folder)
-      : info_(std::move(info)), extent_(extent), go_on_(std::move(go_on)), folder_(std::move(folder)) {}
+  Study(ExperimentInfo info, WorkExtent extent, std::function<bool()> go_on, std::filesystem::path folder,
+        SharedWork& others)
+      : info_(std::move(info)),
+        extent_(extent),
+        go_on_(std::move(go_on)),
+        folder_(std::move(folder)),
+        others_(others) {}
 
   template <class T>
   T sized(T quick, T usual, T full) const {
@@ -111,6 +117,10 @@ class Study {
     if (!goes_on()) throw Stopped{};
   }
 
+  /// Pieces of work of the experiment's own that do not depend on each other, also on threads that have nothing else to
+  /// do. No piece calls what keeps something here.
+  void each(std::size_t count, const std::function<void(std::size_t)>& piece) const { others_.each(count, piece); }
+
   const std::vector<Claim>& claims() const { return claims_; }
   const std::vector<Curves>& curves() const { return curves_; }
   const std::vector<Drawn>& drawn() const { return drawn_; }
@@ -126,6 +136,7 @@ class Study {
   WorkExtent extent_;
   std::function<bool()> go_on_;
   std::filesystem::path folder_;
+  SharedWork& others_;
   std::vector<Claim> claims_;
   std::vector<Curves> curves_;
   std::vector<Drawn> drawn_;

@@ -206,17 +206,19 @@ std::vector<TubeStart> tube_starts(int number) {
 
 std::vector<TubeWatch> watch_tubes(const Study& study, const std::string& name, const TubeSet& set,
                                    std::span<const TubeStart> starts) {
-  std::vector<TubeWatch> all;
-  for (std::size_t first = 0; first < starts.size() && set.blocks > 0; first += kept_together) {
+  if (set.blocks == 0) return {};
+  std::vector<std::vector<TubeWatch>> parts((starts.size() + kept_together - 1) / kept_together);
+  study.each(parts.size(), [&](std::size_t part) {
+    const std::size_t first = part * kept_together;
     const auto some = starts.subspan(first, std::min(kept_together, starts.size() - first));
     const auto file = study.folder() / fmt::format("{}_{}.json", name, first);
-    std::vector<TubeWatch> watches = kept_watches(file, some);
-    if (watches.empty()) {
-      watches = watch_some(study, set, some);
-      write_text(file, json_of(watches));
-    }
-    std::move(watches.begin(), watches.end(), std::back_inserter(all));
-  }
+    parts[part] = kept_watches(file, some);
+    if (!parts[part].empty()) return;
+    parts[part] = watch_some(study, set, some);
+    write_text(file, json_of(parts[part]));
+  });
+  std::vector<TubeWatch> all;
+  for (std::vector<TubeWatch>& part : parts) std::move(part.begin(), part.end(), std::back_inserter(all));
   return all;
 }
 

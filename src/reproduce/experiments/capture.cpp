@@ -386,8 +386,10 @@ void claim_captures(Study& study, Counts& reject) {
               Grounds::program, "runs of some 10^7 steps: the default size");
   double without = 0, events = 0, tried = 0, longest = 0;
   const auto looked_at = std::min<std::size_t>(reject.captured.size(), 16);  // each is run again
-  for (Captured& one : std::span(reject.captured).first(looked_at)) {
-    find_two_to_one(study, reject.set, one.seen, one.from);
+  study.each(looked_at, [&](std::size_t k) {
+    find_two_to_one(study, reject.set, reject.captured[k].seen, reject.captured[k].from);
+  });
+  for (const Captured& one : std::span(reject.captured).first(looked_at)) {
     const double gap = last_before(one);
     without += gap <= 1 ? 0 : 1;
     longest = std::max(longest, gap);
@@ -409,9 +411,9 @@ void carry_out(Study& study) {
   claim_late_motions(study);
   // Of the listing's rule more: its rate decides how many captures the others should have. Lanes make a step of it a
   // thirtieth of what one of event costs, for its bounces are located. Of the others so many that no capture at all
-  // would leave the ratio clearly below a half: some 16 expected ones.
+  // would leave the ratio clearly below a half: some 20 expected ones.
   const int starts = study.sized(2, 64, 512), of_reject = study.sized(2, 256, 2048);
-  const int of_event = study.sized(2, 96, 512), of_soft = study.sized(2, 72, 512);
+  const int of_event = study.sized(2, 128, 512), of_soft = study.sized(2, 96, 512);
   const auto set_of = [](const std::string& rule, const std::string& method, const std::string& dt, std::size_t blocks,
                          std::vector<std::string> sets = {}) {
     TubeSet set{.run = {.rule = rule, .method = method, .dt = dt}, .sets = std::move(sets), .blocks = blocks};
