@@ -7,58 +7,14 @@
 
 #include "flight_in_numbers.hpp"
 #include "hamflow/core/archive.hpp"
+#include "hamflow/core/outside_note.hpp"
 #include "hamflow/run/recorded_step.hpp"
+#include "run_walls.hpp"
 #include "wall_events.hpp"
-#include "walled_functions.hpp"
 
 namespace hamflow {
 
 namespace {
-
-/// What the walls of one run are.
-template <class R>
-struct RunWalls {
-  WallRule rule = WallRule::event;
-  bool in_steps = false;      // a recorded step can take a bounce
-  bool turns_single = false;  // a bounce is p_i -> -p_i and nothing else, for certain
-  std::vector<WallSide<R>> sides;
-  std::vector<std::string> names;  // of their coordinates
-  std::shared_ptr<const Functions<R>> functions;
-};
-
-/// Whether a bounce is p_i -> -p_i and nothing else: T quadratic with an M^-1 that is diagonal there.
-template <class R>
-bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& functions) {
-  if (!includes(functions.capability, Capability::separable | Capability::quadratic_kinetic)) return false;
-  for (const WallSide<R>& wall : walls.sides) {
-    for (std::size_t j = 0; j < functions.size; ++j) {
-      auto p = zeros<R, dynamic>(functions.size);
-      auto v = p;
-      p[j] = R(1);
-      functions.plain->velocity(p, v);
-      if (j != wall.coordinate && v[wall.coordinate] != R(0)) return false;
-    }
-  }
-  return true;
-}
-
-/// Whether -p_i in place of p_i leaves H as it is to the last bit, which terms that are written otherwise than as
-/// squares need not do; of some momenta.
-bool keep_last_bits(const RunWalls<double>& walls, const Functions<double>& functions,
-                    const Vector<double, dynamic>& q) {
-  std::uint32_t any = 1;
-  for (int n = 0; n < 16; ++n) {
-    auto p = zeros_like(q);
-    for (double& x : p) x = 0x1p-31 * static_cast<double>(any = any * 1664525u + 1013904223u) - 1;
-    const double energy = functions.energy(q, p);
-    for (const WallSide<double>& wall : walls.sides) {
-      auto turned = p;
-      turned[wall.coordinate] = -p[wall.coordinate];
-      if (!(functions.energy(q, turned) == energy)) return false;
-    }
-  }
-  return true;
-}
 
 template <class R>
 class WalledSimulation : public Simulation {
@@ -497,34 +453,8 @@ class WalledMember final : public WalledSimulation<double>, public RecordedMembe
 template <class R>
 std::unique_ptr<Simulation> simulate_behind_walls(const ErasedRun<R>& run, const Request& request, const Walls& walls,
                                                   Simulate<R> simulate) {
-  auto behind = std::make_shared<RunWalls<R>>();
-  behind->rule = walls.rule;
-  if (walls.hard()) behind->sides = wall_sides<R>(walls);
-  if constexpr (std::is_same_v<R, double>) {
-    if (request.arithmetic == "lattice" && walls.rule == WallRule::mirror) {
-      for (auto& side : behind->sides) side.at = on_half_lattice(side.at, request.position_unit);
-    }
-  }
-  for (const auto& interval : walls.intervals) {
-    if (!interval.min.empty() || !walls.hard()) behind->names.push_back(interval.coordinate);
-    if (!interval.max.empty() && walls.hard()) behind->names.push_back(interval.coordinate);
-  }
   ErasedRun<R> other = run;
-  other.functions = functions_behind_walls(run.functions, request, walls, behind->sides);
-  behind->functions = other.functions.plain;
-  if constexpr (std::is_same_v<R, double>) {
-    if (walls.hard()) {
-      const bool few = other.functions.size <= 64;  // steps of more are too long to be recorded, or gain little
-      const bool keep_energy =
-          few && walls.rule == WallRule::reject && keep_last_bits(*behind, *other.functions.plain, other.q);
-      other.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule, keep_energy});
-      behind->turns_single = (walls.rule == WallRule::reject || (few && walls.rule == WallRule::event)) &&
-                             turn_single_momenta(*behind, other.functions);
-      // Compensated positions are mirrored as sums of two numbers, forces of the first alone.
-      behind->in_steps = (walls.rule == WallRule::reject && behind->turns_single) ||
-                         (walls.rule == WallRule::mirror && request.arithmetic == "double");
-    }
-  }
+  auto behind = put_behind_walls(other, request, walls);
   if constexpr (std::is_same_v<R, double>) {
     return std::make_unique<WalledMember>(simulate(other, request), std::move(behind));
   } else {
