@@ -78,7 +78,7 @@ struct RowTile {
   HAMFLOW_INLINE void visit(const Rows& rows, const Law& law, std::size_t j, const unsigned (&bits)[Tile],
                             double* const (&force)[Space]) {
     each_part([&](const auto n) __attribute__((always_inline)) {
-      const std::size_t a = j + n * lanes;
+      const std::size_t a = j + static_cast<std::size_t>(n) * lanes;
       const std::size_t b = a + 8;
       Part x[2][Space];
       Part other[2][Space];

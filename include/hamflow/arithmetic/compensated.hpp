@@ -14,7 +14,7 @@ struct Compensated {
   struct Stored {
     R high{};
     R low{};
-    friend constexpr bool operator==(const Stored&, const Stored&) = default;
+    friend bool operator==(const Stored&, const Stored&) = default;
     template <class Archive>
     void archive(Archive& ar) {
       ar(high, low);
