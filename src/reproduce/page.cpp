@@ -244,8 +244,9 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
   for (const Table& table : kept->tables) text += table_html(table);
   for (const std::string& note : kept->notes) text += "<p>" + escaped_html(note) + "</p>\n";
   std::string commands = "hamflow reproduce " + info.id + extent_option(report.extent) + "\n";
-  for (const std::string& scenario : kept->scenarios) {
-    commands += "hamflow run " + quoted("reproduction/" + info.id + "/" + scenario + ".toml") + "\n";
+  for (const KeptScenario& scenario : kept->scenarios) {
+    commands +=
+        "hamflow " + scenario.command + " " + quoted("reproduction/" + info.id + "/" + scenario.name + ".toml") + "\n";
   }
   return text + "<details><summary>Commands, in the folder of this page<span class=\"heard\">, of " +
          escaped_html(info.id) + "</span></summary><pre>" + escaped_html(commands) + "</pre></details>\n" +

@@ -141,7 +141,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   for (const Claim& claim : study.claims()) all["claims"].push_back(json_of(claim));
   for (const KeptScenario& scenario : study.scenarios()) {
     write_text(folder / (scenario.name + ".toml"), scenario.text);
-    all["scenarios"].push_back(scenario.name);
+    all["scenarios"].push_back({{"name", scenario.name}, {"command", scenario.command}});
   }
   for (const Curves& curves : study.curves()) write_csv(folder / (curves.name + ".csv"), curves);
   if (!study.curves().empty()) write_h5(folder / "curves.h5", study);
@@ -168,7 +168,9 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
     Kept kept;
     for (const Json& claim : all.at("claims")) kept.claims.push_back(claim_in(claim));
     kept.notes = all.at("notes").get<std::vector<std::string>>();
-    kept.scenarios = all.at("scenarios").get<std::vector<std::string>>();
+    for (const Json& scenario : all.at("scenarios")) {
+      kept.scenarios.push_back({.name = scenario.at("name"), .text = {}, .command = scenario.at("command")});
+    }
     for (const Json& figure : all.at("figures")) kept.drawings.push_back({figure.at(0), figure.at(1), figure.at(2)});
     for (const Json& table : all.at("tables")) {
       kept.tables.push_back({table.at("name"), table.at("caption"), table.at("headings"), table.at("rows")});

@@ -16,7 +16,7 @@ struct Kept {
   std::vector<Claim> claims;
   std::vector<std::string> notes;
   std::vector<Table> tables;
-  std::vector<std::string> scenarios;  // their names
+  std::vector<KeptScenario> scenarios;  // without their texts, which are files of their own
   struct Drawing {
     std::string name, caption, in_words;
   };

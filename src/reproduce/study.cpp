@@ -73,14 +73,16 @@ ReversalReport Study::reverse(const std::string& name, const std::string& toml, 
   const Scenario scenario = read(name, toml, sets);
   ReversalReport report = reverse_scenario(scenario, [this](std::int64_t) { return goes_on(); });
   if (report.status == "interrupted") throw Stopped{};
-  keep_scenario(name, scenario.text);
+  keep_scenario(name, scenario.text, "reverse");
   return report;
 }
 
-void Study::keep_scenario(std::string name, std::string text) {
-  const auto is_same = [&](const KeptScenario& kept) { return kept.name == name && kept.text == text; };
+void Study::keep_scenario(std::string name, std::string text, std::string command) {
+  const auto is_same = [&](const KeptScenario& kept) {
+    return kept.name == name && kept.text == text && kept.command == command;
+  };
   if (std::any_of(scenarios_.begin(), scenarios_.end(), is_same)) return;
-  scenarios_.push_back({std::move(name), std::move(text)});
+  scenarios_.push_back({std::move(name), std::move(text), std::move(command)});
 }
 
 Trajectory Study::run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {

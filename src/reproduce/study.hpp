@@ -58,6 +58,7 @@ struct Table {
 struct KeptScenario {
   std::string name;
   std::string text;
+  std::string command = "run";  // of hamflow, which carries it out again
 };
 
 /// Ctrl-C: what is not done is done at the next time.
@@ -108,7 +109,7 @@ class Study {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
   /// A scenario that was carried out by other means than run(); once, where it is by that name and text already.
-  void keep_scenario(std::string name, std::string text);
+  void keep_scenario(std::string name, std::string text, std::string command = "run");
   void note(std::string text) { notes_.push_back(std::move(text)); }
   /// Of work of the experiment's own, for what asks rather than being told.
   bool goes_on() const { return !go_on_ || go_on_(); }

@@ -212,7 +212,14 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
       // A scenario that stands in a run.h5 began where that run did: its file need not be there any more.
       if (is_in_run_file(scenario_.file)) return gas_from_run(scenario_.file, space, RunState::start);
       const std::filesystem::path path = std::filesystem::path(scenario_.file).parent_path() / *file;
-      return path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
+      GasStart there = path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
+      const double particles = static_cast<double>(there.q.size() / space);
+      if (n > 0 && std::pow(static_cast<double>(n), static_cast<double>(space)) != particles) {
+        table.complain(o.particles_per_side.name, table.found(o.particles_per_side.name) + " beside " + *file +
+                                                      ", which has " + std::to_string(there.q.size() / space) +
+                                                      " particles; allowed without it, or as many as that");
+      }
+      return there;
     } catch (const Error& error) {
       table.complain(o.file.name, error.what());
       return {};

@@ -49,6 +49,11 @@ std::string start_table(const Scenario& scenario, const std::string& to, const C
   return table(list(state.q), list(state.p));
 }
 
+/// Those of the problem itself come first, and stand in each of its charts.
+bool has_own_observables(const Scenario& scenario) {
+  return scenario.observables.size() > scenario.problem->info.observables.size();
+}
+
 }  // namespace
 
 std::string state_text(const CanonicalState& state) { return "q = " + row(state.q) + "\np = " + row(state.p) + "\n"; }
@@ -89,7 +94,7 @@ std::string converted_text(const Scenario& scenario, const std::string& to, cons
     const std::string list = joined(others, [](const std::string& kind) { return "\"" + kind + "\""; });
     if (!scenario.figures.empty()) edits.push_back({output_path(output_keys().figures), "[" + list + "]"});
   }
-  if (!scenario.observables.empty()) edits.push_back({output_path(output_keys().observables), {}});
+  if (has_own_observables(scenario)) edits.push_back({output_path(output_keys().observables), {}});
   return edited_scenario(scenario.text, edits);
 }
 
@@ -98,7 +103,7 @@ std::string left_out_of_converted(const Scenario& scenario, const std::string& t
   if (coordinates_of(*scenario.problem) == to) return "";
   if (!scenario.events.empty()) keys.push_back(run_path(run_keys().events));
   if (scenario.section) keys.push_back(run_path(run_keys().section));
-  if (!scenario.observables.empty()) keys.push_back(output_path(output_keys().observables));
+  if (has_own_observables(scenario)) keys.push_back(output_path(output_keys().observables));
   return joined(keys);
 }
 

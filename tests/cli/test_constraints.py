@@ -316,5 +316,26 @@ steps = 100
         self.assertLess(s["constraints"]["position"], 16 * EPSILON)
 
 
+    def test_two_constraints_stay_at_their_rounding(self):
+        """One hardly bends, the other does: what Newton predicts from the largest of both residuals is too small."""
+        self.write("curve.toml", """
+[problem]
+name = "formula"
+coordinates = ["x", "y", "z"]
+hamiltonian = "(p_x^2 + 2*p_y^2 + p_z^2)/2 + z"
+constraints = ["x^2 + y^2 + z^2 - 1", "x - 0.1*z^2"]
+initial = { q = [0, 1, 0], p = [0, 0, -0.3] }
+[method]
+name = "rattle4"
+[run]
+dt = 0.01
+steps = 200
+""")
+        for arithmetic, epsilon in (("double", 2.3e-16), ("quad", 2e-34), ("mp(25)", 1e-24)):
+            found = self.summary("curve.toml", "--set", f"run.arithmetic={arithmetic}")["constraints"]
+            for name in ("position", "velocity"):  # 64 units of terms that add up to 4 at most
+                self.assertLess(float(found[name]), 256 * epsilon, f"{arithmetic} {name}")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -122,6 +122,9 @@ observables = { d = "sqrt(x^2 + y^2)" }
         self.assertEqual((there["events"]["wall:x1:max"], back["events"]["wall:q1:max"]), (1, 1))
         self.assert_close([there["final"]["q"][0], there["final"]["q"][3]], back["final"]["q"], units=1e6)
         self.hamflow("run", "there.toml", "--out", "there.run", "--set", "run.steps=30")
+        # Observables of the problem are in every chart: nothing of output.observables is left out.
+        self.assertEqual(self.hamflow("convert", "there.run", "--to", "generalised", "-o", "there.h5").stderr.count(
+            "output.observables"), 0)
         rows = self.hamflow("convert", "there.run", "--to", "generalised").stdout.splitlines()
         self.assert_close([float(x) for x in rows[-1].split(",")[1:3]], [there["final"]["q"][0], there["final"]["q"][3]])
 

@@ -71,6 +71,10 @@ class Gas(CommandCase):
         self.assertEqual(s["final"]["p"], [0.1, 0, 0, 0.25, 0, 0])
         self.assertEqual(s["parameters"]["masses"], [1, 2, 3])
         self.assertEqual(s["parameters"]["scale"], 1)
+        # per-side is of n^2 particles: a file of three has no such number.
+        self.assertIn("problem.particles_per_side: found 4 beside start.csv, which has 3 particles",
+                      self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.particles_per_side=4",
+                                   status=2).stderr)
         for wrong, said in (("x,y,p_x\n0,0,0\n", "no column p_y"), ("x,y,p_x,p_y\n0,0,0\n", "3 numbers in line 2"),
                             ("x,y,p_x,p_y\n0,a,0,0\n", "line 2"), ("", "empty file"),
                             ("x,y,p_x,p_y,masss\n0,0,0,0,1\n", "masss"), ("x,y,p_x,p_y\n", "no particle")):

@@ -32,6 +32,22 @@ class Plot(CommandCase):
         extra = [part for text in sets for part in ("--set", text)]
         self.hamflow("run", name, "--out", out, "--quiet", "--set", "output.figures=[]", *extra)
 
+    def test_columns_that_are_proposed_are_there(self):
+        self.write("gas.toml", """
+[problem]
+name = "gas"
+particles_per_side = 8
+[method]
+name = "verlet"
+[run]
+dt = 0.0001
+steps = 2
+""")
+        self.run_some("gas.toml", out="gas")
+        told = self.refused("gas", "--kind", "time")
+        self.assertIn("hamflow plot --kind time --y x1,y1", told)
+        self.plot("gas", "--y", "x1,y1", kind="time")
+
     def test_units_of_the_planets(self):
         """Of the one problem that brings its numbers along; of others units are those of the input."""
         self.run_some(str(EXAMPLES / "solar_system.toml"), "run.steps=20", out="s")

@@ -94,6 +94,27 @@ class Reproduce(CommandCase):
         claim = next(c for c in self.verdicts("r")["claims"] if c["id"] == "G2.9/kept")
         self.assertEqual(done["energy"]["max_error"], claim["measured"])
 
+    def test_commands_of_the_page_remake_what_was_measured(self):
+        """Reversals by `reverse`, runs by `run`."""
+        self.reproduce("S3.3", "--quick", "--out", "r")
+        page = Page((self.folder / "r/index.html").read_text())
+        commands = [line for text in page.commands for line in text.splitlines()]
+        back = [line for line in commands if "121_corner_per-side_0.001_" in line and "2400_double" in line]
+        self.assertEqual([line.split()[:2] for line in back], [["hamflow", "reverse"]])
+        done = subprocess.run([HAMFLOW, *shlex.split(back[0])[1:], "--json", "--quiet"], cwd=self.folder / "r",
+                              capture_output=True, text=True, check=True)
+        claim = next(c for c in self.verdicts("r")["claims"] if c["id"] == "S3.3/returns_0.001_per-side")
+        self.assertIn(f"{json.loads(done.stdout)['digits_lost']:.3g} digits lost", claim["reason"])
+
+    def test_two_ways_to_the_sign_of_eps_are_one_number(self):
+        self.reproduce("S-C102", "S-C24", "--quick", "--out", "r")
+        claims = {c["id"]: c for c in self.verdicts("r")["claims"]}
+        program, force = claims["S-C102/sign"]["measurements"]
+        self.assertLess(abs(program["value"] - force["value"]), program["uncertainty"] + force["uncertainty"])
+        self.assertEqual(claims["S-C102/sign"]["verdict"], "cannot hold")
+        self.assertEqual(claims["S-C24/t_tube"]["verdict"], "holds")
+        self.assertIn("cartesian.toml", (self.folder / "r/index.html").read_text())  # it was measured
+
     def test_verdicts_do_not_depend_on_threads(self):
         one = self.reproduce(*SOME, "--quick", "--json", "--threads", "1", "--out", "one").stdout
         self.assertEqual(one, self.reproduce(*SOME, "--quick", "--json", "--threads", "2", "--out", "two").stdout)

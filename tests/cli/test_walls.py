@@ -1,6 +1,7 @@
 """Walls: what a run counts and records, what goes on with it, and what is refused with the reason."""
 
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -243,6 +244,25 @@ steps = 10
         self.assertEqual(done["reference"]["kind"], "integration")
         errors = {row["method"]: row["error"] for row in done["rows"]}
         self.assertLess(errors["cg(3,auto)"], 1e-6)
+
+
+    def test_soft_walls_have_a_series_and_a_reference(self):
+        """They are a term of H like others: the reference of compare is a Taylor series with that term."""
+        name = self.box('[{ coordinate = "q1", min = -2, max = 2 }, { coordinate = "q2", min = -2, max = 1 }]', "stv4",
+                        'wall_rule = "soft"\nexponent = 2.5')
+        found = json.loads(self.hamflow("compare", name, "--methods", "cg(3,auto),taylor,stv4", "--set", "run.steps=200",
+                                        "--dt", "0.01,0.005", "--out", "none", "--json").stdout)
+        self.assertEqual(found["reference"]["kind"], "integration")
+        errors = {(row["method"], row["dt"]): row["error"] for row in found["rows"]}
+        self.assertLess(errors["cg(3,auto)", 0.005], 1e-11)
+        self.assertLess(abs(math.log2(errors["stv4", 0.01] / errors["stv4", 0.005]) - 4), 0.2)
+        series = self.summary(name, "--set", "method.name=taylor", "--set", "run.steps=200")
+        self.assertLess(series["energy"]["max_relative_error"], 1e-11)
+        # Beyond the wall V is none for a series either.
+        outside = self.summary(self.box('[{ coordinate = "q1", min = -0.5, max = 0.5 }]', "taylor(order=4)",
+                                        'wall_rule = "soft"'), "--set", "run.dt=0.9", "--set",
+                               "method.step_control=fixed", status=1)
+        self.assertEqual(outside["error"]["kind"], "outside")
 
 
 if __name__ == "__main__":

@@ -36,16 +36,17 @@ void claim_columns(Study& study) {
   for (const Row& row : table) {
     off = std::max(off, std::abs(row.evaluations / row.formula() - 1));
     const double digits = 18 + row.power;
-    study.claim({"columns_" + row.name(),
-                 fmt::format("{} particles, {} steps: {} digits in {} million evaluations are one digit in {}",
-                             row.side * row.side, row.steps, digits, row.evaluations, row.per_digit),
-                 fmt::format("10^{} of 10^-18; 1/{}", row.power, row.per_digit)},
-                within(row.per_digit, 1,
-                       "column 2 over the digits of column 3 against column 4, to one unit, as in three rows of 441"),
-                {{row.evaluations / digits, 0,
-                  fmt::format("of the printed numbers; {:.3g} to {:.3g} if the power of ten were a rounded one",
-                              row.evaluations / (digits + 0.5), row.evaluations / (digits - 0.5))}},
-                Grounds::identity);
+    study.claim(
+        {"columns_" + row.name(),
+         fmt::format("{} particles, {} steps: {} digit{} in {} million evaluations are one digit in {}",
+                     row.side * row.side, row.steps, digits, digits == 1 ? "" : "s", row.evaluations, row.per_digit),
+         fmt::format("10^{} of 10^-18; 1/{}", row.power, row.per_digit)},
+        within(row.per_digit, 1,
+               "column 2 over the digits of column 3 against column 4, to one unit, as in three rows of 441"),
+        {{row.evaluations / digits, 0,
+          fmt::format("of the printed numbers; {:.3g} to {:.3g} if the power of ten were a rounded one",
+                      row.evaluations / (digits + 0.5), row.evaluations / (digits - 0.5))}},
+        Grounds::identity);
   }
   study.claim({"evaluations", "the evaluations of column 2 are 3 N^2 2 steps", "18, 36, 70, ..., 1400 million"},
               at_most(0.03, "largest relative distance of a printed number from its formula: two digits are printed"),

@@ -244,7 +244,8 @@ void over_t(Study& study, bool absolute) {
 }
 
 void start(Study& study, bool absolute) {
-  const Vector<double, 2> q{0, pi / 2}, rest{0, 0}, none{0, 0};
+  const Vector<double, 2> of_table_3_3{0, pi / 2}, of_table_3_4{0, pi / 2}, rest{0, 0}, none{0, 0};
+  const Vector<double, 2>& q = absolute ? of_table_3_3 : of_table_3_4;
   const DoublePendulumNonlinearAbsolute<> in_absolute(pendulum_masses, pendulum_lengths);
   const DoublePendulumNonlinearRelative<> in_relative(pendulum_masses, pendulum_lengths);
   const double E = absolute ? in_absolute.energy(q, none) - in_absolute.energy(rest, none)
@@ -254,8 +255,8 @@ void start(Study& study, bool absolute) {
               {{E / pendulum_energy_unit, 4 * 0x1p-53, "H of the start less H at rest"}});
   if (absolute) return;
   study.claim({"same_start", "the relative angle is the absolute one, since the upper rod is at rest", "identical"},
-              at_most(0, "q2 - q1 of table 3.3 less q2 of table 3.4"), {{(q[1] - q[0]) - q[1], 0, "of the tables"}},
-              Grounds::identity);
+              at_most(0, "q2 - q1 of table 3.3 less q2 of table 3.4"),
+              {{(of_table_3_3[1] - of_table_3_3[0]) - of_table_3_4[1], 0, "of the tables"}}, Grounds::identity);
 }
 
 }  // namespace nonlinear_pendulum

@@ -108,10 +108,32 @@ void generalised_momentum(Study& study) {
   study.claim({"energy", "the transformed Hamiltonian is the energy", "H(G(Q), p)"},
               at_most(1e-12, "kinetic energy of both, relative"),
               {{std::abs(printed_energy / energy - 1), 1e-15, "the same example"}}, Grounds::identity);
-  // The T-tube's own G is linear with columns of length 1 along single masses.
-  const double own = std::abs(1.0 / 1.0 * 3.0 - 3.0);
-  study.claim({"t_tube", "for the T-tube the formula gives p = P", "p = P", "27"},
-              at_most(1e-12, "G' has orthonormal columns, each of one mass"), {{own, 0, "largest difference"}});
+  // The T-tube: Cartesian momenta of a state as the library has them, M G' (G'^T M G')^-1 P, against G' (G'^T G')^-1 P
+  // with G = (Q1, 0, 0, Q2).
+  const auto momenta_at = [&](const char* coordinates, const char* state, const char* method) {
+    return study
+        .run(coordinates, fmt::format("[problem]\nname = \"t-tube\"\ncoordinates = \"{}\"\ninitial = {{ {} }}\n\n"
+                                      "[method]\nname = \"{}\"\n\n[run]\ndt = 0.01\nsteps = 0\n",
+                                      coordinates, state, method))
+        .p.front();
+  };
+  const std::vector<double> own = momenta_at("generalised", "q = [0.3, 0.8], v = [3, 2]", "stv4");
+  const std::vector<double> freed = momenta_at("cartesian", "q = [0.3, 0, 0, 0.8], v = [3, 0, 0, 2]", "rattle");
+  const double tube_slope[4][2] = {{1, 0}, {0, 0}, {0, 0}, {0, 1}};
+  double tube_off = 0;
+  for (int i = 0; i < 4; ++i) {
+    double printed = 0;
+    for (int k = 0; k < 2; ++k) {
+      double square = 0;  // columns are orthogonal
+      for (const auto& row : tube_slope) square += row[k] * row[k];
+      printed += tube_slope[i][k] / square * own[static_cast<std::size_t>(k)];
+    }
+    tube_off = std::max(tube_off, std::abs(printed - freed[static_cast<std::size_t>(i)]));
+  }
+  study.claim(
+      {"t_tube", "for the T-tube the formula gives p = P", "p = P", "27"},
+      at_most(1e-12, "G' has orthonormal columns, each of one mass"),
+      {{tube_off, 0, "largest difference from the momenta of the Cartesian system, masses 1 and 100, v = (3, 2)"}});
 }
 
 /// Page 27: the force on the heavy body at its soft walls has the power 2 left out, against pages 26 and 28.
@@ -137,11 +159,14 @@ void sign_of_eps(Study& study) {
                 "[problem]\nname = \"t-tube\"\neps = 0.6\ninitial = { q = [0.5, 0.5], p = [0, 0] }\n\n[method]\nname "
                 "= \"stv4\"\n\n[run]\ndt = 0.01\nsteps = 5\nrecord_every = 5\n");
   const double before = std::hypot(0.5, 0.5), after = std::hypot(run.q.back()[0], run.q.back()[1]);
+  // Each body goes by its own mass: r'' is the sum of Q_i F_i/(m_i r), of bodies at rest.
+  const double F = -0.6 * 0.5 / std::pow(before, 3);
+  const double change = (0.5 * F / 1 + 0.5 * F / 100) / before * 0.05 * 0.05 / 2;
   study.claim(
       {"sign", "eps > 0 repels (comment of the listing, page 102)", "eps > 0: repelling"},
       at_least(0, "change of the distance from rest; the listing of page 104 and page 26 say that eps > 0 attracts"),
       {{after - before, 1e-12, "eps = 0.6, from rest, five steps"},
-       {-0.6 / (before * before) * 0.05 * 0.05 / 2, 1e-12, "r''t^2/2 of the printed force, page 104, t = 0.05"}},
+       {change, 1e-6, "r''t^2/2 of the printed force, page 104, masses 1 and 100, t = 0.05; without terms of t^4"}},
       Grounds::ways);
 }
 

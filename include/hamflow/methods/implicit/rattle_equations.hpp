@@ -11,6 +11,7 @@
 #include "hamflow/core/math.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
+#include "hamflow/numerics/lu_factors.hpp"
 
 namespace hamflow {
 
@@ -132,9 +133,8 @@ class RattleEquations {
   Increment<Real, n> taken(Variables&, const Point& at) const { return end_of(at).increment; }
   Increment<Real, n> taken(Variables& lambda, const Point&, const Variables& correction) const {
     for (std::size_t k = 0; k < lambda.size(); ++k) lambda[k] += correction[k];
-    Point end;
-    end.linearised = false;
-    evaluate(lambda, end);
+    Point end = residual_at(lambda);
+    settle(lambda, end);
     return taken(lambda, end);
   }
   Memory memory(const Variables& lambda, const Increment<Real, n>&) const { return lambda; }
@@ -218,6 +218,34 @@ class RattleEquations {
     Increment<Real, n> increment{};
     Variables mu{};
   };
+  Point residual_at(const Variables& lambda) const {
+    Point at;
+    at.linearised = false;
+    evaluate(lambda, at);
+    return at;
+  }
+  /// Newton predicts the next correction from the largest residual of all constraints: where one of them hardly bends
+  /// and another does, what it predicts is too small. Here g is known at the end, so that it is brought to its
+  /// rounding; where it is there already, as nearly always, nothing changes.
+  void settle(Variables& lambda, Point& end) const {
+    constexpr int most = 3;
+    for (int more = 0; more < most; ++more) {
+      const Real left = measure(lambda, end, lambda).size;
+      if (!(left > Real(64) * std::numeric_limits<Real>::epsilon())) return;
+      Point at;
+      evaluate(lambda, at);
+      LuFactors<Real> factors;
+      factors.factor(at.tangent);
+      const Variables correction = factors.solve(at.residual);
+      ++effort_.linear_solves;
+      Variables nearer = lambda;
+      for (std::size_t k = 0; k < lambda.size(); ++k) nearer[k] += correction[k];
+      Point there = residual_at(nearer);
+      if (!(measure(nearer, there, nearer).size < left)) return;
+      lambda = nearer;
+      end = std::move(there);
+    }
+  }
   End end_of(const Point& at) const {
     V change = kick_at(at.position);
     V momentum = at.impulse;
