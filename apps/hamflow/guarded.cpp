@@ -123,6 +123,13 @@ void require_folder_of(const std::string& file) {
   throw hamflow::FileError(file + " cannot be written: there is no folder " + folder.string());
 }
 
+int written_out(int status) {
+  std::cout.flush();
+  if (std::cout) return status;
+  print_error("cannot write to standard output");
+  return exit_file;
+}
+
 int exit_status(const std::string& status) {
   if (status == "failed") return exit_failed;
   return status == "interrupted" ? exit_interrupted : exit_done;

@@ -39,6 +39,9 @@ void write_file(const std::string& file, const std::string& text);
 /// Before hours of work whose result could not be kept.   @throws FileError where the folder of the file is missing
 void require_folder_of(const std::string& file);
 
+/// At the end of a command: its status, or, where standard output could not be written, exit_file and an error.
+int written_out(int status);
+
 /// The status of something that was carried out: "done", "failed" or "interrupted".
 int exit_status(const std::string& status);
 
