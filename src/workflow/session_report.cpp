@@ -62,6 +62,8 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   description.events.clear();
   description.section = false;                                    // a session looks for none
   if (!session.changes().empty()) description.digits_length = 0;  // a change of course goes on from doubles
+  const auto falls = [](const Frame& a, const Frame& b) { return !(a.time < b.time); };
+  description.particles.time_grows = std::adjacent_find(kept.begin(), kept.end(), falls) == kept.end();
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));
   {
     RunFile h5(whole.part(), description);
