@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "gas_checks.hpp"
 #include "guarded.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "hamflow/scenario/rejection.hpp"
@@ -72,6 +73,7 @@ class RequestReader {
         if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
         if (why_not.empty()) why_not = refused_fast_step(one);
         if (why_not.empty()) why_not = refused_walls(one);
+        if (why_not.empty()) why_not = refused_by_size(one, scenario_.start_q.size());
         if (why_not.empty() && describe(method).varies_steps) {
           why_not = "allowed step_control=fixed: steps of varying length do not end at the same time";
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gas_checks.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
@@ -117,6 +118,9 @@ void Session::set_method(const MethodSpec& method) {
   if (const std::string why_not = refused_by_walls(next, *scenario_.problem, scenario_.start_q); !why_not.empty()) {
     throw Error("method: found " + describe(next.method).name + " beside problem.wall_rule = \"" + rule_of_walls(next) +
                 "\" " + why_not);
+  }
+  if (const std::string why_not = refused_by_size(next, scenario_.start_q.size()); !why_not.empty()) {
+    throw Error("method: found " + describe(next.method).name + " " + why_not);
   }
   change(next, "method = " + describe(next.method).name);
   remember(next.method);

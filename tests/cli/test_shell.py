@@ -59,6 +59,11 @@ class Shell(CommandCase):
                 self.assertIn(f'beside problem.wall_rule = "{rule}" with {method}', self.stderr)
         self.shell("method cg\nstep 3\n", scenario="wall.toml")
 
+    def test_a_method_that_many_particles_refuse(self):
+        self.write("gas.toml", "[problem]\nname='gas'\nparticles_per_side=39\n[method]\nname='stv4'\n[run]\ndt=1e-4\nsteps=1\n")
+        self.shell("method chin4a\n", scenario="gas.toml", status=2)
+        self.assertIn("method: found chin4a with 3042 coordinates", self.stderr)
+
     def test_what_only_runs_measure_is_told(self):
         sets = [w for text in ("run.section={coordinate='x'}", "run.events=[{expression='x', action='stop'}]") for w in ("--set", text)]
         self.shell("step 3\n", *sets)
