@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -48,6 +49,7 @@ class TomlTable {
   /// The entries of a list of texts that the user chooses; each is not empty.
   std::optional<std::vector<std::string>> texts(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
+  bool knows(const std::string& key) const { return std::find(known_.begin(), known_.end(), key) != known_.end(); }
   void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
   /// Whether the value came from the command line and not from the file.
   bool is_set(const std::string& key) const;
