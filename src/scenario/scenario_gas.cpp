@@ -270,7 +270,7 @@ void ScenarioReader::read_box(TomlTable& table) {
   const std::string word = table.text(rule).value_or(rule.default_value);
   for (const OptionInfo* key : {&keys.walls, &keys.strength, &keys.exponent}) {
     table.know(key->name);
-    if (table.has(key->name)) {
+    if (table.has_any(key->name)) {
       table.complain(key->name, table.found(key->name) + " beside a box; allowed container = { kind = \"none\" }");
     }
   }

@@ -196,6 +196,9 @@ class Walls(CommandCase):
         self.assertEqual(self.summary(self.box("[]", run=events), *slow, "--set", "run.events=[]")["events"], {})
         self.assertEqual(self.summary("kepler.toml", "--set", "problem.bodies=[]")["final"], self.summary("kepler.toml")["final"])
         self.assertIn("are fixed", self.refused(self.tube(rule="walls = []")))
+        self.write("gas.toml", "[problem]\nname='gas'\nparticles_per_side=3\ncontainer={ kind='box', size=[2.1, 2.2] }\n"
+                   "[method]\nname='stv4'\n[run]\ndt=0.001\nsteps=2\n")
+        self.assertEqual(self.summary("gas.toml", "--set", "problem.walls=[]")["final"], self.summary("gas.toml")["final"])
 
     @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
     def test_a_scenario_with_empty_lists_is_one(self):
