@@ -6,10 +6,12 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "gas_checks.hpp"
 #include "guarded.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
+#include "method_keys.hpp"
 #include "progress.hpp"
 #include "run_keys.hpp"
 #include "wall_checks.hpp"
@@ -72,6 +74,7 @@ class RequestReader {
         if (why_not.empty() && one.kernel == "fast") why_not = refused_fast_kernel(one);
         if (why_not.empty()) why_not = refused_fast_step(one);
         if (why_not.empty()) why_not = refused_walls(one);
+        if (why_not.empty()) why_not = refused_by_size(one, scenario_.start_q.size());
         if (why_not.empty() && describe(method).varies_steps) {
           why_not = "allowed step_control=fixed: steps of varying length do not end at the same time";
         }
@@ -134,6 +137,42 @@ class RequestReader {
   const Scenario& scenario_;
 };
 
+/// The file's own method is not run, and need not fit. What is wrong with the scenario is what stays with every method
+/// of the comparison; what comes with one of them alone is wrong with that one.
+Scenario read_for(const CompareOptions& options, std::vector<std::string>& notes) {
+  const Reading own = read_scenario(options.scenario, options.sets);
+  if (own.scenario) return *own.scenario;
+  std::vector<Complaint> of_all = own.complaints;
+  std::vector<Complaint> of_methods;
+  for (const std::string& name : split_list(options.methods)) {
+    if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);  // no name at all
+    std::vector<std::string> sets = options.sets;
+    sets.push_back("method={ " + method_name_key().name + " = \"" + name + "\" }");
+    const Reading with = read_scenario(options.scenario, sets);
+    if (with.scenario) {
+      const Complaint& first = own.complaints.front();
+      notes.push_back("the method of the file, which a comparison does not run, would be refused: " + first.key + ": " +
+                      first.message);
+      return *with.scenario;
+    }
+    const auto is_there = [](const std::vector<Complaint>& all, const Complaint& one) {
+      return std::any_of(all.begin(), all.end(), [&](const Complaint& other) { return other.text() == one.text(); });
+    };
+    std::erase_if(of_all, [&](const Complaint& one) { return !is_there(with.complaints, one); });
+    for (const Complaint& one : with.complaints) {
+      if (is_there(own.complaints, one)) continue;
+      const bool names_it = one.key == "method." + method_name_key().name;
+      const std::size_t behind = one.message.find("; ");
+      const std::string why = names_it && one.message.starts_with("found") && behind != std::string::npos
+                                  ? one.message.substr(behind + 2)
+                                  : (names_it ? "" : one.key + ": ") + one.message;
+      of_methods.push_back({one.file, 0, 0, "--methods", "found '" + name + "'; " + why});
+    }
+  }
+  of_all.insert(of_all.end(), of_methods.begin(), of_methods.end());
+  throw Rejection(of_all.empty() ? own.complaints : of_all);
+}
+
 ComparisonReport carry_out(const ComparisonRequest& request, const CompareOptions& options) {
   catch_interrupts();
   Progress progress(0, 0, options.quiet);
@@ -144,9 +183,11 @@ ComparisonReport carry_out(const ComparisonRequest& request, const CompareOption
 }
 
 int compare(const CompareOptions& options) {
-  const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
+  std::vector<std::string> notes;
+  const Scenario scenario = read_for(options, notes);
   const RequestReader reader(scenario, options);
   if (!reader.complaints.empty()) throw Rejection(reader.complaints);
+  print_notes(notes, options.quiet);
   print_notes(scenario.notes, options.quiet);
   note_unused_measures(scenario, "a comparison takes every step and looks at energies and ends", options.quiet);
   print_notes(reader.notes, options.quiet);

@@ -41,11 +41,12 @@ ReproduceRequest request_of(const ReproduceCommandOptions& options) {
           .threads = options.threads > 0 ? options.threads : cores};
 }
 
-ReproduceReport carry_out(const ReproduceRequest& request, bool quiet) {
+ReproduceReport carry_out(const ReproduceRequest& request, bool quiet, KeptWork& kept) {
   catch_interrupts();
   Progress progress(0, 0, quiet);
   const Clock::time_point begin = Clock::now();
   return reproduce(request, [&](std::size_t done, std::size_t all) {
+    kept.folder = request.folder;
     const double part = static_cast<double>(done) / static_cast<double>(all);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     progress.show(part, done > 0 ? std::optional(seconds * (1 - part) / part) : std::nullopt,
@@ -56,10 +57,11 @@ ReproduceReport carry_out(const ReproduceRequest& request, bool quiet) {
 }  // namespace
 
 int reproduce_command(const ReproduceCommandOptions& options) {
-  return guarded(options.json, [&] {
+  KeptWork kept{.forced = options.force};
+  const auto run = [&] {
     check_together(options);
     const ReproduceRequest request = request_of(options);
-    const ReproduceReport report = carry_out(request, options.quiet);
+    const ReproduceReport report = carry_out(request, options.quiet, kept);
     std::cout << (options.json ? report.json : report.text);
     if (!options.json && !options.quiet) {
       std::cout << fmt::format("{:<16}{}\n", "the page", (request.folder / "index.html").string());
@@ -70,7 +72,8 @@ int reproduce_command(const ReproduceCommandOptions& options) {
       if (experiment.status == "failed") print_error(experiment.info.id + ": " + experiment.message);
     }
     return exit_status(report.status);
-  });
+  };
+  return guarded(options.json, run, "", &kept);
 }
 
 void list_experiments(bool json) {

@@ -10,7 +10,8 @@
 namespace hamflow::app {
 
 int reverse_command(const ReverseOptions& options) {
-  return guarded(options.json, [&] {
+  KeptWork kept{.forced = options.force, .checkpoint = "reversal.bin"};
+  const auto reverse = [&] {
     const bool writes = !options.out.empty() && options.out != "none";
     if (options.resume && !writes)
       throw Error("found --resume without a folder; allowed with --out DIR, where the reversal is");
@@ -25,6 +26,7 @@ int reverse_command(const ReverseOptions& options) {
     Progress progress(0, 2 * scenario.steps, options.quiet);
     settings.pulse = [&](std::int64_t step) {
       progress.show(step);
+      kept.folder = settings.folder;
       return !interrupted();
     };
     const ReversalReport report = reverse_scenario(scenario, settings);
@@ -32,7 +34,8 @@ int reverse_command(const ReverseOptions& options) {
     print_warnings(report.warnings);
     if (report.status == "failed") print_error(report.message, report.hint);
     return exit_status(report.status);
-  });
+  };
+  return guarded(options.json, reverse, "", &kept);
 }
 
 }  // namespace hamflow::app

@@ -18,7 +18,7 @@ void check_together(const RunOptions& options) {
   if (options.resume && options.out == "none") throw Error("found --resume with --out none; allowed with a folder");
 }
 
-RunReport carry_out(const Scenario& scenario, const RunOptions& options) {
+RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWork& kept) {
   RunSettings settings;
   if (options.out != "none") settings.folder = folder_of(scenario, options.out);
   settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
@@ -27,6 +27,7 @@ RunReport carry_out(const Scenario& scenario, const RunOptions& options) {
   settings.pulse = [&](std::int64_t step) {
     if (!progress) progress.emplace(step, scenario.steps, options.quiet);
     progress->show(step);
+    kept.folder = settings.folder;
     return !interrupted();
   };
   catch_interrupts();
@@ -56,13 +57,15 @@ int print(const RunReport& report, const std::string& folder, const RunOptions& 
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  return guarded(options.json, [&] {
+  KeptWork kept{.forced = options.force, .checkpoint = "checkpoint.bin"};
+  const auto run = [&] {
     check_together(options);
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
-    const RunReport report = carry_out(scenario, options);
+    const RunReport report = carry_out(scenario, options, kept);
     return print(report, options.out == "none" ? "" : folder_of(scenario, options.out).string(), options);
-  });
+  };
+  return guarded(options.json, run, "", &kept);
 }
 
 }  // namespace hamflow::app

@@ -64,7 +64,8 @@ std::string refused_colour(const std::string& colour, bool mean) {
 }  // namespace
 
 int sweep_command(const SweepCommandOptions& options) {
-  return guarded(options.json, [&] {
+  KeptWork kept{.forced = options.force};
+  const auto run = [&] {
     check_together(options);
     ScenarioSweep sweep({.text = scenario_text(options.scenario),
                          .name = options.scenario,
@@ -82,13 +83,17 @@ int sweep_command(const SweepCommandOptions& options) {
     require_folder_of(options.figure);
     const bool writes = options.out != "none";
     catch_interrupts();
-    if (writes) open_folder(sweep, options);
+    if (writes) {
+      open_folder(sweep, options);
+      kept.folder = folder_for(options);
+    }
     const SweepReport report = carry_out(sweep, options);
     print(sweep, report, writes, options);
     if (!draws || report.status == "failed") return exit_status(report.status);
     const int drawn = written_behind_report([&] { sweep.draw(options.figure, options.colour, options.mean); });
     return drawn != exit_done ? drawn : exit_status(report.status);
-  });
+  };
+  return guarded(options.json, run, "", &kept);
 }
 
 }  // namespace hamflow::app

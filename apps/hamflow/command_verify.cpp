@@ -119,8 +119,7 @@ class Measuring {
   } else if (!rows.empty()) {
     std::cout << property_table(rows);
   }
-  std::cout.flush();
-  std::_Exit(exit_interrupted);
+  std::_Exit(written_out(exit_interrupted));
 }
 }  // namespace
 

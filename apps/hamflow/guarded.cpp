@@ -47,7 +47,7 @@ void require_memory() {
 
 }  // namespace
 
-int guarded(bool json, const std::function<int()>& body, const std::string& failure) {
+int guarded(bool json, const std::function<int()>& body, const std::string& failure, const KeptWork* kept) {
   const figures::WhileDrawing watch([] { return !interrupted(); });
   try {
     require_memory();
@@ -67,7 +67,8 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     const std::string line = std::string("error: ") + error.what();
     return rejected(json, line, rejection_json(std::vector<std::string>{line}));
   } catch (const std::bad_alloc&) {
-    return failed(json, "memory", "out of memory", exit_failed);
+    const std::string more = kept != nullptr ? kept->sentence() : "";
+    return failed(json, "memory", "out of memory" + (more.empty() ? "" : "; " + more), exit_failed);
   } catch (const std::exception& error) {
     return failed(json, "error", error.what(), exit_failed);
   }
@@ -121,6 +122,13 @@ void require_folder_of(const std::string& file) {
   std::error_code ignored;
   if (file.empty() || folder.empty() || std::filesystem::is_directory(folder, ignored)) return;
   throw hamflow::FileError(file + " cannot be written: there is no folder " + folder.string());
+}
+
+int written_out(int status) {
+  std::cout.flush();
+  if (std::cout) return status;
+  print_error("cannot write to standard output");
+  return exit_file;
 }
 
 int exit_status(const std::string& status) {

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "kept_work.hpp"
 
 namespace hamflow::app {
 
@@ -19,7 +20,9 @@ struct RejectedLines {
 /// Runs the body of a command and returns its status. An exception is printed on stderr, with `json` on stdout too:
 /// Rejection, RejectedLines: 2; FileError and errors of std::filesystem: 3; Error: 2, the request was wrong, unless
 /// `failure` names what fails of requests that were right, e.g. "comparison": then 1; anything else: 1.
-int guarded(bool json, const std::function<int()>& body, const std::string& failure = {});
+/// @param kept of work that is gone on with by --resume: what is said behind "out of memory"
+int guarded(bool json, const std::function<int()>& body, const std::string& failure = {},
+            const KeptWork* kept = nullptr);
 
 /// What is written once a report is on stdout, which has one JSON text and no second: an exception is printed on stderr
 /// alone.   @return exit_done, exit_file, or exit_interrupted where drawing was stopped
@@ -38,6 +41,9 @@ void write_file(const std::string& file, const std::string& text);
 
 /// Before hours of work whose result could not be kept.   @throws FileError where the folder of the file is missing
 void require_folder_of(const std::string& file);
+
+/// At the end of a command: its status, or, where standard output could not be written, exit_file and an error.
+int written_out(int status);
 
 /// The status of something that was carried out: "done", "failed" or "interrupted".
 int exit_status(const std::string& status);

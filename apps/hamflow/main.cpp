@@ -7,6 +7,7 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "figure_kinds.hpp"
+#include "guarded.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/scenario/coordinates.hpp"
@@ -290,10 +291,5 @@ int main(int argc, char** argv) {
       std::cout << hamflow::rejection_json(std::vector<std::string>{message});
     }
   }
-  std::cout.flush();
-  if (!std::cout) {
-    std::cerr << "error: cannot write to standard output\n";
-    return exit_file;
-  }
-  return status;
+  return written_out(status);
 }

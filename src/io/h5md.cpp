@@ -86,7 +86,7 @@ void write_h5md_groups(hid_t file, const RunDescription& run) {
 void link_h5md_elements(hid_t file, const RunDescription& run) {
   const auto timed = [&](const std::string& element) {
     link(file, "/step", element + "/step");
-    link(file, "/t", element + "/time");
+    if (run.particles.time_grows) link(file, "/t", element + "/time");
   };
   for (const char* element : {"position", "momentum", "velocity"}) timed(std::string("particles/all/") + element);
   if (!run.particles.edges.empty()) timed("particles/all/box/edges");

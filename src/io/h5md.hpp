@@ -1,5 +1,6 @@
 // What makes a run.h5 of particles an H5MD file [DeBuylColbergHofling2014], version 1.1: who made it, the box, masses,
-// and elements {step, time, value} whose step and time are links to /step and /t.
+// and elements {step, time, value} whose step and time are links to /step and /t. Its times grow, and may be left out:
+// where those of the run do not, as with dt < 0, elements are {step, value}.
 #pragma once
 
 #include <string>
@@ -14,6 +15,7 @@ struct H5mdParticles {
   std::vector<std::string> boundary{};  // "periodic" or "none", for each direction of space
   std::vector<double> edges{};          // for each direction; none: the box has no size
   std::string author{};
+  bool time_grows = true;         // from sample to sample
   std::vector<double> start_q{};  // of a run whose samples do not begin with its start; else empty
   std::vector<double> start_p{};
 

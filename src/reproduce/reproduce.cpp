@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <mutex>
+#include <new>
 #include <sstream>
 #include <thread>
 
@@ -96,6 +97,7 @@ class Run {
     for (std::size_t i = 1; i < number_of_threads(); ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& other : others) other.join();
+    if (out_of_memory_) throw std::bad_alloc();
     if (!trouble_.empty())
       throw FileError(trouble_ + "; what is done stays, and the same command with --resume goes on");
     return finished();
@@ -118,6 +120,9 @@ class Run {
       const std::size_t i = reports_.size() - 1 - taken;
       try {
         reports_[i] = carried_out(experiment_of(request_.ids[i]));
+      } catch (const std::bad_alloc&) {
+        out_of_memory_ = true;
+        stopped_ = true;
       } catch (const std::exception& error) {  // of files: nothing more can be kept
         const std::lock_guard one(mutex_);
         if (trouble_.empty()) trouble_ = error.what();
@@ -159,6 +164,8 @@ class Run {
     } catch (const figures::DrawingStopped&) {
       report.status = "interrupted";
     } catch (const FileError&) {
+      throw;
+    } catch (const std::bad_alloc&) {  // says nothing about the experiment
       throw;
     } catch (const std::exception& error) {
       report.status = "failed";
@@ -210,6 +217,7 @@ class Run {
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> done_ = 0;
   std::atomic<bool> stopped_ = false;
+  std::atomic<bool> out_of_memory_ = false;
   std::mutex mutex_;
   SharedWork shared_;
   std::string trouble_;

@@ -8,7 +8,7 @@ namespace hamflow {
 
 /// Two bodies in space, reduced to a planar state.
 void ScenarioReader::read_bodies(TomlTable& table) {
-  if (!table.has("bodies")) {
+  if (!table.has_any("bodies")) {
     table.know("bodies");
     return;
   }

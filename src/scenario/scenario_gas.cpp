@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "gas_checks.hpp"
 #include "gas_options.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
@@ -276,7 +277,7 @@ void ScenarioReader::read_box(TomlTable& table) {
   const std::string word = table.text(rule).value_or(rule.default_value);
   for (const OptionInfo* key : {&keys.walls, &keys.strength, &keys.exponent}) {
     table.know(key->name);
-    if (table.has(key->name)) {
+    if (table.has_any(key->name)) {
       table.complain(key->name, table.found(key->name) + " beside a box; allowed container = { kind = \"none\" }");
     }
   }
@@ -298,25 +299,35 @@ void ScenarioReader::read_box(TomlTable& table) {
   scenario_.problem = &find_problem(GasKeys::problem, scenario_.request.variant);
 }
 
-/// The Hessian of many particles is a matrix that does not fit: methods and measures that need it whole are refused.
-void ScenarioReader::check_gas() {
+namespace {
+/// Why what needs the Hessian of so many particles is refused: it is a matrix that does not fit.
+std::string without_hessian(const Request& request, std::size_t coordinates, const std::string& above) {
   constexpr std::size_t most_with_hessian = 3000;
+  if (request.problem != GasKeys::problem || coordinates <= most_with_hessian) return {};
+  return "with " + std::to_string(coordinates) + " coordinates, whose Hessian is needed as a matrix; allowed up to " +
+         std::to_string(most_with_hessian) + " coordinates, above them " + above;
+}
+}  // namespace
+
+std::string refused_by_size(const Request& request, std::size_t coordinates) {
+  const std::string& name = request.method.name;
+  if (name != "chin4a" && name != "chin4b" && name != "discrete-gradient") return {};
+  return without_hessian(request, coordinates,
+                         "a splitting, e.g. stv4, blanes-moan-s6, or cg with iteration = \"fixed-point\"");
+}
+
+void ScenarioReader::check_gas() {
+  const Request& request = scenario_.request;
   const std::size_t size = scenario_.start_q.size();
-  if (scenario_.request.problem != GasKeys::problem || size <= most_with_hessian) return;
-  const std::string many = " with " + std::to_string(size) +
-                           " coordinates, whose Hessian is needed as a matrix; allowed up to " +
-                           std::to_string(most_with_hessian) + " coordinates, above them ";
   if (has_method()) {
-    const std::string& name = scenario_.request.method.name;
-    TomlTable method = root_.table("method");
-    if (name == "chin4a" || name == "chin4b" || name == "discrete-gradient") {
-      method.complain("name", "found " + name + many +
-                                  "a splitting, e.g. stv4, blanes-moan-s6, or cg with iteration = \"fixed-point\"");
-    }
+    const std::string why_not = refused_by_size(request, size);
+    if (!why_not.empty()) root_.table("method").complain("name", "found " + request.method.name + " " + why_not);
   }
+  const std::string no_measures = without_hessian(request, size, "none");
+  if (no_measures.empty()) return;
   TomlTable run = root_.table(run_table);
-  if (scenario_.lyapunov > 0) run.complain(run_keys().lyapunov.name, "found it" + many + "none");
-  if (scenario_.eigenvalues) run.complain(run_keys().eigenvalues.name, "found it" + many + "none");
+  if (scenario_.lyapunov > 0) run.complain(run_keys().lyapunov.name, "found it " + no_measures);
+  if (scenario_.eigenvalues) run.complain(run_keys().eigenvalues.name, "found it " + no_measures);
 }
 
 }  // namespace hamflow

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "formula_keys.hpp"
+#include "gas_options.hpp"
 #include "hamflow/run/gas.hpp"
 #include "meant.hpp"
 #include "scenario_reader.hpp"
@@ -28,6 +29,61 @@ const OptionInfo& problem_name_key() {
                               .words = problem_names()};
   return key;
 }
+
+/// Whether the keys of [problem] that belong to an entry of the catalogue have this one; those that select it aside.
+bool has_key(const ProblemInfo& info, const std::string& key) {
+  if (find_option(info.parameters, key) != nullptr) return true;
+  if (!info.frame.name.empty() && key == info.frame.name) return true;
+  if (!info.start_key.empty()) {
+    return key == info.start_key || std::any_of(info.starts.begin(), info.starts.end(), [&](const StartInfo& start) {
+             return std::find(start.keys.begin(), start.keys.end(), key) != start.keys.end();
+           });
+  }
+  return (key == "orbit" && !info.starts.empty()) || (key == "bodies" && info.two_bodies);
+}
+
+/// Every key that [problem] has with some problem.
+bool is_problem_key(const std::string& key) {
+  const WallKeys& walls = wall_keys();
+  for (const std::string& each :
+       {std::string("initial"), walls.walls.name, walls.wall_rule.name, walls.strength.name, walls.exponent.name}) {
+    if (key == each) return true;
+  }
+  for (const auto& options : {all_gas_options(), formula_options(), central_formula_options()}) {
+    if (find_option(options, key) != nullptr) return true;
+  }
+  return std::any_of(problems().begin(), problems().end(), [&](const ProblemEntry& entry) {
+    return has_key(entry.info, key) || !choice_of(entry.info, key).empty();
+  });
+}
+
+/// With which other choices of its problem a key goes that the chosen ones do not have: 'with potential = "power"';
+/// empty where there are none.
+std::string other_choices_with(const std::string& name, const Choices& chosen, const std::string& key) {
+  for (const OptionInfo& option : name == GasKeys::problem       ? all_gas_options()
+                                  : name == CentralKeys::problem ? central_formula_options()
+                                                                 : std::vector<OptionInfo>()) {
+    if (option.name == key && !option.condition.empty()) return option.condition;
+  }
+  std::vector<std::string> selecting;
+  std::map<std::string, std::vector<std::string>> values;  // of each selecting key, where the key is
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name != name || !has_key(entry.info, key)) continue;
+    for (const auto& [choice, value] : entry.info.variant) {
+      std::vector<std::string>& list = values[choice];
+      if (list.empty()) selecting.push_back(choice);
+      const std::string text = "\"" + value + "\"";
+      if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+    }
+  }
+  for (const std::string& choice : selecting) {
+    const auto here = chosen.find(choice);
+    const std::vector<std::string>& list = values[choice];
+    const std::string text = here == chosen.end() ? "" : "\"" + here->second + "\"";
+    if (std::find(list.begin(), list.end(), text) == list.end()) return "with " + choice + " = " + joined(list, " or ");
+  }
+  return "";
+}
 }  // namespace
 
 void ScenarioReader::read_problem(TomlTable& table) {
@@ -41,7 +97,14 @@ void ScenarioReader::read_problem(TomlTable& table) {
     return;
   }
   const auto name = table.text(key);
-  if (!name) return;
+  if (!name) {
+    for (const std::string& other : table.has(key.name) ? std::vector<std::string>() : table.keys()) {
+      if (is_problem_key(other) || nearest(other, std::vector<std::string>{key.name}).empty()) continue;
+      table.complain(other, "found an unknown key; allowed " + key.name + ", and what that problem has; did you mean " +
+                                key.name + "?");
+    }
+    return;
+  }
   scenario_.request.problem = *name;
   const bool typed = is_typed_problem(table, *name);
   const bool gas = *name == GasKeys::problem;
@@ -70,6 +133,12 @@ void ScenarioReader::read_problem(TomlTable& table) {
   read_initial(table);
   read_frame(table);
   read_walls(table);
+  for (const std::string& other : table.keys()) {
+    const std::string with = table.knows(other) ? "" : other_choices_with(*name, scenario_.request.variant, other);
+    if (with.empty()) continue;
+    table.complain(other, table.found(other) + "; allowed " + with);
+    table.know(other);
+  }
   table.finish();
   if (complaints_.size() == before) check_parameters(table, false);
   if (complaints_.size() == before) check_start(table);

@@ -70,7 +70,7 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const bool fixed = !info.walls.empty();
   table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
   const std::size_t before = complaints_.size();
-  if (!fixed && !scenario_.problem->constraint_form.empty() && table.has(keys.walls.name)) {
+  if (!fixed && !scenario_.problem->constraint_form.empty() && table.has_any(keys.walls.name)) {
     table.complain(keys.walls.name,
                    "found walls beside constraints, which a momentum that is turned round would leave; allowed in "
                    "coordinates without constraints");
@@ -80,10 +80,15 @@ void ScenarioReader::read_walls(TomlTable& table) {
     table.complain(keys.walls.name,
                    "found walls, but those of " + info.name + " are fixed; allowed " + keys.wall_rule.name + " alone");
   }
-  if (!fixed && !table.has(keys.walls.name)) {
+  if (!fixed && !table.has_any(keys.walls.name)) {
+    const bool taken_away = table.has(keys.walls.name);  // by an empty list: what was said of them stays without use
     for (const OptionInfo* key : {&keys.wall_rule, &keys.strength, &keys.exponent}) {
       // exponents of other kinds of walls may be keys of their own
-      if (table.has(key->name)) table.complain(key->name, table.found(key->name) + "; allowed with " + keys.walls.name);
+      if (taken_away) {
+        (void)table.text(*key);
+      } else if (table.has(key->name)) {
+        table.complain(key->name, table.found(key->name) + "; allowed with " + keys.walls.name);
+      }
     }
     return;
   }

@@ -68,6 +68,12 @@ const toml::table& TomlTable::node() const {
   return table_ == nullptr ? none : *table_;
 }
 
+bool TomlTable::has_any(const std::string& key) const {
+  if (!has(key)) return false;
+  const toml::array* const list = table_->get(key)->as_array();
+  return list == nullptr || !list->empty();
+}
+
 bool TomlTable::is_set(const std::string& key) const { return has(key) && hamflow::is_set(*table_->get(key)); }
 
 const toml::node* TomlTable::find(const std::string& key) {
@@ -304,12 +310,8 @@ std::optional<std::vector<TomlTable>> TomlTable::tables(const std::string& key, 
   const auto* array = node->as_array();
   const bool any = count == 0;
   if (any && array != nullptr) count = array->size();
-  const bool fits = array != nullptr && array->size() == count && count > 0 &&
+  const bool fits = array != nullptr && array->size() == count &&
                     std::all_of(array->begin(), array->end(), [](const toml::node& entry) { return entry.is_table(); });
-  if (any && array != nullptr && array->empty()) {
-    complain(key, "found []; allowed an array of one table or more, or no " + key);
-    return std::nullopt;
-  }
   if (!fits) {
     complain(key, (array == nullptr ? "found " + shown(*node) : "found " + std::to_string(array->size()) + " entries") +
                       "; allowed an array of " + (any ? std::string() : std::to_string(count) + " ") + "tables");

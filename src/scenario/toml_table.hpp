@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,6 +25,9 @@ class TomlTable {
   const toml::table& node() const;
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
 
+  /// Whether there is a value, and no empty list.
+  bool has_any(const std::string& key) const;
+
   // Each look-up makes the key known; finish() complains about the others. A value that the option does not accept is
   // complained about and then counts as not given. A required one that is missing is complained about too.
 
@@ -37,7 +41,7 @@ class TomlTable {
   /// The entries of a list of words; a single string counts as a list of one.
   std::optional<std::vector<std::string>> words(const OptionInfo& option);
   std::optional<bool> yes_no(const OptionInfo& option);
-  /// An array of so many tables; 0: of any number from 1.
+  /// An array of so many tables; 0: of any number.
   std::optional<std::vector<TomlTable>> tables(const std::string& key, std::size_t count);
   TomlTable table(const std::string& key);
   /// The keys that are there, in the order of the file.
@@ -45,6 +49,7 @@ class TomlTable {
   /// The entries of a list of texts that the user chooses; each is not empty.
   std::optional<std::vector<std::string>> texts(const std::string& key);
   void know(const std::string& key) { known_.push_back(key); }
+  bool knows(const std::string& key) const { return std::find(known_.begin(), known_.end(), key) != known_.end(); }
   void know_all(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
   /// Whether the value came from the command line and not from the file.
   bool is_set(const std::string& key) const;

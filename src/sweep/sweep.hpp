@@ -206,7 +206,9 @@ void MemberRow::archive(Archive& ar) {
   };
   ar(status, no_start, steps, t, q, p, digits.time, digits.q, digits.p, digits.energy, digits.initial_energy);
   ar(energy.initial, energy.final, energy.max_error, energy_scale);
-  list(invariants, [&ar](InvariantExcursion& one) { ar(one.initial, one.final, one.max_error); });
+  list(invariants, [&ar](InvariantExcursion& one) {
+    ar(one.initial, one.final, one.max_error, one.initial_digits, one.final_digits, one.max_error_digits);
+  });
   ar(observables);
   list(walls, [&ar](WallCount& one) { ar(one.coordinate, one.side, one.bounces); });
   bool stopped = stopped_by.has_value();

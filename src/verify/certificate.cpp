@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hamflow/core/counter_random.hpp"
@@ -33,17 +34,17 @@ double largest(const std::vector<double>& xs) {
   for (const double x : xs) most = std::max(most, std::abs(x));
   return most;
 }
-/// In the run's arithmetic.
-template <class Excursion>
-LongNumber error_of(const Excursion& excursion) {
-  return excursion.max_error;
-}
 double sum_of_sizes(const std::vector<double>& xs) {
   double sum = 0;
   for (const double x : xs) sum += std::abs(x);
   return sum;
 }
 }  // namespace
+
+LongNumber largest_error(const InvariantExcursion& seen) {
+  const bool is_too_small = seen.max_error < std::numeric_limits<double>::min() && !seen.max_error_digits.empty();
+  return is_too_small ? times(1, seen.max_error_digits) : LongNumber(seen.max_error);
+}
 
 std::int64_t EnergyBlocks::next_due(std::int64_t step) const { return std::max(step, state_.next); }
 
@@ -98,7 +99,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
   Frame end;
   simulation.look(end);
   for (std::size_t i = 0; i < invariants.size() && i < infos.size(); ++i) {
-    MomentumMap map{infos[i].name, error_of(invariants[i]), 0, {}};
+    MomentumMap map{infos[i].name, largest_error(invariants[i]), 0, {}};
     double size = largest(invariants[i].initial);
     switch (infos[i].terms) {
       case Terms::moments:
@@ -206,7 +207,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   found.mean_increment = times(found.drift.mean_increment, unit);
   found.mean_increment_error = times(found.drift.mean_increment_error, unit);
   const double scale = simulation.energy_scale();
-  const LongNumber error = error_of(simulation.energy());
+  const LongNumber error = simulation.energy().max_error;
   found.energy_level = scale > 0 ? quotient(error, scale) : error;
   if (error.value == 0 && !blocks.state().digits.empty()) {  // no double is so small: as the samples saw it
     const LongNumber seen = times(1, unit);

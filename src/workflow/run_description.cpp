@@ -67,6 +67,7 @@ H5mdParticles particles_of(const Scenario& scenario) {
   if (parameters.has(GasKeys::size)) all.edges = parameters.list(GasKeys::size);
   if (parameters.has(GasKeys::radius)) all.edges.assign(all.space, 2 * parameters[GasKeys::radius]);
   all.author = author_name();
+  all.time_grows = scenario.dt > 0;
   const bool start_is_a_sample =
       scenario.record.empty() || (scenario.record_steps.front() == 0 && number_value(scenario.record.front()) == 0);
   if (!start_is_a_sample) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gas_checks.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
@@ -74,6 +75,8 @@ void Session::restart() {
   time_before_ = 0;
   effort_before_ = {};
   bounces_before_.clear();
+  bounces_.clear();
+  listen();
   initial_energy_ = simulation_->energy().initial;
   scale_ = simulation_->energy_scale();
   worst_energy_ = 0;
@@ -115,6 +118,9 @@ void Session::set_method(const MethodSpec& method) {
   if (const std::string why_not = refused_by_walls(next, *scenario_.problem, scenario_.start_q); !why_not.empty()) {
     throw Error("method: found " + describe(next.method).name + " beside problem.wall_rule = \"" + rule_of_walls(next) +
                 "\" " + why_not);
+  }
+  if (const std::string why_not = refused_by_size(next, scenario_.start_q.size()); !why_not.empty()) {
+    throw Error("method: found " + describe(next.method).name + " " + why_not);
   }
   change(next, "method = " + describe(next.method).name);
   remember(next.method);
@@ -187,6 +193,7 @@ void Session::change(const Request& next, const std::string& what) {
   time_before_ += now.time;
   worst_residuals_ = constraints();
   simulation_ = std::move(other);
+  listen();
   request_ = from_here;
   changes_.push_back({step_before_, time_before_, what});
   turns_.restart(step_before_, evaluate_number<double>(request_.dt), takes_equal_steps(simulation_->method()));
@@ -215,7 +222,25 @@ Scenario Session::present() const {
   return now;
 }
 
+bool Session::wants_bounces() const { return std::ssize(bounces_) < scenario_.record_events; }
+
+/// To the bounces of the present part, whose steps and times count from where it began.
+void Session::listen() {
+  listens_ = wants_bounces();
+  if (!listens_) return;
+  simulation_->tell_bounces([this](const Bounce& bounce) {
+    if (!wants_bounces()) return;
+    Bounce& kept = bounces_.emplace_back(bounce);
+    kept.step += step_before_;
+    kept.time += time_before_;
+  });
+}
+
 Outcome Session::advance(std::int64_t steps) {
+  if (listens_ && !wants_bounces()) {  // its steps then bounce by themselves
+    simulation_->tell_bounces({});
+    listens_ = false;
+  }
   if (one_part_) return simulation_->advance(steps);
   for (std::int64_t i = 0; i < steps; ++i) {
     const Outcome outcome = simulation_->advance(1);

@@ -58,14 +58,18 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   const Scenario present = session.present();
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
-  description.walls = false;
   description.events.clear();
   description.section = false;                                    // a session looks for none
   if (!session.changes().empty()) description.digits_length = 0;  // a change of course goes on from doubles
+  const auto falls = [](const Frame& a, const Frame& b) { return !(a.time < b.time); };
+  description.particles.time_grows = std::adjacent_find(kept.begin(), kept.end(), falls) == kept.end();
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));
   {
     RunFile h5(whole.part(), description);
     for (const Frame& sample : kept) h5.append(sample, observable_values(present, sample));
+    if (description.walls) {
+      for (const Bounce& bounce : session.bounces()) h5.append(bounce);
+    }
     h5.flush();
   }
   whole.put_in_place();

@@ -316,9 +316,13 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
 Json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen) {
   const bool one =
       info.components == Components::one || (info.components == Components::rotations && seen.initial.size() == 1);
-  return {{"initial", one ? Json(seen.initial[0]) : Json(seen.initial)},
-          {"final", one ? Json(seen.final[0]) : Json(seen.final)},
-          {"max_error", seen.max_error}};
+  const auto entry = [one](const std::vector<double>& numbers, const std::vector<std::string>& digits) {
+    if (digits.empty()) return one ? Json(numbers[0]) : Json(numbers);
+    return one ? Json(digits[0]) : Json(digits);  // more digits than a JSON number may be read with: texts
+  };
+  return {{"initial", entry(seen.initial, seen.initial_digits)},
+          {"final", entry(seen.final, seen.final_digits)},
+          {"max_error", json_of(largest_error(seen))}};
 }
 
 std::string json_text(const Json& json) { return written_json(json, 2) + "\n"; }

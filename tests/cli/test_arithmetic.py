@@ -1,4 +1,5 @@
 """Arithmetic beyond double: digits, texts, refusals."""
+import json
 import unittest
 from decimal import Decimal, getcontext
 
@@ -35,6 +36,37 @@ class Arithmetic(CommandCase):
                                   "run.dt=0.01", f"run.arithmetic={arithmetic}")
                 self.assertLess(s["energy"]["max_relative_error"], bound, arithmetic)
                 self.assertGreater(s["certificate"]["energy_level"], 0)  # differences are formed in all digits
+
+    def test_invariants_have_all_digits(self):
+        common = ("method.name=verlet", "run.steps=20", "run.dt=0.05")
+        exact = Decimal(3).sqrt()  # sqrt(2 mass k r_per r_aph/(r_per + r_aph))
+        for arithmetic, rounding in (("double-double", "1e-31"), ("quad", "1e-33"), ("mp(50)", "1e-49")):
+            s = self.run_with(*common, f"run.arithmetic={arithmetic}")
+            momentum = s["invariants"]["angular_momentum"]
+            for part in ("initial", "final"):  # a hundred roundings at most
+                self.assertIsInstance(momentum[part], str)
+                self.assertLess(abs(Decimal(momentum[part]) - exact), 100 * Decimal(rounding), arithmetic)
+            of_texts = Decimal(rounding) / 50  # they read back as the same number, and are not it
+            self.assertLessEqual(abs(Decimal(momentum["final"]) - Decimal(momentum["initial"])),
+                                 Decimal(momentum["max_error"]) + of_texts)
+        # No double is so small.
+        s = self.run_with(*common, "run.arithmetic=mp(400)")
+        error = s["invariants"]["angular_momentum"]["max_error"]
+        self.assertLess(0, Decimal(error))
+        self.assertLess(Decimal(error), Decimal("1e-397"))
+        self.assertEqual(s["certificate"]["momentum_maps"]["angular_momentum"]["max_error"], error)
+        self.assertEqual(s["certificate"]["momentum_maps"]["angular_momentum"]["conserved"], "to rounding")
+        text = self.hamflow("run", KEPLER, *[x for s in (*common, "run.arithmetic=quad") for x in ("--set", s)], "--out", "none")
+        self.assertRegex(text.stdout, "angular_momentum +1.7320508075688772935274463415")
+        self.assertIsInstance(self.run_with(*common)["invariants"]["angular_momentum"]["initial"], float)
+
+    def test_invariants_of_members_of_a_sweep_too(self):
+        sweep = ("sweep", KEPLER, "--set", "method.name=verlet", "--set", "run.arithmetic=quad", "--vary", "run.steps=3,4", "--json")
+        rows = json.loads(self.hamflow(*sweep, "--out", "none").stdout)["rows"]
+        for row, steps in zip(rows, (3, 4), strict=True):
+            alone = self.run_with("method.name=verlet", "run.arithmetic=quad", f"run.steps={steps}")
+            self.assertEqual(row["invariants"], alone["invariants"])
+            self.assertIsInstance(row["invariants"]["angular_momentum"]["final"], str)
 
     def test_tables_are_not_used_beyond_their_digits(self):
         result = self.hamflow("run", KEPLER, "--set", "method.name=kahan-li8", "--set", "run.arithmetic=mp(80)",

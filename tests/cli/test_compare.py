@@ -58,6 +58,41 @@ class Compare(CommandCase):
         self.assertEqual(c["rows"][0]["max_energy_error"], s["energy"]["max_relative_error"])
         self.assertEqual(c["rows"][0]["evaluations"], s["evaluations"])
 
+    def test_the_method_of_the_file_is_not_run(self):
+        """Only the methods compared have to fit the problem."""
+        self.write("rod.toml", """
+[problem]
+name = "pendulum"
+coordinates = "cartesian"
+initial = { q = [0.6, -0.8], p = [0.8, 0.6] }
+[method]
+name = "cg"
+quadrature = 5
+[run]
+dt = 0.05
+steps = 40
+""")
+        self.assertIn("method.name", self.hamflow("run", "rod.toml", "--out", "none", status=2).stderr)
+        done = self.hamflow("compare", "rod.toml", "--methods", "rattle,rattle4", "--dt", "0.1,0.05", "--json")
+        self.assertEqual([row["method"] for row in json.loads(done.stdout)["rows"]], 2 * ["rattle"] + 2 * ["rattle4"])
+        self.assertIn("note: the method of the file, which a comparison does not run, would be refused: method.name: ", done.stderr)
+        for methods, wrong in (("rattle,verlet", ["verlet"]), ("verlet,stv4", ["verlet", "stv4"])):
+            lines = self.hamflow("compare", "rod.toml", "--methods", methods, status=2).stderr.splitlines()
+            for line, name in zip(lines, wrong, strict=True):
+                self.assertTrue(line.startswith(f"--methods: error: found '{name}'; "), line)
+                self.assertIn("rattle", line)
+        both = self.hamflow("compare", "rod.toml", "--methods", "verlet", "--set", "run.dt=0", status=2).stderr.splitlines()
+        self.assertEqual([line.split(": error: ")[0] for line in both], ["--set", "--methods"])
+        self.assertIn("run.dt", both[0])
+
+    def test_what_run_refuses_of_many_particles(self):
+        self.write("gas.toml", "[problem]\nname='gas'\nparticles_per_side=39\n[method]\nname='stv4'\n[run]\ndt=1e-4\nsteps=1\n")
+        refused = self.hamflow("run", "gas.toml", "--set", "method.name=chin4a", "--out", "none", status=2).stderr
+        self.assertIn("chin4a with 3042 coordinates", refused)
+        lines = self.hamflow("compare", "gas.toml", "--methods", "chin4a,discrete-gradient,verlet", status=2).stderr.splitlines()
+        for line, name in zip(lines, ("chin4a", "discrete-gradient"), strict=True):
+            self.assertTrue(line.startswith(f"--methods: error: found '{name}'; with 3042 coordinates"), line)
+
     def test_two_integrations_where_there_is_no_closed_form(self):
         c = self.compare("henon.toml", "--methods", "verlet,yoshida6,rk4")
         self.assertEqual(c["reference"]["kind"], "integration")

@@ -68,6 +68,27 @@ record_every = true
         self.assertIn("0 < k", self.complaint("problem.k=-1"))
         self.assertIn("0 < r0", self.complaint('problem.orbit={kind="circle",r0=-1}'))
 
+    def test_keys_of_other_choices_of_the_problem(self):
+        self.assertIn('problem.lambda: found 3; allowed with potential = "', self.complaint("problem.lambda=3"))
+        self.assertIn('problem.n: found 2; allowed with potential = "power"', self.complaint("problem.n=2"))
+        self.assertIn('problem.V: found "-k/r" (a string); allowed with potential = "formula"', self.complaint("problem.V=-k/r"))
+        pair = {"problem": '{ name = "gas", particles_per_side = 3, softening = 0.1 }', "method": '{ name = "stv4" }'}
+        self.assertIn('problem.softening: found 0.1; allowed with pair = "newton"',
+                      self.complaint(*(f"{key}={value}" for key, value in pair.items())))
+        rod = '{ name = "pendulum", dimension = 3, initial = { q = [1], p = [0] } }'
+        self.assertIn('allowed with coordinates = "cartesian"', self.complaint("problem=" + rod))
+        # What goes with no other choice is unknown.
+        self.assertIn("problem.omega: found an unknown key", self.complaint("problem.omega=2"))
+
+    def test_the_name_of_the_problem_in_capitals(self):
+        self.write("kepler.toml", ELLIPSE.replace('name = "central-force"', 'Name = "central-force"'))
+        lines = self.complaint("run.steps=3").splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        self.assertIn("problem.name: found nothing", lines[0])
+        self.assertTrue(lines[1].startswith("kepler.toml:3:"), lines[1])
+        self.assertIn("problem.Name: found an unknown key; ", lines[1])
+        self.assertTrue(lines[1].endswith("; did you mean name?"), lines[1])
+
     def test_exactly_the_keys_of_a_start(self):
         self.assertIn("unknown key", self.complaint('problem.orbit={kind="circle",r0=1,r_per=1}'))
         self.assertIn("found nothing", self.complaint('problem.orbit={kind="circle"}'))

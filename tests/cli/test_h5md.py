@@ -60,17 +60,28 @@ class H5md(CommandCase):
                 ("", ()), ('container = { kind = "box", size = [2.1, 2.2] }\nmasses = 2', ()), (PERIODIC, ()),
                 ('container = { kind = "none" }', ("--set", "run.arithmetic=double-double")),
                 ("", ("--set", "run.record=[0.0005, 0.02]", "--set", "output.observables={ d = 'x1 - x2' }")),
-                ("", ("--set", "run.steps=0")))):
+                ("", ("--set", "run.steps=0")), ("", ("--set", "run.dt=-0.001")))):
             final = self.run_gas(keys, *more, "--out", str(k))["final"]
             wanted += [[float(x) for x in final[letter]] for letter in "qp"]
-        files = [f"{k}/run.h5" for k in range(6)]
-        self.assertEqual(self.faults(*files), [[]] * 6)
+        files = [f"{k}/run.h5" for k in range(7)]
+        self.assertEqual(self.faults(*files), [[]] * 7)
         self.assertEqual(self.python(
             f"last = [h5py.File(file)['particles/all/' + x + '/value'][-1].ravel().tolist() for file in {files} "
             "for x in ('position', 'momentum')]\nprint(json.dumps(last))"), wanted)
         periodic = ("[f['particles/all/box/edges/value'][-1].tolist(), f['particles/all/mass/value'][0].tolist(),"
                     "[x.decode() for x in f['particles/all/box'].attrs['boundary']]]")
         self.assertEqual(self.looked_up(periodic, "2/run.h5"), [[3, 3, 3.5], [1 + i % 3 for i in range(27)], ["periodic"] * 3])
+
+    def test_times_that_fall(self):
+        """H5MD wants times that grow, and lets them be left out."""
+        self.run_gas("", "--set", "run.dt=-0.001", "--out", "back")
+        self.write("turn", "step 3\ndt -0.002\nstep 2\nsave turned\n")
+        with open(self.folder / "turn") as commands:
+            subprocess.run([HAMFLOW, "shell", "gas.toml"], cwd=self.folder, stdin=commands, check=True, timeout=60)
+        for folder in ("back", "turned"):
+            self.assertEqual(self.faults(f"{folder}/run.h5"), [[]])
+            self.assertEqual(self.looked_up("[list(f['particles/all/position']), list(f['observables/energy'])]", f"{folder}/run.h5"),
+                             [["step", "value"]] * 2)
 
     def test_the_check_finds_faults(self):
         """Each mutant breaks one rule; without this the test above would prove nothing."""

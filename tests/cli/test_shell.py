@@ -10,6 +10,7 @@ import time
 import unittest
 
 from command import HAMFLOW, CommandCase
+from test_files_document import PYTHON
 
 
 class Shell(CommandCase):
@@ -57,6 +58,11 @@ class Shell(CommandCase):
                 self.shell(f"{before}method {method}\nstep 3\n", "--set", f"problem.wall_rule={rule}", status=2, scenario="wall.toml")
                 self.assertIn(f'beside problem.wall_rule = "{rule}" with {method}', self.stderr)
         self.shell("method cg\nstep 3\n", scenario="wall.toml")
+
+    def test_a_method_that_many_particles_refuse(self):
+        self.write("gas.toml", "[problem]\nname='gas'\nparticles_per_side=39\n[method]\nname='stv4'\n[run]\ndt=1e-4\nsteps=1\n")
+        self.shell("method chin4a\n", scenario="gas.toml", status=2)
+        self.assertIn("method: found chin4a with 3042 coordinates", self.stderr)
 
     def test_what_only_runs_measure_is_told(self):
         sets = [w for text in ("run.section={coordinate='x'}", "run.events=[{expression='x', action='stop'}]") for w in ("--set", text)]
@@ -165,6 +171,34 @@ steps = 1000
         rows = self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()
         self.assertEqual(len(rows), 1 + 159)
         self.assertEqual(float(rows[-1].split(",")[0]), s["final"]["t"])
+
+    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
+    def test_save_has_the_bounces(self):
+        self.write("tube.toml", "[problem]\nname='t-tube'\neps=-0.6\nvelocities=[6, 1]\n[method]\nname='stv4'\n"
+                   "[run]\ndt=0.01\nsteps=400\n")
+        self.hamflow("run", "tube.toml", "--out", "r")
+        look = ("import h5py, json, sys\nwalls = h5py.File(sys.argv[1] + '/run.h5')['events/wall']\n"
+                "print(json.dumps({name: walls[name][:].tolist() for name in walls}))")
+
+        def bounces(folder):
+            return json.loads(subprocess.run([PYTHON, "-c", look, folder], cwd=self.folder, capture_output=True, text=True,
+                                             check=True, timeout=60).stdout)
+        wanted = bounces("r")
+        self.assertGreater(len(wanted["t"]), 4)
+        self.shell("step 150\nstep 250\nsave whole\n", scenario="tube.toml")
+        self.assertEqual(bounces("whole"), wanted)
+        # Of a session whose settings changed the steps and times go on, through all its parts.
+        self.shell("step 400\nreset\nstep 200\ndt 0.005\nstep 400\nsave parts\n", scenario="tube.toml")
+        parts = bounces("parts")
+        self.assertEqual(len(parts["t"]), len(wanted["t"]))
+        self.assertEqual(parts["side"], wanted["side"])
+        for t, step, other in zip(parts["t"], parts["step"], wanted["t"], strict=True):
+            self.assertAlmostEqual(t, other, delta=0.01)
+            length = 0.01 if step <= 200 else 0.005
+            end = step * 0.01 if step <= 200 else 2 + (step - 200) * 0.005
+            self.assertTrue(end - 1.001 * length <= t <= end + 0.001 * length, (t, step))
+        self.shell("step 400\nsave few\n", "--set", "run.record_events=2", scenario="tube.toml")
+        self.assertEqual(bounces("few"), {name: rows[:2] for name, rows in wanted.items()})
 
     def test_save_refuses_an_existing_folder(self):
         self.shell("step 3\nsave a.run\nsave a.run\n", status=3)

@@ -29,6 +29,15 @@ class Verify(CommandCase):
         for method in answer["methods"]:
             self.assertIn(method["method"].split("(")[0], names)
 
+    def test_ctrl_c_where_nothing_can_be_written(self):
+        with open("/dev/full", "w") as full:
+            process = subprocess.Popen([HAMFLOW, "verify", "--all", "--json"], cwd=self.folder, stdout=full,
+                                       stderr=subprocess.PIPE, text=True)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=10)
+        self.assertEqual((process.returncode, said), (3, "error: cannot write to standard output\n"))
+
     def test_table_of_claims_and_measurements(self):
         out = self.hamflow("verify", "stv4", "cg(1,5)").stdout
         self.assertIn("claimed / measured", out)

@@ -8,6 +8,7 @@ import subprocess
 import unittest
 
 from command import CommandCase
+from test_files_document import PYTHON
 
 COMPARE = os.environ["COMPARE_RUNS"]
 DATA = pathlib.Path(__file__).parents[1] / "data"
@@ -184,6 +185,31 @@ class Walls(CommandCase):
         for key in ("lyapunov", "eigenvalues"):
             self.assertEqual(again[key], found["stv4"][key])
 
+    def test_an_empty_list_of_walls_is_none(self):
+        walls = '[{ coordinate = "q1", min = -0.3, max = 0.3 }]'
+        slow = ("--set", "problem.initial.p=[0.2, 0.1]")
+        free = self.summary(self.write("free.toml", BOX.replace("walls = {}\n", "").format("", "stv4", "")), *slow)
+        for given, more in ((("[]",), ()), ((walls, "stv4", 'wall_rule = "mirror"'), ("--set", "problem.walls=[]"))):
+            found = self.summary(self.box(*given), *slow, *more)
+            self.assertEqual((found["final"], found["events"]), (free["final"], {}))
+        events = 'events = [{ expression = "q1 - 0.1" }]'
+        self.assertGreater(self.summary(self.box("[]", run=events), *slow)["events"]["user:event1"], 0)
+        self.assertEqual(self.summary(self.box("[]", run=events), *slow, "--set", "run.events=[]")["events"], {})
+        self.assertEqual(self.summary("kepler.toml", "--set", "problem.bodies=[]")["final"], self.summary("kepler.toml")["final"])
+        self.assertIn("are fixed", self.refused(self.tube(rule="walls = []")))
+        self.write("gas.toml", "[problem]\nname='gas'\nparticles_per_side=3\ncontainer={ kind='box', size=[2.1, 2.2] }\n"
+                   "[method]\nname='stv4'\n[run]\ndt=0.001\nsteps=2\n")
+        self.assertEqual(self.summary("gas.toml", "--set", "problem.walls=[]")["final"], self.summary("gas.toml")["final"])
+
+    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
+    def test_a_scenario_with_empty_lists_is_one(self):
+        self.hamflow("run", self.box("[]"), "--set", "run.events=[]", "--set", "run.steps=10", "--out", "r")
+        text = subprocess.run([PYTHON, "-c", "import h5py; print(h5py.File('r/run.h5')['scenario'][()].decode())"],
+                              cwd=self.folder, capture_output=True, text=True, check=True, timeout=60).stdout
+        self.assertIn("events = []", text)
+        done = json.loads((self.folder / "r/summary.json").read_text())
+        self.assertEqual(self.summary(self.write("again.toml", text))["final"], done["final"])
+
     def test_refusals(self):
         one = '[{ coordinate = "q1", min = -1, max = 1 }]'
         self.assertIn("no drifts", self.refused(self.box(one, "rk4", 'wall_rule = "mirror"')))
@@ -196,7 +222,6 @@ class Walls(CommandCase):
         self.assertIn("did you mean event?", self.refused(self.box(one, rule='wall_rule = "events"')))
         self.assertIn("soft", self.refused(self.box(one, rule="strength = 2")))
         self.assertIn("are fixed", self.refused(self.tube(rule="walls = " + one)))
-        self.assertIn("problem.walls: found []; allowed an array of one table or more, or no walls", self.refused(self.box("[]")))
         # A second copy of the state would meet the walls elsewhere: no template offers what is refused.
         self.assertNotIn("tao2", self.hamflow("new", "t-tube").stdout)
         self.assertIn("tao2", self.hamflow("new", "pendulum").stdout)

@@ -49,6 +49,10 @@ struct InvariantExcursion {
   std::vector<double> initial;
   std::vector<double> final;
   double max_error = 0;
+  // The same with all their digits, in arithmetic beyond double; else empty.
+  std::vector<std::string> initial_digits{};
+  std::vector<std::string> final_digits{};
+  std::string max_error_digits{};
 };
 
 /// A coordinate has met a wall: the state behind the bounce.

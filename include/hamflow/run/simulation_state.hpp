@@ -113,6 +113,13 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
         for (const std::size_t end = i + size; i < end; ++i) {
           e.initial.push_back(static_cast<double>(probe_.initial()[i]));
           e.final.push_back(static_cast<double>(now[i]));
+          if constexpr (requires(const Real& x) { written_digits(x); }) {
+            e.initial_digits.push_back(written_digits(probe_.initial()[i]));
+            e.final_digits.push_back(written_digits(now[i]));
+          }
+        }
+        if constexpr (requires(const Real& x) { written_digits(x); }) {
+          e.max_error_digits = written_digits(probe_.worst(all.size()));
         }
         all.push_back(e);
       }

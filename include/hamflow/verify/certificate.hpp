@@ -54,6 +54,9 @@ class EnergyBlocks final : public Observer {
   EnergyBlockState state_;
 };
 
+/// How far an invariant was off, as a text where no double is so small.
+LongNumber largest_error(const InvariantExcursion& seen);
+
 /// One invariant over a run.
 struct MomentumMap {
   std::string name;

@@ -22,6 +22,8 @@ class Session final : public Simulation {
  public:
   /// @throws Error
   explicit Session(const Scenario& scenario);
+  Session(const Session&) = delete;  // its simulation tells it of bounces
+  Session& operator=(const Session&) = delete;
 
   /// With the present settings from the start again.
   void restart();
@@ -41,6 +43,8 @@ class Session final : public Simulation {
   const std::vector<SessionChange>& changes() const { return changes_; }
   /// Whether momenta were negated: the state is then not on the orbit of the start at the session's time.
   bool reversed() const { return reversed_; }
+  /// Off hard walls, in order; as many as the scenario has recorded at most.
+  const std::vector<Bounce>& bounces() const { return bounces_; }
 
   /// Watches for steps that are too long: whoever runs the session wakes it with the other observers.
   TurnWatch& turns() { return turns_; }
@@ -73,6 +77,8 @@ class Session final : public Simulation {
   void remember(const MethodSpec& method);
   void change(const Request& next, const std::string& what);
   void refuse_time(const std::string& what) const;
+  void listen();
+  bool wants_bounces() const;
   void watch_from_here();
   void watch(const Frame& frame);
   void in_session(Frame& frame) const;
@@ -92,6 +98,8 @@ class Session final : public Simulation {
   double time_before_ = 0;
   Effort effort_before_;
   std::vector<WallCount> bounces_before_;
+  std::vector<Bounce> bounces_;
+  bool listens_ = false;  // to bounces
   double initial_energy_ = 0;
   double scale_ = 0;
   double worst_energy_ = 0;
