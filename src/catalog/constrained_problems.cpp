@@ -161,11 +161,14 @@ std::optional<Frame> exact_pendulum(const Texts& parameters, const std::vector<d
   return frame;
 }
 
-/// The entry of texts whose parameters are those of another entry.
+/// The entry of texts whose parameters are those of another entry, with the kinetic energy of points.
 ProblemEntry entry_of_texts(const char* name, FormulaTexts texts, const std::string& form) {
   texts.constraint_form = form;
-  const auto model = std::make_shared<const formula::Model>(texts);
-  ProblemEntry entry = entry_of_model(model);
+  const FormulaStructure structure{.separable = true,
+                                   .quadratic_kinetic = true,
+                                   .constraints = texts.constraints.size(),
+                                   .multiplier = form == FormulaKeys::multiplier};
+  ProblemEntry entry = entry_of_model({texts, structure});
   entry.structure = std::nullopt;  // what was found in typed texts is no news of a problem that is built in
   entry.info.name = name;
   entry.info.coordinates = texts.coordinates;

@@ -20,13 +20,11 @@ namespace {
 template <class R>
 using FormulaFace = Erased<R, Capability::smooth>;
 
-using ModelPointer = std::shared_ptr<const formula::Model>;
-
 template <class R>
-ErasedFunctions<R> functions_of(const ModelPointer& model, const Parameters<R>& parameters,
+ErasedFunctions<R> functions_of(const EntryModel& model, const Parameters<R>& parameters,
                                 TypedCentre centre = TypedCentre::none) {
-  const auto bound = std::make_shared<const formula::BoundModel<R>>(model, parameters);
-  ErasedFunctions<R> all{capabilities_of(model->structure()), model->degrees(),
+  const auto bound = std::make_shared<const formula::BoundModel<R>>(model.made(), parameters);
+  ErasedFunctions<R> all{capabilities_of(model.structure()), model.degrees(),
                          std::make_shared<FormulaFunctions<R, R>>(bound, centre),
                          std::make_shared<FormulaFunctions<R, Trace<R>>>(bound), nullptr};
   if constexpr (std::is_same_v<R, double>) all.dual = std::make_shared<FormulaFunctions<R, Dual<double, 1>>>(bound);
@@ -34,13 +32,13 @@ ErasedFunctions<R> functions_of(const ModelPointer& model, const Parameters<R>& 
 }
 
 template <class R>
-ErasedFunctions<R> functions_of(const ModelPointer& model, const Texts& parameters,
+ErasedFunctions<R> functions_of(const EntryModel& model, const Texts& parameters,
                                 TypedCentre centre = TypedCentre::none) {
   return functions_of<R>(model, Parameters<R>(parameters), centre);
 }
 
-std::string refused_size(const ModelPointer& model, std::size_t size) {
-  const std::size_t n = model->size();
+std::string refused_size(const EntryModel& model, std::size_t size) {
+  const std::size_t n = model.size();
   return size == n ? std::string() : std::to_string(n) + (n == 1 ? " number" : " numbers");
 }
 
@@ -49,7 +47,7 @@ using StateOf = Start<R, dynamic>;
 
 /// What is asked of an entry: its model, and the field, if it is a central one.
 struct Typed {
-  ModelPointer model;
+  EntryModel model;
   std::optional<TypedField> field;
   TypedCentre centre() const {
     if (!field) return TypedCentre::none;
@@ -75,7 +73,7 @@ StateOf<R> orbit_of(const TypedField& field, const Texts& texts, const StartSpec
 /// As ProblemStart does it.
 template <class R>
 StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Request& request) {
-  const ModelPointer& model = typed.model;
+  const EntryModel& model = typed.model;
   const StartSpec& spec = request.start;
   if (spec.geometric() && typed.field) {
     Conditions conditions;
@@ -92,21 +90,21 @@ StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Req
         throw Error("a state of this problem has " + why_not + " for each of q and p, not " +
                     std::to_string(texts.size()));
       }
-      Vector<R, dynamic> out(model->degrees());  // the time and its momentum begin at 0
+      Vector<R, dynamic> out(model.degrees());  // the time and its momentum begin at 0
       for (std::size_t i = 0; i < texts.size(); ++i) {
         out[i] = is_left_to_energy(texts[i]) ? free : evaluate_number<R>(texts[i]);
       }
       return out;
     };
     StateOf<R> s{read(spec.q), read(spec.v.empty() ? spec.p : spec.v)};
-    if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p, model->size());
+    if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };
   return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), spec));
 }
 
-std::unique_ptr<Simulation> without_time(const ModelPointer& model, std::unique_ptr<Simulation> simulation) {
-  if (!model->structure().time || !simulation) return simulation;
+std::unique_ptr<Simulation> without_time(const EntryModel& model, std::unique_ptr<Simulation> simulation) {
+  if (!model.structure().time || !simulation) return simulation;
   return std::make_unique<TimedSimulation>(std::move(simulation));
 }
 
@@ -134,11 +132,11 @@ std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, cons
 
 template <class R>
 std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& request) {
-  const ModelPointer& model = typed.model;
+  const EntryModel& model = typed.model;
   const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters, typed.centre());
   const StateOf<R> s = start_of<R>(typed, functions.template as<Capability::smooth>(), request);
   const ErasedRun<R> run{functions, s.q, s.p, evaluate_number<R>(request.dt)};
-  if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(*model, run, request));
+  if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(*model.made(), run, request));
   return without_time(model, simulate_erased<R>(run, request));
 }
 
@@ -178,20 +176,20 @@ Frame frame_of(const StateOf<double>& s, std::size_t size) {
 
 }  // namespace
 
-ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const std::optional<TypedField>& field) {
+ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field) {
   const Typed typed{model, field};
   const auto face = [model](const Texts& parameters) {
     return functions_of<double>(model, parameters).as<Capability::smooth>();
   };
   ProblemEntry e;
-  e.momenta = model->momenta();
-  e.structure = model->structure();
-  e.dimension = model->size();
+  e.momenta = model.momenta();
+  e.structure = model.structure();
+  e.dimension = model.size();
   e.has_distance = field.has_value();
   e.refused_size = [model](const Texts&, std::size_t size) { return refused_size(model, size); };
   e.refused_parameters = [](const Texts&) { return std::pair<std::string, std::string>(); };
   e.refused_start = [](const Texts&, const std::vector<double>&) { return std::string(); };
-  e.accepts = [model](const MethodSpec& method) { return accepts(model->structure(), method); };
+  e.accepts = [model](const MethodSpec& method) { return accepts(model.structure(), method); };
   e.simulate = [](const Request&) { return std::unique_ptr<Simulation>(); };
   e.simulate_erased = [typed](const Request& request) -> std::unique_ptr<Simulation> {
     if (request.arithmetic == "double-double") return simulate_in<DoubleDouble>(typed, request);
@@ -204,14 +202,14 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
   };
   e.simulate_member = [model](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {
-    const std::size_t degrees = model->degrees();
+    const std::size_t degrees = model.degrees();
     return without_time(model, simulate_erased<double>({functions_of<double>(model, parameters), vector_of(q, degrees),
                                                         vector_of(p, degrees), h},
                                                        request));
   };
   e.step_map = [model](const Request& request, std::size_t) -> std::unique_ptr<StepMap> {
-    if (!accepts(model->structure(), request.method)) return nullptr;
-    if (model->structure().time) {
+    if (!accepts(model.structure(), request.method)) return nullptr;
+    if (model.structure().time) {
       throw Error("found an H that depends on t; allowed H without t where single steps are measured");
     }
     const Texts& parameters = request.parameters;
@@ -225,7 +223,7 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
     if (field) (void)orbit_of<double>(*field, parameters, spec, conditions);
     return conditions.all();
   };
-  const std::size_t degrees = model->degrees();
+  const std::size_t degrees = model.degrees();
   e.energy = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     return face(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
   };
@@ -245,17 +243,17 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
     return sum <= std::numeric_limits<double>::max();
   };
   e.invariant_sizes = [model](const Texts&, std::size_t) {
-    return std::vector<std::size_t>(model->invariants().size(), 1);
+    return std::vector<std::size_t>(model.made()->invariants().size(), 1);
   };
   e.start = [typed, face](const Request& request) {
-    return frame_of(start_of<double>(typed, face(request.parameters), request), typed.model->size());
+    return frame_of(start_of<double>(typed, face(request.parameters), request), typed.model.size());
   };
-  if (model->structure().constraints > 0) {
+  if (model.structure().constraints > 0) {
     const auto bound = [model](const Texts& parameters) {
       return functions_of<double>(model, parameters)
           .as<Capability::constrained | Capability::separable | Capability::quadratic_kinetic>();
     };
-    e.constraint_form = model->structure().multiplier ? FormulaKeys::multiplier : FormulaKeys::manifold;
+    e.constraint_form = model.structure().multiplier ? FormulaKeys::multiplier : FormulaKeys::manifold;
     e.residuals = [bound, degrees](const Texts& parameters, const std::vector<double>& q,
                                    const std::vector<double>& p) {
       const auto problem = bound(parameters);
@@ -269,7 +267,7 @@ ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const s
                                                  const std::vector<double>& p) {
       StateOf<double> s{vector_of(q, degrees), vector_of(p, degrees)};
       move_onto_constraints(bound(parameters), s.q, s.p);
-      return frame_of(s, model->size());
+      return frame_of(s, model.size());
     };
   }
   if (field) {

@@ -25,14 +25,15 @@ std::span<const MethodEntry> methods() {
     for (const MethodFamily& family : method_families()) {
       for (std::size_t i = 0; i < family.methods.size(); ++i) list.push_back({family.methods[i], &family, i});
     }
-    // Tables by order and cost, then the rest.
-    const auto key = [](const MethodEntry& entry) {
-      if (entry.family->rank > 0) return 1000 * entry.family->rank;
-      const MethodInfo info = entry.family->describe(entry.index, {});
-      return 50 * info.order + info.forces_per_step;
-    };
+    // Tables by order and cost, then the rest. Each is described once: a description reads the coefficients of its
+    // table, and the list is made at every start of the command.
+    std::map<std::string, int> keys;
+    for (const MethodEntry& entry : list) {
+      const MethodInfo info = entry.family->rank > 0 ? MethodInfo{} : entry.family->describe(entry.index, {});
+      keys[entry.name] = entry.family->rank > 0 ? 1000 * entry.family->rank : 50 * info.order + info.forces_per_step;
+    }
     std::stable_sort(list.begin(), list.end(),
-                     [&](const MethodEntry& a, const MethodEntry& b) { return key(a) < key(b); });
+                     [&](const MethodEntry& a, const MethodEntry& b) { return keys.at(a.name) < keys.at(b.name); });
     return list;
   }();
   return all;

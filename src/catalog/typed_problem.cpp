@@ -1,6 +1,8 @@
 #include "typed_problem.hpp"
 
 #include <mutex>
+#include <stdexcept>
+#include <tuple>
 
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/problems/support/potential.hpp"
@@ -20,9 +22,9 @@ ParameterInfo parameter_info(const std::string& name, const std::string& text) {
 }
 
 /// Of the problem `formula`.
-ProblemEntry formula_entry(const Choices& choices) {
-  const FormulaTexts texts = formula_texts(choices);
-  const auto model = std::make_shared<const formula::Model>(texts);
+/// @param coordinates written out
+ProblemEntry formula_entry(const Choices& choices, const FormulaTexts& texts, const EntryModel& model,
+                           const std::vector<std::string>& coordinates) {
   ProblemEntry entry = entry_of_model(model);
   entry.info.name = FormulaKeys::problem;
   entry.info.formula =
@@ -32,7 +34,7 @@ ProblemEntry formula_entry(const Choices& choices) {
     entry.info.variant.emplace_back(key, text);
     entry.info.example_choices.push_back(key);
   }
-  entry.info.coordinates = model->coordinates();
+  entry.info.coordinates = coordinates;
   for (const auto& [name, text] : texts.parameters) entry.info.parameters.push_back(parameter_info(name, text));
   for (const auto& [name, text] : texts.invariants) entry.info.invariants.push_back({name, text});
   return entry;
@@ -93,10 +95,40 @@ FormulaTexts example_texts() {
 /// The example has a region, on which `verify` measures, by whatever way it is found.
 ProblemEntry entry_of_choices(const std::string& name, const Choices& choices) {
   if (name != FormulaKeys::problem) return central_entry(choices);
-  return choices == formula_choices(example_texts()) ? formula_example() : formula_entry(choices);
+  if (choices == formula_choices(example_texts())) return formula_example();
+  const FormulaTexts texts = formula_texts(choices);
+  const auto model = std::make_shared<const formula::Model>(texts);
+  return formula_entry(choices, texts, model, model->coordinates());
+}
+
+auto all_of(const FormulaStructure& s) {
+  return std::tuple(s.separable, s.quadratic_kinetic, s.time, s.constraints, s.multiplier);
 }
 
 }  // namespace
+
+EntryModel::EntryModel(std::shared_ptr<const formula::Model> made) {
+  late_->momenta = made->momenta();
+  late_->structure = made->structure();
+  std::call_once(late_->once, [&] { late_->model = std::move(made); });
+}
+
+EntryModel::EntryModel(const FormulaTexts& texts, const FormulaStructure& structure) {
+  late_->texts = texts;
+  late_->structure = structure;
+  for (const std::string& coordinate : texts.coordinates) late_->momenta.push_back("p_" + coordinate);
+}
+
+const std::shared_ptr<const formula::Model>& EntryModel::made() const {
+  std::call_once(late_->once, [this] {
+    auto model = std::make_shared<const formula::Model>(late_->texts);
+    if (all_of(model->structure()) != all_of(structure()) || model->momenta() != momenta()) {
+      throw std::logic_error("hamflow: " + model->label() + " is not what it is declared to be");
+    }
+    late_->model = std::move(model);
+  });
+  return late_->model;
+}
 
 bool is_typed(const std::string& name, const Choices& choices) {
   if (name == FormulaKeys::problem) return !choices.empty();
@@ -118,7 +150,10 @@ const ProblemEntry& typed_problem(const std::string& name, const Choices& choice
 
 ProblemEntry formula_example() {
   const FormulaTexts texts = example_texts();
-  ProblemEntry entry = formula_entry(formula_choices(texts));
+  const Choices choices = formula_choices(texts);
+  const FormulaTexts chosen = formula_texts(choices);
+  const EntryModel model{chosen, {.separable = true, .quadratic_kinetic = true}};
+  ProblemEntry entry = formula_entry(choices, chosen, model, texts.coordinates);
   for (ParameterInfo& parameter : entry.info.parameters) {
     parameter.required = false;
     parameter.default_value = texts.parameters.at(parameter.name);

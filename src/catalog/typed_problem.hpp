@@ -1,6 +1,9 @@
 // Problems that are typed, as entries of the catalogue: made when they are first asked for, kept by their texts.
 #pragma once
 
+#include <memory>
+#include <mutex>
+
 #include "hamflow/formula/model.hpp"
 #include "hamflow/run/catalog.hpp"
 
@@ -11,6 +14,31 @@ bool is_typed(const std::string& name, const Choices& choices);
 /// Its entry, which lives as long as the program. @throws FormulaError when a text is wrong
 const ProblemEntry& typed_problem(const std::string& name, const Choices& choices);
 
+/// The model of an entry. Of texts that the catalogue itself has it is derived when a function is first called, and not
+/// at every start of the command: what an entry has to know before is declared with them. Copies are one model.
+class EntryModel {
+ public:
+  /// One that is there.
+  EntryModel(std::shared_ptr<const formula::Model> made);  // NOLINT(google-explicit-constructor)
+  /// @param structure what the texts are known to be, with the usual names of momenta; made() throws where they are not
+  EntryModel(const FormulaTexts& texts, const FormulaStructure& structure);
+  std::size_t size() const { return momenta().size(); }
+  std::size_t degrees() const { return size() + (structure().time ? 1 : 0); }
+  const std::vector<std::string>& momenta() const { return late_->momenta; }
+  const FormulaStructure& structure() const { return late_->structure; }
+  const std::shared_ptr<const formula::Model>& made() const;
+
+ private:
+  struct Late {
+    FormulaTexts texts{};
+    std::vector<std::string> momenta{};
+    FormulaStructure structure{};
+    std::once_flag once{};
+    std::shared_ptr<const formula::Model> model{};
+  };
+  std::shared_ptr<Late> late_ = std::make_shared<Late>();
+};
+
 /// A field that is typed: V of r, and the chart of the states.
 struct TypedField {
   std::shared_ptr<const formula::Model> radial;  // p_r^2/2 + V(r)
@@ -18,6 +46,6 @@ struct TypedField {
 };
 /// The entry of a model, without info: everything that its functions give. Defined in formula_entry.cpp.
 /// @param field of a central force that does not depend on t: starts by energy and angular momentum, facts of the orbit
-ProblemEntry entry_of_model(std::shared_ptr<const formula::Model> model, const std::optional<TypedField>& field = {});
+ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field = {});
 
 }  // namespace hamflow

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,18 @@ ClaimVerdict verdict_in(const std::string& word) {
   throw Error("no verdict: " + word);
 }
 
+/// In the order of Grounds.
+constexpr const char* names_of_grounds[] = {"program", "ways", "identity"};
+
+/// What judge() needs of a claim beside its numbers, of which people read the rule's text.
+Json json_with_bounds(const Claim& claim) {
+  Json all = json_of(claim);
+  all["low"] = claim.rule.low;  // null: none
+  all["high"] = claim.rule.high;
+  all["grounds"] = names_of_grounds[static_cast<int>(claim.grounds)];
+  return all;
+}
+
 Claim claim_in(const Json& json) {
   Claim claim{.id = json.at("id"),
               .thesis = json.at("thesis"),
@@ -40,6 +53,13 @@ Claim claim_in(const Json& json) {
   for (const Json& one : json.at("measurements")) {
     claim.measured.push_back({number_in(one.at("value")), number_in(one.at("uncertainty")), one.at("how")});
   }
+  // What was kept before bounds were is as good for the page.
+  if (const Json low = json.value("low", Json()); low.is_number()) claim.rule.low = low;
+  if (const Json high = json.value("high", Json()); high.is_number()) claim.rule.high = high;
+  const auto grounds = std::find(std::begin(names_of_grounds), std::end(names_of_grounds),
+                                 json.value("grounds", std::string(names_of_grounds[0])));
+  if (grounds == std::end(names_of_grounds)) throw Error("no grounds of a claim");
+  claim.grounds = static_cast<Grounds>(grounds - std::begin(names_of_grounds));
   claim.judgement = {verdict_in(json.at("verdict")), json.at("reason")};
   return claim;
 }
@@ -138,7 +158,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   Json all{{"fingerprint", print},   {"seconds", seconds},         {"claims", Json::array()},
            {"notes", study.notes()}, {"scenarios", Json::array()}, {"figures", Json::array()},
            {"tables", Json::array()}};
-  for (const Claim& claim : study.claims()) all["claims"].push_back(json_of(claim));
+  for (const Claim& claim : study.claims()) all["claims"].push_back(json_with_bounds(claim));
   for (const KeptScenario& scenario : study.scenarios()) {
     write_text(folder / (scenario.name + ".toml"), scenario.text);
     all["scenarios"].push_back({{"name", scenario.name}, {"command", scenario.command}});

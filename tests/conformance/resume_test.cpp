@@ -58,6 +58,7 @@ std::vector<Request> every_request() {
         if (!refusal(request.method, arithmetic).empty()) continue;
         const bool slow = digits_beyond_double(arithmetic) > 0;
         if (slow && (size > 4 || !is_of_each_kind(name))) continue;  // alike
+        request.method = test::with_few_sub_steps(parse_method(name), arithmetic);
         request.arithmetic = arithmetic;
         request.watch = true;
         all.push_back(request);

@@ -48,7 +48,7 @@ std::vector<Request> every_request() {
           request.start.q.push_back(shortest(region.centre[i]));
           request.start.p.push_back(shortest(region.centre[size + i]));
         }
-        request.method = method;
+        request.method = test::with_few_sub_steps(method, arithmetic);
         request.dt = shortest(region.step / 10);  // such that explicit Euler survives 1000 of them
         request.arithmetic = arithmetic;
         all.push_back(request);

@@ -1,5 +1,8 @@
 """The installed library in a user's hands: find_package(hamflow) and hamflow::hamflow are enough for the examples, for every
-C++ snippet of README.md and docs/, and for every function that an installed header declares."""
+C++ snippet of README.md and docs/, and for every function that an installed header declares.
+
+What they include takes the time of compiling them: all but the declared functions is one unit, in which a program of the documents
+comes first, behind what it includes itself. That each example includes what it needs is shown by the build, where it stands alone."""
 
 import pathlib
 import re
@@ -27,14 +30,34 @@ FOLDER = WORK / "library"
 INCLUDE = re.compile(r"^#include .*$", re.MULTILINE)
 
 
-def in_one_unit(bodies: list[Block]) -> str:
-    """What snippets include takes the time of compiling them: each becomes a function that returns 0 at its end."""
-    text = "#include <cstdio>\n" + "\n".join(sorted({line for body in bodies for line in INCLUDE.findall(body.text)}))
+def in_namespace(name: str, text: str, place: str) -> str:
+    """A program in a namespace, its main() a function there, which has to say that it returns 0."""
+    body = re.sub(r"^int main[(]", "static int run(", text, flags=re.MULTILINE)
+    return f'namespace {name} {{\n#line 1 "{place}"\n' + re.sub(r"[}]\s*\Z", "return 0;\n}\n", body) + "}  // namespace\n"
+
+
+def with_includes_first(program: Block, name: str) -> str:
+    lines = INCLUDE.findall(program.text)
+    return "\n".join(lines) + "\n" + in_namespace(name, INCLUDE.sub("", program.text), program.where)
+
+
+def in_one_unit(programs: list[Block], bodies: list[Block], examples: list[pathlib.Path]) -> str:
+    """Each snippet becomes a function that returns 0 at its end. Called with the name of an example the program is that."""
+    text = "".join(with_includes_first(program, f"program_{number}") for number, program in enumerate(programs))
+    texts = [example.read_text() for example in examples]
+    text += "#include <cstdio>\n#include <string_view>\n"
+    text += "\n".join(sorted({line for each in [*texts, *(body.text for body in bodies)] for line in INCLUDE.findall(each)})) + "\n"
+    for example, its in zip(examples, texts):
+        text += in_namespace(example.stem, INCLUDE.sub("", its), str(example))
     for number, body in enumerate(bodies):
         text += f'\nstatic int snippet_{number}() {{\n#line {body.line} "{body.file}"\n{INCLUDE.sub("", body.text)}return 0;\n}}\n'
-    text += "int main() {\n"
-    for number, body in enumerate(bodies):
-        text += f'  if (snippet_{number}() != 0) return std::puts("{body.where} failed"), 1;\n'
+    text += "int main([[maybe_unused]] int argc, [[maybe_unused]] char** argv) {\n"
+    for example, its in zip(examples, texts):
+        arguments = "argc - 1, argv + 1" if "int main(int" in its else ""
+        text += f'  if (argc > 1 && std::string_view(argv[1]) == "{example.stem}") return {example.stem}::run({arguments});\n'
+    for call, where in [(f"program_{i}::run()", program.where) for i, program in enumerate(programs)] + \
+                       [(f"snippet_{i}()", body.where) for i, body in enumerate(bodies)]:
+        text += f'  if ({call} != 0) return std::puts("{where} failed"), 1;\n'
     return text + "}\n"
 
 
@@ -72,14 +95,11 @@ class Library(unittest.TestCase):
         FOLDER.mkdir(parents=True)
         cls.functions = declared_functions()
         found = [block for block in blocks("cpp") if not block.names]
-        cls.programs = [block for block in found if "int main(" in block.text]
+        programs = [block for block in found if "int main(" in block.text]
         (FOLDER / "CMakeLists.txt").write_text(PROJECT)
         (FOLDER / "declared.cpp").write_text(program_of(list(cls.functions)))
-        (FOLDER / "snippets.cpp").write_text(in_one_unit([block for block in found if block not in cls.programs]))
-        for number, block in enumerate(cls.programs):
-            (FOLDER / f"program_{number}.cpp").write_text(f'#line {block.line} "{block.file}"\n{block.text}')
-        for name in ("own_hamiltonian", "run_and_resume"):
-            shutil.copy(ROOT / f"examples/{name}.cpp", FOLDER)
+        examples = [ROOT / f"examples/{name}.cpp" for name in ("own_hamiltonian", "run_and_resume")]
+        (FOLDER / "written.cpp").write_text(in_one_unit(programs, [block for block in found if block not in programs], examples))
         must("cmake", "-S", FOLDER, "-B", FOLDER / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={PREFIX}")
         must("cmake", "--build", FOLDER / "build", "-j", "2")
 
@@ -99,15 +119,12 @@ class Library(unittest.TestCase):
         self.assertTrue({"largest_lyapunov", "run_scenario", "draw_figure"} <= missing)
         self.assertFalse({"find_method", "make_simulation"} & missing)
 
-    def test_snippets_of_the_documents_run(self):
-        must(FOLDER / "build/snippets")
-        for number, block in enumerate(self.programs):
-            with self.subTest(block.where):
-                must(FOLDER / f"build/program_{number}")
+    def test_programs_and_snippets_of_the_documents_run(self):
+        must(FOLDER / "build/written")
 
     def test_examples_run(self):
-        self.assertIn("largest energy error", must(FOLDER / "build/own_hamiltonian"))
-        self.assertRegex(must(FOLDER / "build/run_and_resume", FOLDER / "run"), "status +done")
+        self.assertIn("largest energy error", must(FOLDER / "build/written", "own_hamiltonian"))
+        self.assertRegex(must(FOLDER / "build/written", "run_and_resume", FOLDER / "run"), "status +done")
         self.assertTrue((FOLDER / "run/energy-error.svg").exists())
 
     def test_headers_bring_no_other_library_along(self):

@@ -1,0 +1,10 @@
+# HDF5 from its archive where there is one. The shared library of Debian reads files from the web as well, for which it brings
+# some thirty libraries along (curl, Kerberos, TLS): to load them was 4 of the 10 ms in which the command starts. Of the archive
+# a program has what it uses, and --as-needed leaves those libraries out.
+find_library(HDF5_ARCHIVE NAMES libhdf5_serial.a libhdf5.a)
+mark_as_advanced(HDF5_ARCHIVE)
+check_linker_flag(CXX LINKER:--as-needed HAMFLOW_AS_NEEDED)
+if(HDF5_ARCHIVE AND HAMFLOW_AS_NEEDED)
+  list(TRANSFORM HDF5_C_LIBRARIES REPLACE "^.*/libhdf5(_serial)?\\.so$" "${HDF5_ARCHIVE}")
+  target_link_options(hamflow_flags INTERFACE LINKER:--as-needed)
+endif()
