@@ -30,6 +30,7 @@ class ShortArray {
   }
   ShortArray(ShortArray&& other) noexcept { take(other); }
   ShortArray& operator=(const ShortArray& other) {
+    if (this == &other) return *this;  // numbers are not copied onto themselves
     if (size_ == other.size_) {
       std::copy_n(other.first_, size_, first_);
     } else {
