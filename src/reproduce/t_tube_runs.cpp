@@ -16,19 +16,17 @@ std::string name_of(const TubeRun& run) {
   return fmt::format("{:+.1f} v=({},{}) {} {} {}", run.eps, run.v1, run.v2, run.rule, run.method, run.dt);
 }
 
-std::string tube_scenario(const TubeRun& run) {
+namespace {
+
+std::string scenario_from(const TubeRun& run, const std::string& start) {
   return fmt::format(
-      "[problem]\nname = \"t-tube\"\neps = {}\nmasses = [1, 100]\ninitial = {{ q = [0.01, 1.1], v = [{}, {}] "
+      "[problem]\nname = \"t-tube\"\neps = {}\nmasses = [1, 100]\ninitial = {{ {} "
       "}}\nwall_rule = \"{}\"\n\n[method]\nname = \"{}\"\n\n[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = {}\n",
-      run.eps, run.v1, run.v2, run.rule, run.method, run.dt, run.steps,
+      run.eps, start, run.rule, run.method, run.dt, run.steps,
       run.record_every > 0 ? run.record_every : std::max<std::int64_t>(run.steps, 1));
 }
 
-std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::vector<std::string>& varied) {
-  SweepRequest request;
-  request.text = tube_scenario(run);
-  request.name = name_of(run);
-  request.varied = varied;
+std::vector<TubeMember> members_of(Study& study, SweepRequest request) {
   request.threads = 1;
   ScenarioSweep sweep(request);
   if (!sweep.complaints().empty()) {
@@ -54,6 +52,37 @@ std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::ve
     members.push_back(std::move(member));
   }
   return members;
+}
+
+}  // namespace
+
+std::string tube_scenario(const TubeRun& run) {
+  return scenario_from(run, fmt::format("q = [0.01, 1.1], v = [{}, {}]", run.v1, run.v2));
+}
+
+std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::vector<std::string>& varied) {
+  return members_of(study, {.text = tube_scenario(run), .name = name_of(run), .varied = varied});
+}
+
+std::vector<TubeMember> continued(Study& study, const TubeRun& run, const std::vector<TubeMember>& members) {
+  std::string starts[4];
+  for (const TubeMember& member : members) {
+    if (!member.done) continue;
+    const double numbers[] = {member.q[0], member.q[1], member.p[0], member.p[1]};
+    for (std::size_t k = 0; k < 4; ++k) starts[k] += fmt::format("{}{:.17g}", starts[k].empty() ? "" : ",", numbers[k]);
+  }
+  std::vector<TubeMember> all(members.size());
+  if (starts[0].empty()) return all;
+  const char* const keys[] = {"q[0]", "q[1]", "p[0]", "p[1]"};
+  SweepRequest request{.text = scenario_from(run, "q = [0.01, 1.1], p = [0, 0]"), .name = name_of(run), .zip = true};
+  for (std::size_t k = 0; k < 4; ++k)
+    request.varied.push_back(fmt::format("problem.initial.{}={}", keys[k], starts[k]));
+  const std::vector<TubeMember> further = members_of(study, request);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].done) all[i] = further.at(next++);
+  }
+  return all;
 }
 
 double Spread::standard_error() const { return members > 0 ? deviation / std::sqrt(members) : std::nan(""); }

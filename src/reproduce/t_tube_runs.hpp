@@ -36,6 +36,9 @@ struct TubeMember {
 };
 /// @param varied as in SweepRequest   @throws Stopped
 std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::vector<std::string>& varied);
+/// As many steps more, from where the members ended; their places are kept, and those that were not done are not.
+/// Changes are against the start of these steps.   @throws Stopped
+std::vector<TubeMember> continued(Study& study, const TubeRun& run, const std::vector<TubeMember>& members);
 
 /// Mean and standard deviation of a number of the members that are done.
 struct Spread {

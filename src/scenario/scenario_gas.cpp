@@ -169,7 +169,7 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
   const Texts typed = read_typed_parameters(table);
   if (!phi) return;
   for (const auto& [name, text] : typed) {
-    const auto taken = [&](const OptionInfo& option) { return option.name == name; };
+    const auto taken = [&name = name](const OptionInfo& option) { return option.name == name; };
     for (const OptionInfo& option : all_gas_options()) {
       if (taken(option) || name == GasKeys::radius || name == GasKeys::exponent || name == GasKeys::size ||
           name == GasKeys::inner || name == GasKeys::skin) {

@@ -190,7 +190,7 @@ class TemplateWriter {
     const bool typed_field = problem_.structure.has_value();
     for (const auto& [key, value] : info_.variant) {
       const std::vector<OptionInfo>& typed = central_formula_options();
-      const auto is_this = [&](const OptionInfo& option) { return option.name == key; };
+      const auto is_this = [&key = key](const OptionInfo& option) { return option.name == key; };
       if (typed_field && std::any_of(typed.begin(), typed.end(), is_this)) continue;
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {

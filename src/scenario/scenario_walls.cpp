@@ -197,7 +197,8 @@ void ScenarioReader::check_walls() {
   const auto refuse = [&](const std::string& why) {
     table.complain(
         table.has(keys.wall_rule.name) || !table.has(keys.walls.name) ? keys.wall_rule.name : keys.walls.name,
-        "found \"" + rule_of_walls(request) + "\" " + why);
+        "found \"" + rule_of_walls(request) + (table.has(keys.wall_rule.name) ? "\" " : "\", the default here, ") +
+            why);
   };
   const std::string why_not = refused_by_walls(request, *scenario_.problem, scenario_.start_q);
   if (!why_not.empty()) return refuse(why_not);

@@ -136,10 +136,13 @@ Vary parse_vary(const std::string& text) {
     throw Error("found n = " + trimmed(range[2]) + " in \"" + text + "\"; allowed a whole number from 1 to 10000000");
   }
   const auto n = static_cast<std::size_t>(count);
+  const double step = n > 1 ? (b - a) / static_cast<double>(n - 1) : 0;
+  const bool is_whole = a == std::floor(a) && step == std::floor(step);
   for (std::size_t i = 0; i < n; ++i) {
-    // Both ends are met exactly.
-    const double part = n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0;
-    const double x = i + 1 == n && n > 1 ? b : a + (b - a) * part;
+    // Both ends are met exactly, and whole numbers for keys that take no others.
+    const auto k = static_cast<double>(i);
+    const double between = is_whole ? a + step * k : a + (b - a) * (n > 1 ? k / static_cast<double>(n - 1) : 0);
+    const double x = i + 1 == n && n > 1 ? b : between;
     if (!std::isfinite(x)) throw Error("found a range too wide for double in \"" + text + "\"");
     vary.numbers.push_back(x);
     vary.texts.push_back(shortest(x));

@@ -32,11 +32,11 @@ template <class Take>
 void for_each_symplectic_defect_along(const std::vector<std::vector<double>>& m,
                                       const std::vector<std::vector<double>>& directions, Take take) {
   const std::size_t n = m.size() / 2;
-  std::vector<std::vector<double>> moved;
+  std::vector<std::vector<double>> images;
   for (const auto& b : directions) {
-    moved.emplace_back(2 * n);
+    images.emplace_back(2 * n);
     for (std::size_t i = 0; i < 2 * n; ++i) {
-      for (std::size_t j = 0; j < 2 * n; ++j) moved.back()[i] += m[i][j] * b[j];
+      for (std::size_t j = 0; j < 2 * n; ++j) images.back()[i] += m[i][j] * b[j];
     }
   }
   for (std::size_t a = 0; a < directions.size(); ++a) {
@@ -51,7 +51,7 @@ void for_each_symplectic_defect_along(const std::vector<std::vector<double>>& m,
           terms += std::abs(left) + std::abs(right);
         }
       };
-      form(moved[a], moved[b], 1);
+      form(images[a], images[b], 1);
       form(directions[a], directions[b], -1);
       take(std::abs(value), terms);
     }

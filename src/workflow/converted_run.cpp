@@ -18,7 +18,6 @@
 namespace hamflow {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 class ConvertedRun::Impl {
  public:
@@ -79,7 +78,10 @@ class ConvertedRun::Impl {
   }
   std::string json() const {
     if (!digits_.t.empty()) {
-      Json all{{"coordinates", to_}, {"t", digits_.t}, {"q", Json::array()}, {"p", Json::array()}};
+      nlohmann::ordered_json all{{"coordinates", to_},
+                                 {"t", digits_.t},
+                                 {"q", nlohmann::ordered_json::array()},
+                                 {"p", nlohmann::ordered_json::array()}};
       for (std::size_t k = 0; k < digits_.t.size(); ++k) {
         all["q"].push_back(digits_at(k).q);
         all["p"].push_back(digits_at(k).p);
@@ -87,7 +89,10 @@ class ConvertedRun::Impl {
       all["energy"] = digits_.energy;
       return json_text(all);
     }
-    Json all{{"coordinates", to_}, {"t", samples_.t}, {"q", Json::array()}, {"p", Json::array()}};
+    nlohmann::ordered_json all{{"coordinates", to_},
+                               {"t", samples_.t},
+                               {"q", nlohmann::ordered_json::array()},
+                               {"p", nlohmann::ordered_json::array()}};
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       all["q"].push_back(state_at(k).q);
       all["p"].push_back(state_at(k).p);

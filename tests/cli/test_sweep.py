@@ -278,6 +278,12 @@ steps = 333
         self.hamflow("sweep", "k.toml", "--vary", "problem.k=1")
         self.assertTrue((self.folder / "k.sweep" / "sweep.h5").exists())
 
+    def test_a_range_of_whole_numbers_has_no_others(self):
+        """1 + 22 (15/22) is no whole number in double."""
+        self.write("k.toml", KEPLER)
+        done = self.hamflow("sweep", "k.toml", "--vary", "run.steps=1:23:23", "--out", "none", "--json", "--quiet")
+        self.assertEqual([row["run.steps"] for row in json.loads(done.stdout)["rows"]], list(range(1, 24)))
+
     def test_errors(self):
         self.write("k.toml", KEPLER)
         cases = {

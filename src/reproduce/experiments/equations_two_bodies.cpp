@@ -144,7 +144,7 @@ void of_closed_orbit(Study& study) {
   const auto off = [](double b) { return radial_period(b)[0] - 10 * pi / 9; };
   const double b = bracketed_root(off, 1.5, 8, off(1.5), off(8));
   const auto [angle, time] = radial_period(b);
-  const auto run = [&](const char* name, const char* method) {
+  const auto run = [&, &time = time](const char* name, const char* method) {
     return study.run(name,
                      scenario(fmt::format("potential = \"linear\"\nk = 1\norbit = {{ kind = \"bounded\", r_per = 1, "
                                           "r_aph = {:.17g} }}",

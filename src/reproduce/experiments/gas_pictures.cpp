@@ -111,7 +111,7 @@ void square(Study& study) {
   run = {.side = 21, .steps = study.sized(300, 12000, 12000), .record_every = study.sized(5, 50, 20)};
   const Trajectory path = study.try_run("tracks", gas_scenario(run));
   std::vector<Places> tracks;
-  for (const std::size_t particle : {0, 110, 220, 330, 440}) {
+  for (std::size_t particle = 0; particle < 441; particle += 110) {
     Places track{"", {}, blue, 7};
     for (std::size_t k = 0; k < path.size(); ++k) {
       track.xy.push_back(path.q[k][2 * particle]);

@@ -61,10 +61,12 @@ struct Changes {
 };
 /// On a grid of 1 % around Q1 = 0.01: neighbours part within some bounces where the motion is chaotic.
 Changes changes_of(Study& study, TubeRun run, int members) {
-  const auto spread = [&] {
+  run.steps /= 2;
+  const auto first = ensemble(study, run, {fmt::format("problem.initial.q[0]=0.0099:0.0101:{}", members)});
+  const auto later = continued(study, run, first);
+  const auto spread = [](const std::vector<TubeMember>& all) {
     std::vector<double> a, b, both;
-    for (const TubeMember& member :
-         ensemble(study, run, {fmt::format("problem.initial.q[0]=0.0099:0.0101:{}", members)})) {
+    for (const TubeMember& member : all) {
       if (!member.done) continue;
       a.push_back(member.change1);
       b.push_back(member.change2);
@@ -72,9 +74,13 @@ Changes changes_of(Study& study, TubeRun run, int members) {
     }
     return Changes{spread_of(a), spread_of(b), spread_of(both)};
   };
-  Changes whole = spread();
-  run.steps /= 2;
-  const Changes half = spread();
+  const Changes half = spread(first);
+  std::vector<TubeMember> all = later;
+  for (std::size_t i = 0; i < all.size(); ++i) {  // means of twice as many steps, against the first start
+    all[i].change1 = (first[i].change1 + later[i].kinetic1 + later[i].change1 - first[i].kinetic1) / 2;
+    all[i].change2 = (first[i].change2 + later[i].kinetic2 + later[i].change2 - first[i].kinetic2) / 2;
+  }
+  Changes whole = spread(all);
   whole.moved1 = std::abs(whole.first.mean - half.first.mean);
   whole.moved2 = std::abs(whole.second.mean - half.second.mean);
   return whole;
