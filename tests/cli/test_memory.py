@@ -4,6 +4,7 @@ import json
 import os
 import re
 import resource
+import shutil
 import subprocess
 import time
 import unittest
@@ -41,6 +42,20 @@ class Memory(CommandCase):
 
     def exhausted(self, file, *arguments, begun=STATE):
         """The message of a command that gets no more memory from when the file has so many bytes."""
+        for _ in range(6):
+            status, out, said = self.ended_without_memory(file, *arguments, begun=begun)
+            if status != 3:
+                break
+            # By chance it was a library that writes, or gnuplot, which had none: an error of files, which says how to go on, too.
+            self.assertIn("--resume", said)
+            shutil.rmtree(self.folder / "x")
+        self.assertEqual(status, 1, said)
+        error = json.loads(out)["error"]
+        self.assertEqual(error["kind"], "memory")
+        self.assertEqual(said.splitlines()[-1], "error: " + error["message"])
+        return error["message"]
+
+    def ended_without_memory(self, file, *arguments, begun):
         process = subprocess.Popen([HAMFLOW, *arguments, "--json"], cwd=self.folder, env=os.environ | LARGE, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         end = time.monotonic() + 60
@@ -55,11 +70,7 @@ class Memory(CommandCase):
             time.sleep(0.002)
         resource.prlimit(process.pid, resource.RLIMIT_AS, (min(seen), min(seen)))
         out, said = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 1, said)
-        error = json.loads(out)["error"]
-        self.assertEqual(error["kind"], "memory")
-        self.assertEqual(said.splitlines()[-1], "error: " + error["message"])
-        return error["message"]
+        return process.returncode, out, said
 
     def goes_on(self, command, folder, *arguments):
         """Two steps behind those that were kept, which were some, with the bits of an undisturbed run."""
