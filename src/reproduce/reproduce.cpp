@@ -94,7 +94,14 @@ class Run {
 
   ReproduceReport all() {
     std::vector<std::thread> others;
-    for (std::size_t i = 1; i < number_of_threads(); ++i) others.emplace_back([this] { work(); });
+    for (std::size_t i = 1; i < number_of_threads(); ++i) {
+      try {
+        others.emplace_back([this] { work(); });
+      } catch (const std::exception&) {  // the system gives no more: fewer do the same
+        shared_.go_without(number_of_threads() - i);
+        break;
+      }
+    }
     work();
     for (std::thread& other : others) other.join();
     if (out_of_memory_) throw std::bad_alloc();

@@ -35,6 +35,12 @@ void SharedWork::each(std::size_t count, const std::function<void(std::size_t)>&
   if (job.error) std::rethrow_exception(job.error);
 }
 
+void SharedWork::go_without(std::size_t threads) {
+  const std::lock_guard lock(mutex_);
+  busy_ -= threads;
+  changed_.notify_all();
+}
+
 void SharedWork::help() {
   std::unique_lock lock(mutex_);
   --busy_;

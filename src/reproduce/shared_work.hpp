@@ -20,6 +20,9 @@ class SharedWork {
   /// when all have returned.   @throws what the first piece that failed threw; pieces not begun are left out
   void each(std::size_t count, const std::function<void(std::size_t)>& piece);
 
+  /// So many of the threads were never started.
+  void go_without(std::size_t threads);
+
   /// Takes pieces until every thread has come here.
   void help();
 

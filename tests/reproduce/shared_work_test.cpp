@@ -68,5 +68,11 @@ TEST(SharedWork, APieceThatFailsIsToldToItsOwnerAlone) {
   EXPECT_GE(begun, 4);
 }
 
+TEST(SharedWork, WaitsForNoThreadThatWasNeverStarted) {
+  SharedWork work(3);
+  work.go_without(2);
+  work.help();
+}
+
 }  // namespace
 }  // namespace hamflow::reproduction
