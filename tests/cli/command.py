@@ -37,9 +37,9 @@ class CommandCase(unittest.TestCase):
         (self.folder / name).write_text(text)
         return name
 
-    def hamflow(self, *arguments, status=0):
+    def hamflow(self, *arguments, status=0, env=None):
         """The finished process; its status has to be `status`."""
-        done = subprocess.run([HAMFLOW, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        done = subprocess.run([HAMFLOW, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120, env=env)
         self.assertEqual(done.returncode, status, f"{arguments}\n{done.stdout}\n{done.stderr}")
         return done
 
