@@ -81,6 +81,9 @@ int written_behind_report(const std::function<void()>& files) {
   } catch (const figures::DrawingStopped& error) {
     print_error(error.what());
     return exit_interrupted;
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+    return exit_file;
   } catch (const std::exception& error) {
     print_error(error.what());
     return exit_file;
