@@ -44,8 +44,14 @@ void copy_attribute(hid_t from, hid_t to, const char* name) {
   check_hdf5(H5Awrite(target, type, bytes.data()), std::string("write attribute ") + name);
 }
 
-/// Whose rows are no samples, or states in the coordinates that are left behind.
-constexpr const char* left_out[] = {"q", "p", "scenario", "section", "digits", "events/wall", "events/user"};
+/// What the copy has of its own.
+constexpr const char* written_anew[] = {"q", "p", "scenario", "digits"};
+/// Tables whose rows are no samples, of states in the coordinates that are left behind.
+constexpr const char* left_out[] = {"section", "events/wall", "events/user"};
+
+bool is_one_of(const auto& names, const std::string& path) {
+  return std::find(std::begin(names), std::end(names), path) != std::end(names);
+}
 
 /// One dataset of the source. H5Ocopy would be one call, but crashes on a damaged file, and on a disk that is full.
 struct Source {
@@ -66,6 +72,7 @@ struct Source {
 struct Objects {
   std::vector<std::string> groups;
   std::vector<Source> datasets;
+  std::vector<std::string> tables_left_out;
 };
 
 void collect(hid_t file, const std::string& group, Objects& objects) {
@@ -74,7 +81,11 @@ void collect(hid_t file, const std::string& group, Objects& objects) {
                         "open group " + group);
   for (const std::string& name : names_in(here, false)) {
     const std::string path = group.empty() ? name : group + "/" + name;
-    if (std::find(std::begin(left_out), std::end(left_out), path) != std::end(left_out)) continue;
+    if (is_one_of(written_anew, path)) continue;
+    if (is_one_of(left_out, path)) {
+      objects.tables_left_out.push_back("/" + path);
+      continue;
+    }
     const Hdf5Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
     const H5I_type_t kind = H5Iget_type(object);
     if (objects.groups.size() + objects.datasets.size() > most_objects)
@@ -158,7 +169,8 @@ void write_states(hid_t file, const ConvertedStates& states, std::size_t rows) {
   write_row_numbers(file, "digits/t", type, digits.t, rows, {{"t"}, "time"});
 }
 
-void copy(const std::filesystem::path& source, const std::filesystem::path& target, const ConvertedStates& states) {
+std::vector<std::string> copy(const std::filesystem::path& source, const std::filesystem::path& target,
+                              const ConvertedStates& states) {
   const Hdf5Handle from = open_to_read(source);
   Objects objects;
   collect(from, "", objects);
@@ -180,15 +192,16 @@ void copy(const std::filesystem::path& source, const std::filesystem::path& targ
   write_states(to, states, rows);
   to.close_now("write " + target.string() + " (is the disk full?)");
   whole.put_in_place();
+  return objects.tables_left_out;
 }
 
 }  // namespace
 
-void copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                   const ConvertedStates& states) {
+std::vector<std::string> copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                                       const ConvertedStates& states) {
   silence_hdf5();
   try {
-    copy(source, target, states);
+    return copy(source, target, states);
   } catch (const std::bad_alloc&) {
     throw FileError(source.string() + " cannot be copied: it claims a size that cannot be");
   } catch (const std::length_error&) {

@@ -1,4 +1,5 @@
-// A run.h5 with other coordinates: everything is copied but the scenario, the names of coordinates, /q, /p and /digits.
+// A run.h5 with other coordinates: everything is copied but the scenario, the names of coordinates, /q, /p, /digits and
+// tables of states at other times than those of the samples.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +22,9 @@ struct ConvertedStates {
 };
 
 /// @param source may also be a run that goes on or was cut short   @param target is replaced when it exists
+/// @return the tables of events and sections that are not in the copy: their states are in the coordinates left behind
 /// @throws FileError
-void copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                   const ConvertedStates& states);
+std::vector<std::string> copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                                       const ConvertedStates& states);
 
 }  // namespace hamflow

@@ -125,14 +125,18 @@ class ConvertedRun::Impl {
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
     const std::size_t size = samples_.q.size();
     const StateNames names = state_names(*target_, scenario().request.parameters, size);
-    copy_run_file(file_, target,
-                  {.scenario = text,
-                   .coordinates = names.q,
-                   .momenta = names.p,
-                   .q = samples_.q,
-                   .p = samples_.p,
-                   .digits = digits_,
-                   .digits_length = longest_digits(arithmetic())});
+    const std::vector<std::string> tables = copy_run_file(file_, target,
+                                                          {.scenario = text,
+                                                           .coordinates = names.q,
+                                                           .momenta = names.p,
+                                                           .q = samples_.q,
+                                                           .p = samples_.p,
+                                                           .digits = digits_,
+                                                           .digits_length = longest_digits(arithmetic())});
+    if (!tables.empty()) {
+      note += fmt::format("{}not in {}: {}, states of the run in {} coordinates", note.empty() ? "" : "; ",
+                          target.string(), fmt::join(tables, ", "), from_);
+    }
     return note;
   }
   double turn() const { return turn_; }

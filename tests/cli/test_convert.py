@@ -106,6 +106,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
         self.hamflow("run", "named.toml", "--out", "named.run", "--set", "run.steps=60")
         done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.h5")
         self.assertIn("note: run.events, run.section, output.observables", done.stderr)
+        self.assertIn("note: not in polar.h5: /events/user, /section, states of the run in cartesian coordinates", done.stderr)
         self.hamflow("plot", "polar.h5", "-o", "polar.svg")
         # In the same coordinates all of it is meant as before.
         done = self.hamflow("convert", "named.toml", "--to", "cartesian")
@@ -123,8 +124,9 @@ observables = { d = "sqrt(x^2 + y^2)" }
         self.assert_close([there["final"]["q"][0], there["final"]["q"][3]], back["final"]["q"], units=1e6)
         self.hamflow("run", "there.toml", "--out", "there.run", "--set", "run.steps=30")
         # Observables of the problem are in every chart: nothing of output.observables is left out.
-        self.assertEqual(self.hamflow("convert", "there.run", "--to", "generalised", "-o", "there.h5").stderr.count(
-            "output.observables"), 0)
+        said = self.hamflow("convert", "there.run", "--to", "generalised", "-o", "there.h5").stderr
+        self.assertEqual(said.count("output.observables"), 0)
+        self.assertIn("not in there.h5: /events/wall, states of the run in cartesian coordinates", said)
         rows = self.hamflow("convert", "there.run", "--to", "generalised").stdout.splitlines()
         self.assert_close([float(x) for x in rows[-1].split(",")[1:3]], [there["final"]["q"][0], there["final"]["q"][3]])
 

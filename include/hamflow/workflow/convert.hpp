@@ -40,7 +40,8 @@ class ConvertedRun {
 
   std::string csv() const;
   std::string json() const;
-  /// Writes a run.h5 that has all of the run but its section.   @return what is worth a note, or nothing
+  /// Writes a run.h5 that has all of the run but its sections and tables of events.   @return what is worth a note, or
+  /// nothing
   /// @throws FileError
   std::string write_h5(const std::filesystem::path& target) const;
   /// The largest change between two samples, in radians, of an angle whose whole turns the samples do not show: where
