@@ -26,8 +26,10 @@ constexpr auto faces_of() {
   }
 }
 
+/// What it returns is written down: clang++ 14, where it has to compile f to find out, loses some of what f needs.
 template <class M, std::size_t k, class F>
-auto visit_face(Capability offered, const M& recipe, F&& f) {
+auto visit_face(Capability offered, const M& recipe, F&& f)
+    -> decltype(f.template operator()<faces_of<M>()[k]>(recipe)) {
   constexpr auto faces = faces_of<M>();
   static_assert(M::template accepts<Erased<double, faces[k]>>, "hamflow: a recipe has to accept its faces");
   if constexpr (k + 1 < faces.size()) {
