@@ -198,7 +198,7 @@ std::optional<StagesInLanes> StagesInLanes::recorded(const Traced& problem, cons
         Number next(0);
         for (std::size_t i = 0; i < k; ++i) {
           sum.add(r.numbers[at.factor() + i] * r.of(at.at_end() + a, i));
-          if (i < detail::most_continued) next += r.numbers[at.continuing() + i] * r.of(at.at_end() + a, i);
+          next += r.numbers[at.continuing() + i] * r.of(at.at_end() + a, i);
         }
         r.numbers[at.next() + a] = next;
         high[a] = sum.high;

@@ -47,8 +47,8 @@ struct AverageTable {
 
 namespace detail {
 
-/// Continued over the next step, P_j grows up to 5.8^j times, and the rounding of u_j with it: averages from here on
-/// are not continued.
+/// Continued over the next step, P_j grows up to 5.8^j times, and the rounding of u_j with it: Legendre terms from here
+/// on are not continued.
 inline constexpr int most_continued = 8;
 
 /// What follows from the other coefficients.

@@ -46,7 +46,7 @@ Vector<Real, dynamic> continued(const AverageTable<Real>& table, const Vector<Re
   const auto k = static_cast<std::size_t>(table.averages);
   Vector<Real, dynamic> x(last.size());
   for (std::size_t a = 0; a < x.size(); a += k) {
-    for (std::size_t j = 0; j < k && j < most_continued; ++j) {
+    for (std::size_t j = 0; j < k; ++j) {
       for (std::size_t i = 0; i < k; ++i) x[a + i] += table.next[j * k + i] * last[a + j];
     }
   }
