@@ -100,7 +100,7 @@ StateOf<R> start_of(const Typed& typed, const FormulaFace<R>& problem, const Req
     if (!spec.v.empty()) s.p = ProblemStart<FormulaFace>::template momenta_of<R>(problem, s.q, s.p, model.size());
     return s;
   };
-  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), spec));
+  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(problem, with), request));
 }
 
 std::unique_ptr<Simulation> without_time(const EntryModel& model, std::unique_ptr<Simulation> simulation) {

@@ -218,7 +218,7 @@ GasState<R> start_of(const Gas<R>& gas, const Request& request) {
     for (std::size_t i = 0; !spec.v.empty() && i < s.p.size(); ++i) s.p[i] *= gas.model().masses[i / gas.space()];
     return s;
   };
-  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), spec));
+  return spec.energy.empty() ? with(R(0)) : with(left_to_energy(energy_line(gas, with), request));
 }
 
 /// The texts of a start that has been read are not kept: those of a million particles take as much memory as their

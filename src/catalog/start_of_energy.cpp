@@ -10,6 +10,7 @@
 #include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/numerics/outer_root.hpp"
+#include "soft_energy.hpp"
 
 namespace hamflow {
 
@@ -47,7 +48,15 @@ std::string name_of_open(const StartSpec& spec) {
 }  // namespace
 
 template <class R>
-R left_to_energy(const EnergyLine<R>& line, const StartSpec& spec) {
+R left_to_energy(const EnergyLine<R>& without_walls, const Request& request) {
+  const StartSpec& spec = request.start;
+  EnergyLine<R> line = without_walls;
+  if (const auto walls = walls_among(request.variant)) {
+    const R of_walls = soft_energy<R>(*walls, line.q);
+    // A start beyond a wall, where there is no energy, is refused with the name of the wall.
+    if (is_number(of_walls))
+      line.energy = [&without_walls, of_walls](const R& x) { return R(without_walls.energy(x) + of_walls); };
+  }
   const std::vector<std::string>& given = spec.v.empty() ? spec.p : spec.v;
   const bool largest = std::find(given.begin(), given.end(), largest_root) != given.end();
   const R level = evaluate_number<R>(spec.energy);
@@ -105,9 +114,9 @@ R left_to_energy(const EnergyLine<R>& line, const StartSpec& spec) {
                 "| up to 2^100, but for dips between the points of the search");
 }
 
-template double left_to_energy(const EnergyLine<double>&, const StartSpec&);
-template DoubleDouble left_to_energy(const EnergyLine<DoubleDouble>&, const StartSpec&);
-template Quad left_to_energy(const EnergyLine<Quad>&, const StartSpec&);
-template Mp left_to_energy(const EnergyLine<Mp>&, const StartSpec&);
+template double left_to_energy(const EnergyLine<double>&, const Request&);
+template DoubleDouble left_to_energy(const EnergyLine<DoubleDouble>&, const Request&);
+template Quad left_to_energy(const EnergyLine<Quad>&, const Request&);
+template Mp left_to_energy(const EnergyLine<Mp>&, const Request&);
 
 }  // namespace hamflow

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/run/catalog.hpp"
@@ -18,12 +19,13 @@ struct EnergyLine {
   std::function<R(const R& x)> slope;      // dH/dx
   std::function<R(const R& x)> curvature;  // d^2H/dx^2, as H_pp has it
   bool is_parabola;                        // H is known to be quadratic in x
+  std::vector<R> q;                        // which x does not move
 };
 
-/// The component that a start leaves to the energy.
-/// @throws NoStart when no value has that energy
+/// The component that a start leaves to the energy; soft walls of the request are a term of H.
+/// @param line of the problem without walls   @throws NoStart when no value has that energy
 template <class R>
-R left_to_energy(const EnergyLine<R>& line, const StartSpec& spec);
+R left_to_energy(const EnergyLine<R>& line, const Request& request);
 
 namespace detail {
 
@@ -72,6 +74,7 @@ EnergyLine<R> energy_line(const P& problem, const At& at) {
     return detail::curvature_along(problem, at(x), direction);
   };
   line.is_parabola = QuadraticKinetic<P>;
+  line.q.assign(base.q.begin(), base.q.end());
   return line;
 }
 

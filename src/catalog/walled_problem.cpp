@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "hamflow/run/state_names.hpp"
+#include "soft_energy.hpp"
 
 namespace hamflow {
 
@@ -47,23 +48,6 @@ std::vector<bool> kept_of(const ProblemEntry& problem, const Walls& walls) {
                                [&](const Walls::Interval& wall) { return leaves(problem, invariant, wall); }));
   }
   return kept;
-}
-
-/// V of the soft walls, and its derivatives.
-double soft_energy(const Walls& walls, const std::vector<double>& q) {
-  const auto k = number_value(walls.strength);
-  const auto e = number_value(walls.exponent);
-  double sum = 0;
-  for (const Walls::Interval& wall : walls.intervals) {
-    const double min = number_value(wall.min);
-    const double max = number_value(wall.max);
-    const double w = (max - min) / 2;
-    const double x = (q.at(wall.index) - (min + max) / 2) / w;
-    const double u = 1 - x * x;
-    if (!(u > 0)) return std::numeric_limits<double>::quiet_NaN();
-    sum += e == 1 ? -k * w / 2 * std::log(u) : k * w / (2 * (e - 1)) * std::pow(u, 1 - e);
-  }
-  return sum;
 }
 
 std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
@@ -119,7 +103,7 @@ ProblemEntry entry_behind(const ProblemEntry& problem, const Walls& walls) {
   };
   e.energy = [inner = problem.energy, walls](const Texts& parameters, const std::vector<double>& q,
                                              const std::vector<double>& p) {
-    return inner(parameters, q, p) + soft_energy(walls, q);
+    return inner(parameters, q, p) + soft_energy<double>(walls, q);
   };
   return e;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/walls.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
 
@@ -297,7 +298,9 @@ void ScenarioReader::check_start(TomlTable& table) {
   scenario_.start_p = start.p;
   if (geometric && request.start.kind.empty() && request.start.orbit.contains("energy")) {
     const double wanted = evaluate_number<double>(request.start.orbit.at("energy"));
-    const double found = problem.energy(request.parameters, start.q, start.p);
+    // An orbit is one of the problem without walls.
+    const double found =
+        find_problem(request.problem, without_walls(request.variant)).energy(request.parameters, start.q, start.p);
     double size = std::abs(wanted) + std::abs(found);
     for (const double p : start.p) size += p * p;
     if (!(std::abs(found - wanted) <= 1e-8 * size)) {

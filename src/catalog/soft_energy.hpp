@@ -1,0 +1,33 @@
+// The potential energy of soft walls at a place: what a start of given energy and the energy of a state have of them.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include "hamflow/core/math.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/run/walls.hpp"
+
+namespace hamflow {
+
+/// V = k w/(2 (e - 1)) (1 - x^2)^(1 - e), for e = 1 -(k w/2) ln(1 - x^2), with x = (q - middle)/w of each wall; 0 of
+/// hard walls. NaN where q is on or beyond a wall.
+template <class R, class Q>
+R soft_energy(const Walls& walls, const Q& q) {
+  R sum(0);
+  if (walls.hard()) return sum;
+  const R k = evaluate_number<R>(walls.strength);
+  const R e = evaluate_number<R>(walls.exponent);
+  for (const Walls::Interval& wall : walls.intervals) {
+    const R min = evaluate_number<R>(wall.min);
+    const R max = evaluate_number<R>(wall.max);
+    const R w = (max - min) / R(2);
+    const R x = (q[wall.index] - (min + max) / R(2)) / w;
+    const R u = R(1) - x * x;
+    if (!(u > R(0))) return std::numeric_limits<R>::quiet_NaN();
+    sum += e == R(1) ? R(-k * w / R(2) * log(u)) : R(k * w / (R(2) * (e - R(1))) * pow(u, R(R(1) - e)));
+  }
+  return sum;
+}
+
+}  // namespace hamflow
