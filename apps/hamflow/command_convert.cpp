@@ -41,8 +41,10 @@ void convert_given_state(const ConvertOptions& options) {
         "found neither INPUT nor a whole state; allowed INPUT --to ..., or --from ... --to ... --q ... --p ...");
   }
   if (!options.sets.empty()) throw Error("found --set beside a state; allowed with a scenario");
-  StateConverter convert(options.from, options.to);
-  const CanonicalState state = convert({numbers_of("--q", options.q), numbers_of("--p", options.p)});
+  const CanonicalState given{numbers_of("--q", options.q), numbers_of("--p", options.p)};
+  StateConverter convert(options.from, options.to, given.q.size());
+  const CanonicalState state = convert(given);
+  convert.require_on_constraints(given);
   print(options.json ? state_json(options.to, state) : state_text(state), options.output);
 }
 

@@ -35,15 +35,19 @@ const ProblemEntry* with_coordinates(const std::vector<const ProblemEntry*>& cha
   return found == charts.end() ? nullptr : *found;
 }
 
-/// One problem that has both. @throws Error
-std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::string& from, const std::string& to) {
+/// One problem that has both, with so many coordinates if there is one. @throws Error
+std::pair<const ProblemEntry*, const ProblemEntry*> charts_named(const std::string& from, const std::string& to,
+                                                                 std::size_t size) {
   check_coordinates(from);
   check_coordinates(to);
+  std::pair<const ProblemEntry*, const ProblemEntry*> found{};
   for (const auto& [name, charts] : charted_problems()) {
     const ProblemEntry* const first = with_coordinates(charts, from);
     const ProblemEntry* const second = with_coordinates(charts, to);
-    if (first != nullptr && second != nullptr) return {first, second};
+    if (first == nullptr || second == nullptr) continue;
+    if (found.first == nullptr || (first->dimension == size && found.first->dimension != size)) found = {first, second};
   }
+  if (found.first != nullptr) return found;
   throw Error("found no way from " + from + " to " + to + "; allowed: " + what_charts_there_are());
 }
 
@@ -121,8 +125,18 @@ StateConverter::StateConverter(const ProblemEntry& from, const ProblemEntry& to,
     if (std::find(angles.begin(), angles.end(), to.info.coordinates[i]) != angles.end()) turning_.push_back(i);
   }
 }
-StateConverter::StateConverter(const std::string& from, const std::string& to)
-    : StateConverter(charts_named(from, to)) {}
+StateConverter::StateConverter(const std::string& from, const std::string& to, std::size_t size)
+    : StateConverter(charts_named(from, to, size)) {}
+
+void StateConverter::require_on_constraints(const CanonicalState& state) const {
+  if (!from_->residuals || state.q.size() != from_->dimension || state.p.size() != from_->dimension) return;
+  const auto [position, velocity] = from_->residuals(complete(from_->info, parameters_), state.q, state.p);
+  const std::string allowed = "; allowed at most " + shortest(most_residual_at_start);
+  if (!(position <= most_residual_at_start))
+    throw Error("found a state off the constraints, |g(q)| = " + shortest(position) + allowed);
+  if (!(velocity <= most_residual_at_start))
+    throw Error("found a state that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) + allowed);
+}
 
 CanonicalState StateConverter::operator()(const CanonicalState& state) {
   const std::size_t size = from_->dimension > 0 ? from_->dimension : state.q.size();

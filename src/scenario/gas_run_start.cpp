@@ -2,6 +2,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
@@ -38,8 +39,8 @@ std::vector<hsize_t> shape_of(hid_t file, const std::string& name) {
   return shape;
 }
 
-/// Row `row` of a dataset of any rank; nothing where it cannot be read.
-std::vector<double> row_of(hid_t file, const std::string& name, hsize_t row) {
+/// Row `row` of a dataset of any rank, in a type of memory; nothing where it cannot be read.
+std::vector<char> bytes_of(hid_t file, const std::string& name, hsize_t row, hid_t type) {
   std::vector<hsize_t> count = shape_of(file, name);
   if (count.empty() || row >= count[0]) return {};
   std::vector<hsize_t> first(count.size(), 0);
@@ -50,10 +51,44 @@ std::vector<double> row_of(hid_t file, const std::string& name, hsize_t row) {
   const Open data(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   const Open space(H5Dget_space(data.id), H5Sclose);
   const Open memory(H5Screate_simple(1, &width, nullptr), H5Sclose);
-  std::vector<double> numbers(width);
+  std::vector<char> bytes(width * H5Tget_size(type));
   const bool read = H5Sselect_hyperslab(space.id, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr) >= 0 &&
-                    H5Dread(data.id, H5T_NATIVE_DOUBLE, memory.id, space.id, H5P_DEFAULT, numbers.data()) >= 0;
-  return read ? numbers : std::vector<double>();
+                    H5Dread(data.id, type, memory.id, space.id, H5P_DEFAULT, bytes.data()) >= 0;
+  return read ? bytes : std::vector<char>();
+}
+
+std::vector<double> row_of(hid_t file, const std::string& name, hsize_t row) {
+  const std::vector<char> bytes = bytes_of(file, name, row, H5T_NATIVE_DOUBLE);
+  std::vector<double> numbers(bytes.size() / sizeof(double));
+  if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return numbers;
+}
+
+/// Texts of fixed length, without what fills them.
+std::vector<std::string> texts_of(hid_t file, const std::string& name, hsize_t row) {
+  if (shape_of(file, name).empty()) return {};
+  const Open data(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Open type(H5Dget_type(data.id), H5Tclose);
+  if (H5Tget_class(type.id) != H5T_STRING || H5Tis_variable_str(type.id) != 0) return {};
+  const std::vector<char> bytes = bytes_of(file, name, row, type.id);
+  const std::size_t length = H5Tget_size(type.id);
+  std::vector<std::string> texts;
+  for (std::size_t at = 0; at < bytes.size(); at += length) {
+    const std::string text(bytes.data() + at, length);
+    texts.push_back(text.substr(0, text.find_first_of(std::string(" \0", 2))));
+  }
+  return texts;
+}
+
+/// The numbers of a state: of a run beyond double with all digits.
+/// @param digits where they stand, if the run has some
+std::vector<std::string> numbers_of(hid_t file, const std::string& name, const std::string& digits, hsize_t row) {
+  std::vector<std::string> texts = texts_of(file, digits, row);
+  const std::vector<double> numbers = row_of(file, name, row);
+  if (texts.size() == numbers.size()) return texts;
+  texts.clear();
+  for (const double x : numbers) texts.push_back(shortest(x));
+  return texts;
 }
 
 /// Where a state of so many numbers stands.
@@ -115,8 +150,9 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
                 std::to_string(space) + " for each particle");
   }
   GasStart start;
-  for (const double x : row_of(h5.id, place.q, place.row)) start.q.push_back(shortest(x));
-  for (const double x : row_of(h5.id, place.p, place.row)) start.p.push_back(shortest(x));
+  const bool sampled = place.q.find("start") == std::string::npos;
+  start.q = numbers_of(h5.id, place.q, sampled ? "digits/q" : "", place.row);
+  start.p = numbers_of(h5.id, place.p, sampled ? "digits/p" : "", place.row);
   if (start.q.size() != place.numbers || start.p.size() != place.numbers) {
     throw Error("found samples in " + file.string() + " that cannot be read; allowed a whole run.h5");
   }

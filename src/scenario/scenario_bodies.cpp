@@ -6,6 +6,38 @@
 
 namespace hamflow {
 
+namespace {
+
+/// The texts of the numbers of a body.
+struct BodyTexts {
+  std::string mass, position[3], velocity[3];
+};
+
+/// The planar start, as expressions in the numbers given: beyond double their digits count. With r and v the relative
+/// position and velocity it is (|r|, 0), mu (r v, |r x v|)/|r|, in polar coordinates (|r|, 0), (mu r v/|r|, mu |r x
+/// v|).
+StartSpec in_any_digits(const BodyTexts& first, const BodyTexts& second, const std::string& mu, bool polar) {
+  std::string r[3], v[3], rr, rv, cc;
+  for (std::size_t k = 0; k < 3; ++k) {
+    r[k] = "((" + second.position[k] + ")-(" + first.position[k] + "))";
+    v[k] = "((" + second.velocity[k] + ")-(" + first.velocity[k] + "))";
+    rr += (k > 0 ? "+" : "") + r[k] + "*" + r[k];
+    rv += (k > 0 ? "+" : "") + r[k] + "*" + v[k];
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const std::string c = "(" + r[i] + "*" + v[j] + "-" + r[j] + "*" + v[i] + ")";
+    cc += (k > 0 ? "+" : "") + c + "*" + c;
+  }
+  const std::string length = "sqrt(" + rr + ")";
+  StartSpec start;
+  start.q = {length, "0"};
+  start.p = {mu + "*(" + rv + ")/" + length, mu + "*sqrt(" + cc + ")" + (polar ? "" : "/" + length)};
+  return start;
+}
+
+}  // namespace
+
 /// Two bodies in space, reduced to a planar state.
 void ScenarioReader::read_bodies(TomlTable& table) {
   if (!table.has_any("bodies")) {
@@ -19,19 +51,19 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   if (!tables) return;
   const std::size_t before = complaints_.size();
   Body bodies[2];
-  std::string masses[2];
+  BodyTexts texts[2];
   for (std::size_t i = 0; i < 2; ++i) {
     TomlTable& body = (*tables)[i];
     if (const auto mass = body.text({.name = "mass", .range = Range::positive, .required = true})) {
       bodies[i].mass = number_value(*mass);
-      masses[i] = *mass;
+      texts[i].mass = *mass;
     }
-    const auto read_vector = [&](const char* key, Vector<double, 3>& out) {
+    const auto read_vector = [&](const char* key, Vector<double, 3>& out, std::string* given) {
       const auto values = body.numbers(list_key(key, 3));
-      for (std::size_t k = 0; values && k < 3; ++k) out[k] = number_value((*values)[k]);
+      for (std::size_t k = 0; values && k < 3; ++k) out[k] = number_value(given[k] = (*values)[k]);
     };
-    read_vector("position", bodies[i].position);
-    read_vector("velocity", bodies[i].velocity);
+    read_vector("position", bodies[i].position, texts[i].position);
+    read_vector("velocity", bodies[i].velocity, texts[i].velocity);
     body.finish();
   }
   if (complaints_.size() != before) return;
@@ -41,7 +73,8 @@ void ScenarioReader::read_bodies(TomlTable& table) {
   }
   scenario_.bodies = TwoBodies(bodies[0], bodies[1]);
   Request& request = scenario_.request;
-  request.parameters["mass"] = "(" + masses[0] + ")*(" + masses[1] + ")/((" + masses[0] + ")+(" + masses[1] + "))";
+  const std::string &m1 = texts[0].mass, &m2 = texts[1].mass;
+  request.parameters["mass"] = "(" + m1 + ")*(" + m2 + ")/((" + m1 + ")+(" + m2 + "))";
   const Start<double, 2>& plane = scenario_.bodies->start();
   const double mu = scenario_.bodies->reduced_mass();
   const double sum = mu + plane.q[0] + plane.p[0] + plane.p[1];
@@ -52,6 +85,8 @@ void ScenarioReader::read_bodies(TomlTable& table) {
     scenario_.bodies.reset();
     return;
   }
+  const bool polar = static_cast<bool>(scenario_.problem->from_reference);
+  start_of_bodies_ = in_any_digits(texts[0], texts[1], "(" + request.parameters["mass"] + ")", polar);
   Frame start;
   start.q.assign(plane.q.begin(), plane.q.end());
   start.p.assign(plane.p.begin(), plane.p.end());

@@ -65,6 +65,10 @@ void ScenarioReader::read_observables(TomlTable& output) {
     taken.insert(taken.end(), names.q.begin(), names.q.end());
     taken.insert(taken.end(), names.p.begin(), names.p.end());
     for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
+    for (std::size_t i = 1; i <= scenario_.start_q.size(); ++i) {  // of trajectory.csv
+      taken.push_back("q" + std::to_string(i));
+      taken.push_back("p" + std::to_string(i));
+    }
   }
   for (const std::string& name : table.keys()) {
     constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";

@@ -108,6 +108,7 @@ class ScenarioReader {
   std::string file_method_;
   const toml::table& document_;
   std::string no_start_;
+  StartSpec start_of_bodies_;  // as numbers that any arithmetic works out
   Scenario scenario_;
 };
 

@@ -74,6 +74,10 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     return;
   }
   scenario_.request.arithmetic = *name;
+  if (scenario_.bodies && digits_beyond_double(*name) > 0) {
+    scenario_.request.start.q = start_of_bodies_.q;
+    scenario_.request.start.p = start_of_bodies_.p;
+  }
   const std::string why_not = has_method() ? refusal(scenario_.request.method, *name) : "";
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
 }

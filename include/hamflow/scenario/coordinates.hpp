@@ -35,10 +35,12 @@ class StateConverter {
   /// Two entries of one problem that differ in their chart alone.
   /// @param parameters of the problem; missing ones take their defaults
   StateConverter(const ProblemEntry& from, const ProblemEntry& to, const Texts& parameters = {});
-  /// By name, for any problem that has both. @throws Error when there is none
-  StateConverter(const std::string& from, const std::string& to);
+  /// By name, for any problem that has both; one of so many coordinates before others. @throws Error when there is none
+  StateConverter(const std::string& from, const std::string& to, std::size_t size = 0);
   /// @throws Error where a chart does not reach, for polar coordinates at r = 0, and for a state of another size
   CanonicalState operator()(const CanonicalState& state);
+  /// @throws Error with the residual, for a state off the constraints of its chart, or whose motion leaves them
+  void require_on_constraints(const CanonicalState& state) const;
   /// The coordinates, by their places in q, whose whole turns the states before do not show.
   const std::vector<std::size_t>& turning() const { return turning_; }
   /// The largest change of such an angle between two states met so far. Beyond pi turns may have been missed, so a
