@@ -33,6 +33,7 @@
 #include "hamflow/core/radial_forces.hpp"
 #include "hamflow/core/short_array.hpp"
 #include "hamflow/core/step_clock.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"

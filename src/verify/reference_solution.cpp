@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
@@ -114,7 +115,7 @@ class ReferenceRun::Impl {
     full.kernel = "exact";
     full.threads = 1;
     // Pieces cut sub-steps short: fewer of them than sub-steps, which are some hundred steps long. However long the run
-    // is, a piece is no longer than 800 steps, since only between pieces it can be stopped.
+    // is, a piece is no longer than 800 steps, since Taylor series are stopped only between pieces.
     pieces_ = std::max<std::int64_t>(steps / 800, 16);
     // Behind hard walls the motion itself is that of located bounces, whatever the rule of the run; steps as short as
     // those of the run tell where it turns.
@@ -140,10 +141,12 @@ class ReferenceRun::Impl {
     arithmetic_ = full.arithmetic;
   }
 
-  void advance() {
+  void advance(const std::function<bool()>& goes_on) {
+    const StopQuestion question(goes_on);
     for (Simulation* one : {first_.get(), second_.get()}) {
       if (one == nullptr) continue;
       const Outcome outcome = one->advance(1);
+      if (outcome == Outcome::stopped) return;
       if (outcome != Outcome::done) {
         const std::string why = one->failure().empty() ? std::string(message(outcome)) : one->failure();
         Frame frame;
@@ -199,7 +202,7 @@ class ReferenceRun::Impl {
 ReferenceRun::ReferenceRun(const Request& request, const std::string& t_end, std::int64_t steps)
     : impl_(std::make_unique<Impl>(request, t_end, steps)) {}
 ReferenceRun::~ReferenceRun() = default;
-void ReferenceRun::advance() { impl_->advance(); }
+void ReferenceRun::advance(const std::function<bool()>& goes_on) { impl_->advance(goes_on); }
 double ReferenceRun::part() const { return impl_->part(); }
 const ReferenceSolution& ReferenceRun::solution() const { return impl_->solution(); }
 

@@ -37,6 +37,19 @@ class Arithmetic(CommandCase):
                 self.assertLess(s["energy"]["max_relative_error"], bound, arithmetic)
                 self.assertGreater(s["certificate"]["energy_level"], 0)  # differences are formed in all digits
 
+    def test_two_bodies_begin_with_all_digits(self):
+        self.write("bodies.toml", '[problem]\nname = "central-force"\npotential = "kepler"\nbodies = ['
+                   '{ mass = "0.1", position = ["0.1", 0, 0.5], velocity = [0, "0.1", 0] }, '
+                   '{ mass = "0.3", position = ["1.4", 0, 0.5], velocity = [0, "0.4", "0.4"] }]\n'
+                   '[method]\nname = "cg"\n[run]\ndt = "0.01"\nsteps = 0\n')
+        # mu = 0.075, r = 1.3, v = 0.5 across it.
+        for arithmetic, rounding in (("double-double", "1e-30"), ("quad", "1e-32"), ("mp(40)", "1e-39")):
+            for coordinates, momentum in (("cartesian", "0.0375"), ("polar", "0.04875")):
+                s = self.summary("bodies.toml", "--set", f"run.arithmetic={arithmetic}", "--set",
+                                 f"problem.coordinates={coordinates}")["final"]
+                for found, wanted in zip(s["q"] + s["p"], ("1.3", "0", "0", momentum)):
+                    self.assertLess(abs(Decimal(found) - Decimal(wanted)), 4 * Decimal(rounding), (arithmetic, coordinates))
+
     def test_invariants_have_all_digits(self):
         common = ("method.name=verlet", "run.steps=20", "run.dt=0.05")
         exact = Decimal(3).sqrt()  # sqrt(2 mass k r_per r_aph/(r_per + r_aph))

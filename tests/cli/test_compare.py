@@ -397,6 +397,18 @@ steps = 40
         self.assertIn("reference: none", out)
         self.assertNotIn("uncertain by", out)
 
+    def test_a_reference_of_many_bodies_stops_within_a_step(self):
+        """Of so many a sub-step takes minutes."""
+        self.write("gas.toml", '[problem]\nname = "gas"\nparticles_per_side = 71\ncutoff = 2\n'
+                   'container = { kind = "none" }\n[method]\nname = "verlet"\n[run]\ndt = 1e-5\nsteps = 2\n')
+        process = subprocess.Popen([HAMFLOW, "compare", "gas.toml", "--methods", "verlet", "--json"], cwd=self.folder,
+                                   stdout=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.send_signal(signal.SIGTERM)
+        out, _ = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(json.loads(out)["status"], "interrupted")
+
     def test_the_digits_of_a_reference_are_right_to_its_uncertainty(self):
         own = ["--methods", "rk4", "--dt", "0.125", "--set", "run.dt=0.125", "--set",
                "problem.initial={q=[0.0,0.125],p=[0.4375,0.125]}"]

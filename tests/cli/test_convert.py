@@ -53,6 +53,11 @@ class Convert(CommandCase):
         text = self.hamflow("convert", "--from", "cartesian", "--to", "polar", "--q", "-1,0", "--p", "0,1/3").stdout
         self.assertEqual(text, f"q = [1, {math.pi:.17g}]\np = [0, {-1 / 3:.17g}]\n")
 
+    def test_the_problem_is_the_one_with_as_many_coordinates(self):
+        for q, p, wanted in (("0.5", "1", [math.sin(0.5), -math.cos(0.5)]), ("0.01,1.1", "1,100", [0.01, 0, 0, 1.1])):
+            s = json.loads(self.hamflow("convert", "--from", "generalised", "--to", "cartesian", "--q", q, "--p", p, "--json").stdout)
+            self.assert_close(s["q"], wanted)
+
     def test_round_trips_of_states(self):
         numbers = random.Random(1999)
         for a, b in (("cartesian", "polar"), ("absolute", "relative")):
@@ -246,6 +251,9 @@ observables = { d = "sqrt(x^2 + y^2)" }
             (["--from", "polar", "--to", "cartesian", "--q", "0,1", "--p", "0,1"], "r = 0"),
             (["--from", "cartesian", "--to", "polar", "--q", "1", "--p", "0,1"], "1 coordinates and 2 momenta"),
             (["--from", "cartesian", "--to", "polar", "--q", "1,x", "--p", "0,1"], "--q: found '1,x'"),
+            (["--from", "cartesian", "--to", "generalised", "--q", "0,-2", "--p", "1,0"], "off the constraints, |g(q)| = 3"),
+            (["--from", "cartesian", "--to", "generalised", "--q", "0,-1", "--p", "1,5"], "leaves the constraints"),
+            (["--from", "cartesian", "--to", "absolute", "--q", "0,-1,0,-7", "--p", "1,0,0,3"], "off the constraints"),
             (["kepler.toml", "--from", "cartesian", "--to", "polar"], "allowed one of them"),
             (["kepler.toml", "--to", "polar", "-o", "kepler.toml"], "the input itself"),
             (["bad.toml", "--to", "polar"], "bad.toml:2:8: error: problem.name"),

@@ -514,6 +514,10 @@ section = { coordinate = "p_x", direction = 0 }
         ):
             text = self.hamflow("run", "b.toml", "--set", f"output.observables={value}", "--out", "none", status=2).stderr
             self.assertIn(words, text, value)
+        # trajectory.csv calls its columns so, whatever the names of the coordinates are.
+        for name in ("q1", "p2"):
+            text = self.hamflow("run", "kepler.toml", "--set", f"output.observables={{ {name} = 'x' }}", "--out", "none", status=2)
+            self.assertIn(f"found the name {name}, which a column of every run has", text.stderr)
 
     def test_let_and_sum_in_varied_values(self):
         rows = json.loads(self.hamflow("sweep", "b.toml", "--vary", "problem.lambda=0.5,1", "--vary",

@@ -116,6 +116,14 @@ class Gas(CommandCase):
         self.write("on.toml", (GAS % 'start = "file"\nfile = "gas.run/run.h5"').replace("steps = 20", "steps = 0"))
         s = self.summary("on.toml")
         self.assertEqual((s["final"]["q"], s["final"]["p"]), (end["q"], end["p"]))
+        # Beyond double with all digits.
+        quad = ("--set", "run.arithmetic=quad")
+        self.hamflow("run", "gas.toml", *quad, "--force")
+        end = json.loads((self.folder / "gas.run/summary.json").read_text())["final"]
+        s = self.summary("on.toml", *quad)
+        self.assertGreater(len(end["q"][0]), 30)
+        self.assertEqual((s["final"]["q"], s["final"]["p"]), (end["q"], end["p"]))
+        self.hamflow("run", "gas.toml", "--force")
         self.write("on.toml", GAS % 'start = "file"\nfile = "gas.run/run.h5"\ndimension = 3')
         self.assertIn("3 for each particle", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)
         (self.folder / "gas.run/run.h5").write_bytes(b"no file")

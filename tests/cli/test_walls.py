@@ -271,6 +271,25 @@ steps = 10
         self.assertLess(errors["cg(3,auto)"], 1e-6)
 
 
+    def test_a_start_of_given_energy_counts_soft_walls(self):
+        soft = ('[problem]\nname = "harmonic"\nwalls = [{ coordinate = "q", min = -2, max = 1.5 }]\nwall_rule = "soft"\n'
+                'strength = 0.1\ninitial = { q = [0.4], %s = ["+"], energy = 3 }\n[method]\nname = "verlet"\n'
+                "[run]\ndt = 0.01\nsteps = 0\n")
+        for momenta in ("p", "v"):
+            name = self.write("soft.toml", soft % momenta)
+            for arithmetic, rounding in (("double", 1e-15), ("double-double", 1e-30), ("quad", 1e-32), ("mp(40)", 1e-39)):
+                energy = self.summary(name, "--set", f"run.arithmetic={arithmetic}")["energy"]["initial"]
+                self.assertLess(abs(decimal.Decimal(energy) - 3), 4 * rounding, arithmetic)
+        rows = json.loads(self.hamflow("sweep", name, "--vary", "problem.initial.energy=0.1,1", "--out", "none", "--json").stdout)["rows"]
+        self.assertEqual([row["status"] for row in rows], ["no_start", "done"])  # V is 0.18 there
+        self.assertIn("beyond", self.hamflow("run", name, "--out", "none", "--set", "problem.initial.q=[1.6]", status=2).stderr)
+        # An orbit by energy and angular momentum is one of the problem without walls.
+        orbit = self.write("orbit.toml", '[problem]\nname = "central-force"\npotential = "kepler"\n'
+                           "orbit = { energy = -0.3, angular_momentum = 1 }\n"
+                           'walls = [{ coordinate = "x", min = -4, max = 4 }]\nwall_rule = "soft"\n'
+                           '[method]\nname = "verlet"\n[run]\ndt = 0.01\nsteps = 0\n')
+        self.assertGreater(self.summary(orbit)["energy"]["initial"], -0.3)
+
     def test_soft_walls_have_a_series_and_a_reference(self):
         """They are a term of H like others: the reference of compare is a Taylor series with that term."""
         name = self.box('[{ coordinate = "q1", min = -2, max = 2 }, { coordinate = "q2", min = -2, max = 1 }]', "stv4",

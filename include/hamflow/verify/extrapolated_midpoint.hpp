@@ -18,6 +18,7 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/methods/substeps.hpp"
 
 namespace hamflow {
@@ -51,7 +52,7 @@ class ExtrapolatedMidpointMethod {
   }
   Effort effort() const { return Separable<P> ? Effort{.force = evaluations_} : Effort{.gradient = evaluations_}; }
 
-  /// From z to Psi_h(z). Leaves z where it is when it fails.
+  /// From z to Psi_h(z). Leaves z where it is when it fails, or is stopped (StopQuestion).
   Outcome step(const P& problem, const Real& h, PhasePoint<A, n>& z) {
     const PhasePoint<A, n> start = z;
     const double whole = std::fabs(static_cast<double>(h));
@@ -69,6 +70,11 @@ class ExtrapolatedMidpointMethod {
           return Outcome::not_converged;
         }
         const double error = attempt(problem, part == 1 ? h : exact_number<Real>(part) * h);
+        if (stopped_) {
+          stopped_ = false;
+          z = start;
+          return Outcome::stopped;
+        }
         // Not a number: the sub-step left the domain of H.
         const double growth = 0.8 * std::pow(error, -1.0 / (2 * columns_ - 1));
         proposal = part * (growth > 4 ? 4 : growth > 0.1 ? growth : 0.1);
@@ -151,13 +157,14 @@ class ExtrapolatedMidpointMethod {
     Change rate;
     combine(before, h, first_, now);
     for (int k = 1; k < parts; ++k) {
-      if (is_astray(now)) break;
+      stopped_ = StopQuestion::answered();
+      if (stopped_ || is_astray(now)) break;
       rate_at(problem, now, rate);
       combine(before, Real(2) * h, rate, after);
       before = now;
       now = after;
     }
-    if (is_astray(now)) {
+    if (stopped_ || is_astray(now)) {
       astray_ = true;
       return now;
     }
@@ -216,6 +223,7 @@ class ExtrapolatedMidpointMethod {
   std::vector<Change> row_;
   double far_ = 0;
   bool astray_ = false;
+  bool stopped_ = false;
   double proposed_ = 0;
   long long evaluations_ = 0;
 };

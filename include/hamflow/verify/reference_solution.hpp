@@ -44,8 +44,9 @@ class ReferenceRun {
   ReferenceRun(const ReferenceRun&) = delete;
   ReferenceRun& operator=(const ReferenceRun&) = delete;
 
-  /// One piece more. @throws Error when the motion cannot be followed to the end
-  void advance();
+  /// One piece more. @param goes_on asked a few times a second within a piece that takes long: false stops it where it
+  /// is, and nothing goes on from there   @throws Error when the motion cannot be followed to the end
+  void advance(const std::function<bool()>& goes_on = [] { return true; });
   bool finished() const { return part() >= 1; }
   /// In [0, 1].
   double part() const;
