@@ -1,5 +1,6 @@
 """Walls: what a run counts and records, what goes on with it, and what is refused with the reason."""
 
+import decimal
 import json
 import math
 import os
