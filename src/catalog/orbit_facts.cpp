@@ -1,4 +1,6 @@
 // What the effective potential tells, as entries of a summary.
+#include <limits>
+
 #include "hamflow/problems/support/central_force.hpp"
 
 namespace hamflow {
@@ -14,10 +16,9 @@ OrbitFacts facts_of(const CentralOrbit& orbit) {
   number("apsidal_angle", orbit.apsidal_angle);
   number("radial_period", orbit.radial_period);
   facts.emplace_back("closed", orbit.closed);
-  if (orbit.closed) {
-    number("revolutions", orbit.revolutions);
-    number("radial_periods", orbit.radial_periods);
-  }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();  // null in the summary
+  number("revolutions", orbit.closed ? orbit.revolutions : none);
+  number("radial_periods", orbit.closed ? orbit.radial_periods : none);
   facts.emplace_back("falls_into_centre", orbit.falls_into_centre);
   return facts;
 }

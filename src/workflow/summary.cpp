@@ -223,6 +223,7 @@ Json orbit_of(const Scenario& scenario) {
   for (const auto& [name, value] :
        scenario.problem->describe_orbit(scenario.request.parameters, scenario.start_q, scenario.start_p)) {
     std::visit([&, key = name](const auto& x) { facts[key] = x; }, value);
+    if (name == "type") facts["conic"] = nullptr;  // where none follows
   }
   return facts;
 }

@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 std::string orbit_text(const Json& orbit) {
   std::string text = orbit["type"].get<std::string>();
-  if (orbit.contains("conic")) text += " (" + orbit["conic"].get<std::string>() + ")";
+  if (!orbit["conic"].is_null()) text += " (" + orbit["conic"].get<std::string>() + ")";
   const auto number = [&](const char* key) { return number_text(orbit[key], "{:.6g}"); };
   const bool bounded = !orbit["r_max"].is_null() && std::isfinite(orbit["r_max"].get<double>());
   text += fmt::format(", r = {} .. {}, apsidal angle {}", number("r_min"), bounded ? number("r_max") : "inf",

@@ -43,6 +43,7 @@ class Problems(CommandCase):
         s = self.run_text('name="central-force"\npotential="kepler"\norbit={kind="ellipse",r_per=1,r_aph=3}', steps=0)
         orbit = s["orbit"]
         self.assertEqual((orbit["type"], orbit["conic"], orbit["closed"]), ("bounded closed", "ellipse", True))
+        self.assertEqual((orbit["revolutions"], orbit["radial_periods"]), (1, 1))
         self.assertAlmostEqual(orbit["r_max"], 3, delta=32 * EPSILON)  # E and l are rounded
         self.assertAlmostEqual(orbit["apsidal_angle"], math.pi, delta=64 * EPSILON)
         self.assertAlmostEqual(orbit["circular_radius"], 1.5, delta=64 * EPSILON)
