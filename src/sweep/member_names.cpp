@@ -91,7 +91,8 @@ SweepNames::Clash SweepNames::unite() {
   const auto differs = [this](const Kind& kind) {
     return kind.names.state.q != state_.q || kind.names.state.p != state_.p;
   };
-  if (std::any_of(kinds_.begin(), kinds_.end(), differs)) state_ = numbered_names(state_.q.size());
+  same_state_ = std::none_of(kinds_.begin(), kinds_.end(), differs);
+  if (!same_state_) state_ = numbered_names(state_.q.size());
   return clash();
 }
 

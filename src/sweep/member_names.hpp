@@ -63,6 +63,7 @@ class SweepNames {
   bool stop() const;
   /// Coordinates and momenta; q1, p1 and so on where members call them otherwise.
   const StateNames& state() const { return state_; }
+  bool have_same_state() const { return same_state_; }
   const std::vector<std::size_t>& places(const UnitedName& name, std::size_t member) const {
     return name.places[kind_of_[member]];
   }
@@ -81,6 +82,7 @@ class SweepNames {
   std::map<std::string, std::uint32_t> known_;
   std::vector<UnitedName> invariants_, walls_, events_, observables_;
   StateNames state_;
+  bool same_state_ = true;
 };
 
 }  // namespace hamflow

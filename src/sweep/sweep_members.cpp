@@ -183,7 +183,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
   if (group.lanes > 0) {
     ++in_lanes_;
-    lane_count_ = group.lanes;
+    lane_count_ = std::max(lane_count_, group.lanes);
     starts_[member] = std::move(start);
   }
 }

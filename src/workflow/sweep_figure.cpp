@@ -276,6 +276,10 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
   const std::string wrong = refused_figure_file(file);
   if (!wrong.empty()) return "--figure: error: " + wrong;
   if (draws_section(sweep, colour)) {
+    if (!sweep.names().have_same_state()) {
+      return "--figure: error: found a section of members with different coordinates; allowed members with the same "
+             "coordinates, or --colour COLUMN";
+    }
     const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
                             .section = true,
                             .stroboscopic = sweep.common().section->by_time_alone};

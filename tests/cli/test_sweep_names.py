@@ -205,6 +205,15 @@ class SweepNames(CommandCase):
         self.hamflow("sweep", "s.toml", *vary, "--figure", "f.svg", "--colour", "events/user:b")
         self.assertIn("user:b", (self.folder / "f.svg").read_text())
 
+    def test_figures_of_different_coordinates(self):
+        """The second coordinate is phi of one member and y of the other; their sections have no plane in common."""
+        vary = ("--vary", "problem.coordinates=polar,cartesian", "--vary", "run.dt=0.05,0.1", "--set", "run.steps=20",
+                "--out", "none", "--quiet")
+        self.hamflow("sweep", "kepler.toml", *vary, "--figure", "f.svg", "--colour", "final/q2")
+        self.assertNotIn("φ", (self.folder / "f.svg").read_text())
+        done = self.hamflow("sweep", "kepler.toml", *vary, "--set", "run.section={expression='sin(10*t)'}", "--figure", "f.svg", status=2)
+        self.assertIn("members with different coordinates", done.stderr)
+
     def test_resume_has_the_same_table(self):
         self.write("s.toml", FREE.replace("steps = 40", "steps = 20000").replace(
             "[method]", 'walls = [{coordinate="x",min=-2,max=2}]\n[method]'))
