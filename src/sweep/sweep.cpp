@@ -66,13 +66,14 @@ class Sweep::Worker {
     const std::span<const std::size_t> members(group.members.data() + task.first, task.count);
     std::vector<MemberStart> starts;
     for (const std::size_t member : members) starts.push_back(sweep_.starts_[member]);
-    const bool is_watched = sweep_.observables_.watch || sweep_.common_.section;
+    const bool is_watched = group.observables.watch || group.has_section;
     if (!block->load(group.shape, starts)) {
       for (const std::size_t member : members) run_alone(member);
       return;
     }
     std::vector<std::unique_ptr<Watched>> watched;
-    for (std::size_t lane = 0; is_watched && lane < task.count; ++lane) watched.push_back(watched_of(members[lane]));
+    for (std::size_t lane = 0; is_watched && lane < task.count; ++lane)
+      watched.push_back(watched_of(members[lane], group));
     LaneRun run(*block, observers_of(watched));
     std::int64_t chunk = 256;
     while (run.taken() < group.steps && !sweep_.stop_) {
@@ -89,9 +90,9 @@ class Sweep::Worker {
     }
   }
 
-  std::unique_ptr<Watched> watched_of(std::size_t member) {
+  std::unique_ptr<Watched> watched_of(std::size_t member, const Group& group) {
     auto one = std::make_unique<Watched>(Watched{scenario_of(member)});
-    if (sweep_.observables_.watch) one->watch = sweep_.observables_.watch(one->scenario, nullptr);
+    if (group.observables.watch) one->watch = group.observables.watch(one->scenario, nullptr);
     if (one->scenario.section) one->section.emplace(*one->scenario.section, points_of(one->row));
     return one;
   }
@@ -162,8 +163,8 @@ class Sweep::Worker {
       observers.push_back(&*finder);
     }
     std::unique_ptr<MemberWatch> watch;
-    if (sweep_.observables_.watch) {
-      watch = sweep_.observables_.watch(scenario, simulation.get());
+    if (const MemberObservables seen = sweep_.observables_of(scenario); seen.watch) {
+      watch = seen.watch(scenario, simulation.get());
       const std::vector<Observer*> more = watch->observers();
       observers.insert(observers.end(), more.begin(), more.end());
     }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/step_sums.hpp"
 #include "hamflow/verify/lyapunov.hpp"
+#include "member_names.hpp"
 #include "member_reader.hpp"
 #include "varied.hpp"
 
@@ -23,13 +25,13 @@ namespace hamflow {
 
 /// The event that ended a member's run.
 struct MemberStop {
-  std::size_t event = 0;  // of the scenario's
+  std::size_t event = 0;  // of the member's
   double t = 0;
   std::vector<double> q;
   std::vector<double> p;
 };
 
-/// The result of a member; of one that failed, its last good state.
+/// The result of a member; of one that failed, its last good state. What its lists hold is called as SweepNames says.
 struct MemberRow {
   Outcome status = Outcome::not_run;
   bool no_start = false;  // no start has the energy asked for, or a formula of it no value: it cannot be run
@@ -43,7 +45,7 @@ struct MemberRow {
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
   std::vector<WallCount> walls;
-  std::vector<std::int64_t> events;      // how often each of the scenario's was met
+  std::vector<std::int64_t> events;      // how often each of the member's was met
   std::optional<MemberStop> stopped_by;  // done before its last step
   std::int64_t halved = 0;               // steps
   std::vector<double> section;           // of each point of the section t, q, p
@@ -77,10 +79,10 @@ class MemberWatch {
   virtual std::optional<MemberStop> stopped_by() const { return {}; }
 };
 
-/// Further columns, e.g. an exponent: what is seen beside the run of each member.
+/// Further columns, e.g. an exponent: what is seen beside the run of a member.
 struct MemberObservables {
   std::vector<std::string> names;
-  /// None: no columns.   @param alone the member's simulation where it runs alone; null in a lane. Both, and the
+  /// None: nothing is seen.   @param alone the member's simulation where it runs alone; null in a lane. Both, and the
   /// scenario, outlive the watch.
   std::function<std::unique_ptr<MemberWatch>(const Scenario&, const Simulation* alone)> watch;
 };
@@ -88,7 +90,7 @@ struct MemberObservables {
 struct SweepOptions {
   int threads = 0;  // 0: all cores
   LaneSet lanes = LaneSet::none;
-  /// Of all members, from one that has a start.
+  /// Of a member; called by several threads.
   std::function<MemberObservables(const Scenario&)> observables_of{};
   /// Asked of members that are done with an energy error above their scale.
   std::function<bool(const Scenario&, const MemberRow&)> is_nonsense{};
@@ -108,7 +110,11 @@ class Sweep {
   /// The scenario of the first member that has a start, for what all have in common.
   const Scenario& common() const { return common_; }
   const std::string& text() const { return text_; }
-  const MemberObservables& observables() const { return observables_; }
+  /// What the numbers in the rows are called.
+  const SweepNames& names() const { return names_; }
+  /// In which all members compute, and their kernels.
+  const std::set<std::string>& arithmetics() const { return arithmetics_; }
+  const std::set<std::string>& kernels() const { return kernels_; }
   int threads() const { return threads_; }
   LaneSet lanes() const { return in_lanes_ > 0 ? options_.lanes : LaneSet::none; }
   std::size_t lane_count() const { return lane_count_; }
@@ -143,7 +149,9 @@ class Sweep {
     Request request;
     ParameterShape shape;
     std::int64_t steps = 0;
-    std::size_t lanes = 0;  // 0: they run one by one
+    std::size_t lanes = 0;          // 0: they run one by one
+    MemberObservables observables;  // of each of them
+    bool has_section = false;
     std::vector<std::size_t> members;
   };
   struct Task {
@@ -156,7 +164,9 @@ class Sweep {
   std::size_t coordinates_of_first(MemberReader& reader) const;
   void read_members(const std::string& name);
   void add(std::size_t member, const Scenario& scenario);
+  MemberObservables observables_of(const Scenario& scenario) const;
   void take_as_common(std::size_t member, const Scenario& scenario);
+  void unite_names();
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
   void put(std::size_t member, MemberRow row);
@@ -164,7 +174,9 @@ class Sweep {
 
   Varied varied_;
   SweepOptions options_;
-  MemberObservables observables_;
+  SweepNames names_;
+  std::set<std::string> arithmetics_;
+  std::set<std::string> kernels_;
   std::string raw_text_;
   std::string name_;
   std::vector<std::string> sets_;

@@ -68,9 +68,10 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
   write_attribute(id, "problem", request.problem);
-  write_attribute(id, "arithmetic", request.arithmetic);
-  write_attribute(id, "kernel", request.kernel);
-  if (request.kernel == "fast") {
+  // What members do not have in common is a column of what was varied.
+  if (sweep.arithmetics().size() <= 1) write_attribute(id, "arithmetic", request.arithmetic);
+  if (sweep.kernels().size() <= 1) write_attribute(id, "kernel", request.kernel);
+  if (sweep.kernels().contains("fast")) {
     write_attribute(id, "instruction_set", std::string(name(fast_kernel_instruction_set())));
   }
   write_text_dataset(id, "scenario", sweep.text());

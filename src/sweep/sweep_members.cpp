@@ -25,11 +25,11 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   rows_.resize(members);
   starts_.resize(rows_.size());
   steps_.resize(rows_.size());
+  names_ = SweepNames(rows_.size());
   threads_ = options_.threads > 0 ? options_.threads : static_cast<int>(std::thread::hardware_concurrency());
   threads_ = std::max(threads_, 1);
   read_members(name);
   common_.settings = reader.family().settings();
-  if (complaints_.empty() && options_.observables_of) observables_ = options_.observables_of(common_);
 }
 
 /// 0 where it cannot be read, which is told later.
@@ -63,6 +63,23 @@ void Sweep::read_members(const std::string& name) {
     return;
   }
   for (auto& [key, group] : groups_) std::sort(group.members.begin(), group.members.end());
+  unite_names();
+}
+
+MemberObservables Sweep::observables_of(const Scenario& scenario) const {
+  return options_.observables_of ? options_.observables_of(scenario) : MemberObservables{};
+}
+
+/// Rows of one table have the same columns: a name that one member has, all have.
+void Sweep::unite_names() {
+  const SweepNames::Clash clash = names_.unite();
+  if (clash.name.empty()) return;
+  const auto part = [&](std::size_t i) {
+    return std::to_string(clash.sizes[i]) + (clash.sizes[i] == 1 ? " number in " : " numbers in ") +
+           varied_.described(clash.members[i]);
+  };
+  complaints_.push_back("--vary: error: problem: found " + clash.name + " of " + part(0) + ", and of " + part(1) +
+                        "; allowed one table, that is invariants that have one size where they have one name");
 }
 
 void Sweep::add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths) {
@@ -78,8 +95,10 @@ void Sweep::add_complaints(std::size_t member, const Reading& reading, const std
 }
 
 void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
+  const MemberNames names(*reading.startless, observables_of(*reading.startless).names);
   const std::lock_guard lock(mutex_);
   take_as_common(member, *reading.startless);
+  names_.add(member, names);
   rows_[member].no_start = true;
   rows_[member].message = reading.no_start;
 }
@@ -102,7 +121,7 @@ void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found)
   }
 }
 
-/// Rows of one table have the same columns. What the first member with a start has, all have.
+/// Members of one table are states of one problem. What else is the same of all is known of the first with a start.
 void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
   const bool has_start = !scenario.start_p.empty() && scenario.start_p.front() == scenario.start_p.front();
   const bool alike = common_.problem == nullptr || (scenario.start_q.size() == common_.start_q.size() &&
@@ -136,15 +155,23 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     key += '\n' + info.name + ' ' + std::to_string(numbers.size());
   }
   key += '\n' + std::to_string(scenario.steps);
+  const MemberObservables observables = observables_of(scenario);
+  const MemberNames names(scenario, observables.names);
+  key += '\n' + names.key();  // observers of a block are the same for each lane, and events are sought without lanes
 
   const std::lock_guard lock(mutex_);
   take_as_common(member, scenario);
+  names_.add(member, names);
+  arithmetics_.insert(request.arithmetic);
+  kernels_.insert(request.kernel);
   auto [at, is_new] = groups_.try_emplace(key);
   Group& group = at->second;
   if (is_new) {
     group.request = request;
     group.shape = shape;
     group.steps = scenario.steps;
+    group.observables = observables;
+    group.has_section = scenario.section.has_value();
     const auto block = make_ensemble_block(request, options_.lanes);
     const bool alone = block == nullptr || !scenario.events.empty();  // events are sought on a simulation
     group.lanes = alone || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
@@ -156,7 +183,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   halves_steps_ = halves_steps_ || describe(request.method).halves_steps;
   if (group.lanes > 0) {
     ++in_lanes_;
-    lane_count_ = group.lanes;
+    lane_count_ = std::max(lane_count_, group.lanes);
     starts_[member] = std::move(start);
   }
 }

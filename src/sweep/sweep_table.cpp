@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "bounce_names.hpp"
 #include "hamflow/core/text.hpp"
 
 namespace hamflow {
@@ -40,7 +39,7 @@ void add_varied(const Sweep& sweep, std::vector<SweepColumn>& columns) {
       if (varied.keys()[key].is_number()) {
         column.numbers.push_back(varied.number(member, key));
       } else {
-        column.texts.push_back(varied.text(member, key));
+        column.texts.push_back(without_quotes(varied.text(member, key)));
       }
     }
     columns.push_back(std::move(column));
@@ -48,20 +47,21 @@ void add_varied(const Sweep& sweep, std::vector<SweepColumn>& columns) {
 }
 
 void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
-  const Scenario& common = sweep.common();
-  const std::vector<InvariantInfo>& declared = common.problem->info.invariants;
-  const std::vector<std::size_t> sizes =
-      common.problem->invariant_sizes(common.request.parameters, common.start_q.size());
   static const InvariantExcursion none{{}, {}, nothing};
-  for (std::size_t i = 0; i < declared.size(); ++i) {
-    const std::string group = "invariants/" + declared[i].name + "/";
-    const auto of = [i](const MemberRow& row) -> const InvariantExcursion& {
-      return i < row.invariants.size() ? row.invariants[i] : none;
+  for (const UnitedName& invariant : sweep.names().invariants()) {
+    const std::string group = "invariants/" + invariant.name + "/";
+    const std::size_t size = sweep.names().size(invariant);
+    std::vector<const InvariantExcursion*> seen;
+    for (std::size_t member = 0; member < sweep.members(); ++member) {
+      const InvariantExcursion* const own = value_of(sweep, invariant, member, &MemberRow::invariants);
+      seen.push_back(own == nullptr ? &none : own);
+    }
+    const auto of = [&](const MemberRow& row) -> const InvariantExcursion& {
+      return *seen[static_cast<std::size_t>(&row - sweep.rows().data())];
     };
-    const bool scalar = sizes[i] == 1;
-    columns.push_back(vectors(sweep, group + "initial", sizes[i], scalar,
+    columns.push_back(vectors(sweep, group + "initial", size, size == 1,
                               [&](const MemberRow& row) -> const std::vector<double>& { return of(row).initial; }));
-    columns.push_back(vectors(sweep, group + "final", sizes[i], scalar,
+    columns.push_back(vectors(sweep, group + "final", size, size == 1,
                               [&](const MemberRow& row) -> const std::vector<double>& { return of(row).final; }));
     columns.push_back(numbers(sweep, group + "max_error", [&](const MemberRow& row) { return of(row).max_error; }));
   }
@@ -69,37 +69,25 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
 
 /// How often each hard wall was met, each event of the user, and how many steps were halved.
 void add_events(const Sweep& sweep, std::vector<SweepColumn>& columns) {
-  const Scenario& common = sweep.common();
-  const auto add = [&](const std::string& name, const auto& count) {
-    SweepColumn column{"events/" + name};
-    for (const MemberRow& row : sweep.rows()) column.counts.push_back(count(row));
-    columns.push_back(std::move(column));
-  };
-  const std::vector<std::string> walls = bounce_names(common);
-  std::vector<SweepColumn> of_walls;
-  for (const EventCount& wall : bounces_of({}, walls)) of_walls.push_back({"events/" + wall.name});
-  for (const MemberRow& row : sweep.rows()) {
-    if (of_walls.empty()) break;
-    const std::vector<EventCount> counts = bounces_of(row, walls);
-    for (std::size_t k = 0; k < counts.size(); ++k) of_walls[k].counts.push_back(counts[k].count);
+  for (std::size_t member = 0; member < sweep.members(); ++member) {
+    const std::vector<EventCount> counts = events_of(sweep, member);
+    if (member == 0) {
+      for (const EventCount& event : counts) columns.push_back({"events/" + event.name});
+    }
+    SweepColumn* const first = columns.data() + columns.size() - counts.size();
+    for (std::size_t k = 0; k < counts.size(); ++k) first[k].counts.push_back(counts[k].count);
   }
-  columns.insert(columns.end(), of_walls.begin(), of_walls.end());
-  for (std::size_t i = 0; i < common.events.size(); ++i) {
-    add("user:" + common.events[i].name,
-        [i](const MemberRow& row) { return i < row.events.size() ? row.events[i] : 0; });
-  }
-  if (sweep.halves_steps()) add("halved", [](const MemberRow& row) { return row.halved; });
 }
 
 /// Of the event that ended a member's run; of the others an empty text and NaN.
 void add_stops(const Sweep& sweep, std::vector<SweepColumn>& columns) {
-  const std::vector<UserEvent>& events = sweep.common().events;
-  if (std::none_of(events.begin(), events.end(), [](const UserEvent& event) { return event.stops; })) return;
+  if (!sweep.names().stop()) return;
   static const std::vector<double> none;
   const std::size_t n = sweep.common().start_q.size();
   SweepColumn event{"stopped_by/event"};
-  for (const MemberRow& row : sweep.rows()) {
-    event.texts.push_back(row.stopped_by ? events[row.stopped_by->event].name : "");
+  for (std::size_t member = 0; member < sweep.members(); ++member) {
+    const std::optional<MemberStop>& stop = sweep.rows()[member].stopped_by;
+    event.texts.push_back(stop ? sweep.names().of(member).events.at(stop->event) : "");
   }
   columns.push_back(std::move(event));
   columns.push_back(numbers(sweep, "stopped_by/t",
@@ -110,6 +98,17 @@ void add_stops(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   columns.push_back(vectors(sweep, "stopped_by/p", n, false, [](const MemberRow& row) -> const std::vector<double>& {
     return row.stopped_by ? row.stopped_by->p : none;
   }));
+}
+
+void add_observables(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+  for (const UnitedName& observable : sweep.names().observables()) {
+    SweepColumn column{"observables/" + observable.name};
+    for (std::size_t member = 0; member < sweep.members(); ++member) {
+      const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
+      column.numbers.push_back(x == nullptr || sweep.rows()[member].q.empty() ? nothing : *x);
+    }
+    columns.push_back(std::move(column));
+  }
 }
 
 /// A third is no double: a member is run again from the text.
@@ -153,18 +152,20 @@ void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& col
 
 }  // namespace
 
-std::vector<EventCount> bounces_of(const MemberRow& row, const std::vector<std::string>& walls) {
+std::vector<EventCount> events_of(const Sweep& sweep, std::size_t member) {
+  const MemberRow& row = sweep.rows()[member];
   std::vector<EventCount> all;
-  for (std::size_t k = 0; k < walls.size(); ++k) {
-    const std::int64_t bounces = k < row.walls.size() ? row.walls[k].bounces : 0;
-    const auto same =
-        std::find_if(all.begin(), all.end(), [&](const EventCount& each) { return each.name == walls[k]; });
-    if (same == all.end()) {
-      all.push_back({walls[k], bounces});
-    } else {
-      same->count += bounces;
+  for (const UnitedName& wall : sweep.names().walls()) {
+    EventCount& count = all.emplace_back(EventCount{wall.name});
+    for (const std::size_t k : sweep.names().places(wall, member)) {
+      if (k < row.walls.size()) count.count += row.walls[k].bounces;
     }
   }
+  for (const UnitedName& event : sweep.names().events()) {
+    const std::int64_t* const count = value_of(sweep, event, member, &MemberRow::events);
+    all.push_back({"user:" + event.name, count == nullptr ? 0 : *count});
+  }
+  if (sweep.halves_steps()) all.push_back({"halved", row.halved});
   return all;
 }
 
@@ -192,11 +193,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   add_invariants(sweep, columns);
   add_events(sweep, columns);
   add_stops(sweep, columns);
-  for (std::size_t i = 0; i < sweep.observables().names.size(); ++i) {
-    columns.push_back(numbers(sweep, "observables/" + sweep.observables().names[i], [&](const MemberRow& row) {
-      return i < row.observables.size() ? row.observables[i] : nothing;
-    }));
-  }
+  add_observables(sweep, columns);
   if (!sweep.beyond_double()) return columns;
   add_digits(sweep, n, columns);
   add_given(sweep, columns);

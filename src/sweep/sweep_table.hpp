@@ -25,8 +25,8 @@ struct SweepColumn {
 /// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
 /// /energy/..., /invariants/NAME/..., /events/..., /stopped_by/..., /observables/NAME; in arithmetic beyond double also
 /// /digits/final/t, q, p and /digits/energy/initial, final, the same numbers as decimal texts that read back exactly,
-/// and /digits/varied/KEY, the numbers of /varied as they were given. What a member does not have is NaN, or an empty
-/// text.
+/// and /digits/varied/KEY, the numbers of /varied as they were given. A name that one member has is a column of all:
+/// what a member does not have is NaN, an empty text, or no event.
 std::vector<SweepColumn> columns_of(const Sweep& sweep);
 
 /// The points of all members' sections, a row a point: /section/member (its number), t, q, p. None where no section is
@@ -40,12 +40,21 @@ struct SweepTable {
 };
 inline SweepTable table_of(const Sweep& sweep) { return {columns_of(sweep), section_columns_of(sweep)}; }
 
-/// How often a member has met its hard walls; those of one name together.   @param walls see bounce_names()
+/// How often a member has met each hard wall that any of them has, those of one name together, and each event of the
+/// user, and how many steps were halved where a method can do that: the same names for all members.
 struct EventCount {
   std::string name;
   std::int64_t count = 0;
 };
-std::vector<EventCount> bounces_of(const MemberRow& row, const std::vector<std::string>& walls);
+std::vector<EventCount> events_of(const Sweep& sweep, std::size_t member);
+
+/// What a member's row has under a name; null where it has nothing.
+template <class T>
+const T* value_of(const Sweep& sweep, const UnitedName& name, std::size_t member, std::vector<T> MemberRow::*list) {
+  const std::vector<std::size_t>& places = sweep.names().places(name, member);
+  const std::vector<T>& all = sweep.rows()[member].*list;
+  return places.empty() || places.front() >= all.size() ? nullptr : &all[places.front()];
+}
 
 /// What is the same for all rows.
 struct SweepDescription {

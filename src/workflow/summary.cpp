@@ -304,7 +304,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     const std::string& name = walls.at(k++);
     s["events"][name] = together[name] += wall.bounces;
   }
-  if (effort.halved > 0) s["events"]["halved"] = effort.halved;
+  if (describe(scenario.request.method).halves_steps) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);
   s["warnings"] = warnings_of(scenario, s, simulation, turns);
   s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);

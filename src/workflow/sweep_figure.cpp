@@ -77,8 +77,7 @@ std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
 
 /// The last part of a key, and the coordinate that an entry of a start belongs to.
 std::string key_label(const Sweep& sweep, const std::string& path) {
-  const Scenario& scenario = sweep.common();
-  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+  const StateNames& names = sweep.names().state();
   for (const auto& [key, list] : {std::pair{"problem.initial.q", &names.q}, {"problem.initial.p", &names.p}}) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       if (path == fmt::format("{}[{}]", key, i)) return figures::symbol((*list)[i]) + "(0)";
@@ -102,8 +101,7 @@ std::string invariant_label(const std::string& name) {
 
 /// "x" of final/q1, final/q of one coordinate too; empty for other columns.
 std::string name_at_the_end(const Sweep& sweep, const std::string& column) {
-  const Scenario& scenario = sweep.common();
-  const StateNames names = state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size());
+  const StateNames& names = sweep.names().state();
   for (const auto& [table, list] : {std::pair{"final/q", &names.q}, {"final/p", &names.p}}) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       if (column == fmt::format("{}{}", table, i + 1) || column == table) return figures::symbol((*list)[i]);
@@ -163,7 +161,7 @@ std::string note_of(const Sweep& sweep, bool map) {
 Figure section_figure_of(const Sweep& sweep) {
   const Scenario& common = sweep.common();
   const std::size_t n = common.start_q.size();
-  const StateNames names = state_names(*common.problem, common.request.parameters, n);
+  const StateNames& names = sweep.names().state();
   const std::size_t shown = coordinate_shown(*common.section, n);
   Figure figure;
   for (const MemberRow& row : sweep.rows()) {
@@ -247,7 +245,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   figure.x_label = key_label(sweep, key.path);
   figure.value_label = names.size() == 1 ? "mean of " + value_label(sweep, names[0]) : "mean";
   if (!key.is_number()) {
-    for (const std::string& text : key.texts) figure.x_words.push_back(figures::escaped(text));
+    for (const std::string& text : key.texts) figure.x_words.push_back(figures::escaped(without_quotes(text)));
   }
   for (const std::string& name : names) {
     const auto column = std::find_if(all.begin(), all.end(), [&](const DrawnColumn& one) { return one.name == name; });
@@ -278,6 +276,10 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
   const std::string wrong = refused_figure_file(file);
   if (!wrong.empty()) return "--figure: error: " + wrong;
   if (draws_section(sweep, colour)) {
+    if (!sweep.names().have_same_state()) {
+      return "--figure: error: found a section of members with different coordinates; allowed members with the same "
+             "coordinates, or --colour COLUMN";
+    }
     const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
                             .section = true,
                             .stroboscopic = sweep.common().section->by_time_alone};
@@ -316,7 +318,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
   }
   const Vary& x = varied.keys()[keys.over];
   if (!x.is_number()) {
-    for (const std::string& text : x.texts) figure.x_words.push_back(figures::escaped(text));
+    for (const std::string& text : x.texts) figure.x_words.push_back(figures::escaped(without_quotes(text)));
   }
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     figure.x.push_back(x.is_number() ? varied.number(member, keys.over)
@@ -324,7 +326,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
     if (keys.map) figure.y.push_back(varied.number(member, keys.above));
     if (keys.has_lines) {
       const Vary& line = varied.keys()[keys.lines];
-      const std::string text = figures::escaped(varied.text(member, keys.lines));
+      const std::string text = figures::escaped(without_quotes(varied.text(member, keys.lines)));
       figure.line.push_back(line.is_number() ? key_label(sweep, line.path) + " = " + text : text);
     }
     // What a member that broke off reached belongs to another time than the others.

@@ -17,8 +17,15 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* journal_name = "members.bin";
 
+/// What members have in common, and the kernel on whose instruction set bits of some of them depend.
+Scenario scenario_in_common(const Sweep& sweep) {
+  Scenario scenario = sweep.common();
+  if (sweep.kernels().contains("fast")) scenario.request.kernel = "fast";
+  return scenario;
+}
+
 SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
-  const Checkpoint of_scenario = beginning_of(sweep.common(), "");
+  const Checkpoint of_scenario = beginning_of(scenario_in_common(sweep), "");
   return {.version = of_scenario.version,
           .instruction_set = of_scenario.instruction_set,
           .keys = of_scenario.keys,
@@ -35,7 +42,7 @@ std::vector<std::string> differences_of(const Sweep& sweep, const SweepHead& now
   began.keys = before.keys;
   began.values = before.values;
   std::vector<std::string> all;
-  for (const Complaint& complaint : differences(sweep.common(), began)) all.push_back(complaint.text());
+  for (const Complaint& complaint : differences(scenario_in_common(sweep), began)) all.push_back(complaint.text());
   const std::string what_to_do = ", as when the sweep began; give --out another folder, or --force to begin anew";
   for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
     const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bounce_names.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
 #include "sweep_table.hpp"
@@ -66,7 +65,8 @@ Json varied_of(const Sweep& sweep) {
     Json& entry = varied[vary.path];
     entry["count"] = vary.formula.empty() ? vary.texts.size() : sweep.members();
     if (!vary.is_number()) {
-      entry["values"] = vary.texts;
+      entry["values"] = Json::array();
+      for (const std::string& text : vary.texts) entry["values"].push_back(without_quotes(text));
       continue;
     }
     entry["first"] = sweep.varied().number(0, key);
@@ -92,7 +92,7 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   for (std::size_t key = 0; key < varied.size(); ++key) {
     const Vary& vary = varied.keys()[key];
     const std::string text = varied.text(member, key);
-    json[vary.path] = vary.is_number() ? Json(varied.number(member, key)) : Json(text);
+    json[vary.path] = vary.is_number() ? Json(varied.number(member, key)) : Json(without_quotes(text));
     if (!vary.is_number() || !sweep.beyond_double()) continue;
     // A third is no double: the row gives what the member can be run again from.
     const std::string given = without_quotes(text);
@@ -113,21 +113,24 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
     json["energy"]["final"] = row.digits.energy;
   }
   json["invariants"] = Json::object();
-  const std::vector<InvariantInfo>& declared = sweep.common().problem->info.invariants;
-  for (std::size_t i = 0; i < row.invariants.size(); ++i) {
-    json["invariants"][declared[i].name] = invariant_json(declared[i], row.invariants[i]);
+  const MemberNames& names = sweep.names().of(member);
+  for (const UnitedName& invariant : sweep.names().invariants()) {
+    const InvariantExcursion* const seen = value_of(sweep, invariant, member, &MemberRow::invariants);
+    Json& entry = json["invariants"][invariant.name];
+    entry = {{"initial", nullptr}, {"final", nullptr}, {"max_error", nullptr}};
+    if (seen == nullptr) continue;
+    entry = invariant_json(names.invariants[sweep.names().places(invariant, member).front()], *seen);
   }
   json["events"] = Json::object();
-  for (const EventCount& wall : bounces_of(row, bounce_names(sweep.common()))) json["events"][wall.name] = wall.count;
-  const std::vector<UserEvent>& events = sweep.common().events;
-  for (std::size_t i = 0; i < row.events.size(); ++i) json["events"]["user:" + events[i].name] = row.events[i];
-  if (row.halved > 0) json["events"]["halved"] = row.halved;
+  for (const EventCount& event : events_of(sweep, member)) json["events"][event.name] = event.count;
   if (row.stopped_by) {
     const MemberStop& stop = *row.stopped_by;
-    json["stopped_by"] = {{"event", events[stop.event].name}, {"t", stop.t}, {"q", stop.q}, {"p", stop.p}};
+    json["stopped_by"] = {{"event", names.events.at(stop.event)}, {"t", stop.t}, {"q", stop.q}, {"p", stop.p}};
   }
-  for (std::size_t i = 0; i < row.observables.size(); ++i) {
-    json[sweep.observables().names[i]] = row.observables[i];
+  for (const UnitedName& observable : sweep.names().observables()) {
+    if (row.observables.empty() && !names.observables.empty()) break;  // not done
+    const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
+    json[observable.name] = x == nullptr ? Json(nullptr) : Json(*x);
   }
   if (sweep.common().section) {
     json["section"] = {{"points", row.section_points()}, {"max_residual", row.section_residual}};

@@ -116,10 +116,7 @@ class ScenarioSweep::Impl {
     SweepOptions how{.threads = request.threads};
     Varied varied = varied_of(request, how, complaints);
     if (!complaints.empty()) return;
-    how.observables_of = [this](const Scenario& common) {
-      notes = common.notes;
-      return sweep_columns(common);
-    };
+    how.observables_of = sweep_columns;
     how.is_nonsense = [](const Scenario& scenario, const MemberRow& row) {
       Frame end;
       end.q = row.q;
@@ -128,6 +125,7 @@ class ScenarioSweep::Impl {
     };
     sweep.emplace(request.text, request.name, request.sets, std::move(varied), how);
     complaints = sweep->complaints();
+    if (complaints.empty()) notes = sweep->common().notes;
   }
 
   SweepRequest request;

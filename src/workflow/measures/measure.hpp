@@ -54,8 +54,8 @@ struct MeasureKind {
   std::unique_ptr<Measure> (*make_of_run)(const Scenario&, const Simulation&, Recorder* recorder) = nullptr;
   /// Its line for people, from its entry in the summary.
   std::string (*text)(const nlohmann::ordered_json& entry);
-  /// The names of the columns that it gives a sweep whose first member is this scenario; null: a sweep records it for
-  /// each member in a table of its own.
+  /// The names of the columns that it gives a member of a sweep; null: a sweep records it for each member in a table of
+  /// its own.
   std::vector<std::string> (*columns)(const Scenario&) = nullptr;
   /// Whether it gives a sweep the counts of events, made by make_of_run: members then run one by one.
   bool counts_events = false;

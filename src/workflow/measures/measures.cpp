@@ -103,14 +103,14 @@ class MeasuredMember final : public MemberWatch {
 
 }  // namespace
 
-MemberObservables sweep_columns(const Scenario& first) {
+MemberObservables sweep_columns(const Scenario& member) {
   MemberObservables all;
   std::vector<const MeasureKind*> kinds;
   for (const MeasureKind& kind : measure_kinds()) {
-    if ((kind.columns == nullptr && !kind.counts_events) || !kind.requested(first)) continue;
+    if ((kind.columns == nullptr && !kind.counts_events) || !kind.requested(member)) continue;
     kinds.push_back(&kind);
     if (kind.columns == nullptr) continue;
-    const std::vector<std::string> names = kind.columns(first);
+    const std::vector<std::string> names = kind.columns(member);
     all.names.insert(all.names.end(), names.begin(), names.end());
   }
   if (kinds.empty()) return all;

@@ -27,7 +27,7 @@ class Measures {
   std::vector<std::pair<const MeasureKind*, std::unique_ptr<Measure>>> requested_;
 };
 
-/// The columns of a sweep, of all quantities that its first member requests.
-MemberObservables sweep_columns(const Scenario& first);
+/// The columns that a member of a sweep has, of all quantities that it requests.
+MemberObservables sweep_columns(const Scenario& member);
 
 }  // namespace hamflow
