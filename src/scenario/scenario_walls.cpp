@@ -70,6 +70,12 @@ void ScenarioReader::read_walls(TomlTable& table) {
   const bool fixed = !info.walls.empty();
   table.know_all({keys.walls.name, keys.wall_rule.name, keys.strength.name, keys.exponent.name});
   const std::size_t before = complaints_.size();
+  if (!fixed && !scenario_.problem->constraint_form.empty() && table.has_any(keys.walls.name)) {
+    table.complain(keys.walls.name,
+                   "found walls beside constraints, which a momentum that is turned round would leave, and whose "
+                   "multipliers know no soft walls; allowed in coordinates without constraints");
+    return;
+  }
   if (fixed && table.has(keys.walls.name)) {
     table.complain(keys.walls.name,
                    "found walls, but those of " + info.name + " are fixed; allowed " + keys.wall_rule.name + " alone");
@@ -91,12 +97,6 @@ void ScenarioReader::read_walls(TomlTable& table) {
   if (rule) {
     walls.rule =
         static_cast<WallRule>(std::find(wall_rules().begin(), wall_rules().end(), *rule) - wall_rules().begin());
-  }
-  if (!fixed && walls.hard() && !scenario_.problem->constraint_form.empty()) {
-    table.complain(keys.walls.name,
-                   "found hard walls beside constraints, which a momentum that is turned round would leave; allowed " +
-                       keys.wall_rule.name + " = \"soft\", or coordinates without constraints");
-    return;
   }
   for (const auto& [key, to] :
        {std::pair{&keys.strength, &walls.strength}, std::pair{&keys.exponent, &walls.exponent}}) {
