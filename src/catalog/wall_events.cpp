@@ -56,7 +56,7 @@ Outcome WallEvents<R>::go_to(const R& part) {
 }
 
 template <class R>
-typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit) {
+typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit, bool in_pieces) {
   length_ = length;
   flown_ = R(0);
   seen_ = false;
@@ -64,7 +64,8 @@ typename WallEvents<R>::Found WallEvents<R>::first(const R& length, Hit& hit) {
   const V v0 = velocity(q0, parts_.present_momenta());
   q_ = q0;
   return search_.first(
-      length, q0.begin(), v0.begin(), [&](const R& part, const R*& q, const R*& v) { return fly(part, q, v); }, hit);
+      length, q0.begin(), v0.begin(), [&](const R& part, const R*& q, const R*& v) { return fly(part, q, v); }, hit,
+      in_pieces);
 }
 
 template <class R>

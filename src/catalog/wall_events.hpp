@@ -21,7 +21,8 @@ class WallEvents {
 
   /// Of the flight of this length from the present state, which is marked, Place::flight. The state is undefined
   /// afterwards. failed: outcome() says how.
-  Found first(const R& length, Hit& hit);
+  /// @param in_pieces see WallSearch
+  Found first(const R& length, Hit& hit, bool in_pieces);
   Outcome outcome() const { return outcome_; }
   /// To the state behind this part of the flight.
   Outcome go_to(const R& part);

@@ -1,4 +1,8 @@
 // Where a flight first meets a wall, on the partial steps Psi_t of the method itself.
+//
+// From its two ends alone a flight tells of a crossing where it ends beyond a wall, and of one out and back where it
+// turns once. A longer one may have gone out, back, and in again: it is seen in pieces within each of which a cubic
+// through its ends, slopes and all, meets a point between them, so that a coordinate turns in one once at most.
 #pragma once
 
 #include <limits>
@@ -26,8 +30,9 @@ class WallSearch {
   /// Of the flight of this length from q0 with the velocity v0 of H.
   /// @param look (part, q, v) points q and v to what is behind that part of the flight, until the next look; false
   /// where it cannot
+  /// @param in_pieces whether it is seen in pieces even if its ends look like those of a short one
   template <class Look>
-  Found first(const R& length, const R* q0, const R* v0, const Look& look, Hit& hit) {
+  Found first(const R& length, const R* q0, const R* v0, const Look& look, Hit& hit, bool in_pieces = false) {
     length_ = length;
     start_.clear();
     for (const WallSide<R>& side : sides_) start_.push_back(point(side, R(0), q0, v0));
@@ -44,41 +49,20 @@ class WallSearch {
     for (const WallSide<R>& side : sides_) end_.push_back(point(side, R(1), q, v));
     Found found = Found::none;
     for (std::size_t k = 0; k < sides_.size(); ++k) {
-      const R close = rounding(k, q0);
-      const auto see = [&](const R& part, Point& to) {
-        if (!look(part, q, v)) return false;
-        to = point(sides_[k], part, q, v);
-        return true;
-      };
-      const Point& start = start_[k];
-      const Point& end = end_[k];
-      const bool leaves = start.rate > R(0);
-      const bool comes_in = end.rate < R(0);
-      const bool ends_beyond = end.beyond > R(0);
-      if (!ends_beyond) {
-        if (!leaves || !comes_in) continue;
-        const R ahead = start.beyond + R(2) * start.rate;
-        const R behind = end.beyond - R(2) * end.rate;
-        if (!(ahead > R(0) && behind > R(0))) continue;
-      }
-      Point from = start;
-      Point to = end;
-      if (ends_beyond) {
-        if (start.beyond >= -close) {  // thrown back a moment ago, and here again
-          if (comes_in) continue;      // rounding alone
-          if (!turn(start, end, false, see, from)) return Found::failed;
-          if (!(from.beyond < R(0))) return Found::stuck;
-        }
-      } else {
-        if (!turn(start, end, true, see, to)) return Found::failed;
-        if (!(to.beyond > R(0))) continue;
-      }
-      R part{};
-      if (!locate(close, std::move(from), std::move(to), see, part)) return Found::failed;
-      if (found == Found::none || part < hit.part) hit = {k, part};
-      found = Found::hit;
+      const Found met = meet(k, rounding(k, q0), start_[k], end_[k], look, found, hit);
+      if (met == Found::stuck || met == Found::failed) return met;
+      found = met;
+      in_pieces = in_pieces || is_long(start_[k].beyond, start_[k].rate, end_[k].beyond, end_[k].rate);
     }
-    return found;
+    return in_pieces ? first_in_pieces(q0, look, found, hit) : found;
+  }
+
+  /// Whether two ends of a flight cannot be those of a short one. With these rates, by which each would change in
+  /// its whole length, the ends of a parabola are their mean apart; those of an oscillation of which the flight is a
+  /// quarter are 5/4 of it.
+  static bool is_long(const R& from, const R& from_rate, const R& to, const R& to_rate) {
+    const R apart = to - from - (from_rate + to_rate) / R(2);
+    return R(8) * abs(apart) > larger(R(abs(from_rate)), R(abs(to_rate)));
   }
 
  private:
@@ -96,6 +80,115 @@ class WallSearch {
   R rounding(std::size_t k, const R* q0) const {
     const WallSide<R>& side = sides_[k];
     return 2 * std::numeric_limits<R>::epsilon() * larger(R(abs(side.at)), R(abs(q0[side.coordinate])));
+  }
+
+  /// Where the flight between two points that were seen meets a wall, if before what was found so far.
+  template <class Look>
+  Found meet(std::size_t k, const R& close, const Point& start, const Point& end, const Look& look, Found found,
+             Hit& hit) const {
+    const auto see = [&](const R& part, Point& to) {
+      const R* q = nullptr;
+      const R* v = nullptr;
+      if (!look(part, q, v)) return false;
+      to = point(sides_[k], part, q, v);
+      return true;
+    };
+    const R length = end.part - start.part;
+    const bool leaves = start.rate > R(0);
+    const bool comes_in = end.rate < R(0);
+    const bool ends_beyond = end.beyond > R(0);
+    if (!ends_beyond) {
+      if (!leaves || !comes_in) return found;
+      const R ahead = start.beyond + R(2) * start.rate * length;
+      const R behind = end.beyond - R(2) * end.rate * length;
+      if (!(ahead > R(0) && behind > R(0))) return found;
+    }
+    Point from = start;
+    Point to = end;
+    if (ends_beyond) {
+      if (start.beyond >= -close) {  // thrown back a moment ago, and here again
+        if (comes_in) return found;  // rounding alone
+        if (!turn(start, end, false, see, from)) return Found::failed;
+        if (!(from.beyond < R(0))) {
+          hit.side = k;
+          return Found::stuck;
+        }
+      }
+    } else {
+      if (!turn(start, end, true, see, to)) return Found::failed;
+      if (!(to.beyond > R(0))) return found;
+    }
+    R part{};
+    if (!locate(close, std::move(from), std::move(to), see, part)) return Found::failed;
+    if (found == Found::none || part < hit.part) hit = {k, part};
+    return Found::hit;
+  }
+
+  /// The same before what the two ends of the flight have told of: whatever that was, its every digit stays.
+  template <class Look>
+  Found first_in_pieces(const R* q0, const Look& look, Found found, Hit& hit) {
+    const R until = found == Found::hit ? hit.part : R(1);
+    const R shortest = until / R(1 << 20);  // what is no cubic in there has a jump
+    const R share = R(3) / R(8);            // no half, which is in step with what the ends are in step with
+    from_ = start_;
+    R part(0);
+    R length = until;
+    while (part < until) {
+      bool is_last = !(part + length < until);
+      if (is_last) length = until - part;
+      R to = is_last ? until : R(part + length);
+      if (!see_all(to, look, end_)) return Found::failed;
+      while (true) {
+        const R between = part + share * length;
+        if (!see_all(between, look, inner_)) return Found::failed;
+        if (length < shortest || is_cubic(q0)) break;
+        std::swap(inner_, end_);
+        length = share * length;
+        to = between;
+      }
+      Found met = Found::none;
+      for (const auto& [a, b] : {std::pair{&from_, &inner_}, std::pair{&inner_, &end_}}) {
+        for (std::size_t k = 0; k < sides_.size(); ++k) {
+          met = meet(k, rounding(k, q0), (*a)[k], (*b)[k], look, met, hit);
+          if (met == Found::stuck || met == Found::failed) return met;
+        }
+        if (met == Found::hit) return met;
+      }
+      std::swap(from_, end_);
+      part = to;
+      length *= R(2);
+    }
+    return found;
+  }
+  template <class Look>
+  bool see_all(const R& part, const Look& look, std::vector<Point>& to) const {
+    const R* q = nullptr;
+    const R* v = nullptr;
+    if (!look(part, q, v)) return false;
+    to.clear();
+    for (const WallSide<R>& side : sides_) to.push_back(point(side, part, q, v));
+    return true;
+  }
+  /// Whether the points between are on cubics through both ends, as good as needed to know where they turn.
+  bool is_cubic(const R* q0) const {
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      const Point& a = from_[k];
+      const Point& m = inner_[k];
+      const Point& b = end_[k];
+      const R h = b.part - a.part;
+      const R s = (m.part - a.part) / h;
+      const R rise = b.beyond - a.beyond;
+      const R first = h * a.rate;
+      const R last = h * b.rate;
+      const R square = R(3) * rise - R(2) * first - last;
+      const R cube = first + last - R(2) * rise;
+      const R value = a.beyond + s * (first + s * (square + s * cube));
+      const R slope = first + s * (R(2) * square + R(3) * s * cube);
+      const R size = larger(larger(R(abs(rise)), R(abs(first))), larger(R(abs(last)), R(abs(h * m.rate))));
+      const R enough = size / R(64) + R(8) * rounding(k, q0);
+      if (!(abs(m.beyond - value) <= enough && abs(h * m.rate - slope) <= enough)) return false;
+    }
+    return true;
   }
 
   /// Between a point inside and one beyond a wall: the last one inside, to rounding.
@@ -151,6 +244,8 @@ class WallSearch {
   R length_{};
   std::vector<Point> start_;  // as each wall sees it
   std::vector<Point> end_;
+  std::vector<Point> from_;  // and of a piece
+  std::vector<Point> inner_;
 };
 
 }  // namespace hamflow

@@ -29,6 +29,8 @@ class WalledSimulation : public Simulation {
         recorded_(dynamic_cast<RecordedMember*>(inner_.get())),
         in_numbers_(dynamic_cast<MovesInNumbers*>(inner_.get())),
         walls_(std::move(walls)),
+        has_own_substeps_(inner_->method().own_substeps),
+        order_(inner_->method().order),
         counts_(walls_->sides.size()) {
     if (parts_ == nullptr) throw Error("hamflow: a simulation behind walls has to take steps in parts");
     if constexpr (std::is_same_v<R, double>) {
@@ -134,6 +136,7 @@ class WalledSimulation : public Simulation {
       outcome = other->parts_->take_part(part);
       other->fold();
     } else {
+      other->in_pieces_ = has_own_substeps_;
       outcome = other->fly(part);
     }
     if (outcome == Outcome::done) other->parts_->show_at(t, frame);
@@ -142,6 +145,7 @@ class WalledSimulation : public Simulation {
   }
 
   Outcome take_step() {
+    in_pieces_ = false;
     // What a step begins with is counted as its own, whichever road it takes.
     if (walls_->rule == WallRule::event) parts_->prepare();
     // A loop that has ended for it says the same as stays_inside, and took as much.
@@ -161,9 +165,10 @@ class WalledSimulation : public Simulation {
     const V v0 = walls_->rule == WallRule::event ? velocity(q0, parts_->present_momenta()) : V();
     Outcome outcome = inner_->advance(1);
     if (walls_->rule == WallRule::soft || (outcome != Outcome::done && walls_->rule != WallRule::event)) return outcome;
-    if (outcome == Outcome::done && stays_inside(q0, v0)) return outcome;
     Effort spent;
     add_evaluations(spent, inner_->effort(), before);
+    in_pieces_ = walls_->rule == WallRule::event && (starts_at_rest(v0) || has_several_parts(outcome, spent));
+    if (outcome == Outcome::done && !in_pieces_ && stays_inside(q0, v0)) return outcome;
     if (walls_->rule == WallRule::event) {
       parts_->back(Place::step);
       outcome = bounce(outcome);
@@ -200,6 +205,19 @@ class WalledSimulation : public Simulation {
     return v;
   }
 
+  /// Whether a step was made of several sub-steps of the method's own, as far as its work tells: one is as many
+  /// evaluations as a series has terms, or one and a half times as many as the order, the stages of dop853. Where one
+  /// was rejected, or nobody knows, it is said of a single one too: then the search takes longer and finds the same.
+  bool has_several_parts(Outcome outcome, const Effort& spent) const {
+    if (!has_own_substeps_) return false;
+    return outcome != Outcome::done || 2 * (spent.force + spent.gradient) > 3 * order_;
+  }
+  /// A run from rest of which each step is a whole period shows nothing but rest.
+  bool starts_at_rest(const V& v0) const {
+    return inner_->step() <= 1 && std::any_of(walls_->sides.begin(), walls_->sides.end(),
+                                              [&](const WallSide<R>& wall) { return v0[wall.coordinate] == R(0); });
+  }
+
   /// Whether the step that was taken was within the walls for certain (see stays_within, run/recorded_step.hpp).
   bool stays_inside(const V& q0, const V& v0) const {
     const V q1 = parts_->present_positions();
@@ -210,6 +228,10 @@ class WalledSimulation : public Simulation {
       const std::size_t i = wall.coordinate;
       if (wall.beyond(q1[i]) > R(0)) return false;
       if (!and_turns) return true;
+      if (WallSearch<R>::is_long(wall.beyond(q0[i]), R(wall.side) * h * v0[i], wall.beyond(q1[i]),
+                                 R(wall.side) * h * v1[i])) {
+        return false;
+      }
       const R ahead = wall.beyond(q0[i] + R(2) * h * v0[i]);
       const R behind = wall.beyond(q1[i] - R(2) * h * v1[i]);
       return !(ahead > R(0) && behind > R(0));
@@ -316,7 +338,7 @@ class WalledSimulation : public Simulation {
       parts_->mark(Place::flight);
       WallEvents<R> events(*parts_, *walls_->functions, walls_->sides);
       typename WallEvents<R>::Hit hit;
-      const auto found = events.first(left, hit);
+      const auto found = events.first(left, hit, in_pieces_);
       if (found == WallEvents<R>::Found::failed) return events.outcome();
       if (found == WallEvents<R>::Found::stuck) return stays_on(hit.side);
       const bool is_hit = found == WallEvents<R>::Found::hit;
@@ -409,6 +431,9 @@ class WalledSimulation : public Simulation {
   RecordedMember* recorded_;    // the same; null where it is none
   MovesInNumbers* in_numbers_;  // the same
   std::shared_ptr<const RunWalls<R>> walls_;
+  bool has_own_substeps_;
+  int order_;
+  bool in_pieces_ = false;            // flights of the present step are seen in pieces, whatever their ends look like
   std::vector<std::int64_t> counts_;  // of each side
   Effort given_up_;                   // by the search for bounces and by steps that were rejected
   std::vector<Met> met_;              // in the present step

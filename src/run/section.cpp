@@ -7,13 +7,33 @@
 
 namespace hamflow {
 
+namespace {
+
+/// Of a polynomial through the values at 0 .. 4.
+std::array<double, 5> weights_at(double at) {
+  std::array<double, 5> weights{};
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = 1;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      if (j != i) weights[i] *= (at - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
 double SectionSearch::distance(const Frame& frame) const {
   if (section_.expression) return (*section_.expression)(frame)-section_.value;
   return (section_.momentum ? frame.p : frame.q)[section_.coordinate] - section_.value;
 }
 
-/// At theta = 1 the run's own next state is meant, which has the other sign.
 void SectionSearch::locate(const Simulation& before_step, double before, double now) {
+  locate(before_step, Change{0, 1, before, now});
+}
+
+/// At theta = 1 the run's own next state is meant, which has the other sign.
+void SectionSearch::locate(const Simulation& before_step, const Change& change) {
   SectionPoint best;
   best.residual = std::numeric_limits<double>::infinity();
   const auto look = [&](double theta) {
@@ -24,12 +44,13 @@ void SectionSearch::locate(const Simulation& before_step, double before, double 
     if (std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x)};
     return x;
   };
-  const double theta = bracketed_root([&](double at) { return failed_ ? 0 : look(at); }, 0.0, 1.0, before, now);
+  const double theta = bracketed_root([&](double at) { return failed_ ? 0 : look(at); }, change.from, change.to,
+                                      change.before, change.now);
   (void)look(theta);
   if (failed_) return;
   // What is continuous has come down to its rounding, a jump or a pole has not.
   constexpr double at_most = 0x1p-10;
-  if (!(best.residual <= at_most * std::max(std::abs(before), std::abs(now)))) {
+  if (!(best.residual <= at_most * std::max(std::abs(change.before), std::abs(change.now)))) {
     ++jumps_;
     return;
   }
@@ -38,24 +59,223 @@ void SectionSearch::locate(const Simulation& before_step, double before, double 
   found_(best);
 }
 
+SectionSearch::Sample SectionSearch::sample_of(double theta, const Frame& frame) const {
+  Sample sample{theta, distance(frame), frame.q};
+  sample.state.insert(sample.state.end(), frame.p.begin(), frame.p.end());
+  return sample;
+}
+
+SectionSearch::Sample SectionSearch::sample(const Simulation& before_step, double theta) {
+  ++looks_;
+  if (before_step.look_part(theta, partial_) == Outcome::done) return sample_of(theta, partial_);
+  failed_ = true;
+  return {theta, 0, {}};
+}
+
+void SectionSearch::complete(const Simulation& before_step, Piece& piece) {
+  for (const std::size_t k : {1, 3}) {
+    if (!failed_) piece[k] = sample(before_step, (piece[k - 1].theta + piece[k + 1].theta) / 2);
+  }
+}
+
+/// Whether a sum of five points is a sixth one, to such a part of what they range over. What rounding, or a loose
+/// tolerance, makes of numbers that stand still is nothing.
+bool SectionSearch::has(const Piece& piece, const std::array<double, 5>& weights, const Sample& sample,
+                        double parts) const {
+  const auto range_of = [&](const auto& number) {
+    double low = number(piece[0]);
+    double high = low;
+    for (const Sample& each : piece) {
+      low = std::min(low, number(each));
+      high = std::max(high, number(each));
+    }
+    return std::pair{low, high};
+  };
+  const auto is_off = [&](const auto& number, double most) {
+    double sum = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) sum += weights[k] * number(piece[k]);
+    const auto [low, high] = range_of(number);
+    const double size = std::max(std::abs(low), std::abs(high));
+    const double enough = std::max({(high - low) / parts, 1e-6 * most, 1e-9 * size});
+    return std::abs(number(sample) - sum) > enough;  // false of what is no number: halving makes it none
+  };
+  const std::size_t n = sample.state.size() / 2;
+  for (const std::size_t first : {std::size_t{0}, n}) {
+    double most = 0;  // of the one that moves most
+    for (std::size_t i = first; i < first + n; ++i) {
+      const auto [low, high] = range_of([i](const Sample& each) { return each.state[i]; });
+      most = std::max(most, high - low);
+    }
+    for (std::size_t i = first; i < first + n; ++i) {
+      if (is_off([i](const Sample& each) { return each.state[i]; }, most)) return false;
+    }
+  }
+  return !section_.expression || !is_off([](const Sample& each) { return each.x; }, 0);
+}
+
+/// Whether the middle one of five points is where a cubic through the others has it, and a point that is not in step
+/// with them where a polynomial through all of them has it: then it is known what happens between them.
+bool SectionSearch::is_cubic(const Simulation& before_step, const Piece& piece, double parts) {
+  if (!has(piece, {-1.0 / 6, 4.0 / 6, 0, 4.0 / 6, -1.0 / 6}, piece[2], parts)) return false;
+  const double at = 0.3819660112501051;  // by the golden section
+  const Sample other = sample(before_step, piece[0].theta + at * (piece[4].theta - piece[0].theta));
+  return failed_ || has(piece, weights_at(4 * at), other, parts);
+}
+
+bool SectionSearch::is_long(const Simulation& before_step) {
+  if (failed_) return false;
+  std::array<Sample, 5> points;
+  for (std::size_t k = 0; k < points.size(); ++k) points[k] = sample(before_step, static_cast<double>(k) / 4);
+  const auto half_is_long = [&](std::size_t first) {
+    Piece half{points[first], {}, points[first + 1], {}, points[first + 2]};
+    complete(before_step, half);
+    return !failed_ && !is_cubic(before_step, half, 256) && !failed_;
+  };
+  const bool found = !failed_ && half_is_long(0) && half_is_long(2);
+  failed_ = false;  // a point that nobody has asked for
+  return found;
+}
+
+void SectionSearch::note_change(double from, double to, double before, double now) {
+  if (before != 0 && (now == 0 || (now > 0) != (before > 0))) changes_.push_back({from, to, before, now});
+}
+
+/// Looks for two crossings between two samples of the same sign, where a polynomial through all five comes near 0.
+void SectionSearch::see_between(const Simulation& before_step, const Piece& piece, std::size_t k) {
+  const Sample& left = piece[k];
+  const Sample& right = piece[k + 1];
+  const double sign = left.x > 0 ? 1 : -1;
+  if (!(left.x * sign > 0 && right.x * sign > 0)) {
+    note_change(left.theta, right.theta, left.x, right.x);
+    return;
+  }
+  double size = 0;
+  for (const Sample& each : piece) size = std::max(size, std::abs(each.x));
+  const auto polynomial = [&](double at) {
+    const std::array<double, 5> weights = weights_at(at);
+    double sum = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) sum += weights[i] * piece[i].x;
+    return sign * sum;
+  };
+  constexpr int points = 32;
+  int nearest = 0;
+  double least = left.x * sign;
+  for (int i = 1; i < points; ++i) {
+    const double x = polynomial(static_cast<double>(k) + i / static_cast<double>(points));
+    if (x < least) {
+      least = x;
+      nearest = i;
+    }
+  }
+  if (nearest == 0 || !(least < right.x * sign) || !(least <= size / 64)) return;
+  // Golden section; 40 times leave 10^-9 of the place, and a square of that of x.
+  const double width = (right.theta - left.theta) / points;
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double from = left.theta + (nearest - 1) * width;
+  double to = from + 2 * width;
+  double inner = to - golden * (to - from);
+  double outer = from + golden * (to - from);
+  const auto x_at = [&](double theta) { return failed_ ? 0 : sample(before_step, theta).x; };
+  double x_inner = x_at(inner);
+  double x_outer = x_at(outer);
+  for (int i = 0; i < 40 && !failed_; ++i) {
+    const bool inner_is_less = x_inner * sign < x_outer * sign;
+    const double theta = inner_is_less ? inner : outer;
+    const double x = inner_is_less ? x_inner : x_outer;
+    if (x * sign < 0) {
+      note_change(left.theta, theta, left.x, x);
+      note_change(theta, right.theta, x, right.x);
+      return;
+    }
+    if (inner_is_less) {
+      to = outer;
+      outer = inner;
+      x_outer = x_inner;
+      x_inner = x_at(inner = to - golden * (to - from));
+    } else {
+      from = inner;
+      inner = outer;
+      x_inner = x_outer;
+      x_outer = x_at(outer = from + golden * (to - from));
+    }
+  }
+}
+
+void SectionSearch::see(const Simulation& before_step, Piece& piece, int depth) {
+  constexpr int deepest = 14;
+  constexpr int most_looks = 4096;
+  if (failed_) return;
+  if (depth == deepest || looks_ > most_looks || is_cubic(before_step, piece, 64)) {
+    // A bounce, a kink or a jump is no cubic however near it is seen.
+    too_coarse_ = too_coarse_ || (looks_ > most_looks && depth < deepest);
+    for (std::size_t k = 0; k + 1 < piece.size(); ++k) see_between(before_step, piece, k);
+    return;
+  }
+  for (const std::size_t first : {0, 2}) {
+    Piece half{piece[first], {}, piece[first + 1], {}, piece[first + 2]};
+    complete(before_step, half);
+    see(before_step, half, depth + 1);
+  }
+}
+
+void SectionSearch::locate_all(const Simulation& before_step, double before, const Frame& frame, double now) {
+  if (failed_) return;
+  changes_.clear();
+  looks_ = 0;
+  too_coarse_ = false;
+  Piece whole;
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    if (!failed_) whole[k] = sample(before_step, static_cast<double>(k) / 4);
+  }
+  if (failed_) return;
+  // A flight that was given up, as at walls that reject steps, is none into which the run went.
+  const Sample end = sample_of(1, frame);
+  bool is_that_of_the_run = true;
+  for (std::size_t i = 0; i < end.state.size(); ++i) {
+    double range = 0;
+    for (const Sample& each : whole) range = std::max(range, std::abs(each.state[i] - whole[0].state[i]));
+    const double size = std::max(std::abs(end.state[i]), std::abs(whole[0].state[i]));
+    is_that_of_the_run = is_that_of_the_run && std::abs(whole[4].state[i] - end.state[i]) <= range / 4 + 1e-6 * size;
+  }
+  whole[4] = end;
+  if (is_that_of_the_run) see(before_step, whole, 0);
+  if (!is_that_of_the_run || too_coarse_) ++unseen_;
+  if (!is_that_of_the_run) note_change(0, 1, before, now);
+  const bool is_alone = changes_.size() == 1 && before != 0 && (now == 0 || (now > 0) != (before > 0));
+  if (is_alone) changes_.front() = {0, 1, before, now};
+  for (const Change& change : changes_) {
+    if (!failed_ && crosses(change.before, change.now)) locate(before_step, change);
+  }
+}
+
 SectionFinder::SectionFinder(const Simulation& simulation, const Section& section,
                              std::function<void(const SectionPoint&)> found)
-    : simulation_(simulation), search_(section, std::move(found)) {}
+    : simulation_(simulation),
+      search_(section, std::move(found)),
+      has_own_substeps_(simulation.method().own_substeps),
+      order_(simulation.method().order) {}
 
 Verdict SectionFinder::observe(const Frame& frame) {
   constexpr std::int64_t steps_behind = 64;
   const double now = search_.distance(frame);
+  const long long work = frame.effort.force + frame.effort.gradient;
   const bool first = !begun_;
-  if (!first && search_.crosses(before_, now)) {
-    if (copy_->advance(frame.step - 1 - copy_->step()) == Outcome::done) {
-      search_.locate(*copy_, before_, now);
-    } else {
+  // One sub-step is as many evaluations as a series has terms, or one and a half times the order, the stages of dop853.
+  const bool looks_into = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
+  if (!first && (looks_into || search_.crosses(before_, now))) {
+    if (copy_->advance(frame.step - 1 - copy_->step()) != Outcome::done) {
       search_.give_up();
+    } else if (looks_into) {
+      search_.locate_all(*copy_, before_, frame, now);
+    } else {
+      search_.locate(*copy_, before_, now);
     }
   }
   before_ = now;
+  work_ = work;
   begun_ = true;
-  if (first || frame.step - copy_->step() >= steps_behind) copy_ = simulation_.clone();
+  if (first || frame.step % steps_behind == 0) copy_ = simulation_.clone();
+  if (!has_own_substeps_ && search_.is_to_measure(frame.step)) search_.measure(*copy_);
   return Verdict::go_on;
 }
 

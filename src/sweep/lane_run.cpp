@@ -118,8 +118,14 @@ void LaneRun::look_for_sections() {
     SectionSearch& search = *observers_[lane].section;
     const double now = x == nullptr ? section_distance(lane) : x[lane] - first.value;
     const double before = std::exchange(distances_[lane], now);
-    if (!search.crosses(before, now) || search.failed() || block_.is_lost(lane)) continue;
-    search.locate(block_.before_step(lane), before, now);
+    if (search.failed() || block_.is_lost(lane)) continue;
+    if (search.is_to_measure(taken_ - 1)) search.measure(block_.before_step(lane));
+    if (search.is_long()) {
+      block_.show(lane, frame_);
+      search.locate_all(block_.before_step(lane), before, frame_, now);
+    } else if (search.crosses(before, now)) {
+      search.locate(block_.before_step(lane), before, now);
+    }
   }
 }
 

@@ -307,6 +307,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   if (describe(scenario.request.method).halves_steps) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);
   s["warnings"] = warnings_of(scenario, s, simulation, turns);
+  if (measures != nullptr) measures->add_warnings(s["warnings"]);
   s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;

@@ -147,6 +147,70 @@ class Walls(CommandCase):
         for key in ("steps", "events", "stopped_by", "final"):
             self.assertEqual(row[key], found[key])
 
+    def oscillator(self, method, dt, steps, start="q = [1], p = [0]", walls="[]", run=""):
+        text = ('[problem]\nname = "harmonic"\ninitial = {{ {} }}\nwalls = {}\n[method]\nname = "{}"\n'
+                '[run]\ndt = {}\nsteps = {}\n{}\n')
+        return self.write("oscillator.toml", text.format(start, walls, method, dt, steps, run))
+
+    def test_every_bounce_of_a_long_step(self):
+        """cos t between bounces off q = -0.9, which are 2 acos(-0.9) apart; steps of up to six periods."""
+        to_wall = math.acos(-0.9)
+        for method, near in (("taylor", 1e-10), ("dop853", 1e-9), ("gauss(10)", 1e-8), ("cg(8)", 1e-5)):
+            for dt, steps in ((0.05, 800), (2, 20), (5, 8), (20, 2), (40, 1), (2 * math.pi, 6)):
+                with self.subTest(method=method, dt=dt):
+                    found = self.summary(self.oscillator(method, dt, steps, walls='[{ coordinate = "q", min = -0.9 }]'))
+                    time = dt * steps
+                    self.assertEqual(found["events"], {"wall:q:min": int((time / to_wall + 1) / 2)})
+                    self.assertAlmostEqual(found["final"]["q"][0],
+                                           math.cos((time + to_wall) % (2 * to_wall) - to_wall), delta=near)
+
+    def test_a_long_step_without_a_bounce_has_the_bits_of_one_without_walls(self):
+        for method in ("taylor", "dop853", "gauss(10)", "cg(8)"):
+            for dt in (0.05, 5, 20):
+                with self.subTest(method=method, dt=dt):
+                    free = self.summary(self.oscillator(method, dt, 8))
+                    walled = self.summary(self.oscillator(method, dt, 8, walls='[{ coordinate = "q", min = -1.5 }]'))
+                    self.assertEqual(walled["events"], {"wall:q:min": 0})
+                    self.assertEqual(walled["final"], free["final"])
+
+    def test_every_event_within_a_long_step(self):
+        """Zeros of cos t - c, also where two of them are close to each other; the points of a section are the same."""
+        for method in ("taylor", "dop853", "gauss(10)", "cg(8)"):
+            longer = ((20, 10), (200, 1)) if method in ("taylor", "dop853") else ()  # others lose the phase
+            for dt, steps in ((0.5, 401), (5, 40), *longer):
+                for value in (0, 0.95, 0.9999):
+                    with self.subTest(method=method, dt=dt, value=value):
+                        down = math.acos(value)
+                        run = (f'events = [{{ name = "any", expression = "q - {value}", direction = 0 }}, '
+                               f'{{ name = "up", expression = "q - {value}" }}]\n'
+                               f'section = {{ coordinate = "q", value = {value}, direction = -1 }}')
+                        found = self.summary(self.oscillator(method, dt, steps, run=run))
+                        time = dt * steps
+                        falls = int((time - down) / (2 * math.pi)) + 1
+                        rises = int((time + down) / (2 * math.pi))
+                        if dt > 1:  # two crossings within a short step are not seen
+                            self.assertEqual(found["events"], {"user:any": falls + rises, "user:up": rises})
+                            self.assertEqual(found["section"]["points"], falls)
+                        elif value == 0:
+                            self.assertEqual(found["events"], {"user:any": falls + rises, "user:up": rises})
+                        self.assertNotIn("message", found["section"])
+
+    def test_long_steps_are_seen_alike_in_a_sweep_and_after_a_stop(self):
+        run = 'section = { coordinate = "q", direction = 0 }'
+        for method, dt in (("taylor", 20), ("gauss(10)", 5)):
+            with self.subTest(method=method):
+                whole = self.summary(self.oscillator(method, dt, 200 // dt, run=run))
+                self.assertEqual(whole["section"]["points"], int(200 / math.pi + 0.5))
+                self.hamflow("run", "oscillator.toml", "--out", "cut", "--force", "--quiet", "--set", "run.steps=4")
+                again = json.loads(self.hamflow("run", "oscillator.toml", "--out", "cut", "--resume", "--json").stdout)
+                self.assertEqual(again["section"], whole["section"])
+                self.hamflow("sweep", "oscillator.toml", "--vary", "problem.initial.q[0]=1,2,3,4", "--out", "s",
+                             "--force", "--quiet")
+                done = subprocess.run([COMPARE, "--numbers=/section/member", "s/sweep.h5"], cwd=self.folder,
+                                      capture_output=True, text=True, check=True)
+                members = done.stdout.split()
+                self.assertEqual(len(members), 4 * whole["section"]["points"])
+
     def test_failures(self):
         soft = self.summary(self.box('[{ coordinate = "q1", min = -0.5, max = 0.5 }]', "stv4", 'wall_rule = "soft"',
                                      run=""), "--set", "run.dt=0.9", status=1)

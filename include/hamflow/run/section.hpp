@@ -1,11 +1,16 @@
 // Poincare sections: the states in which a coordinate, or an expression, x passes a value, found on partial steps.
 // Between two steps of opposite sign of x - value the time tau is solved for on Psi_tau(z_n) itself, to rounding, so
 // that a point of the section lies on the energy level of the method like any of its steps.
+//
+// Steps that are long beside the motion, as those may be that are made of sub-steps of the method's own, are seen in
+// pieces: halved until five points of each are on a cubic, and with whatever crosses between them out and back.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/state_expression.hpp"
@@ -28,8 +33,8 @@ struct SectionPoint {
   double residual = 0;  // |x - value|
 };
 
-/// Finds the points of a section between steps that it is told. A start on the section is not counted as a point; an
-/// even number of crossings within one step is not seen.
+/// Finds the points of a section between steps that it is told. A start on the section is not counted as a point. Of a
+/// short step an even number of crossings is not seen.
 class SectionSearch {
  public:
   SectionSearch(Section section, std::function<void(const SectionPoint&)> found)
@@ -44,6 +49,16 @@ class SectionSearch {
   }
   /// Finds it.   @param before_step as it is before the step   @param before, now x - value before the step and behind
   void locate(const Simulation& before_step, double before, double now);
+  /// Finds all points of a step that may be long. One that is alone has the digits that locate() finds.
+  /// @param frame behind the step
+  void locate_all(const Simulation& before_step, double before, const Frame& frame, double now);
+  /// Now and then looks into the step that follows, of a method without sub-steps of its own: from the first that is
+  /// long beside the motion on, all are. No single bounce or jump makes one long.
+  void measure(const Simulation& before_step) { is_long_ = is_long_ || is_long(before_step); }
+  /// Whether to do so behind so many steps.
+  bool is_to_measure(std::int64_t step) const { return !is_long_ && step % steps_between == 0; }
+  /// Whether steps are long, and locate_all() finds their points.
+  bool is_long() const { return is_long_; }
   /// Seeks no more.
   void give_up() { failed_ = true; }
   std::int64_t points() const { return points_; }
@@ -52,23 +67,57 @@ class SectionSearch {
   std::int64_t jumps() const { return jumps_; }
   /// Whether a step of the search failed: no points are sought after that.
   bool failed() const { return failed_; }
+  /// Long steps into which nobody could look closely enough: even numbers of crossings in them may have been missed.
+  std::int64_t unseen() const { return unseen_; }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(failed_, points_, jumps_, max_residual_);
+    ar(failed_, points_, jumps_, max_residual_, unseen_, is_long_);
   }
 
  private:
+  /// A state within a step.
+  struct Sample {
+    double theta = 0;
+    double x = 0;               // x - value
+    std::vector<double> state;  // q and p
+  };
+  /// Where x - value changes its sign.
+  struct Change {
+    double from, to, before, now;
+  };
+  /// The part of a step between five equidistant samples.
+  using Piece = std::array<Sample, 5>;
+
+  static constexpr std::int64_t steps_between = 256;
+  bool is_long(const Simulation& before_step);
+  Sample sample(const Simulation& before_step, double theta);
+  Sample sample_of(double theta, const Frame& frame) const;
+  /// Fills in what is between the ends and the middle.
+  void complete(const Simulation& before_step, Piece& piece);
+  bool is_cubic(const Simulation& before_step, const Piece& piece, double parts);
+  bool has(const Piece& piece, const std::array<double, 5>& weights, const Sample& sample, double parts) const;
+  void see(const Simulation& before_step, Piece& piece, int depth);
+  void see_between(const Simulation& before_step, const Piece& piece, std::size_t k);
+  void note_change(double from, double to, double before, double now);
+  void locate(const Simulation& before_step, const Change& change);
+
   Section section_;
   std::function<void(const SectionPoint&)> found_;
   bool failed_ = false;
   std::int64_t points_ = 0;
   std::int64_t jumps_ = 0;
   double max_residual_ = 0;
+  std::int64_t unseen_ = 0;
+  bool is_long_ = false;
   Frame partial_;
+  std::vector<Change> changes_;  // of the present step
+  int looks_ = 0;                // into it
+  bool too_coarse_ = false;
 };
 
 /// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
-/// blocks of one, some hundred nanoseconds a step.
+/// blocks of one, some hundred nanoseconds a step. It looks into those that were made of several sub-steps of the
+/// method's own; of other methods now and then into one, and into all from the first that is long.
 class SectionFinder final : public Observer {
  public:
   /// @param simulation the simulation that is observed
@@ -81,11 +130,12 @@ class SectionFinder final : public Observer {
   double max_residual() const { return search_.max_residual(); }
   std::int64_t jumps() const { return search_.jumps(); }
   bool failed() const { return search_.failed(); }
+  std::int64_t unseen() const { return search_.unseen(); }
 
  private:
   template <class Archive>
   void fields(Archive& ar) {
-    ar(before_, begun_, search_);
+    ar(before_, begun_, work_, search_);
   }
 
   const Simulation& simulation_;
@@ -93,6 +143,9 @@ class SectionFinder final : public Observer {
   std::unique_ptr<Simulation> copy_;  // at most some steps behind
   double before_ = 0;                 // x - value at the last step
   bool begun_ = false;
+  bool has_own_substeps_;
+  int order_;
+  long long work_ = 0;  // evaluations up to the last step
 };
 
 }  // namespace hamflow

@@ -1,6 +1,7 @@
 // run.events: zeros of expressions, located as the points of a section are, counted, recorded, and able to end a run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "measure.hpp"
@@ -32,6 +33,11 @@ class EventsMeasure final : public Measure, public Observer {
   void archive(Writer& ar) override { fields(ar); }
   void archive(Reader& ar) override { fields(ar); }
   bool stops() const override { return by_.has_value(); }
+  std::int64_t unseen_steps() const override {
+    std::int64_t most = 0;
+    for (const auto& finder : finders_) most = std::max(most, finder->unseen());
+    return most;
+  }
   void add_events(Json& events) const override {
     for (std::size_t i = 0; i < events_.size(); ++i) events["user:" + events_[i].name] = finders_[i]->points();
   }

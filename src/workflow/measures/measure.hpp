@@ -36,6 +36,8 @@ class Measure {
   virtual void add_events(nlohmann::ordered_json& /*events*/) const {}
   /// Whether the run ends here by its own will.
   virtual bool stops() const { return false; }
+  /// Long steps into which it could not look closely enough.
+  virtual std::int64_t unseen_steps() const { return 0; }
   /// How often each event of the scenario was met, and which has ended the run; of events alone.
   virtual std::vector<std::int64_t> event_counts() const { return {}; }
   virtual std::optional<MemberStop> stopped_by() const { return {}; }

@@ -1,5 +1,7 @@
 #include "measures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +38,16 @@ void Measures::add_to(nlohmann::ordered_json& summary) const {
     measure->add_events(summary["events"]);
     if (const auto entry = measure->summary(); !entry.is_null()) summary[kind->key] = entry;
   }
+}
+
+void Measures::add_warnings(nlohmann::ordered_json& warnings) const {
+  std::int64_t most = 0;
+  for (const auto& [kind, measure] : requested_) most = std::max(most, measure->unseen_steps());
+  if (most == 0) return;
+  warnings.push_back({{"kind", "long_step"},
+                      {"message", fmt::format("nobody could look closely into {}: points of a section and events may "
+                                              "have been missed there; try a smaller dt",
+                                              most == 1 ? "1 long step" : fmt::format("{} long steps", most))}});
 }
 
 bool Measures::stopped() const {

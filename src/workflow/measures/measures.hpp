@@ -20,6 +20,8 @@ class Measures {
   std::vector<NamedObserver> observers() const;
   /// Adds an entry for each to the summary.
   void add_to(nlohmann::ordered_json& summary) const;
+  /// What is to be said of steps that were too long for them.
+  void add_warnings(nlohmann::ordered_json& warnings) const;
   /// Whether one of them has ended the run.
   bool stopped() const;
 

@@ -22,6 +22,7 @@ class SectionMeasure final : public Measure {
           if (recorder != nullptr) recorder->append(point);
         }) {}
   Observer& observer() override { return finder_; }
+  std::int64_t unseen_steps() const override { return finder_.unseen(); }
   Json summary() const override {
     Json all{{"points", finder_.points()}, {"max_residual", finder_.max_residual()}};
     std::string message;
