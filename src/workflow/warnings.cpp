@@ -80,7 +80,9 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
 /// steps of half a period and more cannot rely on what those do.
 void add_long_search(const Scenario& scenario, const Simulation& simulation, Json& all) {
   const bool seeks = has_hard_walls(scenario.request) || scenario.section || !scenario.events.empty();
-  if (!seeks || simulation.step() == 0 || simulation.method().own_substeps) return;
+  const auto walls = walls_among(scenario.request.variant);
+  const bool sees_ends_alone = walls && walls->rule == WallRule::reject;  // of steps
+  if (!seeks || simulation.step() == 0 || (simulation.method().own_substeps && !sees_ends_alone)) return;
   if (std::any_of(all.begin(), all.end(), [](const Json& each) { return each["kind"] == "long_step"; })) return;
   SectionSearch search({}, [](const SectionPoint&) {});
   search.measure(simulation);

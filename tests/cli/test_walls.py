@@ -181,6 +181,8 @@ class Walls(CommandCase):
                 with self.subTest(method=method, dt=dt, walls=walls, run=run):
                     found = self.summary(self.oscillator(method, dt, steps, walls=walls, run=run))
                     self.assertEqual([each["kind"] for each in found["warnings"]], kinds)
+        self.oscillator("taylor", 5, 8, walls='[{ coordinate = "q", min = -0.9 }]\nwall_rule = "reject"')
+        self.assertEqual([each["kind"] for each in self.summary("oscillator.toml")["warnings"]], ["long_step"])
 
     def test_every_event_within_a_long_step(self):
         """Zeros of cos t - c, also where two of them are close to each other; the points of a section are the same."""
