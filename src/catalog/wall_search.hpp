@@ -124,16 +124,21 @@ class WallSearch {
     return Found::hit;
   }
 
-  /// The same before what the two ends of the flight have told of: whatever that was, its every digit stays.
+  /// The same before what the two ends of the flight have told of: whatever that was, its every digit stays. Where even
+  /// the shortest pieces are no cubics, behind a jump or where the method no longer moves with the velocity that H has,
+  /// the rest goes in pieces as long as the longest good one.
   template <class Look>
   Found first_in_pieces(const R* q0, const Look& look, Found found, Hit& hit) {
     const R until = found == Found::hit ? hit.part : R(1);
-    const R shortest = until / R(1 << 20);  // what is no cubic in there has a jump
-    const R share = R(3) / R(8);            // no half, which is in step with what the ends are in step with
+    const R share = R(3) / R(8);  // no half, which is in step with what the ends are in step with
     from_ = start_;
+    constexpr int most_shorter = 1 << 14;
     R part(0);
     R length = until;
+    R good = until / R(1024);
+    bool is_smooth = true;
     while (part < until) {
+      if (!is_smooth) length = good;
       bool is_last = !(part + length < until);
       if (is_last) length = until - part;
       R to = is_last ? until : R(part + length);
@@ -141,7 +146,11 @@ class WallSearch {
       while (true) {
         const R between = part + share * length;
         if (!see_all(between, look, inner_)) return Found::failed;
-        if (length < shortest || is_cubic(q0)) break;
+        if (!is_smooth || is_cubic(q0)) break;
+        if (length < good / R(most_shorter)) {
+          is_smooth = false;
+          break;
+        }
         std::swap(inner_, end_);
         length = share * length;
         to = between;
@@ -156,6 +165,7 @@ class WallSearch {
       }
       std::swap(from_, end_);
       part = to;
+      if (is_smooth) good = larger(good, length);
       length *= R(2);
     }
     return found;

@@ -8,7 +8,9 @@
 
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
+#include "hamflow/run/walls.hpp"
 
 namespace hamflow {
 
@@ -72,6 +74,24 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
   if (period == 0 || steps_per_period * dt <= period) return;
   all.push_back(warning("long_step", fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less",
                                                  dt, whose, period / (2 * steps_per_period))));
+}
+
+/// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes
+/// steps of half a period and more cannot rely on what those do.
+void add_long_search(const Scenario& scenario, const Simulation& simulation, Json& all) {
+  const bool seeks = has_hard_walls(scenario.request) || scenario.section || !scenario.events.empty();
+  const auto walls = walls_among(scenario.request.variant);
+  const bool sees_ends_alone = walls && walls->rule == WallRule::reject;  // of steps
+  if (!seeks || simulation.step() == 0 || (simulation.method().own_substeps && !sees_ends_alone)) return;
+  if (std::any_of(all.begin(), all.end(), [](const Json& each) { return each["kind"] == "long_step"; })) return;
+  SectionSearch search({}, [](const SectionPoint&) {});
+  search.measure(simulation);
+  if (!search.is_long()) return;
+  all.push_back(
+      warning("long_step", fmt::format("dt = {:g} is half a period of the motion or more: bounces, points of a "
+                                       "section and events within a step are those of the method, and may "
+                                       "be fewer or more than those of the motion; try a smaller dt",
+                                       scenario.dt)));
 }
 
 /// Where two Lennard-Jones particles repel each other with no energy left, in the lengths of the positions; 0 of
@@ -161,7 +181,9 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, doubl
 Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns) {
   Frame end;
   simulation.look(end);
-  return warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns);
+  Json all = warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns);
+  add_long_search(scenario, simulation, all);
+  return all;
 }
 
 Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, double scale, const Frame& end,

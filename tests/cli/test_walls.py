@@ -173,6 +173,18 @@ class Walls(CommandCase):
                     self.assertEqual(walled["events"], {"wall:q:min": 0})
                     self.assertEqual(walled["final"], free["final"])
 
+    def test_steps_of_half_a_period_are_warned_of(self):
+        for method, dt, steps, kinds in (("gauss(10)", 5, 8, ["long_step"]), ("cg(8)", 5, 8, ["long_step"]),
+                                         ("gauss(10)", 20, 8, ["long_step"]), ("gauss(10)", 0.25, 400, []),
+                                         ("taylor", 5, 8, []), ("taylor", 20, 2, [])):
+            for walls, run in (('[{ coordinate = "q", min = -0.9 }]', ""), ("[]", 'section = { coordinate = "q" }'),
+                               ("[]", 'events = [{ expression = "q" }]')):
+                with self.subTest(method=method, dt=dt, walls=walls, run=run):
+                    found = self.summary(self.oscillator(method, dt, steps, walls=walls, run=run))
+                    self.assertEqual([each["kind"] for each in found["warnings"]], kinds)
+        self.oscillator("taylor", 5, 8, walls='[{ coordinate = "q", min = -0.9 }]\nwall_rule = "reject"')
+        self.assertEqual([each["kind"] for each in self.summary("oscillator.toml")["warnings"]], ["long_step"])
+
     def test_every_event_within_a_long_step(self):
         """Zeros of cos t - c, also where two of them are close to each other; the points of a section are the same."""
         for method in ("taylor", "dop853", "gauss(10)", "cg(8)"):
