@@ -167,7 +167,7 @@ class WalledSimulation : public Simulation {
     if (walls_->rule == WallRule::soft || (outcome != Outcome::done && walls_->rule != WallRule::event)) return outcome;
     Effort spent;
     add_evaluations(spent, inner_->effort(), before);
-    in_pieces_ = walls_->rule == WallRule::event && (starts_at_rest(v0) || has_several_parts(outcome, spent));
+    in_pieces_ = looks_into_steps() && (starts_at_rest(v0) || has_several_parts(outcome, spent));
     if (outcome == Outcome::done && !in_pieces_ && stays_inside(q0, v0)) return outcome;
     if (walls_->rule == WallRule::event) {
       parts_->back(Place::step);
@@ -205,6 +205,10 @@ class WalledSimulation : public Simulation {
     return v;
   }
 
+  /// Whether steps whose two ends are inside are asked how long they are. Loops of recorded steps ask for their
+  /// tangents alone, and which steps of a run are taken in loops depends on lanes, samples and resuming: the same is
+  /// asked of all steps of a method that can be recorded.
+  bool looks_into_steps() const { return walls_->rule == WallRule::event && recorded_ == nullptr; }
   /// Whether a step was made of several sub-steps of the method's own, as far as its work tells: one is as many
   /// evaluations as a series has terms, or one and a half times as many as the order, the stages of dop853. Where one
   /// was rejected, or nobody knows, it is said of a single one too: then the search takes longer and finds the same.
@@ -228,8 +232,9 @@ class WalledSimulation : public Simulation {
       const std::size_t i = wall.coordinate;
       if (wall.beyond(q1[i]) > R(0)) return false;
       if (!and_turns) return true;
-      if (WallSearch<R>::is_long(wall.beyond(q0[i]), R(wall.side) * h * v0[i], wall.beyond(q1[i]),
-                                 R(wall.side) * h * v1[i])) {
+      const R side = R(wall.side) * h;
+      if (looks_into_steps() &&
+          WallSearch<R>::is_long(wall.beyond(q0[i]), side * v0[i], wall.beyond(q1[i]), side * v1[i])) {
         return false;
       }
       const R ahead = wall.beyond(q0[i] + R(2) * h * v0[i]);

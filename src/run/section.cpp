@@ -124,8 +124,12 @@ bool SectionSearch::is_cubic(const Simulation& before_step, const Piece& piece, 
 
 bool SectionSearch::is_long(const Simulation& before_step) {
   if (failed_) return false;
+  constexpr std::size_t most_numbers = 20000;  // of larger systems this would take the memory of several runs
   std::array<Sample, 5> points;
-  for (std::size_t k = 0; k < points.size(); ++k) points[k] = sample(before_step, static_cast<double>(k) / 4);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    points[k] = sample(before_step, static_cast<double>(k) / 4);
+    if (points[k].state.size() > most_numbers) return false;
+  }
   const auto half_is_long = [&](std::size_t first) {
     Piece half{points[first], {}, points[first + 1], {}, points[first + 2]};
     complete(before_step, half);
