@@ -264,9 +264,10 @@ Verdict SectionFinder::observe(const Frame& frame) {
   const double now = search_.distance(frame);
   const long long work = frame.effort.force + frame.effort.gradient;
   const bool first = !begun_;
+  const bool stepped = !first && frame.step > copy_->step();  // a run that goes on shows the state that it has again
   // One sub-step is as many evaluations as a series has terms, or one and a half times the order, the stages of dop853.
   const bool looks_into = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
-  if (!first && (looks_into || search_.crosses(before_, now))) {
+  if (stepped && (looks_into || search_.crosses(before_, now))) {
     if (copy_->advance(frame.step - 1 - copy_->step()) != Outcome::done) {
       search_.give_up();
     } else if (looks_into) {
