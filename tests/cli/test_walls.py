@@ -348,6 +348,30 @@ steps = 10
         self.assertLess(errors["cg(3,auto)"], 1e-6)
 
 
+    def test_long_steps_have_the_same_bounces_whoever_takes_them(self):
+        """Loops of recorded steps, lanes and runs that go on: with steps of half a period, too."""
+        text = ('[problem]\nname = "harmonic"\ninitial = { q = [-0.004598], p = [0.37009] }\n'
+                'walls = [{ coordinate = "q", min = -0.3147, max = 0.5044 }]\n[method]\nname = "%s"\n[run]\ndt = %s\nsteps = 900\n')
+        for method, dt in (("verlet", "2.9117"), ("stv4", "1.3"), ("rk4", "2.3"), ("gauss(2)", "1.7"), ("taylor", "5")):
+            name = self.write("long.toml", text % (method, dt))
+            whole = self.summary(name)
+            self.hamflow("run", name, "--out", "part.run", "--set", "run.steps=41", "--force")
+            parts = json.loads(self.hamflow("run", name, "--out", "part.run", "--resume", "--json").stdout)
+            lane = json.loads(self.hamflow("sweep", name, "--vary", f"run.dt={dt},{dt}", "--out", "none", "--json").stdout)["rows"][0]
+            for other in (parts, lane):
+                self.assertEqual((other["final"], other["events"]), (whole["final"], whole["events"]), method)
+
+    def test_long_steps_are_looked_into_once(self):
+        """A run that goes on shows its state for a second time."""
+        name = self.write("long.toml", '[problem]\nname = "harmonic"\ninitial = { q = [-0.039118], p = [0.927882] }\n'
+                          '[method]\nname = "stv4"\n[run]\ndt = 2.5837\nsteps = 40\n'
+                          'section = { coordinate = "q", direction = 0, value = -0.064 }\n')
+        whole = self.summary(name)
+        self.assertIn("long_step", [warning["kind"] for warning in whole["warnings"]])
+        self.hamflow("run", name, "--out", "part.run", "--set", "run.steps=10")
+        parts = json.loads(self.hamflow("run", name, "--out", "part.run", "--resume", "--json").stdout)
+        self.assertEqual(parts["section"], whole["section"])
+
     def test_a_start_of_given_energy_counts_soft_walls(self):
         soft = ('[problem]\nname = "harmonic"\nwalls = [{ coordinate = "q", min = -2, max = 1.5 }]\nwall_rule = "soft"\n'
                 'strength = 0.1\ninitial = { q = [0.4], %s = ["+"], energy = 3 }\n[method]\nname = "verlet"\n'
