@@ -11,7 +11,8 @@
 namespace hamflow {
 
 /// V = k w/(2 (e - 1)) (1 - x^2)^(1 - e), for e = 1 -(k w/2) ln(1 - x^2), with x = (q - middle)/w of each wall; 0 of
-/// hard walls. NaN where q is on or beyond a wall.
+/// hard walls. NaN where q is on or beyond a wall. The force of walled_functions.cpp, k x/(1 - x^2)^e, is its slope.
+/// @param q all coordinates, in any container
 template <class R, class Q>
 R soft_energy(const Walls& walls, const Q& q) {
   R sum(0);

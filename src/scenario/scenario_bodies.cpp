@@ -13,9 +13,9 @@ struct BodyTexts {
   std::string mass, position[3], velocity[3];
 };
 
-/// The planar start, as expressions in the numbers given: beyond double their digits count. With r and v the relative
-/// position and velocity it is (|r|, 0), mu (r v, |r x v|)/|r|, in polar coordinates (|r|, 0), (mu r v/|r|, mu |r x
-/// v|).
+/// The planar start of TwoBodies, as expressions in the numbers given: beyond double their digits count. With r and v
+/// the relative position and velocity it is (|r|, 0), mu (r.v, |r x v|)/|r|; in polar coordinates the second momentum
+/// is the angular one, mu |r x v|.   [Gross1999, (2.1)-(2.20)]
 StartSpec in_any_digits(const BodyTexts& first, const BodyTexts& second, const std::string& mu, bool polar) {
   std::string r[3], v[3], rr, rv, cc;
   for (std::size_t k = 0; k < 3; ++k) {
