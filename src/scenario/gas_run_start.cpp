@@ -83,11 +83,9 @@ std::vector<std::string> texts_of(hid_t file, const std::string& name, hsize_t r
 /// The numbers of a state: of a run beyond double with all digits.
 /// @param digits where they stand, if the run has some
 std::vector<std::string> numbers_of(hid_t file, const std::string& name, const std::string& digits, hsize_t row) {
-  std::vector<std::string> texts = texts_of(file, digits, row);
-  const std::vector<double> numbers = row_of(file, name, row);
-  if (texts.size() == numbers.size()) return texts;
-  texts.clear();
-  for (const double x : numbers) texts.push_back(shortest(x));
+  if (!digits.empty() && !shape_of(file, digits).empty()) return texts_of(file, digits, row);
+  std::vector<std::string> texts;
+  for (const double x : row_of(file, name, row)) texts.push_back(shortest(x));
   return texts;
 }
 
@@ -108,6 +106,10 @@ Place place_of(hid_t file, const std::filesystem::path& path, RunState which) {
     place = {"particles/start/position/value", "particles/start/momentum/value", 0, 1};
   } else if (which == RunState::last && times.size() == 1 && times[0] > 0) {
     place.row = times[0] - 1;
+    for (const char* const digits : {"digits/q", "digits/p"}) {  // of a run that was killed they may be a row behind
+      const std::vector<hsize_t> rows = shape_of(file, digits);
+      if (!rows.empty() && rows[0] > 0) place.row = std::min(place.row, rows[0] - 1);
+    }
   }
   const std::vector<hsize_t> states = shape_of(file, place.q);
   if (times.size() != 1 || times[0] == 0 || states.size() < 2 || shape_of(file, place.p) != states ||
