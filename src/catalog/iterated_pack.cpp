@@ -42,7 +42,7 @@ std::int64_t IteratedPack::run(const IteratedFamily& family, const NewtonOptions
   return taken_;
 }
 
-/// Lanes without a member repeat the last one.
+/// Lanes without a member rest.
 void IteratedPack::start() {
   width_ = family_->lanes();
   std::vector<std::size_t> sets;
@@ -50,14 +50,15 @@ void IteratedPack::start() {
   constants_of_correct_ = family_->constants_of_correct(sets);
   constants_of_finish_ = family_->constants_of_finish(sets);
   carried_.resize(at_.size() * width_);
-  ends_.resize((at_.m + 2 * at_.n) * width_);
+  ends_.resize((at_.m + 4 * at_.n) * width_);
   sizes_.resize(width_);
   totals_.resize(width_);
   course_.resize(width_);
   places_.assign(width_, Place::gone);
   std::fill_n(places_.begin(), lanes_.size(), Place::in_lane);
   failed_ = std::make_unique<bool[]>(width_);
-  for (std::size_t lane = 0; lane < width_; ++lane) put(lane, lanes_[std::min(lane, lanes_.size() - 1)].frame);
+  std::fill(carried_.begin(), carried_.end(), 0.0);
+  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) put(lane, lanes_[lane].frame);
 }
 
 void IteratedPack::put(std::size_t lane, std::span<const double> frame) {
@@ -147,12 +148,25 @@ void IteratedPack::judge(std::size_t lane, int k) {
   if (course.settled && epsilon * course.first > 1) leave(lane, carried_);  // the guess was far away
 }
 
+/// The lane waits for others.
 void IteratedPack::keep_end(std::size_t lane) {
-  for (std::size_t k = 0; k < at_.m + 2 * at_.n; ++k) ends_[k * width_ + lane] = number(at_.end() + k, lane);
+  const std::size_t size = at_.m + 2 * at_.n;
+  for (std::size_t k = 0; k < size; ++k) ends_[k * width_ + lane] = number(at_.end() + k, lane);
+  for (std::size_t k = 0; k < 2 * at_.n; ++k) ends_[(size + k) * width_ + lane] = number(at_.state(k), lane);
+  rest(lane);
 }
 
 void IteratedPack::take_end(std::size_t lane) {
-  for (std::size_t k = 0; k < at_.m + 2 * at_.n; ++k) number(at_.end() + k, lane) = ends_[k * width_ + lane];
+  const std::size_t size = at_.m + 2 * at_.n;
+  for (std::size_t k = 0; k < size; ++k) number(at_.end() + k, lane) = ends_[k * width_ + lane];
+  for (std::size_t k = 0; k < 2 * at_.n; ++k) number(at_.state(k), lane) = ends_[(size + k) * width_ + lane];
+}
+
+/// What the lane computes is of no use. Sines and other functions of the library, one by one in a lane, answer 0 at
+/// once.
+void IteratedPack::rest(std::size_t lane) {
+  for (std::size_t k = 0; k < 2 * at_.n; ++k) number(at_.state(k), lane) = 0;
+  for (std::size_t i = 0; i < at_.m; ++i) number(at_.x() + i, lane) = 0;
 }
 
 /// @param at numbers in which the lane stands at the last step that it has taken
@@ -160,6 +174,7 @@ void IteratedPack::leave(std::size_t lane, const LaneNumbers& at) {
   for (std::size_t k = 0; k * width_ < at.size(); ++k) lanes_[lane].frame[k] = at[k * width_ + lane];
   places_[lane] = Place::outside;
   course_[lane].settled = true;
+  rest(lane);
 }
 
 /// The work of a step that was taken, as ImplicitMethod counts it.

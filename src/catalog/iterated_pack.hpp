@@ -49,6 +49,7 @@ class IteratedPack {
   void judge(std::size_t lane, int k);
   void keep_end(std::size_t lane);
   void take_end(std::size_t lane);
+  void rest(std::size_t lane);
   void leave(std::size_t lane, const LaneNumbers& at);
   void put(std::size_t lane, std::span<const double> frame);
   void count(std::size_t lane);
@@ -66,7 +67,7 @@ class IteratedPack {
   LaneNumbers constants_of_finish_;
   LaneNumbers carried_;
   LaneNumbers before_;  // before the end of the step
-  LaneNumbers ends_;    // of lanes that wait for others: end and increment
+  LaneNumbers ends_;    // of lanes that wait for others: end and increment, then the state
   LaneNumbers sizes_;   // of the last corrections
   LaneNumbers totals_;
   std::vector<Course> course_;

@@ -44,6 +44,4 @@ FunctionOfTwo function_of_two(Instruction instruction) {
   }
 }
 
-SineAndCosine sine_and_cosine(double x) { return {std::sin(x), std::cos(x)}; }
-
 }  // namespace hamflow::native

@@ -51,7 +51,7 @@ FunctionOfTwo function_of_two(Instruction instruction);
 struct SineAndCosine {
   double sine, cosine;  // as a function's result in the first two registers of a vector unit
 };
-SineAndCosine sine_and_cosine(double x);
+inline SineAndCosine sine_and_cosine(double x) { return {std::sin(x), std::cos(x)}; }
 
 inline double called(Instruction instruction, double a, double b) {
   if (const FunctionOfOne f = function_of_one(instruction)) return f(a);

@@ -1,5 +1,10 @@
-// LU factors with partial pivoting that are kept: for several right sides, one after the other, of any number type.
-// [GolubVanLoan2013, Sect. 3.4]
+// LU factors that are kept: for several right sides, one after the other, of any number type. [GolubVanLoan2013,
+// Sect. 3.4]
+//
+// Pivoting is by threshold [DuffErismanReid2017, Chap. 5]: rows are exchanged only where an entry below the diagonal is
+// more than 16 times as large. Newton's tangents are near the identity, but the units of positions and momenta may make
+// entries of one row larger than those of another by any factor; which one is the larger then changes from step to
+// step, and a recorded step (run/recorded_iteration.hpp) is good for one order of rows only.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +27,12 @@ class LuFactors {
     pivots_.resize(size);
     for (std::size_t k = 0; k < size; ++k) {
       std::size_t pivot = k;
+      R least = R(threshold) * abs(lu_[k][k]);
       for (std::size_t i = k + 1; i < size; ++i) {
-        if (abs(lu_[pivot][k]) < abs(lu_[i][k])) pivot = i;
+        const R here = abs(lu_[i][k]);
+        if (!(least < here)) continue;
+        pivot = i;
+        least = here;
       }
       pivots_[k] = pivot;
       if (pivot != k) {
@@ -63,6 +72,7 @@ class LuFactors {
   }
 
  private:
+  static constexpr int threshold = 16;
   Matrix<R, dynamic> lu_{};
   std::vector<std::size_t, PoolAllocator<std::size_t>> pivots_;
 };
