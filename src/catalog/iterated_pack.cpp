@@ -72,7 +72,8 @@ void IteratedPack::take_step() {
   family_->finish().run(carried_, constants_of_finish_, {failed_.get(), width_});
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
     if (!is_here(lane)) continue;
-    const bool is_coarse = automatic_ && !(std::abs(number(at_.gain(), lane)) <= number(at_.gain() + 1, lane));
+    const bool is_coarse = automatic_ && (!(std::abs(number(at_.gain(), lane)) <= number(at_.gain() + 1, lane)) ||
+                                          !(number(at_.change(), lane) <= 0));
     if (failed_[lane] || is_coarse) {
       leave(lane, before_);
     } else {

@@ -174,6 +174,29 @@ steps = 200
             self.check("d.toml", "problem.initial.q[0]=0.1:2.9:19", "--set", f"method.name={method}",
                        "--set", "run.steps=150", members=(0, 7, -1))
 
+    def test_a_kink_that_no_point_has_seen(self):
+        """Two rules of points agree where the kink of |x| lies beyond the last of them: H tells, in lanes too."""
+        self.write("k.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2*(1 + 0.1*x^2) + x^2/2 + 1e-7*abs(x)"
+initial = { q = [1], p = [0.3] }
+[method]
+name = "cg(2,auto)"
+[run]
+dt = 0.01
+steps = 700
+""")
+        found = []
+        for lanes in ("none", "auto"):
+            done = self.hamflow("sweep", "k.toml", "--vary", "problem.initial.q[0]=0.1:2:160", "--lanes", lanes,
+                                "--out", "none", "--json", "--quiet", status=1)
+            sweep = json.loads(done.stdout)
+            found.append([sweep["failed"], sweep["rows"], sweep["failures"]])
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(found[0][0], 160)
+
     def test_arithmetic_and_time(self):
         """Compensated sums, and an H that depends on t: lanes like any other."""
         self.write("k.toml", KEPLER)

@@ -127,6 +127,7 @@ class IteratedSimulation final : public InParts<SimulationOf<P, M, A>>, public I
     if (method_.newton().memory().empty()) return false;
     const Vector<double, dynamic> q0 = z_.positions();
     const Vector<double, dynamic> p0 = z_.momenta();
+    if (automatic()) values[frame_.energy()] = hamflow::energy(Base::problem(), q0, p0);
     const auto& last = method_.newton().memory().predicted();
     const auto x = Equations(method_.setup(), Base::problem(), clock_.step_length(), q0, p0, unused()).started(last);
     if (last.size() != frame_.m) return false;

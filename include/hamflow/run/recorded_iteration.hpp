@@ -51,14 +51,18 @@ struct IterationFrame {
   static constexpr std::size_t carried = 2;   // state and probe, in the order of their archives
   /// The k-th number of (q, p). Each is followed by what its compensated sum keeps.
   static constexpr std::size_t state(std::size_t k) { return carried + 2 * k; }
-  std::size_t memory() const { return 2 + recorded; }       // unknowns of the last step
-  std::size_t x() const { return memory() + m; }            // the present unknowns
-  std::size_t correction() const { return x() + m; }        // the last one
-  std::size_t unit() const { return correction() + m; }     // of its entries: what rounding makes of them
-  std::size_t end() const { return unit() + m; }            // the unknowns at the end of the step
-  std::size_t increment() const { return end() + m; }       // of q and p
-  std::size_t gain() const { return increment() + 2 * n; }  // the energy that finer equations see gained, its rounding
-  std::size_t size() const { return gain() + 2; }
+  std::size_t memory() const { return 2 + recorded; }    // unknowns of the last step
+  std::size_t x() const { return memory() + m; }         // the present unknowns
+  std::size_t correction() const { return x() + m; }     // the last one
+  std::size_t unit() const { return correction() + m; }  // of its entries: what rounding makes of them
+  std::size_t end() const { return unit() + m; }         // the unknowns at the end of the step
+  std::size_t increment() const { return end() + m; }    // of q and p
+  // Where points are judged: H at the state; the energy that finer equations see gained in the last step, and its
+  // rounding; by how much H has changed more than rounding explains.
+  std::size_t energy() const { return increment() + 2 * n; }
+  std::size_t gain() const { return energy() + 1; }
+  std::size_t change() const { return gain() + 2; }
+  std::size_t size() const { return change() + 1; }
 };
 
 /// The programs of one setting of a method's equations. Both carry the whole frame.
@@ -180,6 +184,16 @@ void record_correction(const typename E::Setup& setup, const typename E::Problem
   made.correct.program = program_of(f.recorder.finish(f.numbers));
 }
 
+/// A change of H along a step that the simulation itself would not look at twice (overlooks_a_change, energy_gain.hpp):
+/// half of what it allows at least, with a sixteenth of the terms of the virial, from the mean force and velocity.
+template <class S>
+S explained_change(const S& energy, const S& h, const Vector<S, dynamic>& q, const Vector<S, dynamic>& p,
+                   const Vector<S, dynamic>& dq, const Vector<S, dynamic>& dp) {
+  S terms(0);
+  for (std::size_t i = 0; i < q.size(); ++i) terms += abs(q[i] * dp[i]) + abs(p[i] * dq[i]);
+  return S(128 * std::numeric_limits<double>::epsilon()) * S(abs(energy) + terms / S(16 * abs(h)));
+}
+
 /// What a step leaves behind. @param continues with the first guess of the next one   @return false where it leaves the
 /// finite numbers
 template <class E, class TA>
@@ -209,6 +223,13 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
   const V q = f.z.positions();
   const V p = f.z.momenta();
   if (!f.probe.look(problem, q, p, t)) return false;
+  if (setup.automatic()) {
+    const Number before = f.numbers[frame.energy()];
+    const Number behind = hamflow::energy(problem, q, p);
+    f.numbers[frame.energy()] = behind;
+    f.numbers[frame.change()] =
+        abs(behind - before) - explained_change(before, f.numbers[IterationFrame::h], q0, p0, dq, dp);
+  }
   f.put_carried();
   f.put(end, frame.memory());
   Effort unused;
