@@ -167,7 +167,7 @@ class RadialCollocation : public TargetEquations<R> {
 
  private:
   using Base::h_;
-  using D = Dual<Real, 1>;
+  using D = Dual<Real, 3>;  // a slope for each direction of space
   /// The sizes of what positions and velocities are summed from: what they round by, in units of epsilon.
   struct Reach {
     Variables positions, velocities;
@@ -294,20 +294,20 @@ class RadialCollocation : public TargetEquations<R> {
       for (std::size_t l = 0; l < k_; ++l) {
         for (std::size_t j = 0; j < k_; ++j) nu[l] += h_ * mu(l, j) * s.b[j] * mu(j, m);
       }
-      for (std::size_t d = 0; d < setup_.space; ++d) {
-        const RadialPair<D> moved = along(term, pair, m, d, nu);
-        for (std::size_t l = 0; l < k_; ++l) {
-          for (std::size_t i = 0; i < setup_.space; ++i) {
-            const Real change = (moved.factor[l] * moved.r[l][i]).slope[0];
-            couple(term, l * size + i, m * size + d, Real(Real(2) * term.strength * h_ * s.b[l] * change), tangent);
+      const RadialPair<D> moved = along(term, pair, m, nu);
+      for (std::size_t l = 0; l < k_; ++l) {
+        for (std::size_t i = 0; i < setup_.space; ++i) {
+          const D push = moved.factor[l] * moved.r[l][i];
+          for (std::size_t d = 0; d < setup_.space; ++d) {
+            const Real change = Real(2) * term.strength * h_ * s.b[l] * push.slope[d];
+            couple(term, l * size + i, m * size + d, change, tangent);
           }
         }
       }
     }
   }
-  /// The pair as dual numbers along delta = e_d of stage m.
-  RadialPair<D> along(const RadialTerm<Real>& term, const RadialPair<Real>& pair, std::size_t m, std::size_t d,
-                      const Real* nu) const {
+  /// The pair as dual numbers along every delta = e_d of stage m.
+  RadialPair<D> along(const RadialTerm<Real>& term, const RadialPair<Real>& pair, std::size_t m, const Real* nu) const {
     RadialPair<D> moved;
     for (std::size_t i = 0; i < setup_.space; ++i) {
       moved.start[i] = D(pair.start[i]);
@@ -317,8 +317,10 @@ class RadialCollocation : public TargetEquations<R> {
       }
     }
     for (std::size_t l = 0; l < k_; ++l) {
-      moved.r[l][d].slope[0] = nu[l];
-      moved.w[l][d].slope[0] = Real(0.5) + setup_.stages.inner[l][m];
+      for (std::size_t d = 0; d < setup_.space; ++d) {
+        moved.r[l][d].slope[d] = nu[l];
+        moved.w[l][d].slope[d] = Real(0.5) + setup_.stages.inner[l][m];
+      }
     }
     moved.complete(problem_, setup_.law, setup_.stages, h_, setup_.space, strength_of(term));
     return moved;
