@@ -146,6 +146,9 @@ void IteratedPack::judge(std::size_t lane, int k) {
                        ? newton_at_rounding(size, course.previous, k == 0, 1.0, course.stalls)
                        : linear_at_rounding(size, course.previous, k == 0, 1.0, course.least, course.stalls);
   course.previous = size;
+  if (!course.settled && have_stalled(options_->iteration, course.stalls)) {
+    return leave(lane, carried_);  // to a closer look
+  }
   if (course.settled && epsilon * course.first > 1) leave(lane, carried_);  // the guess was far away
 }
 

@@ -75,6 +75,7 @@ int IterationRunner::solved(std::span<double> frame, int& doubt) {
                              ? newton_at_rounding(size, previous, k == 0, 1.0, stalls)
                              : linear_at_rounding(size, previous, k == 0, 1.0, least, stalls);
     previous = size;
+    if (!settled && have_stalled(options_.iteration, stalls)) return 0;  // to a closer look
     if (!settled) continue;
     const bool missed = doubt == 0 && epsilon * first > 1;  // the guess was far away
     if ((missed && !stages_) || !end(frame)) return 0;

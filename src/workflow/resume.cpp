@@ -1,5 +1,7 @@
 #include "resume.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -24,6 +26,25 @@ std::string instruction_set(const Scenario& scenario) { return std::string(fast_
 
 std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
+/// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
+std::map<std::string, Setting> settings_of(const Scenario& scenario) {
+  std::map<std::string, Setting> all = scenario.settings;
+  const auto file = all.find("problem.file");
+  if (file == all.end()) return all;
+  std::string content;
+  for (const auto* numbers : {&scenario.start_q, &scenario.start_p}) {
+    const auto bytes = std::as_bytes(std::span(*numbers));
+    content.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  for (const auto* texts : {&scenario.request.start.q, &scenario.request.start.p}) {
+    for (const std::string& text : *texts) content += text + ',';
+  }
+  for (const auto& [name, value] : scenario.request.parameters) content += name + '=' + value + ';';
+  all.emplace("problem.file: contents", Setting{"those with the hash " + fmt::format("{:016x}", hash_of(content)),
+                                                file->second.line, file->second.column});
+  return all;
+}
+
 std::optional<std::string> text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
@@ -34,14 +55,15 @@ std::optional<std::string> text_of(const fs::path& file) {
 
 std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& checkpoint) {
   std::vector<Complaint> all;
+  const std::map<std::string, Setting> settings = settings_of(scenario);
   const auto complain = [&](const std::string& key, const std::string& message) {
-    const auto found = scenario.settings.find(key);
-    const Setting where = found == scenario.settings.end() ? Setting{{}, 1, 1} : found->second;
+    const auto found = settings.find(key);
+    const Setting where = found == settings.end() ? Setting{{}, 1, 1} : found->second;
     all.push_back({scenario.file, where.line, where.column, key, message + what_to_do});
   };
   std::map<std::string, std::string> before;
   for (std::size_t i = 0; i < checkpoint.keys.size(); ++i) before[checkpoint.keys[i]] = checkpoint.values[i];
-  for (const auto& [key, setting] : scenario.settings) {
+  for (const auto& [key, setting] : settings) {
     if (is_free_on_resume(key)) continue;
     const std::string& value = setting.text;
     const auto there = before.find(key);
@@ -52,7 +74,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     }
   }
   for (const auto& [key, value] : before) {
-    if (is_free_on_resume(key) || scenario.settings.contains(key)) continue;
+    if (is_free_on_resume(key) || settings.contains(key)) continue;
     complain(key, "found nothing; allowed with --resume " + value + ", as when the run began");
   }
   if (scenario.steps < checkpoint.step) {
@@ -78,7 +100,7 @@ Checkpoint beginning_of(const Scenario& scenario, const std::string& identity) {
   checkpoint.identity = identity;
   checkpoint.version = HAMFLOW_VERSION;
   checkpoint.instruction_set = instruction_set(scenario);
-  for (const auto& [key, setting] : scenario.settings) {
+  for (const auto& [key, setting] : settings_of(scenario)) {
     checkpoint.keys.push_back(key);
     checkpoint.values.push_back(setting.text);
   }

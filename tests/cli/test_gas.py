@@ -88,6 +88,26 @@ class Gas(CommandCase):
         (self.folder / "start.csv").unlink()
         self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
 
+    def test_a_run_goes_on_with_the_file_that_it_began_with(self):
+        """Other numbers under the same name are another system."""
+        def written(mass):
+            self.write("three.csv", f"x,y,p_x,p_y,mass\n0,0,0.1,0,2\n1,0,0,0.1,3\n0,1,0,0,{mass}\n")
+        self.write("file.toml", GAS.replace("particles_per_side = 4", "") %
+                   'start = "file"\nfile = "three.csv"\ncontainer = { kind = "none" }')
+        written(1)
+        sweep = ["sweep", "file.toml", "--vary", "run.dt=0.001,0.002", "--quiet", "--out", "s"]
+        self.hamflow("run", "file.toml", "--quiet", "--out", "r")
+        self.hamflow("reverse", "file.toml", "--quiet", "--out", "v")
+        self.hamflow(*sweep)
+        more = ["--resume", "--quiet", "--set", "run.steps=40"]
+        written(50)
+        for command in (["run", "file.toml", "--out", "r"], ["reverse", "file.toml", "--out", "v"], sweep):
+            told = self.hamflow(*command, *more, status=2).stderr
+            self.assertIn("problem.file: contents: found those with the hash", told)
+        written(1)
+        self.hamflow("run", "file.toml", "--out", "r", *more)
+        self.hamflow(*sweep, *more)
+
     def test_files_of_other_programs(self):
         text = (GAS % 'start = "file"\nfile = "start.csv"').replace("particles_per_side = 4\n", "")
         self.write("file.toml", text.replace("steps = 20", "steps = 0"))

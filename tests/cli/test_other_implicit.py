@@ -1,6 +1,7 @@
 """eg, the Lobatto pair and the discrete gradients, as they are typed: what they keep, what is refused and why."""
 
 import json
+import math
 import unittest
 
 from command import CommandCase
@@ -41,6 +42,73 @@ dt = 0.1
 steps = 70
 """
 FAMILIES = ("eg(1)", "eg(3)", "lobatto-3a-3b(3)", "discrete-gradient", "itoh-abe")
+
+
+FREE = """
+[problem]
+%s
+[method]
+name = "gauss(2)"
+[run]
+dt = %s
+steps = 60
+"""
+PLATEAU = FREE % (f'name = "fput"\nn = 12\nalpha = 0.25\ninitial = {{ q = {[1.0] * 12}, p = {[0.0] * 12} }}', 0.2)
+SHIFTED = FREE % ('name = "n-body"\nmasses = [1, 0.5, 0.2]\nsoftening = 0.1\n'
+                  'initial = { q = [10000, 10000, 10001, 10000, 10000, 10001.5], p = [0, 0, 0, 0.5, -0.1, 0] }', 0.05)
+SMOOTH = FREE % ('name = "fput"\nn = 300\nalpha = 0.25\n'
+                 f'initial = {{ q = {[round(math.sin(math.pi * (i + 1) / 301), 3) for i in range(300)]}, p = {[0.0] * 300} }}', 0.5)
+
+
+class CoordinatesThatAreLargeBesideTheirDifferences(CommandCase):
+    """Forces cancel there, and round by far more than their terms tell; iterations without second derivatives end at that."""
+
+    def check(self, scenario, methods, iterations):
+        self.write("s.toml", scenario)
+        for method in methods:
+            for iteration in iterations:
+                sets = ["--set", f"method.name={method}"] + (["--set", f"method.iteration={iteration}"] if iteration else [])
+                with self.subTest(f"{method} {iteration}"):
+                    done = self.summary("s.toml", *sets)
+                    self.assertEqual(done["steps"], 60)
+
+    def test_a_plateau(self):
+        self.check(PLATEAU, ["cg(1)", "avf", "gauss(2)", "lobatto-3a-3b(3)", "discrete-gradient", "itoh-abe"],
+                   ["fixed-point", "simplified", "newton"])
+
+    def test_bodies_far_from_the_origin(self):
+        self.check(SHIFTED, ["cg(1)", "cg(2,4)", "gauss(2)", "gauss(3)", "discrete-gradient", "itoh-abe"],
+                   ["fixed-point", "simplified", "newton"])
+
+    def test_the_default_of_large_systems(self):
+        self.check(SMOOTH, ["gauss(2)", "cg(2)", "discrete-gradient"], [None])
+
+    def test_their_iterations_are_those_that_are_asked_for(self):
+        self.write("s.toml", SMOOTH)
+        told = self.summary("s.toml", "--set", "method.max_iterations=4", status=1)
+        self.assertIn("did not converge in 4 iterations", told["error"]["message"])
+
+
+class ATolerance(CommandCase):
+    def test_is_no_fault_of_the_points(self):
+        """What a residual leaves of the energy is not what more Gauss points would see."""
+        self.write("p.toml", """
+[problem]
+name = "pendulum"
+initial = { q = [1.5], p = [0.1] }
+[method]
+name = "cg"
+[run]
+dt = 0.05
+steps = 2000
+""")
+        for method in ("cg", "cg(2)", "cg(3)"):
+            for tolerance in (1e-4, 1e-8, 1e-10):
+                with self.subTest(f"{method} {tolerance}"):
+                    done = self.summary("p.toml", "--set", f"method.name={method}", "--set", f"method.tolerance={tolerance}")
+                    self.assertEqual(done["steps"], 2000)
+                    # 2000 residuals, each of which changes H by its product with a gradient of some 10 at most.
+                    self.assertLess(done["energy"]["max_error"], 2000 * 10 * tolerance + 1e-13)
 
 
 class OtherImplicit(CommandCase):

@@ -57,8 +57,8 @@ struct Averages {
       throw Error("systems of more than " + std::to_string(most_dense_unknowns) +
                   " unknowns are solved without a tangent, of which diagnostics are");
     }
-    if (chosen.element.iteration == Iteration::newton) {
-      chosen.element.max_iterations = larger(chosen.element.max_iterations, linear_iterations);
+    if (chosen.element.iteration == Iteration::newton && chosen.element.max_iterations == CgOptions{}.max_iterations) {
+      chosen.element.max_iterations = linear_iterations;
     }
     chosen.element.iteration = Iteration::fixed_point;
     return chosen;

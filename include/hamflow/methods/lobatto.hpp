@@ -55,6 +55,9 @@ class LobattoStages : public TargetEquations<R> {
   LobattoStages(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
       : Base(h), setup_(setup), pair_(*setup.pair), problem_(problem), q0_(q0), p0_(p0), effort_(effort) {}
 
+  const V& positions() const { return q0_; }
+  const V& momenta() const { return p0_; }
+  LobattoStages from(const V& q0, const V& p0) const { return LobattoStages(setup_, problem_, h_, q0, p0, effort_); }
   Variables last_state() const { return Variables(2 * q0_.size() * pair_.b.size()); }
   Variables predicted() const {
     const std::size_t size = q0_.size();

@@ -36,6 +36,11 @@ class GeneralAverages : public AverageEquations<P, R> {
         size_(q0.size()),
         m_(2 * q0.size()) {}
 
+  const V& positions() const { return q0_; }
+  const V& momenta() const { return p0_; }
+  GeneralAverages from(const V& q0, const V& p0) const {
+    return GeneralAverages(setup_, problem_, h_, q0, p0, effort_);
+  }
   Variables last_state() const { return Variables(k_ * m_); }
   Variables predicted() const {
     V dq = zeros_like(q0_);

@@ -38,6 +38,11 @@ class NaturalAverages : public AverageEquations<P, R> {
   NaturalAverages(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
       : Base(problem, h, setup.table()), setup_(setup), q0_(q0), p0_(p0), effort_(effort), size_(q0.size()) {}
 
+  const V& positions() const { return q0_; }
+  const V& momenta() const { return p0_; }
+  NaturalAverages from(const V& q0, const V& p0) const {
+    return NaturalAverages(setup_, problem_, h_, q0, p0, effort_);
+  }
   Variables last_state() const { return Variables(k_ * size_); }
   Variables predicted() const {
     V f = zeros_like(q0_);

@@ -54,8 +54,13 @@ class DiscreteGradientStep : public TargetEquations<R> {
   };
 
   DiscreteGradientStep(const Setup& setup, const P& problem, const Real& h, const V& q0, const V& p0, Effort& effort)
-      : Base(h), rule_(setup.rule), problem_(problem), q0_(q0), p0_(p0), effort_(effort) {}
+      : Base(h), setup_(setup), problem_(problem), q0_(q0), p0_(p0), effort_(effort) {}
 
+  const V& positions() const { return q0_; }
+  const V& momenta() const { return p0_; }
+  DiscreteGradientStep from(const V& q0, const V& p0) const {
+    return DiscreteGradientStep(setup_, problem_, h_, q0, p0, effort_);
+  }
   Variables last_state() const { return Variables(2 * q0_.size()); }
   Variables predicted() const {
     V dq = zeros_like(q0_);
@@ -74,7 +79,7 @@ class DiscreteGradientStep : public TargetEquations<R> {
   void evaluate(const Variables& u, Point& at) const {
     const std::size_t size = q0_.size();
     LinearisedGradient<Real> dh;
-    rule_.linearise(problem_, stacked(q0_, p0_), u, at.linearised, dh, effort_);
+    setup_.rule.linearise(problem_, stacked(q0_, p0_), u, at.linearised, dh, effort_);
     Base::clear(at, u.size());
     const Real kappa = detail::golden<Real>();
     for (std::size_t i = 0; i < u.size(); ++i) {
@@ -104,7 +109,7 @@ class DiscreteGradientStep : public TargetEquations<R> {
   template <class S>
   Vector<S, dynamic> residual(const Vector<S, n>& q0, const Vector<S, n>& p0, const Vector<S, dynamic>& u) const {
     const std::size_t size = q0.size();
-    const Vector<S, dynamic> dh = rule_.at(problem_, stacked(q0, p0), u);
+    const Vector<S, dynamic> dh = setup_.rule.at(problem_, stacked(q0, p0), u);
     Vector<S, dynamic> r = u;
     for (std::size_t i = 0; i < size; ++i) {
       r[i] = h_ * dh[size + i] - u[i];
@@ -129,7 +134,7 @@ class DiscreteGradientStep : public TargetEquations<R> {
     return z;
   }
 
-  const Rule<P, Real>& rule_;
+  const Setup& setup_;
   const P& problem_;
   const V& q0_;
   const V& p0_;

@@ -48,6 +48,9 @@
 //     Guesses                                  a type in place of Extrapolation<Memory>
 //     Point::linearised                        a bool: whether evaluate() has to compute what the tangent needs. Then
 //                                              every Iteration can solve the equations, else Newton's alone.
+//     const V& positions() const, momenta() const, E from(const V& q0, const V& p0) const      the state, and the same
+//                                              step from another one: iterations without second derivatives learn from
+//                                              it what the rounding of coordinates makes of the residual
 // `Setup` is made from (const P&, Options) and has
 //     MethodInfo info() const                  the method's claims
 //     NewtonOptions newton() const

@@ -317,6 +317,7 @@ class ImplicitMethod {
     for (;;) {
       const bool coarse = E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken);
       if (!coarse && !detail::overlooks_a_change(problem, q0, p0, found.taken)) return found;
+      if (options_.tolerance && fine_without_tolerance(problem, h, q0, p0, found)) return found;
       const bool finer = setup_.refine();
       if (log != nullptr) {
         log->restart();
@@ -328,6 +329,20 @@ class ImplicitMethod {
         return {};
       }
     }
+  }
+
+  /// Points are judged by what they see of the energy along the solution. A residual that a tolerance has left changes
+  /// it, too, which no point more would mend: then it is looked at along the solution to rounding.
+  [[gnu::noinline]] bool fine_without_tolerance(const P& problem, const Real& h, const Vector<Real, n>& q0,
+                                                const Vector<Real, n>& p0, Solution found) {
+    NewtonOptions to_rounding = options_;
+    to_rounding.tolerance.reset();
+    to_rounding.seed_criterion = to_rounding.diagnostics = false;
+    to_rounding.max_iterations = std::max(to_rounding.max_iterations, NewtonOptions{}.max_iterations);
+    const NewtonReport report{to_rounding, effort_, diagnostics_, nullptr};
+    const E step(setup_, problem, h, q0, p0, effort_);
+    return newton_.solve_refined(step, report, found) && !step.too_coarse(found.x, found.taken) &&
+           !detail::overlooks_a_change(problem, q0, p0, found.taken);
   }
 
   [[gnu::noinline]] void diagnose(const P& problem, const PhasePoint<A, n>& z, long long solves) {

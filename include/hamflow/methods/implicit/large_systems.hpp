@@ -15,7 +15,9 @@ Options for_unknowns(std::size_t unknowns, Options chosen) {
     throw Error("systems of more than " + std::to_string(most_dense_unknowns) +
                 " unknowns are solved without a tangent, of which diagnostics are");
   }
-  if (chosen.iteration == Iteration::newton) chosen.max_iterations = larger(chosen.max_iterations, linear_iterations);
+  if (chosen.iteration == Iteration::newton && chosen.max_iterations == Options{}.max_iterations) {
+    chosen.max_iterations = linear_iterations;
+  }
   chosen.iteration = Iteration::fixed_point;
   return chosen;
 }

@@ -12,6 +12,7 @@
 // evaluation.
 #pragma once
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/methods/implicit/extrapolation.hpp"
 #include "hamflow/methods/implicit/newton_log.hpp"
@@ -55,12 +56,66 @@ constexpr bool linear_at_rounding(const Real& size, const Real& before, bool fir
          (stalls >= 12 && size <= Real(1 << 12) * noise);
 }
 
+/// Whether corrections that do not settle have ceased to shrink, so that the noise itself is in question. Programs of a
+/// step leave it then to the simulation, which looks closer.
+constexpr bool have_stalled(Iteration iteration, int stalls) {
+  return stalls >= (iteration == Iteration::newton ? 4 : 12);
+}
+
 namespace detail {
 /// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
 template <class E>
 concept AnyIteration = requires(typename E::Point& at) {
   { at.linearised } -> std::same_as<bool&>;
 };
+/// Whose residual can be asked for from a state nearby, too.
+template <class E>
+concept StartsElsewhere = requires(const E& step, typename E::Point& at) {
+  step.from(step.positions(), step.momenta());
+  at.noise;
+};
+
+/// By how much the residual moves, entry by entry and in units of epsilon, when the state moves within its rounding, by
+/// one or two units, and when the unknowns move by that: sixteen times the largest of eight draws, as an iteration sums
+/// up several such roundings. What an iteration takes for noise are the terms of a force; where coordinates are large
+/// beside their differences (bodies far from the origin, a smooth chain) rounding is far more.
+template <class E>
+[[gnu::cold, gnu::noinline]] typename E::Variables rounding_by_state(const E& step, const typename E::Variables& x) {
+  using Real = typename E::Real;
+  const Real epsilon = Epsilon<Real>{} * Real(1);
+  constexpr std::uint64_t draws = 8;
+  typename E::Point at, there;
+  at.linearised = there.linearised = false;
+  step.evaluate(x, at);
+  typename E::Variables most = at.residual;
+  for (Real& each : most) each = Real(0);
+  const auto note = [&] {
+    for (std::size_t i = 0; i < most.size(); ++i) {
+      const Real size = Real(16) * abs(there.residual[i] - at.residual[i]) / epsilon;
+      if (size > most[i]) most[i] = size;
+    }
+  };
+  for (std::uint64_t draw = 0; draw < draws; ++draw) {
+    auto q = step.positions();
+    auto p = step.momenta();
+    const auto move = [&](Real& y, std::uint64_t i) {
+      static constexpr int units[] = {-2, -1, 1, 2};
+      y += Real(units[counter_bits(draw, i) & 3]) * epsilon * y;
+    };
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      move(q[i], 2 * i);
+      move(p[i], 2 * i + 1);
+    }
+    step.from(q, p).evaluate(x, there);
+    note();
+    typename E::Variables moved = x;
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += there.residual[i] - at.residual[i];
+    step.evaluate(moved, there);
+    note();
+  }
+  return most;
+}
+
 template <class E>
 struct GuessesOf {
   using type = Extrapolation<typename E::Memory>;
@@ -199,6 +254,8 @@ class Newton {
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     int stalls = 0;
+    bool is_anew = true;                    // there is no full correction before this one, in the same units
+    [[maybe_unused]] Variables rounding{};  // of the residual, beside what its terms tell; empty: not asked for
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
     for (int k = 0;; ++k) {
       if constexpr (detail::AnyIteration<E>) {
@@ -207,6 +264,9 @@ class Newton {
       }
       if (!damped || !evaluated) step.evaluate(x, at);
       evaluated = false;
+      if constexpr (detail::StartsElsewhere<E>) {
+        for (std::size_t i = 0; i < rounding.size(); ++i) at.noise[i] += rounding[i];
+      }
       if (options.tolerance || report.log != nullptr || options.diagnostics) {
         const Variables here = x;  // a copy: what has an address does not stay in registers
         const Real norm = step.norm(here, at);
@@ -256,8 +316,15 @@ class Newton {
       }
       if (k == 0) first = c.size;
       at_rounding = !detail::AnyIteration<E> || options.iteration == Iteration::newton
-                        ? newton_at_rounding(c.size, previous, k == 0 || shortened, noise, stalls)
-                        : linear_at_rounding(c.size, previous, k == 0 || shortened, noise, least, stalls);
+                        ? newton_at_rounding(c.size, previous, is_anew || shortened, noise, stalls)
+                        : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
+      is_anew = false;
+      if constexpr (detail::StartsElsewhere<E>) {
+        if (!at_rounding && rounding.size() == 0 && have_stalled(options.iteration, stalls)) {
+          rounding = detail::rounding_by_state(step, x);
+          is_anew = true;
+        }
+      }
       was_at_rounding = was_at_rounding || at_rounding;
       if (at_rounding && !options.tolerance) {
         found.taken = step.taken(x, at, correction);
