@@ -273,6 +273,25 @@ steps = 40
         self.hamflow("compare", "henon.toml", status=2)
         self.hamflow("compare", "missing.toml", "--methods", "verlet", status=3)
 
+    def test_methods_that_differ_in_any_option_have_names_of_their_own(self):
+        same, other = "cg(2,3)", "cg(2,3,tolerance=1e-3,iteration=fixed-point)"
+        done = self.hamflow("compare", "henon.toml", "--methods", f"{same},{other},stv4", "--dt", "0.2,0.1,0.05", "--csv",
+                            "t.csv", "--figure", "f.svg", "--json")
+        c = json.loads(done.stdout)
+        names = 3 * [same] + 3 * [other] + 3 * ["stv4"]
+        self.assertEqual([r["method"] for r in c["rows"]], names)
+        rows = list(csv.DictReader((self.folder / "t.csv").read_text().splitlines()))
+        self.assertEqual([r["method"] for r in rows], names)
+        drawn = "".join(xml.etree.ElementTree.parse(self.folder / "f.svg").getroot().itertext())
+        self.assertIn(other, drawn)
+        for w in c["winners"]:
+            self.assertNotEqual(w["method"], w.get("second"))
+        # A winner is the row that is meant: both have the same errors only where the tolerance does not matter.
+        table = self.hamflow("compare", "henon.toml", "--methods", f"{same},{other}", "--dt", "0.1").stdout
+        self.assertRegex(table, r"(?m)^cg\(2,3\) .*\n^cg\(2,3,tolerance=1e-3,iteration=fixed-point\) ")
+        adaptive = self.compare("henon.toml", "--methods", "dop853(1.00001e-6),dop853(1e-6),tao2,tao2(5)", "--dt", "0.1")
+        self.assertEqual(len({r["method"] for r in adaptive["rows"]}), 4)
+
     def test_lattice(self):
         c = self.compare("henon.toml", "--methods", "stv4", "--set", "run.arithmetic=lattice", "--dt", "0.1,0.05")
         self.assertAlmostEqual(self.slopes(c["rows"], "error")[0], 4, delta=0.3)
