@@ -232,6 +232,14 @@ class Gas(CommandCase):
                 self.assertIn(said, self.errors(keys))
         self.assertIn("particles_per_side", self.errors("", "--set", "problem.particles_per_side=1"))
 
+    def test_the_exponents_of_a_circle_and_of_walls(self):
+        walls = "walls = [{ coordinate = 'x1', min = -9, max = 9 }]\nwall_rule = 'soft'\nexponent = 3\n"
+        told = self.gas("container = { kind = 'circle', radius = 9, exponent = 2 }\n" + walls, "--set", "run.steps=0")["parameters"]
+        self.assertEqual((told["exponent"], told["wall_exponent"], told["strength"]), (2, 3, 1))
+        told = self.gas("container = { kind = 'none' }\n" + walls, "--set", "run.steps=0")["parameters"]
+        self.assertEqual(told["exponent"], 3)
+        self.assertNotIn("wall_exponent", told)
+
     def test_who_is_outside(self):
         """In every arithmetic, by name and number; the state is the last good one."""
         for arithmetic in ("double", "compensated", "double-double", "quad", "mp(40)", "lattice"):
