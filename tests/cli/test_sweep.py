@@ -297,6 +297,15 @@ steps = 333
                     self.assertEqual(row["eigenvalues_norm"], own["eigenvalues"]["norm"])
                     self.assertEqual([row["lyapunov1"], row["lyapunov2"]], own["lyapunov"]["exponents"])
 
+    def test_every_method_notes_what_it_does_without(self):
+        self.write("gauss.toml", "[problem]\nname='pendulum'\ninitial={q=[0.5],p=[0.1]}\n[method]\nname='gauss'\nstages=2\n"
+                   "max_iterations=20\n[run]\ndt=0.05\nsteps=3\n")
+        told = self.hamflow("sweep", "gauss.toml", "--vary", "method.name=tao2,discrete-gradient,stv4,gauss", "--out", "none").stderr
+        notes = [line for line in told.splitlines() if line.startswith("note: method.")]
+        self.assertEqual(notes, [f"note: method.{key} of the file is not used: method.name is set to {name}" for key, name in
+                                 (("max_iterations", "tao2"), ("stages", "tao2"), ("stages", "discrete-gradient"),
+                                  ("max_iterations", "stv4"), ("stages", "stv4"))])
+
     def test_threads_and_files(self):
         self.write("k.toml", KEPLER + '[output]\nformats = ["h5", "csv"]\n')
         texts = set()
