@@ -240,6 +240,14 @@ class Gas(CommandCase):
         self.assertEqual(told["exponent"], 3)
         self.assertNotIn("wall_exponent", told)
 
+    def test_what_a_wrong_gas_is_told(self):
+        typed = "container = { kind = 'none' }\npair = 'formula'\n"
+        self.assertIn("allowed r, numbers, pi", self.errors(typed + "phi = 'x1'"))
+        self.assertIn("found the name r, which a pair law has itself", self.errors(typed + "phi = 'r'\nparameters = { r = 2 }"))
+        box = "container = { kind = 'box', size = [1, 1] }\n"
+        self.assertIn("with none, circle or periodic", self.errors(box + "walls = [{ coordinate = 'x1', max = 2 }]"))
+        self.assertRegex(self.errors(box), r"beyond the wall at -?0\.5; allowed a start between the walls, from -0\.5 to 0\.5")
+
     def test_who_is_outside(self):
         """In every arithmetic, by name and number; the state is the last good one."""
         for arithmetic in ("double", "compensated", "double-double", "quad", "mp(40)", "lattice"):
