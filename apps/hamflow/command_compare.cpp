@@ -170,6 +170,7 @@ std::string as_table(const std::string& name, SharedMethodKeys& shared) {
     }
   } catch (const Error&) {  // the reader complains about it
   }
+  for (const std::string& key : shared.unknown()) table += ", \"" + key + "\" = 0";
   return table + " }";
 }
 
@@ -225,7 +226,10 @@ int compare(const CompareOptions& options) {
   const RequestReader reader(scenario, options);
   if (!reader.complaints.empty()) throw Rejection(reader.complaints);
   print_notes(notes, options.quiet);
-  print_notes(scenario.notes, options.quiet);
+  // What is not used of [method] is told of the methods that are compared.
+  std::vector<std::string> of_scenario = scenario.notes;
+  std::erase_if(of_scenario, [](const std::string& note) { return note.starts_with("method."); });
+  print_notes(of_scenario, options.quiet);
   note_unused_measures(scenario, "a comparison takes every step and looks at energies and ends", options.quiet);
   print_notes(reader.notes, options.quiet);
   print_notes(comparison_notes(reader.request), options.quiet);

@@ -152,6 +152,17 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
   }
 }
 
+std::vector<std::string> SharedMethodKeys::unknown() const {
+  const toml::table* const table = impl_->document ? impl_->document->root["method"].as_table() : nullptr;
+  std::vector<std::string> all;
+  if (table == nullptr) return all;
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    if (name != method_name_key().name && !contains(all_method_keys(), name)) all.push_back(name);
+  }
+  return all;
+}
+
 std::vector<std::string> SharedMethodKeys::notes() const {
   std::vector<std::pair<std::string, std::string>> parts;  // keys, and by whom and why not
   for (const auto& entry : impl_->unused) {

@@ -39,6 +39,8 @@ class SharedMethodKeys {
   /// Takes the options that apply to a method and that it does not carry itself.
   /// @param spelled the method as it was given, with its options
   void add_to(MethodSpec& method, const std::string& spelled);
+  /// Keys that no method has: misspelt ones, with which every method is refused.
+  std::vector<std::string> unknown() const;
   /// The keys that some method was read without, and why, a sentence each.
   std::vector<std::string> notes() const;
 

@@ -319,6 +319,12 @@ steps = 40
         self.assertEqual([r["method"] for r in told[::2]],
                          ["gauss(2,tolerance=1e-09)", "gauss(2,tolerance=1e-3)", "verlet", "dop853"])
         self.assertEqual([r.get("tolerance") for r in told[-2:]], [1e-3, 1e-13])
+        named = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.name=stv4").stderr
+        self.assertNotIn("method.name is set to", named)
+        # A key that is misspelt is no key that another method does without.
+        wrong = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.tolerence=1e-3", status=2).stderr
+        for name in ("cg", "stv4"):
+            self.assertIn(f"found '{name}'; method.tolerence: found an unknown key", wrong)
         # The file's own method need not fit, and what is wrong is told with the method that would take it.
         self.hamflow("compare", "halve.toml", "--methods", "cg(1,5)", "--set", "method.stages=99")
         wrong = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.max_iterations=0", status=2)
