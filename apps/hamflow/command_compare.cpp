@@ -23,9 +23,11 @@ namespace {
 /// The command line beside the scenario: what is compared, and what is wrong with it, a line each.
 class RequestReader {
  public:
-  RequestReader(const Scenario& scenario, const CompareOptions& options) : scenario_(scenario) {
-    read_methods(options.methods);
-    if (describe(scenario.request.method).varies_steps) {
+  RequestReader(const Scenario& scenario, const CompareOptions& options)
+      : scenario_(scenario), varies_by_file_(describe(scenario.request.method).varies_steps) {
+    SharedMethodKeys shared(scenario_text(options.scenario), options.sets);
+    read_methods(options.methods, shared);
+    if (varies_by_file_) {
       const std::string key = std::string("method.") + step_control_option;
       complain_of(key, "found \"" + std::string(reversible_steps) + "\"; allowed " + fixed_steps + ", e.g. by --set " +
                            key + "=" + fixed_steps +
@@ -63,11 +65,15 @@ class RequestReader {
     if (!message.empty()) complain(key, message);
   }
 
-  void read_methods(const std::string& text) {
-    for (const std::string& name : split_list(text)) {
+  void read_methods(const std::string& text, SharedMethodKeys& shared) {
+    const std::vector<std::string> all = split_list(text);
+    for (const std::string& name : all) {
       try {
-        const MethodSpec method = parse_method(name);
-        std::string why_not = refusal(method, scenario_.request.arithmetic);
+        MethodSpec method = parse_method(name);
+        if (!varies_by_file_) shared.add_to(method, name);
+        std::string why_not;
+        if (const auto refused = refused_option(method)) why_not = "method." + refused->name + ": " + refused->message;
+        if (why_not.empty()) why_not = refusal(method, scenario_.request.arithmetic);
         if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
         Request one = scenario_.request;
         one.method = method;
@@ -87,6 +93,19 @@ class RequestReader {
         const std::string what = error.what();
         complain("--methods", what.starts_with("found") ? what : "found '" + name + "'; " + what);
       }
+    }
+    notes = shared.notes();
+    if (complaints.empty()) refuse_the_same(all);
+  }
+
+  /// Rows are told apart by the names of their methods.
+  void refuse_the_same(const std::vector<std::string>& typed) {
+    const std::vector<std::string> names = comparison_names(request.methods);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto first = static_cast<std::size_t>(std::find(names.begin(), names.end(), names[i]) - names.begin());
+      if (first < i)
+        complain("--methods", "found '" + typed[i] + "' and '" + typed[first] +
+                                  "', the same method with the same options; allowed once");
     }
   }
 
@@ -135,7 +154,25 @@ class RequestReader {
   }
 
   const Scenario& scenario_;
+  const bool varies_by_file_;
 };
+
+/// A method as [method] would have it, with what it takes of the scenario's.
+std::string as_table(const std::string& name, SharedMethodKeys& shared) {
+  std::string table = "{ " + method_name_key().name + " = \"" + name + "\"";
+  try {
+    const MethodSpec own = parse_method(name);
+    MethodSpec method = own;
+    shared.add_to(method, name);
+    for (const OptionInfo& option : find_method(method.name).family->options) {
+      if (own.options.contains(option.name) || !method.options.contains(option.name)) continue;
+      table += ", " + option.name + " = " + toml_text(option, method.options.at(option.name));
+    }
+  } catch (const Error&) {  // the reader complains about it
+  }
+  for (const std::string& key : shared.unknown()) table += ", \"" + key + "\" = 0";
+  return table + " }";
+}
 
 /// The file's own method is not run, and need not fit. What is wrong with the scenario is what stays with every method
 /// of the comparison; what comes with one of them alone is wrong with that one.
@@ -144,10 +181,11 @@ Scenario read_for(const CompareOptions& options, std::vector<std::string>& notes
   if (own.scenario) return *own.scenario;
   std::vector<Complaint> of_all = own.complaints;
   std::vector<Complaint> of_methods;
+  SharedMethodKeys shared(scenario_text(options.scenario), options.sets);
   for (const std::string& name : split_list(options.methods)) {
     if (name.empty() || name.find_first_of("\"\\\n") != std::string::npos) return accepted(own);  // no name at all
     std::vector<std::string> sets = options.sets;
-    sets.push_back("method={ " + method_name_key().name + " = \"" + name + "\" }");
+    sets.push_back("method=" + as_table(name, shared));
     const Reading with = read_scenario(options.scenario, sets);
     if (with.scenario) {
       const Complaint& first = own.complaints.front();
@@ -188,7 +226,10 @@ int compare(const CompareOptions& options) {
   const RequestReader reader(scenario, options);
   if (!reader.complaints.empty()) throw Rejection(reader.complaints);
   print_notes(notes, options.quiet);
-  print_notes(scenario.notes, options.quiet);
+  // What is not used of [method] is told of the methods that are compared.
+  std::vector<std::string> of_scenario = scenario.notes;
+  std::erase_if(of_scenario, [](const std::string& note) { return note.starts_with("method."); });
+  print_notes(of_scenario, options.quiet);
   note_unused_measures(scenario, "a comparison takes every step and looks at energies and ends", options.quiet);
   print_notes(reader.notes, options.quiet);
   print_notes(comparison_notes(reader.request), options.quiet);

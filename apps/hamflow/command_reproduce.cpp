@@ -25,6 +25,7 @@ std::filesystem::path folder_for(const ReproduceCommandOptions& options) {
 
 void check_together(const ReproduceCommandOptions& options) {
   if (options.quick && options.full) throw Error("found --quick with --full; allowed one of them");
+  if (options.out == "none") throw Error("found --out none; allowed a folder: the page is what reproduce is for");
   if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
 }
 

@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   sweep_command->add_option("--out", sweep.out, "folder for the table; \"none\" writes nothing")->type_name("DIR");
-  sweep_command->add_option("--threads", sweep.threads, "how many; results do not depend on it")
+  sweep_command->add_option("--threads", sweep.threads, "how many, 0: all cores; results do not depend on it")
       ->type_name("N")
       ->transform(whole_number(0, hamflow::most_sweep_threads));
   sweep_command->add_option("--lanes", sweep.lanes, "auto, none, generic, avx2, avx512; results do not depend on it")
@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
   reproduce_command->add_flag("--force", reproduce.force, "carry out again what is there");
   reproduce_command->add_flag("--resume", reproduce.resume,
                               "only what is not done, or was changed since: in its runs, its rule or the version");
-  reproduce_command->add_option("--threads", reproduce.threads, "how many; verdicts do not depend on it")
+  reproduce_command->add_option("--threads", reproduce.threads, "how many, 0: all cores; verdicts do not depend on it")
       ->type_name("N")
       ->transform(whole_number(0, hamflow::most_sweep_threads));
   reproduce_command->add_flag("--json", reproduce.json, "print verdicts.json, and nothing else, on stdout");

@@ -99,7 +99,11 @@ MethodSpec parse_method(const std::string& text) {
   const std::vector<OptionInfo>& options = find_method(spec.name).family->options;
   if (open == std::string::npos) return spec;
   const std::string rest = trimmed(text.substr(open));
-  if (rest.back() != ')') throw Error("method '" + text + "' lacks its closing parenthesis");
+  if (const auto close = rest.rfind(')'); close == std::string::npos) {
+    throw Error("method '" + text + "' lacks its closing parenthesis");
+  } else if (close + 1 < rest.size()) {
+    throw Error("method '" + text + "' has '" + trimmed(rest.substr(close + 1)) + "' behind its closing parenthesis");
+  }
   const std::string inside = trimmed(rest.substr(1, rest.size() - 2));
   if (inside.empty()) return spec;
   OptionReader reader(spec.name, options);

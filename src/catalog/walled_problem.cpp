@@ -50,6 +50,13 @@ std::vector<bool> kept_of(const ProblemEntry& problem, const Walls& walls) {
   return kept;
 }
 
+namespace {
+/// A half of the edge of a box as a number; of walls that somebody typed, what was typed.
+std::string readable_wall(const std::string& text) {
+  return text.starts_with("(") || text.starts_with("-(") ? shortest(number_value(text)) : text;
+}
+}  // namespace
+
 std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
   for (const Walls::Interval& wall : walls.intervals) {
     const double x = q.at(wall.index);
@@ -57,10 +64,10 @@ std::string beyond_walls(const Walls& walls, const std::vector<double>& q) {
     const bool above = !wall.max.empty() && (walls.hard() ? x > number_value(wall.max) : x >= number_value(wall.max));
     if (!below && !above) continue;
     return wall.coordinate + " = " + shortest(x) + (walls.hard() ? " beyond" : " on or beyond") + " the wall at " +
-           (below ? wall.min : wall.max) + "; allowed a start between the walls, " +
-           (wall.min.empty()   ? "at most " + wall.max
-            : wall.max.empty() ? "at least " + wall.min
-                               : "from " + wall.min + " to " + wall.max);
+           readable_wall(below ? wall.min : wall.max) + "; allowed a start between the walls, " +
+           (wall.min.empty()   ? "at most " + readable_wall(wall.max)
+            : wall.max.empty() ? "at least " + readable_wall(wall.min)
+                               : "from " + readable_wall(wall.min) + " to " + readable_wall(wall.max));
   }
   return {};
 }

@@ -1,8 +1,12 @@
 #include "method_keys.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
+#include "hamflow/core/text.hpp"
 #include "hamflow/methods/step_control.hpp"
+#include "scenario_reader.hpp"
 #include "toml_path.hpp"
 
 namespace hamflow {
@@ -98,6 +102,83 @@ std::vector<std::string> replaced_method_keys(const toml::table& method, const s
     replaced.push_back(monitor_option);
   }
   return replaced;
+}
+
+struct SharedMethodKeys::Impl {
+  std::optional<Document> document;
+  std::map<std::string, Setting> settings;
+  std::vector<std::pair<std::string, std::string>> unused{};  // a key and why, in the order in which they were met
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> methods{};  // without it
+};
+
+SharedMethodKeys::SharedMethodKeys(const std::string& text, const std::vector<std::string>& sets)
+    : impl_(std::make_unique<Impl>()) {
+  std::vector<Complaint> told_elsewhere;
+  impl_->document = parsed_document(text, "", sets, told_elsewhere);
+  if (impl_->document) impl_->settings = settings_of(impl_->document->root);
+}
+
+SharedMethodKeys::~SharedMethodKeys() = default;
+
+void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
+  toml::table* const table = impl_->document ? impl_->document->root["method"].as_table() : nullptr;
+  if (table == nullptr) return;
+  const std::string& name_key = method_name_key().name;
+  table->insert_or_assign(name_key, spelled);
+  const std::vector<std::string> replaced = replaced_method_keys(*table, impl_->document->file_method);
+  const MethodSpec own = method;
+  const std::vector<OptionInfo>& options = find_method(own.name).family->options;
+  const auto why_not = [&](const std::string& key) -> std::string {
+    if (own.options.contains(key)) return "its name says it";
+    const OptionInfo* const option = find_option(options, key);
+    if (option == nullptr) return "no such option";
+    if (key == tolerance_option && describe(own).own_substeps) return "its rows differ in it, unless its name says one";
+    if (!contains(replaced, key)) return "";
+    return key == monitor_option ? "steps of equal length follow no monitor" : "it means something else there";
+  };
+  for (const auto& [path, setting] : impl_->settings) {
+    const std::string head = "method.";
+    if (!path.starts_with(head)) continue;
+    const std::string key = path.substr(head.size());
+    if (key == name_key || !contains(all_method_keys(), key)) continue;
+    const std::string why = why_not(key);
+    if (why.empty()) {
+      method.options[key] = table->get(key)->value_exact<std::string>().value_or(setting.text);  // texts without quotes
+      continue;
+    }
+    const std::pair<std::string, std::string> entry{path + (setting.line > 0 ? "" : " of --set"), why};
+    if (!impl_->methods.contains(entry)) impl_->unused.push_back(entry);
+    impl_->methods[entry].push_back(spelled);
+  }
+}
+
+std::vector<std::string> SharedMethodKeys::unknown() const {
+  const toml::table* const table = impl_->document ? impl_->document->root["method"].as_table() : nullptr;
+  std::vector<std::string> all;
+  if (table == nullptr) return all;
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    if (name != method_name_key().name && !contains(all_method_keys(), name)) all.push_back(name);
+  }
+  return all;
+}
+
+std::vector<std::string> SharedMethodKeys::notes() const {
+  std::vector<std::pair<std::string, std::string>> parts;  // keys, and by whom and why not
+  for (const auto& entry : impl_->unused) {
+    const auto& [key, why] = entry;
+    const std::string rest = " not used by " + joined(impl_->methods.at(entry)) + ": " + why;
+    const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.second == rest; });
+    if (same == parts.end()) {
+      parts.emplace_back(key, rest);
+    } else {
+      same->first += ", " + key;
+    }
+  }
+  std::vector<std::string> all;
+  for (const auto& [keys, rest] : parts)
+    all.push_back(keys + (keys.find(", ") == std::string::npos ? " is" : " are") + rest);
+  return all;
 }
 
 void drop_replaced_method_keys(toml::table& root, const std::string& file_method) {

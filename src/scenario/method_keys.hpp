@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,29 @@ bool same_option(const OptionInfo& a, const OptionInfo& b);
 /// that it does not have or means otherwise than the file's own method, and options that its name carries.
 /// @param file_method the name of the file's own, method_named_in() before anything was set
 std::vector<std::string> replaced_method_keys(const toml::table& method, const std::string& file_method);
+/// [method], with each --set carried out, for the methods of a comparison, which stand on the command line: what `run`
+/// would do with the name set to each of them. Keys of --set that one of several methods does not have are not its own.
+class SharedMethodKeys {
+ public:
+  /// @param text the scenario's
+  SharedMethodKeys(const std::string& text, const std::vector<std::string>& sets);
+  ~SharedMethodKeys();
+  SharedMethodKeys(const SharedMethodKeys&) = delete;
+  SharedMethodKeys& operator=(const SharedMethodKeys&) = delete;
+
+  /// Takes the options that apply to a method and that it does not carry itself.
+  /// @param spelled the method as it was given, with its options
+  void add_to(MethodSpec& method, const std::string& spelled);
+  /// Keys that no method has: misspelt ones, with which every method is refused.
+  std::vector<std::string> unknown() const;
+  /// The keys that some method was read without, and why, a sentence each.
+  std::vector<std::string> notes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Removes them from the [method] of a document.
 void drop_replaced_method_keys(toml::table& root, const std::string& file_method);
 

@@ -194,7 +194,15 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
     texts.parameters = typed;
     refuse_unused_parameters(table, texts);
   } catch (const FormulaError& error) {
-    table.complain_in(error.key == FormulaKeys::central_potential ? GasKeys::phi : error.key, error.what());
+    // A pair law is read as a potential of central-force, which has a time and another name.
+    std::string message = error.what();
+    for (const auto& [of_force, of_pair] : {std::pair<std::string, std::string>{"allowed r, t, ", "allowed r, "},
+                                            {"which central-force has itself", "which a pair law has itself"}}) {
+      if (const std::size_t at = message.find(of_force); at != std::string::npos) {
+        message.replace(at, of_force.size(), of_pair);
+      }
+    }
+    table.complain_in(error.key == FormulaKeys::central_potential ? GasKeys::phi : error.key, message);
   }
 }
 
@@ -278,7 +286,9 @@ void ScenarioReader::read_box(TomlTable& table) {
   for (const OptionInfo* key : {&keys.walls, &keys.strength, &keys.exponent}) {
     table.know(key->name);
     if (table.has_any(key->name)) {
-      table.complain(key->name, table.found(key->name) + " beside a box; allowed container = { kind = \"none\" }");
+      table.complain(key->name, table.found(key->name) + " beside a box; allowed container = { kind = ... } with " +
+                                    ContainerNames::none + ", " + ContainerNames::circle + " or " +
+                                    ContainerNames::periodic);
     }
   }
   const Texts& parameters = scenario_.request.parameters;

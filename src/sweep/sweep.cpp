@@ -188,7 +188,8 @@ class Sweep::Worker {
     if (watch) row.events = watch->events();
     row.message = outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : simulation->failure();
     if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);
-    if (watch && frame.step > 0) row.observables = watch->row();
+    // Of a run without a step, too, all is told that the start shows, as of the single run.
+    if (watch && (frame.step > 0 || outcome != Outcome::stopped)) row.observables = watch->row();
     if (outcome == Outcome::done && is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario, row);
     sweep_.put(member, std::move(row));
   }

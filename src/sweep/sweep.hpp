@@ -110,6 +110,8 @@ class Sweep {
   /// The scenario of the first member that has a start, for what all have in common.
   const Scenario& common() const { return common_; }
   const std::string& text() const { return text_; }
+  /// Of the first member with a start; and what any member says of keys of its method, which may be varied.
+  std::vector<std::string> notes() const;
   /// What the numbers in the rows are called.
   const SweepNames& names() const { return names_; }
   /// In which all members compute, and their kernels.
@@ -164,6 +166,7 @@ class Sweep {
   std::size_t coordinates_of_first(MemberReader& reader) const;
   void read_members(const std::string& name);
   void add(std::size_t member, const Scenario& scenario);
+  void keep_notes(std::size_t member, const Scenario& scenario);
   MemberObservables observables_of(const Scenario& scenario) const;
   void take_as_common(std::size_t member, const Scenario& scenario);
   void unite_names();
@@ -182,6 +185,7 @@ class Sweep {
   std::vector<std::string> sets_;
   std::string text_;
   Scenario common_;
+  std::map<std::string, std::size_t> method_notes_;  // and the first member that has it
   std::size_t common_member_ = 0;
   bool common_has_start_ = false;
   std::vector<std::string> complaints_;

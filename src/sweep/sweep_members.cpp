@@ -139,6 +139,26 @@ void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
   common_has_start_ = has_start;
 }
 
+/// Of these there are as many as methods and keys, however many members there are.
+void Sweep::keep_notes(std::size_t member, const Scenario& scenario) {
+  for (const std::string& note : scenario.notes) {
+    if (!note.starts_with("method.")) continue;
+    const auto [at, is_new] = method_notes_.try_emplace(note, member);
+    if (!is_new) at->second = std::min(at->second, member);
+  }
+}
+
+std::vector<std::string> Sweep::notes() const {
+  std::vector<std::string> all = common_.notes;
+  std::vector<std::pair<std::size_t, std::string>> others;
+  for (const auto& [note, member] : method_notes_) {
+    if (std::find(all.begin(), all.end(), note) == all.end()) others.emplace_back(member, note);
+  }
+  std::sort(others.begin(), others.end());
+  for (auto& [member, note] : others) all.push_back(std::move(note));
+  return all;
+}
+
 void Sweep::add(std::size_t member, const Scenario& scenario) {
   const Request& request = scenario.request;
   const Parameters<double> parameters(request.parameters);
@@ -161,6 +181,7 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
 
   const std::lock_guard lock(mutex_);
   take_as_common(member, scenario);
+  keep_notes(member, scenario);
   names_.add(member, names);
   arithmetics_.insert(request.arithmetic);
   kernels_.insert(request.kernel);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace hamflow {
 
@@ -30,7 +31,57 @@ double relative_work(const ComparisonPoint& first, const ComparisonPoint& point)
   return std::pow(*first.tolerance / *point.tolerance, 1.0 / point.order);
 }
 
+/// A number in one spelling, a word as it is.
+std::string same_spelling(const OptionInfo& option, const std::string& text) {
+  const bool is_word = text.empty() || option.type != OptionType::number ||
+                       std::find(option.words.begin(), option.words.end(), text) != option.words.end();
+  return is_word ? text : shortest(number_value(text));
+}
+
+/// Of an option that is not given: its default where it has a place in canonical names, as in cg(1,auto). A default of
+/// any other may depend on what else is given, and nothing is the same as it.
+std::string value_of(const MethodSpec& method, const OptionInfo& option) {
+  const auto given = method.options.find(option.name);
+  if (given != method.options.end()) return same_spelling(option, given->second);
+  return option.position > 0 ? same_spelling(option, option.default_value) : "";
+}
+
+bool stands_in(const std::string& name, const OptionInfo& option) {
+  const std::size_t at = name.find(option.name + "=");
+  return at != std::string::npos && at > 0 && (name[at - 1] == '(' || name[at - 1] == ',');
+}
+
+/// @param alike all methods of the same canonical name, this one among them
+std::string name_among(const MethodSpec& method, const std::vector<const MethodSpec*>& alike) {
+  const std::string shared = describe(method).name;
+  const std::size_t open = shared.find('(');
+  std::string inside = open == std::string::npos ? "" : shared.substr(open + 1, shared.size() - open - 2);
+  for (const OptionInfo& option : find_method(method.name).family->options) {
+    const std::string own = value_of(method, option);
+    const bool differs = std::any_of(alike.begin(), alike.end(),
+                                     [&](const MethodSpec* other) { return value_of(*other, option) != own; });
+    const auto given = method.options.find(option.name);
+    if (!differs || given == method.options.end()) continue;
+    const std::string told = option.name + "=" + given->second;
+    if (stands_in(shared, option)) {  // with fewer digits than those in which they differ
+      const std::size_t at = inside.find(option.name + "=");
+      inside.replace(at, std::min(inside.find(',', at), inside.size()) - at, told);
+    } else {
+      inside += (inside.empty() ? "" : ",") + told;
+    }
+  }
+  return shared.substr(0, open) + (inside.empty() ? "" : "(" + inside + ")");
+}
+
 }  // namespace
+
+std::vector<std::string> comparison_names(const std::vector<MethodSpec>& methods) {
+  std::map<std::string, std::vector<const MethodSpec*>> alike;
+  for (const MethodSpec& method : methods) alike[describe(method).name].push_back(&method);
+  std::vector<std::string> names;
+  for (const MethodSpec& method : methods) names.push_back(name_among(method, alike.at(describe(method).name)));
+  return names;
+}
 
 bool has_own_tolerance(const MethodSpec& method) {
   return describe(method).own_substeps && method.options.contains(tolerance_option);
@@ -40,6 +91,7 @@ std::vector<ComparisonJob> comparison_jobs(const ComparisonRequest& asked) {
   std::vector<ComparisonJob> jobs;
   const int digits = digits_of(asked.request.arithmetic);
   const std::string t_end = asked.t_end_text.empty() ? shortest(asked.t_end) : asked.t_end_text;
+  const std::vector<std::string> names = comparison_names(asked.methods);
   for (std::size_t m = 0; m < asked.methods.size(); ++m) {
     const std::size_t first = jobs.size();
     const bool own_tolerance = has_own_tolerance(asked.methods[m]);
@@ -49,7 +101,7 @@ std::vector<ComparisonJob> comparison_jobs(const ComparisonRequest& asked) {
       job.request.watch = true;
       ComparisonPoint& point = job.point;
       point.steps = asked.steps[k];
-      point.method = describe(asked.methods[m]).name;  // as requested: the tolerance varies like a step
+      point.method = names[m];  // as requested: the tolerance varies like a step
       if (describe(asked.methods[m]).own_substeps) {
         if (!own_tolerance) {
           job.request.method.options[tolerance_option] = shortest(usual_tolerance(k, asked.steps.size(), digits));
@@ -117,10 +169,11 @@ ComparisonProgress ComparisonClock::look(const ComparisonJob* running, double pa
 
 std::vector<std::string> comparison_notes(const ComparisonRequest& asked) {
   std::vector<std::string> notes;
-  for (const MethodSpec& method : asked.methods) {
-    const MethodInfo info = describe(method);
-    if (!info.own_substeps) continue;
-    const std::string why = info.name + " chooses its sub-steps by its tolerance: no dt changes them, ";
+  const std::vector<std::string> names = comparison_names(asked.methods);
+  for (std::size_t m = 0; m < asked.methods.size(); ++m) {
+    const MethodSpec& method = asked.methods[m];
+    if (!describe(method).own_substeps) continue;
+    const std::string why = names[m] + " chooses its sub-steps by its tolerance: no dt changes them, ";
     if (has_own_tolerance(method)) {
       notes.push_back(why + "and it has one row, with the tolerance given");
     } else if (asked.steps.size() > 1) {

@@ -33,7 +33,9 @@ bool palindromic_on_lattice(const Scenario& scenario) {
   return scenario.request.arithmetic == "lattice" && describe(scenario.request.method).symmetric;
 }
 
-std::string note_of(const MethodInfo& method, const std::string& arithmetic, bool timed, bool even, bool expected) {
+/// @param tolerance as it was given, else empty
+std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
+                    bool even, bool expected) {
   if (timed) {
     return "H depends on t, which goes on: the motion itself is not reversed by negating the momenta, so that a "
            "distance "
@@ -46,6 +48,10 @@ std::string note_of(const MethodInfo& method, const std::string& arithmetic, boo
   if (expected) return "a palindromic splitting on the lattice returns every bit";
   if (!method.reversible)
     return method.name + " is not reversible: the distance is its own, not that of rounding alone";
+  if (!tolerance.empty()) {
+    return method.name + " is reversible, but steps solved to tolerance = " + tolerance +
+           " are not, and neither is rounding";
+  }
   if (arithmetic != "lattice") {
     return method.name +
            " is reversible, but rounding is not: with run.arithmetic = \"lattice\" a palindromic splitting "
@@ -174,8 +180,10 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   const bool timed = depends_on_time(*scenario.problem);
   report.expected_bit_exact = even && !timed && palindromic_on_lattice(scenario);
   const Reversal& r = report.reversal;
-  report.note =
-      note_of(describe(scenario.request.method), scenario.request.arithmetic, timed, even, report.expected_bit_exact);
+  const MethodSpec& method = scenario.request.method;
+  const auto tolerance = method.options.find(tolerance_option);
+  report.note = note_of(describe(method), tolerance == method.options.end() ? "" : tolerance->second,
+                        scenario.request.arithmetic, timed, even, report.expected_bit_exact);
   if (rejects_steps(scenario)) {
     report.note +=
         (report.note.empty() ? "" : "; ") +

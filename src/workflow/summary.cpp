@@ -30,7 +30,8 @@ using Json = nlohmann::ordered_json;
 
 Json excursion(const Excursion& e) { return {{"initial", e.initial}, {"final", e.final}, {"max_error", e.max_error}}; }
 
-void add_walls(const Walls& walls, Json& parameters) {
+/// @param exponent what that of the walls is called
+void add_walls(const Walls& walls, const std::string& exponent, Json& parameters) {
   const WallKeys& keys = wall_keys();
   Json all = Json::array();
   for (const Walls::Interval& wall : walls.intervals) {
@@ -43,7 +44,12 @@ void add_walls(const Walls& walls, Json& parameters) {
   parameters[keys.wall_rule.name] = wall_rules()[static_cast<std::size_t>(walls.rule)];
   if (walls.hard()) return;
   parameters[keys.strength.name] = number_value(walls.strength);
-  parameters[keys.exponent.name] = number_value(walls.exponent);
+  parameters[exponent] = number_value(walls.exponent);
+}
+
+bool has_parameter(const ProblemEntry& problem, const std::string& name) {
+  const std::vector<ParameterInfo>& all = problem.info.parameters;
+  return std::any_of(all.begin(), all.end(), [&](const ParameterInfo& parameter) { return parameter.name == name; });
 }
 
 Json parameters_of(const Scenario& scenario) {
@@ -64,7 +70,9 @@ Json parameters_of(const Scenario& scenario) {
       parameters[wall_keys().wall_rule.name] =
           wall_rules()[static_cast<std::size_t>(walls->rule)];  // the box says the rest
     } else {
-      add_walls(*walls, parameters);
+      // A gas in a soft circle has an exponent of its own, that of its container.
+      const std::string& exponent = wall_keys().exponent.name;
+      add_walls(*walls, has_parameter(*scenario.problem, exponent) ? "wall_" + exponent : exponent, parameters);
     }
   }
   const Parameters<double> values(scenario.request.parameters);

@@ -125,7 +125,7 @@ class ScenarioSweep::Impl {
     };
     sweep.emplace(request.text, request.name, request.sets, std::move(varied), how);
     complaints = sweep->complaints();
-    if (complaints.empty()) notes = sweep->common().notes;
+    if (complaints.empty()) notes = sweep->notes();
   }
 
   SweepRequest request;

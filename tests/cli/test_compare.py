@@ -273,6 +273,63 @@ steps = 40
         self.hamflow("compare", "henon.toml", status=2)
         self.hamflow("compare", "missing.toml", "--methods", "verlet", status=3)
 
+    def test_methods_that_differ_in_any_option_have_names_of_their_own(self):
+        same, other = "cg(2,3)", "cg(2,3,tolerance=1e-3,iteration=fixed-point)"
+        done = self.hamflow("compare", "henon.toml", "--methods", f"{same},{other},stv4", "--dt", "0.2,0.1,0.05", "--csv",
+                            "t.csv", "--figure", "f.svg", "--json")
+        c = json.loads(done.stdout)
+        names = 3 * [same] + 3 * [other] + 3 * ["stv4"]
+        self.assertEqual([r["method"] for r in c["rows"]], names)
+        rows = list(csv.DictReader((self.folder / "t.csv").read_text().splitlines()))
+        self.assertEqual([r["method"] for r in rows], names)
+        drawn = "".join(xml.etree.ElementTree.parse(self.folder / "f.svg").getroot().itertext())
+        self.assertIn(other, drawn)
+        for w in c["winners"]:
+            self.assertNotEqual(w["method"], w.get("second"))
+        # A winner is the row that is meant: both have the same errors only where the tolerance does not matter.
+        table = self.hamflow("compare", "henon.toml", "--methods", f"{same},{other}", "--dt", "0.1").stdout
+        self.assertRegex(table, r"(?m)^cg\(2,3\) .*\n^cg\(2,3,tolerance=1e-3,iteration=fixed-point\) ")
+        adaptive = self.compare("henon.toml", "--methods", "dop853(1.00001e-6),dop853(1e-6),tao2,tao2(5)", "--dt", "0.1")
+        self.assertEqual(len({r["method"] for r in adaptive["rows"]}), 4)
+
+    def test_the_same_method_twice_is_refused(self):
+        for twice in ("stv4,stv4", "cg(2,3),cg(degree=2,quadrature=3)", "gauss,gauss(2)", "dop853(1e-6),dop853(tolerance=0.000001)"):
+            done = self.hamflow("compare", "henon.toml", "--methods", twice, "--json", status=2)
+            self.assertIn("the same method with the same options; allowed once", done.stderr)
+
+    def test_a_method_takes_of_the_file_what_run_would_take(self):
+        self.write("halve.toml", "[problem]\nname='central-force'\npotential='kepler'\ninitial={q=[1,0],p=[0,0.3]}\n[method]\n"
+                   "name='gauss'\nstages=2\non_divergence='halve'\nmax_iterations=40\n[run]\ndt=0.2\nsteps=20\n")
+        done = self.hamflow("compare", "halve.toml", "--methods", "gauss(2),cg(1,6),lobatto-3a-3b,stv4", "--dt", "0.2", "--json")
+        rows = json.loads(done.stdout)["rows"]
+        self.assertEqual([r["method"] for r in rows], ["gauss(2)", "cg(1,6)", "lobatto-3a-3b(2)", "stv4"])
+        for row in rows:
+            own = json.loads(self.hamflow("run", "halve.toml", "--set", f"method.name={row['method']}", "--out", "none",
+                                          "--json").stdout)
+            self.assertEqual({key: own["evaluations"][key] for key in row["evaluations"]}, row["evaluations"], row["method"])
+        for words in ("method.max_iterations, method.on_divergence are not used by stv4: no such option",
+                      "method.stages is not used by gauss(2): its name says it",
+                      "method.stages is not used by cg(1,6), stv4: no such option",
+                      "method.stages is not used by lobatto-3a-3b: it means something else there"):
+            self.assertIn("note: " + words, done.stderr)
+        self.assertEqual(self.hamflow("compare", "halve.toml", "--methods", "gauss(2),stv4", "--quiet").stderr, "")
+        # What the file says tells methods apart where it has to, and what is set goes to those that have it.
+        told = self.compare("halve.toml", "--methods", "gauss,gauss(2,tolerance=1e-3),verlet,dop853", "--dt", "0.1,0.05", "--set",
+                            "method.tolerance=1e-9")["rows"]
+        self.assertEqual([r["method"] for r in told[::2]],
+                         ["gauss(2,tolerance=1e-09)", "gauss(2,tolerance=1e-3)", "verlet", "dop853"])
+        self.assertEqual([r.get("tolerance") for r in told[-2:]], [1e-3, 1e-13])
+        named = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.name=stv4").stderr
+        self.assertNotIn("method.name is set to", named)
+        # A key that is misspelt is no key that another method does without.
+        wrong = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.tolerence=1e-3", status=2).stderr
+        for name in ("cg", "stv4"):
+            self.assertIn(f"found '{name}'; method.tolerence: found an unknown key", wrong)
+        # The file's own method need not fit, and what is wrong is told with the method that would take it.
+        self.hamflow("compare", "halve.toml", "--methods", "cg(1,5)", "--set", "method.stages=99")
+        wrong = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.max_iterations=0", status=2)
+        self.assertIn("max_iterations", wrong.stderr)
+
     def test_lattice(self):
         c = self.compare("henon.toml", "--methods", "stv4", "--set", "run.arithmetic=lattice", "--dt", "0.1,0.05")
         self.assertAlmostEqual(self.slopes(c["rows"], "error")[0], 4, delta=0.3)

@@ -212,6 +212,18 @@ record_every = true
         self.assertIn("allowed one of them", self.hamflow("verify", "stv4", "--all", status=2).stderr)
         self.hamflow("verify", status=2)
 
+    def test_what_stands_behind_a_parenthesis(self):
+        self.assertIn("has 'x' behind its closing parenthesis", self.hamflow("verify", "cg(2)x", status=2).stderr)
+        self.assertIn("lacks its closing parenthesis", self.hamflow("verify", "cg(2", status=2).stderr)
+
+    def test_a_page_is_written_somewhere(self):
+        self.assertIn("found --out none", self.hamflow("reproduce", "G2.8", "--quick", "--out", "none", status=2).stderr)
+        self.assertFalse((self.folder / "none").exists())
+
+    def test_what_no_thread_means_is_told(self):
+        for command in ("sweep", "reproduce"):
+            self.assertRegex(self.hamflow(command, "--help").stdout, r"--threads N +how many, 0: all cores")
+
     def test_unknown_names_are_answered_by_those_that_are_known(self):
         for words, allowed in ((["verify", "stv4", "--problem", "foo"], "allowed double-pendulum, duffing"),
                                (["verify", "stv5"], "allowed verlet, stv4, kahan-li8"),

@@ -252,6 +252,22 @@ class Gas(CommandCase):
                 self.assertIn(said, self.errors(keys))
         self.assertIn("particles_per_side", self.errors("", "--set", "problem.particles_per_side=1"))
 
+    def test_the_exponents_of_a_circle_and_of_walls(self):
+        walls = "walls = [{ coordinate = 'x1', min = -9, max = 9 }]\nwall_rule = 'soft'\nexponent = 3\n"
+        told = self.gas("container = { kind = 'circle', radius = 9, exponent = 2 }\n" + walls, "--set", "run.steps=0")["parameters"]
+        self.assertEqual((told["exponent"], told["wall_exponent"], told["strength"]), (2, 3, 1))
+        told = self.gas("container = { kind = 'none' }\n" + walls, "--set", "run.steps=0")["parameters"]
+        self.assertEqual(told["exponent"], 3)
+        self.assertNotIn("wall_exponent", told)
+
+    def test_what_a_wrong_gas_is_told(self):
+        typed = "container = { kind = 'none' }\npair = 'formula'\n"
+        self.assertIn("allowed r, numbers, pi", self.errors(typed + "phi = 'x1'"))
+        self.assertIn("found the name r, which a pair law has itself", self.errors(typed + "phi = 'r'\nparameters = { r = 2 }"))
+        box = "container = { kind = 'box', size = [1, 1] }\n"
+        self.assertIn("with none, circle or periodic", self.errors(box + "walls = [{ coordinate = 'x1', max = 2 }]"))
+        self.assertRegex(self.errors(box), r"beyond the wall at -?0\.5; allowed a start between the walls, from -0\.5 to 0\.5")
+
     def test_who_is_outside(self):
         """In every arithmetic, by name and number; the state is the last good one."""
         for arithmetic in ("double", "compensated", "double-double", "quad", "mp(40)", "lattice"):

@@ -171,7 +171,9 @@ class OtherImplicit(CommandCase):
             self.assertIn("that of central-force is none", said)
         self.write("double.toml", '[problem]\nname = "double-pendulum"\ninitial = { q = [0.1, 0], p = [0, 0] }\n'
                    '[method]\nname = "eg"\n[run]\ndt = 0.01\nsteps = 1\n')
-        self.assertIn("that of double-pendulum is none", self.refused("double.toml"))
+        said = self.refused("double.toml")
+        self.assertIn("that of double-pendulum is none", said)
+        self.assertIn("gas without a container", said)
         for method, allowed in (("eg(0)", "from 1 to 3"), ("eg(4)", "from 1 to 3"), ("lobatto-3a-3b(1)", "from 2 to 10"),
                                 ("lobatto-3a-3b(11)", "from 2 to 10")):
             self.assertIn("allowed a whole number " + allowed, self.refused("plane.toml", f"method.name={method}"))

@@ -54,6 +54,13 @@ class Reverse(CommandCase):
             self.assertGreater(s["distance"], 1e-2)
             self.assertIn("H(q, -p)", s["note"])
 
+    def test_what_a_tolerance_does_is_not_called_rounding(self):
+        for method, words in (("gauss(2,tolerance=1e-4)", "steps solved to tolerance = 1e-4 are not"),
+                              ("gauss(2)", "is reversible, but rounding is not")):
+            s = self.reverse("kepler.toml", "--set", f"method={{name='{method}'}}", "--set", "run.steps=20")
+            self.assertTrue(s["method_reversible"])
+            self.assertIn(words, s["note"])
+
     def test_readable(self):
         out = self.hamflow("reverse", str(EXAMPLES / "pendulum.toml")).stdout
         for word in ("returned q", "distance", "every bit", "hash of the bits", "1000 there, 1000 back"):

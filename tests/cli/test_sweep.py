@@ -281,6 +281,31 @@ steps = 333
         every = self.hamflow("sweep", "hh.toml", "--vary", "problem.initial.p[1]=1.8,1.9", "--out", "none", status=1)
         self.assertIn("error: member 0, step", every.stderr)
 
+    def test_members_without_a_step_show_what_their_runs_show(self):
+        self.write("still.toml", "[problem]\nname='pendulum'\ninitial={q=[0.5],p=[0.1]}\n[method]\nname='gauss(2)'\n[run]\n"
+                   "dt=0.05\nsteps=3\nlyapunov=true\neigenvalues=true\n[output]\nobservables={o='q^2'}\n")
+        for key, value, status in (("run.steps", 0, "done"), ("method.max_iterations", 1, "not_converged")):
+            one = ("--set", f"{key}={value}", "--set", "method.tolerance=1e-300")
+            own = self.summary("still.toml", *one, status=0 if status == "done" else 1)
+            self.assertEqual(own["observables"]["o"], {"initial": 0.25, "mean": 0.25, "final": 0.25})
+            for lanes in ("none", "auto"):
+                done = self.hamflow("sweep", "still.toml", *one, "--vary", "problem.gravity=1,2", "--lanes", lanes, "--out",
+                                    "none", "--json", status=0 if status == "done" else 1)
+                for row in json.loads(done.stdout)["rows"]:
+                    self.assertEqual((row["status"], row["steps"]), (status, 0))
+                    self.assertEqual([row["o_" + what] for what in ("initial", "mean", "final")], 3 * [0.25])
+                    self.assertEqual(row["eigenvalues_norm"], own["eigenvalues"]["norm"])
+                    self.assertEqual([row["lyapunov1"], row["lyapunov2"]], own["lyapunov"]["exponents"])
+
+    def test_every_method_notes_what_it_does_without(self):
+        self.write("gauss.toml", "[problem]\nname='pendulum'\ninitial={q=[0.5],p=[0.1]}\n[method]\nname='gauss'\nstages=2\n"
+                   "max_iterations=20\n[run]\ndt=0.05\nsteps=3\n")
+        told = self.hamflow("sweep", "gauss.toml", "--vary", "method.name=tao2,discrete-gradient,stv4,gauss", "--out", "none").stderr
+        notes = [line for line in told.splitlines() if line.startswith("note: method.")]
+        self.assertEqual(notes, [f"note: method.{key} of the file is not used: method.name is set to {name}" for key, name in
+                                 (("max_iterations", "tao2"), ("stages", "tao2"), ("stages", "discrete-gradient"),
+                                  ("max_iterations", "stv4"), ("stages", "stv4"))])
+
     def test_threads_and_files(self):
         self.write("k.toml", KEPLER + '[output]\nformats = ["h5", "csv"]\n')
         texts = set()

@@ -25,7 +25,7 @@ struct ComparisonRequest {
 
 /// One method with one dt, or one tolerance.
 struct ComparisonPoint {
-  std::string method;  // canonical
+  std::string method;  // one of comparison_names()
   int order = 0;
   bool explicit_step = true;
   double dt = 0;
@@ -73,6 +73,10 @@ struct ComparisonProgress {
 
 /// Numbers of steps for twice, once, a half, ... of the given dt: `count` of them, without those that fall together.
 std::vector<std::int64_t> usual_step_counts(std::int64_t steps, int count = 6);
+
+/// What the methods are called, each by a name of its own: where two have the same canonical name, the options in which
+/// they differ stand in it. Two that are called the same are the same method with the same options.
+std::vector<std::string> comparison_names(const std::vector<MethodSpec>& methods);
 
 /// What one has to know about the rows of adaptive methods, a sentence each.
 std::vector<std::string> comparison_notes(const ComparisonRequest& asked);

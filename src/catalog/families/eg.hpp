@@ -35,13 +35,14 @@ struct Eg {
         .needs =
             [](std::size_t) {
               return "an H of bodies whose forces act along the lines between them or to a centre and depend on the "
-                     "distance alone, one of n-body, solar-system, or central-force with a named potential and "
-                     "Cartesian coordinates";
+                     "distance alone, one of n-body, solar-system, gas without a container, or central-force with a "
+                     "named potential and Cartesian coordinates";
             },
         .advice =
             [](std::size_t) {
               return MethodAdvice{.take =
-                                      "energy and angular momentum have both to be exact, for bodies or a central "
+                                      "energy and angular momentum have both to be exact, for bodies, a gas without a "
+                                      "container or a central "
                                       "force in Cartesian coordinates",
                                   .avoid =
                                       "H has no such forces: cg; bits have to come back (lattice), or many cheap steps "
