@@ -55,11 +55,12 @@ void claim_columns(Study& study) {
               {{53 * std::log10(2.0), 0, "double: 53 bits"}}, Grounds::identity);
 }
 
-/// log10 of the mean error of positions, of several starts. None at all counts as 10^-30, a place that is
-/// no number as 10^300.
+/// log10 of the mean error of positions, of several starts: of none at all minus infinity, which has no mean, of a
+/// place that is no number 300.
 struct Lost {
-  std::vector<double> position, momentum;
-  int outside = 0;  // starts in which a particle passes the wall
+  std::vector<double> position;
+  double momentum = 0;  // the largest mean error
+  int outside = 0;      // starts in which a particle passes the wall
 };
 
 /// Only starts in which no particle passes the wall count; where there are fewer than two of them, those of the listed
@@ -67,8 +68,8 @@ struct Lost {
 Lost lost_by(Study& study, GasRun run, int starts) {
   Lost all, own;
   const auto add = [](Lost& to, double position, double momentum) {
-    const auto log = [](double x) { return std::isfinite(x) ? std::log10(std::max(x, 1e-30)) : 300; };
-    to.position.push_back(log(position)), to.momentum.push_back(log(momentum));
+    to.position.push_back(std::isfinite(position) ? std::log10(position) : 300);
+    to.momentum = momentum <= to.momentum ? to.momentum : momentum;  // one that is no number is the largest
   };
   std::vector<std::pair<ListedGas, std::int64_t>> passed;
   for (run.seed = 1; run.seed <= starts; ++run.seed) {
@@ -88,6 +89,13 @@ Lost lost_by(Study& study, GasRun run, int starts) {
   return own;
 }
 
+/// An error of momenta, as a power of ten where it has one.
+std::string told_of(double momentum) {
+  if (momentum == 0) return "0: every one returns";
+  if (!std::isfinite(momentum)) return "none is a number";
+  return fmt::format("at most 10^{:.2f}", std::log10(momentum));
+}
+
 /// A row for a step length and a scale: in double, and by the listed program where a particle passes the wall.
 void claim_row(Study& study, const Row& row, const std::string& dt, const std::string& scale) {
   const bool tunnels = dt != "0.0001";
@@ -103,9 +111,9 @@ void claim_row(Study& study, const Row& row, const std::string& dt, const std::s
                                                     "{} with particles outside, by the listing's program, "
                                                     "which does not notice",
                                                     lost.outside);
-    measured.push_back({position.mean, 2 * position.deviation,
-                        fmt::format("{} of {} starts, {}; of momenta at most 10^{:.2f}", position.members, starts, who,
-                                    *std::max_element(lost.momentum.begin(), lost.momentum.end()))});
+    measured.push_back(
+        {position.mean, 2 * position.deviation,
+         fmt::format("{} of {} starts, {}; of momenta {}", position.members, starts, who, told_of(lost.momentum))});
   }
   study.claim({fmt::format("row_{}_{}_{}", row.name(), dt, scale),
                fmt::format("{} particles, {} steps there and back, dt = {}, scale {}: power of ten of the mean error "
