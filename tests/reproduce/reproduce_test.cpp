@@ -71,6 +71,7 @@ const Claim& claim_of(const ReproduceReport& report, const std::string& id) {
 
 /// Neither a tie, nor a search among two starts, nor the floor of a logarithm is told as more than it is.
 void expect_no_more_than_shown(const ReproduceReport& report) {
+  EXPECT_EQ(claim_of(report, "C-polar/accuracy").judgement.verdict, ClaimVerdict::undecided);
   for (const std::string steps : {"200", "400", "800"}) {
     const std::string how = claim_of(report, "S-T81/row_121_" + steps + "_0.0001_listing").measured.at(0).how;
     EXPECT_NE(how.find("of momenta 0: every one returns"), std::string::npos) << how;
