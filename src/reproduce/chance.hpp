@@ -51,4 +51,19 @@ struct Majority {
   }
 };
 
+/// The largest share of counter-examples with which a search of n cases finds none in one of twenty searches: the exact
+/// binomial bound, 3/n for many ("rule of three").
+inline double largest_share_unseen(int n) { return n > 0 ? 1 - std::pow(1 - confidence, 1.0 / n) : 1; }
+
+/// "None does", of all cases there are: one that does refutes it. Where none of those looked at does, as many as the
+/// bound leaves among ten others: it holds where that is below a half, one case in twenty, from 59 on.
+inline Rule none_of_all(const std::string& what) {
+  Rule rule = none_of(what);
+  rule.text += "; of those not looked at fewer than one in twenty, 95 % confidence: 59 without one";
+  return rule;
+}
+inline Measured seen_among(int number, int of, const std::string& how) {
+  return {static_cast<double>(number), number > 0 ? 0 : 10 * largest_share_unseen(of), how};
+}
+
 }  // namespace hamflow::reproduction

@@ -63,6 +63,20 @@ TEST(Claim, AMajorityIsMoreThanChanceAllows) {
   EXPECT_EQ(verdict_of_majority(39, 61), ClaimVerdict::differs);    // P = 0.035
 }
 
+TEST(Claim, WhatASearchDidNotFindMayBeThere) {
+  const auto verdict = [](int number, int of) {
+    return verdict_of(reproduction::none_of_all("starts"), {reproduction::seen_among(number, of, "")});
+  };
+  EXPECT_NEAR(reproduction::largest_share_unseen(2), 0.776, 1e-3);
+  EXPECT_NEAR(reproduction::largest_share_unseen(1000), 0.003, 1e-5);
+  EXPECT_EQ(verdict(0, 0), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0, 2), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0, 58), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0, 59), ClaimVerdict::holds);
+  EXPECT_EQ(verdict(1, 2), ClaimVerdict::differs);  // one is enough
+  EXPECT_EQ(verdict(1, 1000), ClaimVerdict::differs);
+}
+
 TEST(Claim, OneProgramAloneRefutesNothing) {
   const Rule rule = none_of("counter-examples");
   const Measured found{2, 0, "first way"}, again{3, 0, "second way"}, none{0, 0, "second way"};

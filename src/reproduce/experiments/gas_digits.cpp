@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../chance.hpp"
 #include "../experiment.hpp"
 #include "../gas_listing.hpp"
 #include "../gas_runs.hpp"
@@ -247,12 +248,14 @@ void remedies(Study& study) {
     for (int seed = 1; seed <= starts; ++seed) {
       GasRun run{.scale = scale, .dt = "0.01", .seed = seed};
       double before = time_inside(study, run);
+      bool ends_sooner = false;
       for (const char* const dt : {"0.001", "0.0001"}) {
         run.dt = dt;
         const double after = time_inside(study, run);
-        sooner += after < before ? 1 : 0;
+        ends_sooner = ends_sooner || after < before;
         before = after;
       }
+      sooner += ends_sooner ? 1 : 0;
       outside += before < 0.6 - 1e-9 ? 1 : 0;
       run.dt = "0.001";
       const double low = time_inside(study, run);
@@ -268,14 +271,19 @@ void remedies(Study& study) {
                            int number, int of, const std::string& printed) {
       std::vector<Measured> measured;
       if (of > 0) {
-        measured.push_back({static_cast<double>(number), 0, fmt::format("{} of {}, to t = 0.6", number, of)});
+        measured.push_back(seen_among(
+            number, of,
+            fmt::format("{} of {}, to t = 0.6{}", number, of,
+                        number > 0 ? ""
+                                   : fmt::format("; with 95 % confidence at most {:.2g} % of all; +- for ten more",
+                                                 100 * largest_share_unseen(of)))));
       }
       study.claim({fmt::format("{}_{}", name, scale), fmt::format("{}, 121 particles, scale {}", statement, scale),
                    printed, "80"},
-                  none_of(counted), measured, Grounds::program, "more starts: the default size");
+                  none_of_all(counted), measured, Grounds::program, "59 starts and none against it: --full has 64");
     };
     claim("smaller_dt", "with a smaller step a particle stays inside no shorter, dt = 0.01, 0.001, 0.0001",
-          "times a tenth of the step ends sooner", sooner, 2 * starts, "remedy 1");
+          "starts in which a tenth of the step ends sooner", sooner, starts, "remedy 1");
     claim("smallest_dt", "with dt = 0.0001 none passes the wall", "starts with a particle outside", outside, starts,
           "remedy 1");
     claim("exponent_later", "the power 4 in place of 1 keeps particles inside longer, dt = 0.001, where one passes",
