@@ -40,7 +40,8 @@ double increments_p_value(const std::vector<double>& energies) {
   }
   const double variance_of_mean = squares / static_cast<double>(blocks - 1) / static_cast<double>(blocks);
   if (variance_of_mean == 0) return mean == 0 ? 1 : 0;
-  return student_p_value(mean / std::sqrt(variance_of_mean), static_cast<int>(blocks) - 1);
+  const double p = student_p_value(mean / std::sqrt(variance_of_mean), static_cast<int>(blocks) - 1);
+  return p < std::numeric_limits<double>::min() ? 0 : p;  // of a number below all normal ones the digits are lost
 }
 
 DriftClass drift_class(double p_value, double growth_exponent) {
@@ -75,7 +76,10 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
                         return series.size() < longest ||
                                !std::all_of(series.begin(), series.end(), [](double h) { return std::isfinite(h); });
                       });
-  if (broken) return {0, std::numeric_limits<double>::infinity(), DriftClass::linear};
+  if (broken) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, std::nullopt};
+  }
   // The smallest of m p-values, times m (Bonferroni): a drift whose sign depends on the start is found too.
   double smallest = 1;
   for (const auto& series : energies) smallest = std::min(smallest, increments_p_value(series));

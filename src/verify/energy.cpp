@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,6 +42,32 @@ double largest_error(const std::vector<double>& energies, std::size_t expected) 
   }
   return largest;
 }
+
+/// Runs of which each has so many blocks, and what of them came to their end.
+struct Ended {
+  int runs = 0;
+  int early = 0;
+  std::size_t first = 0;  // blocks of the shortest
+  bool finite = true;
+
+  void look(const std::vector<double>& energies, std::size_t expected) {
+    ++runs;
+    const bool whole = energies.size() >= expected;
+    const bool ends_finite = std::all_of(energies.begin(), energies.end(), [](double h) { return std::isfinite(h); });
+    finite = finite && ends_finite;
+    if (whole && ends_finite) return;
+    first = early == 0 ? energies.size() - 1 : std::min(first, energies.size() - 1);
+    ++early;
+  }
+  std::string told(std::int64_t per_block, std::size_t expected, double h) const {
+    if (early == 0) return {};
+    const auto steps = [&](std::size_t blocks) { return static_cast<std::int64_t>(blocks) * per_block; };
+    return fmt::format(
+        "{} of {} runs with the step {:.3g} {}, the shortest within {} steps after step {} of {}", early, runs, h,
+        finite ? "ended early, where a step failed or left the finite numbers" : "left the finite numbers", per_block,
+        steps(first), steps(expected - 1));
+  }
+};
 
 /// The level over a fixed time of 128 steps of the region, looked at once in each of them whatever h is.
 double short_level(const StepMap& map, const Region& region, double h) {
@@ -106,27 +134,38 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
   EnergyMeasurement found;
   const double unit = scale(map, region);
   const double h = telling_step(map, region, unit);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::vector<double>> energies;
+  Ended ended;
   for (std::uint64_t k = 0; k < starts; ++k) {
     energies.push_back(watched(map, random_state(region, k), h));
+    ended.look(energies.back(), coarse_blocks + 1);
     found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
   }
+  if (ended.early > 0) found.level = unknown;
+  found.reason = ended.told(block_steps, coarse_blocks + 1, h);
   found.step = h;
   found.rounding = rounding_level(region, h, static_cast<double>(coarse_blocks * block_steps));
   found.drift = classify_drift(energies);
 
   const double fine_step = region.step / fine_factor;
+  Ended fine_ended;
   for (std::uint64_t k = 0; k < starts / 4; ++k) {  // for a level, a few are enough
     const auto fine = map.energies(random_state(region, k), fine_step, fine_blocks, fine_block_steps);
+    fine_ended.look(fine, fine_blocks + 1);
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);
   }
+  if (fine_ended.early > 0) found.fine_level = unknown;
+  if (found.reason.empty()) found.reason = fine_ended.told(fine_block_steps, fine_blocks + 1, fine_step);
   found.fine_rounding = rounding_level(region, fine_step, static_cast<double>(fine_blocks * fine_block_steps));
   found.step_exponent = step_exponent(map, region, h, unit);
   return found;
 }
 
-Conservation EnergyMeasurement::conserving(int order, bool even_in_momenta) const {
+std::optional<Conservation> EnergyMeasurement::conserving(int order, bool even_in_momenta) const {
+  if (!drift.drift || std::isnan(level)) return std::nullopt;
   if (level <= rounding) {
+    if (std::isnan(fine_level) && drift.drift != DriftClass::linear) return std::nullopt;
     return fine_level <= fine_rounding && drift.drift != DriftClass::linear ? Conservation::yes : Conservation::no;
   }
   // A method of order r without any conservation has level ~ h^r; with s > k quadrature points cg(k) has h^(2 s),

@@ -14,6 +14,19 @@ namespace hamflow {
 namespace {
 const char* text(bool claimed) { return claimed ? "yes" : "no"; }
 
+/// Of each problem what was not measured there, and why. @param reason of a Measurement
+std::string reasons(std::span<const Measurement> on, const auto& reason) {
+  std::string all;
+  for (const Measurement& m : on) {
+    if (const std::string why = reason(m); !why.empty()) all += (all.empty() ? "" : "; ") + m.problem + ": " + why;
+  }
+  return all;
+}
+PropertyCell because(PropertyCell cell, std::span<const Measurement> on, const auto& reason) {
+  if (cell.agrees == Finding::unclear || cell.measured == name(Finding::unclear)) cell.reason = reasons(on, reason);
+  return cell;
+}
+
 /// yes when it holds everywhere, no when it fails somewhere.
 Finding everywhere(std::span<const Measurement> on, const auto& holds) {
   Finding all = Finding::yes;
@@ -36,31 +49,49 @@ PropertyCell reversal_cell(std::string property, bool claimed, std::span<const M
   std::vector<Measurement> even;
   std::copy_if(on.begin(), on.end(), std::back_inserter(even), [](const Measurement& m) { return m.even_in_momenta; });
   if (even.empty()) return {std::move(property), text(claimed), "-", Finding::yes};
-  return cell(std::move(property), claimed, everywhere(even, [&](const Measurement& m) { return (m.*which).holds; }),
-              even.size());
+  return because(cell(std::move(property), claimed,
+                      everywhere(even, [&](const Measurement& m) { return (m.*which).holds; }), even.size()),
+                 even, [&](const Measurement& m) { return (m.*which).reason; });
 }
 
 PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> on) {
   double least = std::numeric_limits<double>::infinity();
+  bool any = false;
   Finding agrees = Finding::yes;
   for (const Measurement& m : on) {
     const double slope = m.order.slope;
-    least = std::min(least, slope);
-    if (std::isinf(slope)) continue;  // exact here
+    if (std::isinf(slope)) {  // exact here
+      any = true;
+      continue;
+    }
     if (m.order.points < OrderMeasurement::fewest_points) {
       agrees = std::min(agrees, Finding::unclear);
-    } else if (!(slope > claims.order - OrderMeasurement::tolerance)) {
+      continue;
+    }
+    any = true;
+    least = std::min(least, slope);
+    if (!(slope > claims.order - OrderMeasurement::tolerance)) {
       agrees = Finding::no;
     }
   }
   const bool more = least >= claims.order + OrderMeasurement::tolerance;
   if (agrees == Finding::yes && more && on.size() > 1) agrees = Finding::no;
-  return {"order", std::to_string(claims.order), fmt::format("{:.2f}", least), agrees};
+  return because({"order", std::to_string(claims.order), any ? fmt::format("{:.2f}", least) : "-", agrees}, on,
+                 [](const Measurement& m) { return m.order.reason; });
 }
 
 PropertyCell energy_cell(const MethodInfo& claims, std::span<const Measurement> on) {
   Conservation least = Conservation::yes;
-  for (const Measurement& m : on) least = std::min(least, m.energy.conserving(claims.order, m.even_in_momenta));
+  bool open = false;
+  for (const Measurement& m : on) {
+    const auto here = m.energy.conserving(claims.order, m.even_in_momenta);
+    least = std::min(least, here.value_or(Conservation::yes));
+    open = open || !here;
+  }
+  if (open && least != Conservation::no) {
+    return because({"energy conserving", std::string(name(claims.energy_conserving)), "unclear", Finding::unclear}, on,
+                   [](const Measurement& m) { return m.energy.reason; });
+  }
   const Conservation claimed = claims.energy_conserving;
   // Quadrature may be exact to rounding on these problems with this step.
   const bool enough = claimed == Conservation::up_to_quadrature ? least >= claimed : least == claimed;
@@ -81,6 +112,12 @@ PropertyCell forces_cell(const MethodInfo& claims, std::span<const Measurement> 
   double most = 0;
   for (const Measurement& m : on) {
     const double evaluations = std::max(m.cost.force, m.cost.gradient);  // of a H that is not separable: the gradient
+    if (std::isnan(evaluations)) {
+      const bool claimed = claims.forces_per_step > 0;
+      return because({"forces per step", claimed ? std::to_string(claims.forces_per_step) : "-", "-",
+                      claimed ? Finding::unclear : Finding::yes},
+                     on, [](const Measurement& one) { return one.cost.reason; });
+    }
     least = std::min(least, evaluations);
     most = std::max(most, evaluations);
   }
@@ -100,7 +137,13 @@ bool linearises(std::span<const Measurement> on) {
 
 PropertyCell newton_cell(std::span<const Measurement> on) {
   double most = 0;
-  for (const Measurement& m : on) most = std::max(most, m.cost.coarse_solves);
+  for (const Measurement& m : on) {
+    if (std::isnan(m.cost.coarse_solves)) {
+      return because({"Newton corrections", fmt::format("<= {}", most_newton_corrections), "-", Finding::unclear}, on,
+                     [](const Measurement& one) { return one.cost.reason; });
+    }
+    most = std::max(most, m.cost.coarse_solves);
+  }
   return {"Newton corrections", fmt::format("<= {}", most_newton_corrections), fmt::format("{:.1f}", most),
           most > 0 && most <= most_newton_corrections ? Finding::yes : Finding::no};
 }
@@ -110,14 +153,15 @@ PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on) {
   if (on.empty()) throw Error("a method is judged by at least one problem");
   const std::size_t problems = on.size();
   const auto defect = [&](const char* property, bool claimed, DefectMeasurement Measurement::*which) {
-    return cell(property, claimed, everywhere(on, [&](const Measurement& m) { return (m.*which).holds; }), problems);
+    return because(
+        cell(property, claimed, everywhere(on, [&](const Measurement& m) { return (m.*which).holds; }), problems), on,
+        [&](const Measurement& m) { return (m.*which).reason; });
   };
   PropertyRow row{claims, {}, {}};
   row.cells.push_back(order_cell(claims, on));
-  row.cells.push_back(
-      cell("explicit", claims.explicit_step,
-           everywhere(on, [](const Measurement& m) { return m.cost.explicit_step ? Finding::yes : Finding::no; }),
-           problems));
+  row.cells.push_back(because(cell("explicit", claims.explicit_step,
+                                   everywhere(on, [](const Measurement& m) { return m.cost.explicit_step; }), problems),
+                              on, [](const Measurement& m) { return m.cost.reason; }));
   row.cells.push_back(defect("symplectic", claims.symplectic, &Measurement::symplectic));
   row.cells.push_back(
       reversal_cell("weakly reversible", claims.weakly_reversible, on, &Measurement::weakly_reversible));
@@ -131,8 +175,10 @@ PropertyRow judge(const MethodInfo& claims, std::vector<Measurement> on) {
   return row;
 }
 
-bool PropertyRow::agrees() const {
-  return std::all_of(cells.begin(), cells.end(), [](const PropertyCell& c) { return c.agrees == Finding::yes; });
+Finding PropertyRow::verdict() const {
+  Finding all = Finding::yes;
+  for (const PropertyCell& c : cells) all = std::min(all, c.agrees);  // no < unclear < yes
+  return all;
 }
 
 bool PropertyRow::has(std::string_view property) const {

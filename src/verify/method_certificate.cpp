@@ -1,5 +1,9 @@
 // The certificate of a method: drift class, momentum maps, reversal.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/verify/measure.hpp"
@@ -22,19 +26,56 @@ Request request_on(const Region& region, const MethodSpec& method, const State<d
   return request;
 }
 
+/// Half of the digits of a double: a motion that has grown by more is no longer the one that was begun, and what
+/// rounding explains of its invariants is as large as they were.
+constexpr double largest_growth = 0x1p26;
+
+double largest_coordinate(const Frame& frame) {
+  double most = 0;
+  for (const auto* all : {&frame.q, &frame.p}) {
+    for (const double x : *all) most = std::max(most, std::abs(x));
+  }
+  return most;
+}
+
+/// Why a run shows nothing of what it conserves; empty where it does.
+std::string nothing_shown(const Simulation& simulation, Outcome outcome, double size_at_start, double size) {
+  if (outcome == Outcome::non_finite) {
+    return fmt::format("the run left the finite numbers after step {} of {}", simulation.step(), map_steps);
+  }
+  if (outcome != Outcome::done) {
+    return fmt::format("the run stopped at step {} of {}: {}", simulation.step(), map_steps, simulation.failure());
+  }
+  if (!(size <= largest_growth * size_at_start)) {
+    return fmt::format("the run left its scale: coordinates grew from {:.2g} to {:.2g}", size_at_start, size);
+  }
+  return {};
+}
+
 /// Invariants of which rounding is known.
 void measure_maps(const Region& region, const MethodSpec& method, MethodCertificate& found) {
   const ProblemEntry& problem = find_problem(region.problem, region.variant);
   if (!problem.accepts(method) || problem.info.invariants.empty()) return;
   const Request request = request_on(region, method, random_state(region, 0));
   const auto simulation = make_simulation(request);
+  Frame start;
+  simulation->look(start);
   EnergyBlocks blocks;
   Observer* const observers[] = {&blocks};
-  const bool done = run(*simulation, map_steps, observers) == Outcome::done;
-  for (const MomentumMap& map : momentum_maps(*simulation, problem, blocks.state().magnitudes, request)) {
-    if (!map.rounding) continue;
-    found.momentum_maps.push_back({region.problem, map.name, simulation->step(), map.max_error, map.relative,
-                                   *map.rounding, done && map.conserved() == true});
+  const Outcome outcome = run(*simulation, map_steps, observers);
+  const std::vector<double>& sizes = blocks.state().magnitudes;
+  const std::string nothing =
+      nothing_shown(*simulation, outcome, largest_coordinate(start), std::max(sizes[0], sizes[1]));
+  const std::vector<MomentumMap> maps = momentum_maps(*simulation, problem, sizes, request);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const MomentumMap& map = maps[i];
+    if (map.rounding) {
+      found.momentum_maps.push_back({region.problem, map.name, simulation->step(), map.max_error, map.relative,
+                                     *map.rounding, nothing.empty() ? map.conserved() : std::nullopt, nothing});
+    } else if (simulation->step() == 0 && problem.info.invariants[i].terms != Terms::other) {
+      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+      found.momentum_maps.push_back({region.problem, map.name, 0, unknown, unknown, unknown, std::nullopt, nothing});
+    }
   }
 }
 }  // namespace
@@ -42,7 +83,15 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
 MethodCertificate certificate_of(const MethodSpec& method, std::span<const Region> regions,
                                  std::span<const Measurement> on) {
   MethodCertificate found;
-  for (const Measurement& m : on) found.drift = std::max(found.drift, m.energy.drift.drift);
+  for (const Measurement& m : on) {
+    const std::optional<DriftClass>& here = m.energy.drift.drift;
+    if (found.drift == DriftClass::linear) break;  // nothing is worse
+    if (here == DriftClass::linear || !here || !found.drift) {
+      found.drift = here == DriftClass::linear ? here : std::nullopt;
+    } else {
+      found.drift = std::max(found.drift, here);
+    }
+  }
   measure_maps(region_of("central-force", {{"potential", "kepler"}, {"coordinates", "cartesian"}}), method, found);
   measure_maps(region_of("n-body"), method, found);
   for (const Region& region : regions) {

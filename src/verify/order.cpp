@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -67,11 +69,17 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   std::vector<double> log_step;
   std::vector<double> log_error;
   bool masked = false;
+  int tried = 0;
+  int failed = 0;
   std::int64_t steps = static_cast<std::int64_t>(std::ceil(region.time / (4 * region.step)));
   for (int k = 0; k <= halvings && !masked; ++k, steps *= 2) {
     State<Long> z = start;
     const Long h = time / static_cast<Long>(steps);
-    if (!map.advance(z, h, steps)) continue;
+    ++tried;
+    if (!map.advance(z, h, steps)) {
+      ++failed;
+      continue;
+    }
     const Long error = distance(z, exact);
     if (!(error < size)) continue;  // broken down, or not even a digit
     masked = error < Long(8) * unit * (Long(8) + Long(std::sqrt(static_cast<double>(steps))));
@@ -93,6 +101,11 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
     found.slope = fitted_slope(log_step, log_error);
     found.finest_step = std::exp2(log_step.back());
     found.finest_error = std::exp2(log_error.back());
+  }
+  if (found.points < OrderMeasurement::fewest_points) {
+    found.reason = fmt::format("{} error{} of the {} that a slope needs", found.points, found.points == 1 ? "" : "s",
+                               OrderMeasurement::fewest_points);
+    if (failed > 0) found.reason += fmt::format(": a step failed with {} of {} step lengths", failed, tried);
   }
   return found;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "aligned.hpp"
@@ -34,10 +35,28 @@ std::string aligned(const Lines& lines) {
 namespace {
 std::string flag(Finding agrees) { return agrees == Finding::yes ? "" : agrees == Finding::no ? " !!" : " ??"; }
 
-std::string units(const DefectMeasurement& d) { return fmt::format("{:.0e} ({})", d.defect, name(d.holds)); }
+/// A dash for what was not measured.
+template <class Format>
+std::string number(Format format, double x) {
+  return std::isnan(x) ? "-" : fmt::format(format, x);
+}
+std::string units(const DefectMeasurement& d) {
+  return number(FMT_STRING("{:.0e}"), d.defect) + fmt::format(" ({})", name(d.holds));
+}
+std::string_view name_of(const std::optional<DriftClass>& drift) { return drift ? name(*drift) : "undecided"; }
+
+/// With the reason, where there is one.
+nlohmann::json with_reason(nlohmann::json all, const std::string& reason) {
+  if (!reason.empty()) all["reason"] = reason;
+  return all;
+}
 
 nlohmann::json json_of(const DefectMeasurement& d) {
-  return {{"defect", d.defect}, {"units_of_rounding", d.units}, {"holds", name(d.holds)}};
+  return with_reason({{"defect", d.defect}, {"units_of_rounding", d.units}, {"holds", name(d.holds)}}, d.reason);
+}
+
+nlohmann::json json_of(Finding agrees) {
+  return agrees == Finding::unclear ? nlohmann::json(nullptr) : nlohmann::json(agrees == Finding::yes);
 }
 
 /// Of a step through a wall no long runs are measured.
@@ -46,45 +65,50 @@ bool has_runs(const PropertyRow& row) { return row.has("energy conserving"); }
 nlohmann::json json_of(const Measurement& m, bool with_runs) {
   const EnergyMeasurement& e = m.energy;
   nlohmann::json all{{"problem", m.problem},
-                     {"order",
-                      {{"slope", m.order.slope},
-                       {"points", m.order.points},
-                       {"finest_step", m.order.finest_step},
-                       {"finest_error", m.order.finest_error}}},
+                     {"order", with_reason({{"slope", m.order.slope},
+                                            {"points", m.order.points},
+                                            {"finest_step", m.order.finest_step},
+                                            {"finest_error", m.order.finest_error}},
+                                           m.order.reason)},
                      {"jacobian", json_of(m.jacobian)},
                      {"symplectic", json_of(m.symplectic)},
                      {"weakly_reversible", json_of(m.weakly_reversible)},
                      {"symmetric", json_of(m.symmetric)},
                      {"reversible", json_of(m.reversible)}};
   if (!with_runs) return all;
-  all.update({{"energy",
-               {{"step", e.step},
-                {"level", e.level},
-                {"rounding", e.rounding},
-                {"fine_level", e.fine_level},
-                {"fine_rounding", e.fine_rounding},
-                {"step_exponent", e.step_exponent},
-                {"drift", name(e.drift.drift)},
-                {"growth_exponent", e.drift.growth_exponent},
-                {"p_value", e.drift.p_value}}},
-              {"cost",
-               {{"force", m.cost.force},
-                {"gradient", m.cost.gradient},
-                {"hessian", m.cost.hessian},
-                {"linear_solves", m.cost.linear_solves},
-                {"coarse_solves", m.cost.coarse_solves}}}});
+  all.update({{"energy", with_reason({{"step", e.step},
+                                      {"level", e.level},
+                                      {"rounding", e.rounding},
+                                      {"fine_level", e.fine_level},
+                                      {"fine_rounding", e.fine_rounding},
+                                      {"step_exponent", e.step_exponent},
+                                      {"drift", name_of(e.drift.drift)},
+                                      {"growth_exponent", e.drift.growth_exponent},
+                                      {"p_value", e.drift.p_value}},
+                                     e.reason)},
+              {"cost", with_reason({{"force", m.cost.force},
+                                    {"gradient", m.cost.gradient},
+                                    {"hessian", m.cost.hessian},
+                                    {"linear_solves", m.cost.linear_solves},
+                                    {"coarse_solves", m.cost.coarse_solves}},
+                                   m.cost.reason)}});
   return all;
+}
+/// @param yes how what is kept is called
+const char* kept(const MethodCertificate::Map& m, const char* yes) {
+  return !m.conserved ? "undecided" : *m.conserved ? yes : "not";
 }
 nlohmann::json json_of(const MethodCertificate& c) {
   nlohmann::json maps = nlohmann::json::array();
   for (const MethodCertificate::Map& m : c.momentum_maps) {
-    maps.push_back({{"problem", m.problem},
-                    {"name", m.name},
-                    {"steps", m.steps},
-                    {"max_error", m.max_error},
-                    {"relative", m.relative},
-                    {"rounding", m.rounding},
-                    {"conserved", m.conserved ? "to rounding" : "not"}});
+    maps.push_back(with_reason({{"problem", m.problem},
+                                {"name", m.name},
+                                {"steps", m.steps},
+                                {"max_error", m.max_error},
+                                {"relative", m.relative},
+                                {"rounding", m.rounding},
+                                {"conserved", kept(m, "to rounding")}},
+                               m.reason));
   }
   nlohmann::json returns = nlohmann::json::array();
   for (const MethodCertificate::Return& r : c.reversals) {
@@ -94,7 +118,7 @@ nlohmann::json json_of(const MethodCertificate& c) {
                        {"proves", r.proves},
                        {"reason", r.reason}});
   }
-  return {{"drift", name(c.drift)}, {"momentum_maps", maps}, {"reversal_distance", returns}};
+  return {{"drift", name_of(c.drift)}, {"momentum_maps", maps}, {"reversal_distance", returns}};
 }
 
 /// One line for each method, one column for each momentum map and each return that any of them has.
@@ -120,9 +144,10 @@ std::string certificates(std::span<const PropertyRow> rows) {
     const MethodCertificate& c = row.certificate;
     std::vector<std::string> line(lines.front().size(), "-");
     line[0] = row.claims.name;
-    line[1] = name(c.drift);
+    line[1] = name_of(c.drift);
     for (const auto& m : c.momentum_maps) {
-      line[column(map_heading(m))] = fmt::format("{} ({:.0e})", m.conserved ? "kept" : "not", m.relative);
+      line[column(map_heading(m))] =
+          m.conserved ? fmt::format("{} ({:.0e})", kept(m, "kept"), m.relative) : kept(m, "kept");
     }
     for (const auto& r : c.reversals) {
       line[column(return_heading(r))] =
@@ -131,6 +156,49 @@ std::string certificates(std::span<const PropertyRow> rows) {
     lines.push_back(line);
   }
   return aligned(lines);
+}
+
+std::string verdict(const PropertyRow& row) {
+  std::string differs;
+  std::string unclear;
+  for (const PropertyCell& c : row.cells) {
+    if (c.agrees == Finding::no) differs += (differs.empty() ? "DIFFERS: " : ", ") + c.property;
+    if (c.agrees == Finding::unclear) unclear += (unclear.empty() ? "unclear: " : ", ") + c.property;
+  }
+  return row.agrees() ? "agrees" : differs + (differs.empty() || unclear.empty() ? "" : "; ") + unclear;
+}
+
+/// A line for each thing that was not measured; empty where all was.
+std::string not_measured(std::span<const PropertyRow> rows) {
+  Lines lines{{"method", "problem", "what", "why"}};
+  for (const PropertyRow& row : rows) {
+    const std::string& method = row.claims.name;
+    for (const Measurement& m : row.on) {
+      const auto add = [&](const char* what, const std::string& reason) {
+        if (!reason.empty()) lines.push_back({method, m.problem, what, reason});
+      };
+      add("order", m.order.reason);
+      add("symplectic", m.symplectic.reason);
+      add("weakly reversible", m.weakly_reversible.reason);
+      add("symmetric", m.symmetric.reason);
+      add("reversible", m.reversible.reason);
+      add("Jacobian is the step's", m.jacobian.reason);
+      if (!has_runs(row)) continue;
+      add("energy", m.energy.reason);
+      add("evaluations per step", m.cost.reason);
+    }
+    if (!has_runs(row)) continue;
+    for (const auto& m : row.certificate.momentum_maps) {
+      if (!m.reason.empty()) lines.push_back({method, m.problem, m.name, m.reason});
+    }
+  }
+  return lines.size() == 1 ? "" : "\nwhat was not measured in full, and why\n" + aligned(lines);
+}
+
+/// Below every normal number only that.
+std::string p_value(double p) {
+  if (p < std::numeric_limits<double>::min()) return "<2e-308";
+  return number(FMT_STRING("{:.1g}"), p);
 }
 }  // namespace
 
@@ -148,7 +216,7 @@ std::string property_table(std::span<const PropertyRow> rows) {
                                   [&](const PropertyCell& x) { return x.property == property; });
       line.push_back(c == row.cells.end() ? "" : c->claimed + " / " + c->measured + flag(c->agrees));
     }
-    line.push_back(row.agrees() ? "agrees" : "DIFFERS: " + row.differing());
+    line.push_back(verdict(row));
     table.push_back(line);
   }
   Lines structure{{"method", "problem", "order", "(points)", "symplectic", "weakly rev.", "symmetric", "reversible"}};
@@ -157,21 +225,21 @@ std::string property_table(std::span<const PropertyRow> rows) {
   for (const PropertyRow& row : rows) {
     for (const Measurement& m : row.on) {
       const EnergyMeasurement& e = m.energy;
-      structure.push_back({row.claims.name, m.problem, fmt::format("{:.3f}", m.order.slope),
+      structure.push_back({row.claims.name, m.problem, number(FMT_STRING("{:.3f}"), m.order.slope),
                            std::to_string(m.order.points), units(m.symplectic), units(m.weakly_reversible),
                            units(m.symmetric), units(m.reversible)});
       if (!has_runs(row)) continue;
-      energy.push_back({row.claims.name, m.problem, fmt::format("{:.1e}", e.level), fmt::format("{:.1e}", e.rounding),
-                        std::isnan(e.step_exponent) ? "-" : fmt::format("{:.1f}", e.step_exponent),
-                        fmt::format("{:.1e}", e.fine_level), std::string(name(e.drift.drift)),
-                        fmt::format("{:.2f}", e.drift.growth_exponent), fmt::format("{:.1g}", e.drift.p_value),
-                        fmt::format("{:.4g}", m.cost.force), fmt::format("{:.4g}", m.cost.hessian),
-                        fmt::format("{:.4g}", m.cost.linear_solves)});
+      energy.push_back({row.claims.name, m.problem, number(FMT_STRING("{:.1e}"), e.level),
+                        fmt::format("{:.1e}", e.rounding), number(FMT_STRING("{:.1f}"), e.step_exponent),
+                        number(FMT_STRING("{:.1e}"), e.fine_level), std::string(name_of(e.drift.drift)),
+                        number(FMT_STRING("{:.2f}"), e.drift.growth_exponent), p_value(e.drift.p_value),
+                        number(FMT_STRING("{:.4g}"), m.cost.force), number(FMT_STRING("{:.4g}"), m.cost.hessian),
+                        number(FMT_STRING("{:.4g}"), m.cost.linear_solves)});
     }
   }
   return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + "\norder and structure: defects\n" +
          aligned(structure) + "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy) +
-         "\ncertificates: what was kept over long runs\n" + certificates(rows);
+         "\ncertificates: what was kept over long runs\n" + certificates(rows) + not_measured(rows);
 }
 
 std::string property_json(std::span<const PropertyRow> rows) {
@@ -179,16 +247,15 @@ std::string property_json(std::span<const PropertyRow> rows) {
   for (const PropertyRow& row : rows) {
     nlohmann::json properties = nlohmann::json::array();
     for (const PropertyCell& c : row.cells) {
-      properties.push_back({{"property", c.property},
-                            {"claimed", c.claimed},
-                            {"measured", c.measured},
-                            {"agrees", c.agrees == Finding::yes}});
+      properties.push_back(with_reason(
+          {{"property", c.property}, {"claimed", c.claimed}, {"measured", c.measured}, {"agrees", json_of(c.agrees)}},
+          c.reason));
     }
     nlohmann::json on = nlohmann::json::array();
     for (const Measurement& m : row.on) on.push_back(json_of(m, has_runs(row)));
     all.push_back({{"method", row.claims.name},
                    {"reference", row.claims.reference},
-                   {"agrees", row.agrees()},
+                   {"agrees", json_of(row.verdict())},
                    {"properties", properties},
                    {"certificate", has_runs(row) ? json_of(row.certificate) : nlohmann::json(nullptr)},
                    {"measurements", on}});

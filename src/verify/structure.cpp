@@ -1,7 +1,11 @@
 // Symplecticity and the reversibilities: defects of identities that hold to rounding or not at all.
 #include "structure.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "hamflow/core/math.hpp"
 #include "hamflow/verify/measure.hpp"
@@ -21,21 +25,30 @@ using Rows = std::vector<std::vector<double>>;
 class Defects {
  public:
   void add(double defect, double size) {
+    ++added_;
     const double units = defect / (epsilon * size);
     found_.defect = larger(found_.defect, defect);
     found_.units = larger(found_.units, units);
     finite_ = finite_ && units <= std::numeric_limits<double>::max();
   }
+  /// From one of the states a step was not taken: nothing is known there.
+  void fail() { ++failed_; }
   DefectMeasurement found(double rounding = 512, double real = 0x1p20) const {
     DefectMeasurement result = found_;
     if (!finite_) result.defect = result.units = std::numeric_limits<double>::infinity();
-    result.holds = result.units <= rounding ? Finding::yes : result.units >= real ? Finding::no : Finding::unclear;
+    if (added_ == 0) result.defect = result.units = std::numeric_limits<double>::quiet_NaN();
+    result.holds = result.units >= real                       ? Finding::no
+                   : failed_ == 0 && result.units <= rounding ? Finding::yes
+                                                              : Finding::unclear;
+    if (failed_ > 0) result.reason = fmt::format("a step failed from {} of {} states", failed_, states);
     return result;
   }
 
  private:
   DefectMeasurement found_;
   bool finite_ = true;
+  std::uint64_t added_ = 0;
+  std::uint64_t failed_ = 0;
 };
 
 /// S z: momenta reversed.
@@ -76,10 +89,10 @@ void add_jacobian_mismatch(const StepMap& map, const State<double>& z, double h,
     State<long double> minus = plus;
     plus[j] += d;
     minus[j] -= d;
-    const bool done = map.advance(plus, h, 1) && map.advance(minus, h, 1);
+    if (!map.advance(plus, h, 1) || !map.advance(minus, h, 1)) return defects.fail();
     for (std::size_t i = 0; i < z.size(); ++i) {
       const double difference = static_cast<double>((plus[i] - minus[i]) / (2 * d));
-      defects.add(done ? abs(difference - exact[i][j]) : std::numeric_limits<double>::infinity(), norm(exact));
+      defects.add(abs(difference - exact[i][j]), norm(exact));
     }
   }
 }
@@ -95,10 +108,8 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
     const State<double> start = random_state(region, k);
     const State<double> z = map.begun(start);
     const Rows m = map.jacobian(z, h);
-    if (m.empty()) {  // the step failed: nothing holds
-      for (Defects* all : {&jacobian, &symplectic, &weak, &symmetric, &reversible}) {
-        all->add(std::numeric_limits<double>::infinity(), 1);
-      }
+    if (m.empty()) {
+      for (Defects* all : {&jacobian, &symplectic, &weak, &symmetric, &reversible}) all->fail();
       continue;
     }
     const double uneven = map.energies(reversed(start), h, 0, 0).front() - map.energies(start, h, 0, 0).front();
@@ -110,14 +121,20 @@ void measure_with(const StepMap& map, const Region& region, double h, Measuremen
 
     // What the second step makes of the rounding of the first is at most the norm of its Jacobian.
     const double size = size_of(z) * norm(m);
-    const auto step = [&](State<double> x, double length) {
-      if (!map.advance(x, length, 1)) x.assign(x.size(), std::numeric_limits<double>::quiet_NaN());
-      return x;
+    const auto step = [&](const std::optional<State<double>>& from, double length) -> std::optional<State<double>> {
+      if (!from) return std::nullopt;
+      State<double> x = *from;
+      return map.advance(x, length, 1) ? std::optional(std::move(x)) : std::nullopt;
     };
-    const State<double> forward = step(z, h);
-    weak.add(distance(reversed(step(reversed(z), -h)), forward), size);
-    symmetric.add(distance(step(forward, -h), z), size);
-    reversible.add(distance(reversed(step(reversed(forward), h)), z), size);
+    const auto compare = [&](Defects& defects, const std::optional<State<double>>& a,
+                             const std::optional<State<double>>& b) {
+      a&& b ? defects.add(distance(*a, *b), size) : defects.fail();
+    };
+    const auto turned = [](const std::optional<State<double>>& x) { return x ? std::optional(reversed(*x)) : x; };
+    const std::optional<State<double>> forward = step(z, h);
+    compare(weak, turned(step(reversed(z), -h)), forward);
+    compare(symmetric, step(forward, -h), z);
+    compare(reversible, turned(step(turned(forward), h)), z);
   }
   // In units of the Jacobian's norm: 2^-26 is far above the truncation of the divided difference, 2^-12 far below the
   // contribution of any action of a step.

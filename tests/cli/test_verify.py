@@ -64,6 +64,72 @@ class Verify(CommandCase):
         answer = json.loads(self.hamflow("verify", "verlet", "--problem", "central-force", "--json").stdout)
         self.assertEqual([m["problem"] for m in answer["methods"][0]["measurements"]], ["central-force"])
 
+    def measured(self, method, problem=None):
+        """Of a method that does not agree."""
+        which = ["--problem", problem] if problem else []
+        return json.loads(self.hamflow("verify", method, *which, "--json", status=1).stdout)["methods"][0]
+
+    def test_where_no_step_converges_nothing_is_found(self):
+        method = self.measured("gauss(2,max_iterations=1)")
+        self.assertIsNone(method["agrees"])
+        for cell in method["properties"]:
+            if cell["claimed"] == "-":
+                continue
+            self.assertIsNone(cell["agrees"], cell)
+            self.assertIn(cell["measured"], ("unclear", "-"))
+            self.assertIn("a step", cell["reason"])
+        for measurement in method["measurements"]:
+            self.assertIsNone(measurement["order"]["slope"])
+            self.assertIn("a step failed with 13 of 13 step lengths", measurement["order"]["reason"])
+            self.assertEqual(measurement["energy"]["drift"], "undecided")
+            for number in ("level", "fine_level", "p_value", "growth_exponent"):
+                self.assertIsNone(measurement["energy"][number], number)
+            self.assertIsNone(measurement["cost"]["linear_solves"])
+            for which in ("symplectic", "symmetric", "reversible", "weakly_reversible", "jacobian"):
+                self.assertEqual(measurement[which]["holds"], "unclear")
+                self.assertIn("from 8 of 8 states", measurement[which]["reason"])
+        self.assertEqual(method["certificate"]["drift"], "undecided")
+        maps = method["certificate"]["momentum_maps"]
+        self.assertEqual(len(maps), 4)
+        for kept in maps:
+            self.assertEqual((kept["steps"], kept["conserved"], kept["max_error"]), (0, "undecided", None))
+            self.assertIn("Newton did not converge", kept["reason"])
+        text = self.hamflow("verify", "gauss(2,max_iterations=1)", status=1).stdout
+        self.assertIn("unclear: order, explicit, symplectic", text)
+        self.assertIn("what was not measured in full, and why", text)
+        self.assertNotRegex(text, r"DIFFERS|\b(inf|nan)\b|/ 0\.00")
+
+    def test_where_finer_steps_fail_no_level_and_no_jacobian_are_told(self):
+        done = subprocess.run([HAMFLOW, "verify", "cg(1,criterion=seed)", "--problem", "pendulum"], capture_output=True,
+                              text=True, timeout=120)
+        self.assertNotRegex(done.stdout, r"\binf\b|e-3[12]\d")
+
+    def test_a_run_that_leaves_the_finite_numbers_decides_nothing(self):
+        method = self.measured("tao2(1e6)", "pendulum")
+        self.assertIsNone(method["agrees"])
+        self.assertEqual([p["property"] for p in method["properties"] if not p["agrees"]], ["energy conserving"])
+        (measurement,) = method["measurements"]
+        self.assertEqual((measurement["energy"]["drift"], measurement["energy"]["level"]), ("undecided", None))
+        self.assertIn("finite numbers", measurement["energy"]["reason"])
+        self.assertEqual(method["certificate"]["drift"], "undecided")
+        (ellipse,) = [m for m in method["certificate"]["momentum_maps"] if m["problem"] == "central-force"]
+        self.assertEqual(ellipse["conserved"], "undecided")
+        self.assertIn("the run left the finite numbers after step 8023 of 20000", ellipse["reason"])
+
+    def test_only_whole_runs_and_errors_above_the_bound_say_not_kept(self):
+        early = 0
+        for name in ("euler", "tao2(1e6)", "cg(2,tolerance=1e-3)", "cg(1,criterion=seed)"):
+            done = subprocess.run([HAMFLOW, "verify", name, "--problem", "pendulum", "--json"], capture_output=True,
+                                  text=True, timeout=120)
+            for kept in json.loads(done.stdout)["methods"][0]["certificate"]["momentum_maps"]:
+                if kept["steps"] < 20000:
+                    early += 1
+                    self.assertEqual(kept["conserved"], "undecided", (name, kept))
+                    self.assertIn(f"step {kept['steps']} of 20000", kept["reason"])
+                elif kept["conserved"] == "not":
+                    self.assertGreater(kept["max_error"], kept["rounding"], (name, kept))
+        self.assertGreater(early, 0)
+
     def test_wrong_requests_name_what_is_meant(self):
         for arguments, words in (
             (["stv5"], "did you mean stv4?"),

@@ -59,7 +59,7 @@ void expect_properties(const Expectation& e, const PropertyRow& row) {
     EXPECT_EQ(m.symmetric.holds == Finding::yes, e.symmetric) << m.symmetric.defect;
     EXPECT_EQ(m.reversible.holds == Finding::yes, e.reversible) << m.reversible.defect;
     EXPECT_EQ(m.weakly_reversible.holds, Finding::yes) << m.weakly_reversible.defect;
-    EXPECT_TRUE(m.cost.explicit_step);
+    EXPECT_EQ(m.cost.explicit_step, Finding::yes);
     EXPECT_EQ(m.energy.conserving(e.order), Conservation::no);
   }
 }
@@ -91,7 +91,7 @@ TEST_P(Claims, AreWhatIsMeasured) {
     const bool element = describe(parse_method(method)).energy_conserving != Conservation::no;
     for (const Measurement& m : rows[0].on) {
       EXPECT_EQ(m.energy.conserving(rows[0].claims.order) != Conservation::no, element)
-          << "on " << m.problem << ": level " << m.energy.level << ", drift " << name(m.energy.drift.drift);
+          << "on " << m.problem << ": level " << m.energy.level << ", drift " << name(m.energy.drift.drift.value());
     }
   }
   if (std::any_of(std::begin(asked_for_drift), std::end(asked_for_drift), is_this)) {
@@ -326,6 +326,66 @@ TEST(Judgement, OnOneProblemAPropertyMayHoldByItsMerit) {
   EXPECT_TRUE(alone.agrees());
   EXPECT_EQ(both["energy conserving"].measured, "no");
   EXPECT_TRUE(both.agrees());
+}
+
+TEST(Judgement, WhatWasNotMeasuredIsUnclear) {
+  const PropertyRow sound = measure_method(parse_method("verlet"), default_regions());
+  ASSERT_EQ(sound.verdict(), Finding::yes);
+  const auto without = [&](const auto& forget) {
+    std::vector<Measurement> on = sound.on;
+    forget(on.at(1));
+    return judge(sound.claims, std::move(on));
+  };
+  const auto unclear = [](const PropertyRow& row, const char* property) {
+    EXPECT_EQ(row.verdict(), Finding::unclear);
+    EXPECT_EQ(row.differing(), property);
+    EXPECT_NE(row[property].reason.find("it broke"), std::string::npos) << row[property].reason;
+  };
+  const std::string why = "it broke";
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  unclear(without([&](Measurement& m) { m.symmetric = {unknown, unknown, Finding::unclear, why}; }), "symmetric");
+  unclear(without([&](Measurement& m) { m.order = {unknown, 1, unknown, unknown, why}; }), "order");
+  unclear(without([&](Measurement& m) { m.cost = {unknown, unknown, unknown, unknown, Finding::yes, unknown, why}; }),
+          "forces per step");
+  // That the energy is not conserved on the other problem is enough; the conserver's claim is what stays open.
+  const auto open = [&](Measurement& m) {
+    m.energy.level = unknown;
+    m.energy.drift = classify_drift({{0}});
+    m.energy.reason = why;
+  };
+  EXPECT_EQ(without(open).verdict(), Finding::yes);
+  std::vector<Measurement> both = sound.on;
+  for (Measurement& m : both) open(m);
+  unclear(judge(sound.claims, both), "energy conserving");
+}
+
+TEST(Judgement, WhereNoStepConvergesNothingIsFound) {
+  const PropertyRow row = measure_method(parse_method("gauss(2,max_iterations=1)"), default_regions());
+  EXPECT_EQ(row.verdict(), Finding::unclear);
+  for (const PropertyCell& cell : row.cells) {
+    if (cell.claimed == "-") continue;
+    EXPECT_EQ(cell.agrees, Finding::unclear) << cell.property;
+  }
+  EXPECT_FALSE(row.certificate.drift.has_value());
+}
+
+TEST(Judgement, WhatLeavesItsScaleKeepsNothing) {
+  // With steps so long that the Sun does not hold them the planets go straight on, to where the rounding of what they
+  // are is as large as it was at the start.
+  Region region = region_of("solar-system");
+  region.step *= 1e9;
+  int left = 0;
+  for (const MethodCertificate::Map& map : certificate_of(parse_method("verlet"), {&region, 1}, {}).momentum_maps) {
+    if (map.problem != "solar-system") {
+      EXPECT_EQ(map.conserved, true) << map.problem << ' ' << map.name;
+      continue;
+    }
+    ++left;
+    EXPECT_EQ(map.steps, 20000) << map.name;
+    EXPECT_FALSE(map.conserved.has_value()) << map.name;
+    EXPECT_NE(map.reason.find("left its scale"), std::string::npos) << map.reason;
+  }
+  EXPECT_GT(left, 0);
 }
 
 TEST(Report, FlagsWhatDiffers) {

@@ -59,7 +59,9 @@ struct OnPendulum {
   StepMapOf<Pendulum, FaultyMethod> map;
   explicit OnPendulum(const AverageFaults& faults)
       : map([]<class R>() { return Pendulum<R>(); }, FaultyMethod{faults}) {}
-  Conservation conserved() const { return measure_energy(map, region_of("pendulum")).conserving(map.claims().order); }
+  std::optional<Conservation> conserved() const {
+    return measure_energy(map, region_of("pendulum")).conserving(map.claims().order);
+  }
   /// With one degree of freedom symplectic means det = 1. In units of rounding, the largest of some states.
   double area_defect() const {
     const Region region = region_of("pendulum");

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "chance.hpp"
+
 namespace hamflow {
 namespace {
 
@@ -39,6 +41,40 @@ TEST(Claim, WhatIsNoNumberIsUndecided) {
     EXPECT_EQ(verdict_of(rule, {{0.5, std::numeric_limits<double>::infinity()}}), ClaimVerdict::undecided);
     EXPECT_EQ(verdict_of(rule, {}), ClaimVerdict::undecided);
   }
+}
+
+/// The verdict of a count of twelve.
+ClaimVerdict verdict_of_majority(int with, int against) {
+  const reproduction::Majority count{with, against};
+  return verdict_of(count.rule("orbits"), {count.measured("")});
+}
+
+TEST(Claim, AMajorityIsMoreThanChanceAllows) {
+  EXPECT_EQ(verdict_of_majority(6, 6), ClaimVerdict::undecided);  // a tie is no advantage
+  EXPECT_EQ(verdict_of_majority(9, 3), ClaimVerdict::undecided);  // P = 2 * 299/4096
+  EXPECT_EQ(verdict_of_majority(10, 2), ClaimVerdict::holds);     // P = 2 * 79/4096
+  EXPECT_EQ(verdict_of_majority(3, 9), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_of_majority(2, 10), ClaimVerdict::differs);
+  EXPECT_EQ(verdict_of_majority(5, 0), ClaimVerdict::undecided);  // P = 2/32
+  EXPECT_EQ(verdict_of_majority(6, 0), ClaimVerdict::holds);      // P = 2/64
+  EXPECT_EQ(verdict_of_majority(4, 3), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_of_majority(0, 0), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict_of_majority(40, 60), ClaimVerdict::undecided);  // P = 0.057
+  EXPECT_EQ(verdict_of_majority(39, 61), ClaimVerdict::differs);    // P = 0.035
+}
+
+TEST(Claim, WhatASearchDidNotFindMayBeThere) {
+  const auto verdict = [](int number, int of) {
+    return verdict_of(reproduction::none_of_all("starts"), {reproduction::seen_among(number, of, "")});
+  };
+  EXPECT_NEAR(reproduction::largest_share_unseen(2), 0.776, 1e-3);
+  EXPECT_NEAR(reproduction::largest_share_unseen(1000), 0.003, 1e-5);
+  EXPECT_EQ(verdict(0, 0), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0, 2), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0, 58), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0, 59), ClaimVerdict::holds);
+  EXPECT_EQ(verdict(1, 2), ClaimVerdict::differs);  // one is enough
+  EXPECT_EQ(verdict(1, 1000), ClaimVerdict::differs);
 }
 
 TEST(Claim, OneProgramAloneRefutesNothing) {

@@ -60,6 +60,32 @@ void expect_rules_notice_violations(const ReproduceReport& report) {
   }
 }
 
+const Claim& claim_of(const ReproduceReport& report, const std::string& id) {
+  for (const ExperimentReport& one : report.experiments) {
+    for (const Claim& claim : one.claims) {
+      if (claim.id == id) return claim;
+    }
+  }
+  throw Error("no claim " + id);
+}
+
+/// Neither a tie, nor a search among two starts, nor the floor of a logarithm is told as more than it is.
+void expect_no_more_than_shown(const ReproduceReport& report) {
+  EXPECT_EQ(claim_of(report, "C-polar/accuracy").judgement.verdict, ClaimVerdict::undecided);
+  for (const std::string name : {"smaller_dt", "smallest_dt", "exponent_later", "exponent"}) {
+    const Claim& none = claim_of(report, "S-C80/" + name + "_per-side");
+    EXPECT_EQ(none.judgement.verdict, ClaimVerdict::undecided) << none.id;
+    EXPECT_EQ(none.measured.at(0).value, 0) << none.id;
+    EXPECT_GT(none.measured.at(0).uncertainty, 7) << none.id;  // 10 times 78 %
+    if (name == "smaller_dt") continue;
+    EXPECT_EQ(claim_of(report, "S-C80/" + name + "_listing").judgement.verdict, ClaimVerdict::differs) << name;
+  }
+  for (const std::string steps : {"200", "400", "800"}) {
+    const std::string how = claim_of(report, "S-T81/row_121_" + steps + "_0.0001_listing").measured.at(0).how;
+    EXPECT_NE(how.find("of momenta 0: every one returns"), std::string::npos) << how;
+  }
+}
+
 void expect_page_alone(const ReproduceReport& report, const fs::path& folder) {
   std::string page = text_of(folder / "index.html");
   // Names of the language of figures, not addresses.
@@ -98,6 +124,7 @@ TEST(Experiments, AllOfThemQuickly) {  // one test: they are carried out once
   for (const ExperimentReport& one : report.experiments) EXPECT_EQ(one.was_done, left != nullptr) << one.info.id;
   expect_all_computed(report);
   expect_rules_notice_violations(report);
+  expect_no_more_than_shown(report);
   expect_page_alone(report, folder);
   expect_nothing_to_resume(request);
   if (left == nullptr) fs::remove_all(folder);

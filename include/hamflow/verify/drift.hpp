@@ -31,7 +31,7 @@ struct DriftStatistics {
   static constexpr double random_walk_above = 0.3;  //
   double p_value = 1;                               // of "the mean increment is 0", corrected for the number of starts
   double growth_exponent = 0;                       // of the RMS error over the starts, from dyadic windows of time
-  DriftClass drift = DriftClass::bounded;
+  std::optional<DriftClass> drift = DriftClass::bounded;  // none: a run broke down, and no number is one
 };
 
 /// The energy of one run, once in each of consecutive blocks of equal length.
@@ -70,7 +70,7 @@ double student_p_value(double t, int degrees_of_freedom);
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 
 /// @param energies for each start, H at the start and after each of at least 32 blocks of equal length. A series that
-/// is shorter than the others, or not finite, is one that broke down: linear.
+/// is shorter than the others, or not finite, is one that broke down: what the energy of whole runs does is not known.
 DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies);
 
 /// `linear`: one of the tests rejects and the trend stands out. The sign test is for drifts that change their speed

@@ -43,35 +43,42 @@ struct Region : RegionInfo {
 struct OrderMeasurement {
   static constexpr int fewest_points = 5;    // four halvings of h
   static constexpr double tolerance = 0.15;  // on the slope
-  double slope = 0;                          // d log(error)/d log(h); infinite where every error is rounding
-  int points = 0;                            // in the fit
-  double finest_step = 0, finest_error = 0;  // of the points used
+  // d log(error)/d log(h); infinite where every error is rounding, NaN where fewer than two errors were measured
+  double slope = std::numeric_limits<double>::quiet_NaN();
+  int points = 0;                                                 // in the fit
+  double finest_step = std::numeric_limits<double>::quiet_NaN();  // of the points used
+  double finest_error = std::numeric_limits<double>::quiet_NaN();
+  std::string reason{};  // why there are too few points
   Finding is(int order) const;
 };
 
 struct DefectMeasurement {
-  double defect = 0;  // the largest over the states
+  double defect = 0;  // the largest over the states; NaN where no step was taken from any of them
   double units = 0;   // the largest defect/(eps times the size of the terms)
   Finding holds = Finding::unclear;
+  std::string reason{};  // which steps failed
 };
 
 struct EnergyMeasurement {
   double step = 0;
-  double level = 0;       // max |H - H0|/scale over starts and blocks
+  double level = 0;       // max |H - H0|/scale over starts and blocks; NaN where a run ended early
   double rounding = 0;    // what rounding alone explains of it
   double fine_level = 0;  // the same with a step 128 times smaller, where roundings that a step divides by h show
   double fine_rounding = 0;
   double step_exponent = 0;  // c in level ~ h^c over a fixed time; NaN where too few steps show more than rounding
   DriftStatistics drift;
+  std::string reason{};  // which runs ended early
   /// yes: at rounding and not drifting. up_to_quadrature: not at rounding, but falling faster than the method
-  /// converges. @param order of the method
-  Conservation conserving(int order, bool even_in_momenta = true) const;
+  /// converges. None: runs that ended early leave it open. @param order of the method
+  std::optional<Conservation> conserving(int order, bool even_in_momenta = true) const;
 };
 
+/// NaN: of steps that were not all taken.
 struct CostMeasurement {
   double force = 0, gradient = 0, hessian = 0, linear_solves = 0;  // per step
-  bool explicit_step = false;                                      // no solves, and every step costs the same
+  Finding explicit_step = Finding::no;                             // no solves, and every step costs the same
   double coarse_solves = 0;  // linear solves per step at four times the step of the region
+  std::string reason{};      // which steps failed
 };
 
 /// One method on one problem.
@@ -91,6 +98,7 @@ struct PropertyCell {
   std::string claimed;
   std::string measured;
   Finding agrees = Finding::unclear;
+  std::string reason{};  // for being unclear, where something was not measured
 };
 
 /// What a method was seen to keep.
@@ -99,10 +107,11 @@ struct MethodCertificate {
     std::string problem;
     std::string name;
     std::int64_t steps = 0;
-    double max_error = 0;
+    double max_error = 0;  // NaN: no step was taken
     double relative = 0;
     double rounding = 0;
-    bool conserved = false;
+    std::optional<bool> conserved{};  // none: undecided, for the reason given
+    std::string reason{};
   };
   struct Return {
     std::string problem;
@@ -112,7 +121,8 @@ struct MethodCertificate {
     std::string proves;  // as name(ReversalProof)
     std::string reason;
   };
-  DriftClass drift = DriftClass::bounded;  // the worst over the problems, each from its ensemble of starts
+  // The worst over the problems, each from its ensemble of starts. None: undecided on one of them, and linear on none.
+  std::optional<DriftClass> drift = DriftClass::bounded;
   std::vector<Map> momentum_maps;
   std::vector<Return> reversals;
 };
@@ -123,7 +133,9 @@ struct PropertyRow {
   std::vector<Measurement> on;  // one for each problem
   std::vector<PropertyCell> cells;
   MethodCertificate certificate{};
-  bool agrees() const;
+  /// yes: every property agrees. no: one differs. Else one is unclear.
+  Finding verdict() const;
+  bool agrees() const { return verdict() == Finding::yes; }
   bool has(std::string_view property) const;
   /// The names of the properties that do not agree, joined by commas.
   std::string differing() const;
@@ -167,7 +179,7 @@ PropertyRow measure_at_walls(const MethodSpec& method, const Region& region);
 
 /// Tables of plain text: the claims beside the findings, then the numbers behind them.
 std::string property_table(std::span<const PropertyRow> rows);
-/// The same as JSON; NaN and infinity are null.
+/// The same as JSON; NaN and infinity are null, and so is `agrees` where it is unclear.
 std::string property_json(std::span<const PropertyRow> rows);
 
 }  // namespace hamflow

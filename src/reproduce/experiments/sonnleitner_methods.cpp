@@ -45,12 +45,11 @@ constexpr std::array<Row, 5> table{{{"euler", {1, 0, 1, 0, 0}, 1},
 void claim_row(Study& study, const Row& row, const std::string& page) {
   study.breathe();
   const PropertyRow found_row = measured(row.method);
-  const std::array<double, 5> has{
-      found(found_row, [](const Measurement& m) { return m.cost.explicit_step ? Finding::yes : Finding::no; }),
-      found(found_row, [](const Measurement& m) { return m.symplectic.holds; }),
-      found(found_row, [](const Measurement& m) { return m.weakly_reversible.holds; }),
-      found(found_row, [](const Measurement& m) { return m.symmetric.holds; }),
-      found(found_row, [](const Measurement& m) { return m.reversible.holds; })};
+  const std::array<double, 5> has{found(found_row, [](const Measurement& m) { return m.cost.explicit_step; }),
+                                  found(found_row, [](const Measurement& m) { return m.symplectic.holds; }),
+                                  found(found_row, [](const Measurement& m) { return m.weakly_reversible.holds; }),
+                                  found(found_row, [](const Measurement& m) { return m.symmetric.holds; }),
+                                  found(found_row, [](const Measurement& m) { return m.reversible.holds; })};
   double different = 0;
   std::string texts;
   for (std::size_t i = 0; i < has.size(); ++i) {

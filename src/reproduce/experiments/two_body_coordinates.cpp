@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../chance.hpp"
 #include "../experiment.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
@@ -166,7 +167,8 @@ struct Aborts {
 void compare(Study& study) {
   std::vector<double> figure, columns[8];
   double lost_polar = 0, lost_cartesian = 0, energy = 0, energy_polar = 0, most_polar = 0, most_cartesian = 0;
-  int better = 0, fewer = 0, aborted = 0;
+  Majority better, fewer;
+  int aborted = 0;
   std::string which;
   Aborts later;
   Table table{"coordinates",
@@ -202,8 +204,8 @@ void compare(Study& study) {
     energy_polar = std::max(energy_polar, polar.energy);
     most_polar = std::max(most_polar, polar.most);
     most_cartesian = std::max(most_cartesian, cartesian.most);
-    better += polar.error < cartesian.error ? 1 : 0;
-    fewer += polar.iterations < cartesian.iterations ? 1 : 0;
+    better.count(polar.error, cartesian.error);
+    fewer.count(polar.iterations, cartesian.iterations);
     table.rows.push_back({orbit.figure, both("{:.3g}", cartesian.iterations, polar.iterations),
                           both("{:.3g}", cartesian.evaluations, polar.evaluations),
                           both("{:.2g}", cartesian.error, polar.error), both("{:.1g}", cartesian.energy, polar.energy),
@@ -228,13 +230,12 @@ void compare(Study& study) {
                 "largest over the twelve orbits, cg(1,5), dt = 0.1: what five Gauss points leave of 1/r^2"}});
   study.claim({"one_unknown", "to iterate in one unknown is an advantage of polar coordinates: fewer iterations",
                "advantage", "37"},
-              at_least(6, "of the twelve orbits at least half take fewer iterations a step"),
-              {{static_cast<double>(fewer), 0,
-                fmt::format("orbits with fewer in polar coordinates; at most {:g} a step, Cartesian {:g}", most_polar,
-                            most_cartesian)}});
+              fewer.rule("the twelve orbits with fewer iterations a step in polar coordinates"),
+              {fewer.measured(fmt::format("at most {:g} a step, Cartesian {:g}", most_polar, most_cartesian))},
+              Grounds::program, "more orbits than the twelve of the figures");
   study.claim({"accuracy", "the reduced description has numerical advantages: a smaller error", "advantages?", "164"},
-              at_least(6, "of the twelve orbits at least half are nearer to the exact one at the same time"),
-              {{static_cast<double>(better), 0, "orbits nearer in polar coordinates, dt = 0.1"}});
+              better.rule("the twelve orbits nearer to the exact one at the same time in polar coordinates"),
+              {better.measured("dt = 0.1")}, Grounds::program, "more orbits than the twelve of the figures");
   study.claim({"tolerance", "Newton's method reaches |R| <= 1e-13 in all twelve figures", "1e-13", "30"},
               none_of("figures whose run aborts"),
               {{static_cast<double>(aborted), 0,
