@@ -142,11 +142,15 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
     ended.look(energies.back(), coarse_blocks + 1);
     found.level = larger(found.level, largest_error(energies.back(), coarse_blocks + 1) / unit);
   }
-  if (ended.early > 0) found.level = unknown;
+  // A step that nothing is solved for ends a run by leaving the finite numbers, and no energy that is kept lets it.
+  const bool leaves = map.claims().explicit_step;
+  const double early_level = leaves ? std::numeric_limits<double>::infinity() : unknown;
+  if (ended.early > 0) found.level = early_level;
   found.reason = ended.told(block_steps, coarse_blocks + 1, h);
   found.step = h;
   found.rounding = rounding_level(region, h, static_cast<double>(coarse_blocks * block_steps));
   found.drift = classify_drift(energies);
+  if (leaves && !found.drift.drift) found.drift = {0, std::numeric_limits<double>::infinity(), DriftClass::linear};
 
   const double fine_step = region.step / fine_factor;
   Ended fine_ended;
@@ -155,7 +159,7 @@ EnergyMeasurement measure_energy(const StepMap& map, const Region& region) {
     fine_ended.look(fine, fine_blocks + 1);
     found.fine_level = larger(found.fine_level, largest_error(fine, fine_blocks + 1) / unit);
   }
-  if (fine_ended.early > 0) found.fine_level = unknown;
+  if (fine_ended.early > 0) found.fine_level = early_level;
   if (found.reason.empty()) found.reason = fine_ended.told(fine_block_steps, fine_blocks + 1, fine_step);
   found.fine_rounding = rounding_level(region, fine_step, static_cast<double>(fine_blocks * fine_block_steps));
   found.step_exponent = step_exponent(map, region, h, unit);
