@@ -69,7 +69,7 @@ void add_newton_options(BoundOptions<Options>& all) {
                            .default_value = "error",
                            .meaning = "halve: two half steps in place of one that does not converge"},
                           &Options::halve, {{"error", false}, {"halve", true}}));
-  all.push_back(bind_yes_no({.name = "diagnostics",
+  all.push_back(bind_yes_no({.name = diagnostics_option,
                              .default_value = "false",
                              .meaning = "condition and determinant of the tangent, condition of M^-1, at every step"},
                             &Options::diagnostics));

@@ -96,18 +96,19 @@ Choices formula_choices(const FormulaTexts& texts) {
   return formula::choices_of(kept);
 }
 
-Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates) {
+Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates,
+                                const CentralUse& use) {
   for (const char* taken : {"r", "x", "y", "phi", "p_r", "p_x", "p_y", "p_phi", CentralKeys::mass}) {
     if (!parameters.contains(taken)) continue;
     throw FormulaError(
         std::string(FormulaKeys::parameters) + "." + taken,
-        std::string("found the name ") + taken + ", which central-force has itself; allowed another name");
+        std::string("found the name ") + taken + ", which " + use.owner + " has itself; allowed another name");
   }
   // By itself first: errors point into what was typed.
   const formula::ProblemNames names = formula::names_of({.coordinates = {"r"}, .parameters = parameters});
   FormulaSymbols symbols = formula::symbols_of(names);
   symbols.names[1] = "t";  // there is no momentum in V
-  symbols.names.erase(symbols.names.begin() + 2);
+  symbols.names.erase(symbols.names.begin() + (use.has_time ? 2 : 1), symbols.names.begin() + 3);
   symbols.what = "names of V(r)";
   std::set<std::string> needed;
   try {

@@ -132,6 +132,7 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
     if (own.options.contains(key)) return "its name says it";
     const OptionInfo* const option = find_option(options, key);
     if (option == nullptr) return "no such option";
+    if (key == diagnostics_option) return "a comparison shows nothing of it, and it takes time";
     if (key == tolerance_option && describe(own).own_substeps) return "its rows differ in it, unless its name says one";
     if (!contains(replaced, key)) return "";
     return key == monitor_option ? "steps of equal length follow no monitor" : "it means something else there";

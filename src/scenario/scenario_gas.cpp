@@ -1,9 +1,11 @@
 // [problem] with the gas: words that choose its entry of the catalogue, its parameters, and where the particles begin.
 #include <cctype>
 #include <cmath>
+#include <span>
 
 #include "gas_checks.hpp"
 #include "gas_options.hpp"
+#include "hamflow/core/hash.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
 #include "hamflow/run/gas.hpp"
@@ -180,12 +182,12 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
     }
   }
   try {
-    const Choices field = central_formula_choices(*phi, typed, "cartesian");
-    if (const std::size_t column = column_of_time(*phi); column > 0) {
+    if (const std::size_t column = column_of_time(*phi); column > 0 && !typed.contains("t")) {
       throw FormulaError(FormulaKeys::central_potential,
                          "found \"" + *phi + "\", column " + std::to_string(column) +
                              ": the time t; allowed r, parameters, numbers: a pair law is the same at all times");
     }
+    const Choices field = central_formula_choices(*phi, typed, "cartesian", {.owner = "a pair law", .has_time = false});
     scenario_.request.variant[GasKeys::phi] = *phi;
     scenario_.request.variant[GasKeys::parameters] = field.at(FormulaKeys::parameters);
     parameters.insert(typed.begin(), typed.end());
@@ -194,17 +196,23 @@ void ScenarioReader::read_typed_pair(TomlTable& table, Texts& parameters) {
     texts.parameters = typed;
     refuse_unused_parameters(table, texts);
   } catch (const FormulaError& error) {
-    // A pair law is read as a potential of central-force, which has a time and another name.
-    std::string message = error.what();
-    for (const auto& [of_force, of_pair] : {std::pair<std::string, std::string>{"allowed r, t, ", "allowed r, "},
-                                            {"which central-force has itself", "which a pair law has itself"}}) {
-      if (const std::size_t at = message.find(of_force); at != std::string::npos) {
-        message.replace(at, of_force.size(), of_pair);
-      }
-    }
-    table.complain_in(error.key == FormulaKeys::central_potential ? GasKeys::phi : error.key, message);
+    table.complain_in(error.key == FormulaKeys::central_potential ? GasKeys::phi : error.key, error.what());
   }
 }
+
+namespace {
+std::uint64_t hash_of(const GasStart& start) {
+  std::uint64_t hash = fnv1a_of_nothing;
+  for (const auto* texts : {&start.q, &start.p, &start.masses}) {
+    for (const std::string& text : *texts) {
+      hash = fnv1a(std::as_bytes(std::span(text)), hash);
+      hash = fnv1a(std::as_bytes(std::span(",")), hash);
+    }
+    hash = fnv1a(std::as_bytes(std::span(";")), hash);
+  }
+  return hash;
+}
+}  // namespace
 
 GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::size_t space) {
   const GasOptions& o = gas_options();
@@ -219,7 +227,11 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
     }
     try {
       // A scenario that stands in a run.h5 began where that run did: its file need not be there any more.
-      if (is_in_run_file(scenario_.file)) return gas_from_run(scenario_.file, space, RunState::start);
+      if (is_in_run_file(scenario_.file)) {
+        GasStart began = gas_from_run(scenario_.file, space, RunState::start);
+        scenario_.start_contents = hash_of(began);
+        return began;
+      }
       const std::filesystem::path path = std::filesystem::path(scenario_.file).parent_path() / *file;
       GasStart there = path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
       const double particles = static_cast<double>(there.q.size() / space);
@@ -228,6 +240,7 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
                                                       ", which has " + std::to_string(there.q.size() / space) +
                                                       " particles; allowed without it, or as many as that");
       }
+      scenario_.start_contents = hash_of(there);
       return there;
     } catch (const Error& error) {
       table.complain(o.file.name, error.what());

@@ -187,6 +187,7 @@ class Sweep {
   Scenario common_;
   std::map<std::string, std::size_t> method_notes_;  // and the first member that has it
   std::size_t common_member_ = 0;
+  std::optional<std::uint64_t> start_contents_;  // of the files of all members
   bool common_has_start_ = false;
   std::vector<std::string> complaints_;
   std::vector<MemberStart> starts_;  // of members in lanes

@@ -1,8 +1,10 @@
 // The members of a sweep: read, checked, and put into groups that can share a block.
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
+#include "hamflow/core/hash.hpp"
 #include "memory.hpp"
 #include "on_threads.hpp"
 #include "sweep.hpp"
@@ -30,6 +32,7 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
   threads_ = std::max(threads_, 1);
   read_members(name);
   common_.settings = reader.family().settings();
+  common_.start_contents = start_contents_;
 }
 
 /// 0 where it cannot be read, which is told later.
@@ -182,6 +185,10 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
   const std::lock_guard lock(mutex_);
   take_as_common(member, scenario);
   keep_notes(member, scenario);
+  if (scenario.start_contents) {  // in whatever order members are read
+    const std::array<std::uint64_t, 2> one{member, *scenario.start_contents};
+    start_contents_ = start_contents_.value_or(0) ^ fnv1a(std::as_bytes(std::span(one)));
+  }
   names_.add(member, names);
   arithmetics_.insert(request.arithmetic);
   kernels_.insert(request.kernel);

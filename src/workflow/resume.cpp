@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "csv_file.hpp"
+#include "gas_options.hpp"
 #include "hamflow/core/hash.hpp"
-#include "hamflow/run/gas.hpp"
 #include "json_text.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
@@ -29,19 +29,12 @@ std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std:
 /// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
 std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   std::map<std::string, Setting> all = scenario.settings;
-  const auto file = all.find("problem.file");
-  if (file == all.end()) return all;
-  std::string content;
-  for (const auto* numbers : {&scenario.start_q, &scenario.start_p}) {
-    const auto bytes = std::as_bytes(std::span(*numbers));
-    content.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  }
-  for (const auto* texts : {&scenario.request.start.q, &scenario.request.start.p}) {
-    for (const std::string& text : *texts) content += text + ',';
-  }
-  for (const auto& [name, value] : scenario.request.parameters) content += name + '=' + value + ';';
-  all.emplace("problem.file: contents", Setting{"those with the hash " + fmt::format("{:016x}", hash_of(content)),
-                                                file->second.line, file->second.column});
+  if (!scenario.start_contents) return all;
+  const std::string key = "problem." + gas_options().file.name;
+  const auto file = all.find(key);
+  const Setting where = file == all.end() ? Setting{{}, 1, 1} : file->second;
+  all.emplace(key + ": contents", Setting{"those with the hash " + fmt::format("{:016x}", *scenario.start_contents),
+                                          where.line, where.column});
   return all;
 }
 

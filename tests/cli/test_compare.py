@@ -325,6 +325,11 @@ steps = 40
         wrong = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.tolerence=1e-3", status=2).stderr
         for name in ("cg", "stv4"):
             self.assertIn(f"found '{name}'; method.tolerence: found an unknown key", wrong)
+        # What is measured beside each step is not compared, and would be in the times.
+        measured = self.hamflow("compare", "halve.toml", "--methods", "gauss(2),gauss(2,iteration=fixed-point)", "--dt", "0.2",
+                                "--set", "method.diagnostics=true")
+        self.assertIn("method.diagnostics of --set is not used by gauss(2), gauss(2,iteration=fixed-point): a comparison shows "
+                      "nothing of it", measured.stderr)
         # The file's own method need not fit, and what is wrong is told with the method that would take it.
         self.hamflow("compare", "halve.toml", "--methods", "cg(1,5)", "--set", "method.stages=99")
         wrong = self.hamflow("compare", "halve.toml", "--methods", "cg,stv4", "--set", "method.max_iterations=0", status=2)

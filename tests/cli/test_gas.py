@@ -107,6 +107,15 @@ class Gas(CommandCase):
         written(1)
         self.hamflow("run", "file.toml", "--out", "r", *more)
         self.hamflow(*sweep, *more)
+        # Nor may one of several files change.
+        for name in ("a", "b"):
+            (self.folder / f"{name}.csv").write_text((self.folder / "three.csv").read_text())
+        files = ["sweep", "file.toml", "--vary", 'problem.file="a.csv","b.csv"', "--quiet", "--out", "f"]
+        self.hamflow(*files)
+        self.hamflow(*files, *more)
+        written(50)
+        (self.folder / "three.csv").rename(self.folder / "b.csv")
+        self.assertIn("problem.file: contents: found those with the hash", self.hamflow(*files, *more, status=2).stderr)
 
     def test_files_of_other_programs(self):
         text = (GAS % 'start = "file"\nfile = "start.csv"').replace("particles_per_side = 4\n", "")

@@ -68,12 +68,20 @@ class FormulaError : public Error {
 
 using Choices = std::map<std::string, std::string>;
 
+/// Whose potential V(r) is read: what messages call it, and whether V may depend on the time.
+struct CentralUse {
+  std::string owner = CentralKeys::problem;
+  bool has_time = true;
+};
+
 /// The choices of a typed problem, checked: every text can be read and differentiated.
 /// @throws FormulaError
 Choices formula_choices(const FormulaTexts& texts);
 /// The same of `central-force`, potential = "formula": V of r and the parameters.
-/// @param coordinates "cartesian" or "polar"   @throws FormulaError
-Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates);
+/// @param coordinates "cartesian" or "polar"
+/// @param use of another owner, such as the pair law of a gas   @throws FormulaError
+Choices central_formula_choices(const std::string& potential, const Texts& parameters, const std::string& coordinates,
+                                const CentralUse& use = {});
 /// A particle of mass `mass` in such a field, in the coordinates of the choices: the same as a whole Hamiltonian.
 FormulaTexts central_formula_texts(const Choices& choices);
 /// The field alone, p_r^2/2 + V(r).

@@ -31,6 +31,8 @@ struct MethodAdvice {
 
 /// The option that stands for the accuracy of a step, in every family that has one.
 inline constexpr const char* tolerance_option = "tolerance";
+/// The option that asks for measures of each step, in every family that has it.
+inline constexpr const char* diagnostics_option = "diagnostics";
 
 inline constexpr int unlimited_digits = std::numeric_limits<int>::max();
 

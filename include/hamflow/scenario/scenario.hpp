@@ -64,7 +64,8 @@ struct Scenario {
   std::optional<TwoBodies> bodies;           // of a start by two bodies in space
   std::vector<double> start_q;               // in double, canonical
   std::vector<double> start_p;
-  std::map<std::string, Setting> settings;  // every key that was given, by its dotted path
+  std::optional<std::uint64_t> start_contents{};  // of a start that stands in a file: a hash of its numbers
+  std::map<std::string, Setting> settings;        // every key that was given, by its dotted path
 };
 
 struct Reading {

@@ -341,7 +341,8 @@ class ImplicitMethod {
     to_rounding.max_iterations = std::max(to_rounding.max_iterations, NewtonOptions{}.max_iterations);
     const NewtonReport report{to_rounding, effort_, diagnostics_, nullptr};
     const E step(setup_, problem, h, q0, p0, effort_);
-    return newton_.solve_refined(step, report, found) && !step.too_coarse(found.x, found.taken) &&
+    Newton<E> trial = newton_;  // what it learns of guesses is no state of the run
+    return trial.solve_refined(step, report, found) && !step.too_coarse(found.x, found.taken) &&
            !detail::overlooks_a_change(problem, q0, p0, found.taken);
   }
 
