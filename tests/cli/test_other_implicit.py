@@ -154,7 +154,39 @@ class OtherImplicit(CommandCase):
     def test_a_step_without_a_solution_says_where_it_ends(self):
         done = self.hamflow("run", "plane.toml", "--out", "none", "--set", "problem.initial={ q = [1.6, 0], p = [0, 0.5] }", "--set",
                             "run.dt=0.6", status=1)
-        self.assertRegex(done.stderr, r"the solution that grows out of the beginning of the step ends at 0\.9\d* of its length")
+        self.assertRegex(done.stderr, r"the solution that grows out of the beginning of the step could be followed to 0\.9\d* of its length")
+
+    def test_what_is_left_of_a_tangent_of_old_is_no_drift(self):
+        self.write("swing.toml", "[problem]\nname='formula'\ncoordinates=['x']\nhamiltonian='p_x^2/2 - cos(x)'\ninitial={q=[2],p=[0]}\n"
+                   "[method]\nname='itoh-abe'\niteration='simplified'\n[run]\ndt=0.1\nsteps=20000\n")
+        for method in ("itoh-abe", "discrete-gradient", "lobatto-3a-3b(3)"):
+            energy = self.summary("swing.toml", "--set", f"method.name={method}")["energy"]
+            exact = self.summary("swing.toml", "--set", f"method.name={method}", "--set", "method.iteration=newton")["energy"]
+            # As a random walk with 20 000 steps of Newton's would end: twice the largest of two such.
+            self.assertLess(energy["max_error"], 4 * exact["max_error"], method)
+
+    def test_an_iterate_beside_a_singularity_does_not_pass_for_a_solution(self):
+        self.write("fall.toml", "[problem]\nname='n-body'\nmasses=[1,1]\ninitial={q=[-0.5,0,0.5,0],p=[0,0,0,0]}\n"
+                   "[method]\nname='eg(2)'\n[run]\ndt=0.05\nsteps=60\n")
+        self.write("atoms.toml", "[problem]\nname='lennard-jones-oscillator'\ninitial={q=[1.5],p=[-2]}\n"
+                   "[method]\nname='discrete-gradient'\n[run]\ndt=0.3\nsteps=300\n")
+        for scenario, method in (("fall.toml", "eg(2)"), ("fall.toml", "eg(3)"), ("fall.toml", "discrete-gradient"),
+                                 ("fall.toml", "discrete-gradient(tolerance=1e-10)"), ("atoms.toml", "discrete-gradient")):
+            done = self.hamflow("run", scenario, "--set", f"method.name={method}", "--out", "none", "--json", status=None)
+            found = json.loads(done.stdout)
+            self.assertIn(done.returncode, (0, 1))
+            if done.returncode == 1:
+                self.assertEqual(found["error"]["kind"], "not_converged", method)
+            # Through a fall of two points the largest terms of H are 1e6 times their sum, at most.
+            self.assertLess(found["energy"]["max_error"], 1e6 * 1e-13, (scenario, method))
+
+    def test_what_overflows_has_not_converged(self):
+        self.write("steep.toml", "[problem]\nname='formula'\ncoordinates=['x']\nhamiltonian='p_x^2/2 + 1e6*x^2/2 + x^4'\n"
+                   "initial={q=[1],p=[0]}\n[method]\nname='discrete-gradient'\niteration='fixed-point'\non_divergence='halve'\n"
+                   "[run]\ndt=0.1\nsteps=3\n")
+        for method in ("discrete-gradient", "itoh-abe", "lobatto-3a-3b"):
+            found = self.summary("steep.toml", "--set", f"method.name={method}")
+            self.assertGreater(found["events"]["halved"], 0, method)
 
     def test_a_run_in_two_parts_has_the_bits_of_one(self):
         for method in FAMILIES:

@@ -76,7 +76,8 @@ class AverageSetup {
     return true;
   }
   std::string hopeless() const {
-    return "the force varies so much along the step that " + detail() + " do not keep the energy at rounding level";
+    return "the force varies so much along the step, or the step is so stiff, that " + detail() +
+           " do not keep the energy at rounding level; a method.quadrature given by its number is taken as it is";
   }
   int mark() const { return table().points; }
   void return_to(int points) {

@@ -151,8 +151,8 @@ class ImplicitMethod {
 
   static std::string end_of_solution(const NewtonLog& log) {
     if (log.solved_part() <= 0) return "";
-    return "; the solution that grows out of the beginning of the step ends at " + shortest(log.solved_part()) +
-           " of its length";
+    return "; the solution that grows out of the beginning of the step could be followed to " +
+           shortest(log.solved_part()) + " of its length";
   }
 
   [[gnu::always_inline]] Outcome counted(const P& problem, const Real& h, PhasePoint<A, n>& z, Unknowns* unknowns) {

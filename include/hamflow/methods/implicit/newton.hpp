@@ -254,6 +254,7 @@ class Newton {
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     int stalls = 0;
+    [[maybe_unused]] int doubts = 0;        // of what is taken for rounding
     bool is_anew = true;                    // there is no full correction before this one, in the same units
     [[maybe_unused]] Variables rounding{};  // of the residual, beside what its terms tell; empty: not asked for
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
@@ -319,6 +320,13 @@ class Newton {
                         ? newton_at_rounding(c.size, previous, is_anew || shortened, noise, stalls)
                         : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
       is_anew = false;
+      if constexpr (requires { step.doubts(x, at, correction); }) {
+        if (at_rounding && doubts < 2 && step.doubts(x, at, correction)) [[unlikely]] {
+          ++doubts;
+          at_rounding = false;
+          is_anew = true;
+        }
+      }
       if constexpr (detail::StartsElsewhere<E>) {
         if (!at_rounding && rounding.size() == 0 && have_stalled(options.iteration, stalls)) {
           rounding = detail::rounding_by_state(step, x);

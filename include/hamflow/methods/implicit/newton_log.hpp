@@ -46,7 +46,7 @@ class NewtonLog {
     attempts_ = 0;
     iterations_ = 0;
   }
-  /// How much of the step has a solution that grows out of its beginning.
+  /// To how much of the step the solution that grows out of its beginning could be followed.
   void note_end_of_solution(double part) { solved_part_ = part; }
   void note_too_coarse() { too_coarse_ = true; }
   void note_change_unseen() { change_unseen_ = true; }

@@ -42,10 +42,27 @@ class TargetEquations {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Real size = abs(correction[i]);
       const Real unit = epsilon * larger(Real(at.noise[i] + abs(x[i])), size);
+      if (!(unit <= std::numeric_limits<Real>::max())) return {unit, Real(1)};  // nothing is small beside infinity
       const Real here = size / larger(unit, std::numeric_limits<Real>::min());
       distance = here <= distance ? distance : here;
     }
     return {distance, Real(1)};
+  }
+
+  /// Whether what is taken for rounding is far more than the rounding of the step. At an iterate beside a singularity,
+  /// where forces round by more than the whole step, any correction and any residual look small; at the next one, away
+  /// from there, they do not. Newton's last correction is some 10^-8 of a step, and what remains of the residual that
+  /// times the stiffness.
+  bool doubts(const Variables& x, const Point& at, const Variables& correction) const {
+    Real step(0);
+    Real moved(0);
+    Real left(0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      step = larger(step, Real(abs(x[i])));
+      moved = larger(moved, Real(abs(correction[i])));
+      left = larger(left, Real(abs(at.residual[i])));
+    }
+    return moved > step / (1 << 20) || left > step / (1 << 10);
   }
 
  protected:
@@ -65,10 +82,11 @@ class TargetEquations {
       at.residual[i] = (at.target[i] - x[i]) + product_error(unit_, at.sum[i], at.target[i]);
     }
   }
-  /// x <- the target at x + correction, to second order where there is a tangent, rounded once.
+  /// x <- the target at x + correction, to second order where there is a tangent, rounded once. With a tangent of old,
+  /// or none, its product with the correction is the residual.
   void move_to_target(Variables& x, const Point& at, const Variables& correction) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      Real change(0);
+      Real change = correction[i] - at.residual[i];
       if (at.tangent.size() > 0) {
         change = correction[i];
         for (std::size_t j = 0; j < x.size(); ++j) change -= at.tangent[i][j] * correction[j];
