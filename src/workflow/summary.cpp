@@ -178,7 +178,8 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   return found;
 }
 
-/// The hint of the outcome, and what method and problem add to it.
+}  // namespace
+
 std::string hint_for(const Request& request, Outcome outcome) {
   if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
   std::string text(hint(outcome));
@@ -198,6 +199,8 @@ std::string hint_for(const Request& request, Outcome outcome) {
   }
   return text;
 }
+
+namespace {
 
 /// What was computed is kept; here is how to look at it and how to go on.
 Json error_of(const Request& request, const Simulation& simulation, const RunResult& result) {

@@ -23,6 +23,8 @@ struct RunResult {
 
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
+/// The hint of the outcome, and what method and problem add to it.
+std::string hint_for(const Request& request, Outcome outcome);
 /// What the effective potential tells of the start of a problem that describes its orbits.
 nlohmann::ordered_json orbit_of(const Scenario& scenario);
 /// @param certificate null where nobody has watched   @param measures null where nothing was measured
