@@ -284,7 +284,8 @@ class WalledSimulation : public Simulation {
 
   Outcome mirror() {
     if (!fold()) {
-      why_ = "the step went out of the walls further than they are apart " + std::to_string(most_bounces) + " times";
+      why_ = "more than " + std::to_string(most_bounces) + " bounces in one step, the last off the wall of " +
+             walls_->names[met_.back().side];
       return Outcome::wall;
     }
     return Outcome::done;
