@@ -16,6 +16,7 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
 #include "json_text.hpp"
 #include "measures/measures.hpp"
@@ -180,8 +181,12 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
 
 }  // namespace
 
-std::string hint_for(const Request& request, Outcome outcome) {
+std::string hint_for(const Request& request, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
+  if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
+    return "no dt helps: it is H that has a single root in that momentum, so that no hard wall throws it back; allowed "
+           "an H with two, such as p^2/2, or no wall there";
+  }
   std::string text(hint(outcome));
   if (outcome == Outcome::lattice_overflow) {
     text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
@@ -223,7 +228,7 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
           {"step", step},
           {"t", frame.time},
           {"message", text},
-          {"hint", hint_for(request, result.outcome)}};
+          {"hint", hint_for(request, result.outcome, result.failure)}};
 }
 }  // namespace
 

@@ -371,6 +371,27 @@ arithmetic = "lattice"
         done = self.hamflow("run", file, "--out", "none", "--set", "run.dt=5000", status=1)
         self.assertIn("more than 1000 bounces in one step, the last off the wall of x", done.stderr)
 
+    def test_an_h_that_no_wall_throws_back(self):
+        for rule in ("event", "reject"):
+            self.write("one_way.toml", f"""
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x + x^2/2"
+initial = {{ q = [0], p = [1] }}
+walls = [{{ coordinate = "x", max = 1 }}]
+wall_rule = "{rule}"
+[method]
+name = "verlet"
+[run]
+dt = 0.1
+steps = 20
+""")
+            error = self.summary("one_way.toml", status=1)["error"]
+            self.assertIn("at the wall of x no other momentum", error["message"])
+            self.assertIn("it is H that has a single root in that momentum", error["hint"])
+            self.assertNotIn("smaller dt", error["hint"])
+
     def free(self, method, rule=""):
         return self.write("free.toml", f"""
 [problem]
