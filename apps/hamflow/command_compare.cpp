@@ -239,7 +239,7 @@ int compare(const CompareOptions& options) {
   const auto alone = writes ? make_comparison_folder(options.out, options.force) : nullptr;
   const ComparisonReport report = carry_out(reader.request, options);
   std::cout << (options.json ? report.json : report.text);
-  if (report.status == "failed") print_error(report.message);
+  if (report.status == "failed") print_error(report.message, report.hint);
   const int written = written_behind_report([&] {
     if (!options.csv.empty()) write_file(options.csv, report.csv);
     if (writes) write_comparison(report, options.out);

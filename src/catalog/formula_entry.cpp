@@ -174,6 +174,26 @@ Frame frame_of(const StateOf<double>& s, std::size_t size) {
   return frame;
 }
 
+/// Whether gradients depend on each other, or vanish, to the rounding of their entries: multipliers of such constraints
+/// are nobody's.
+bool depend_on_each_other(const Gradients<double, dynamic>& rows) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  Gradients<double, dynamic> units;
+  for (Vector<double, dynamic> row : rows) {
+    const double whole = std::sqrt(dot(row, row));
+    if (!std::isfinite(whole)) return false;  // which is complained about as no regular point
+    for (const auto& unit : units) {
+      const double along = dot(row, unit);
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] -= along * unit[i];
+    }
+    const double left = std::sqrt(dot(row, row));
+    if (left <= rounding * whole) return true;
+    for (double& x : row) x /= left;
+    units.push_back(row);
+  }
+  return false;
+}
+
 }  // namespace
 
 ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field) {
@@ -254,6 +274,13 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
           .as<Capability::constrained | Capability::separable | Capability::quadratic_kinetic>();
     };
     e.constraint_form = model.structure().multiplier ? FormulaKeys::multiplier : FormulaKeys::manifold;
+    e.refused_start = [bound, degrees](const Texts& parameters, const std::vector<double>& q) -> std::string {
+      const auto rows = constraint_gradients(bound(parameters), vector_of(q, degrees));
+      if (!depend_on_each_other(rows)) return {};
+      return rows.size() == 1 ? "a constraint whose gradient vanishes at the start; allowed one with a gradient there"
+                              : "constraints whose gradients depend on each other at the start; allowed independent "
+                                "ones, fewer than coordinates";
+    };
     e.residuals = [bound, degrees](const Texts& parameters, const std::vector<double>& q,
                                    const std::vector<double>& p) {
       const auto problem = bound(parameters);

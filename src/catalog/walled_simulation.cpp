@@ -9,6 +9,7 @@
 #include "hamflow/core/archive.hpp"
 #include "hamflow/core/outside_note.hpp"
 #include "hamflow/run/recorded_step.hpp"
+#include "hamflow/run/wall_failures.hpp"
 #include "run_walls.hpp"
 #include "wall_events.hpp"
 
@@ -284,7 +285,8 @@ class WalledSimulation : public Simulation {
 
   Outcome mirror() {
     if (!fold()) {
-      why_ = "the step went out of the walls further than they are apart " + std::to_string(most_bounces) + " times";
+      why_ = "more than " + std::to_string(most_bounces) + " bounces in one step, the last off the wall of " +
+             walls_->names[met_.back().side];
       return Outcome::wall;
     }
     return Outcome::done;
@@ -412,8 +414,8 @@ class WalledSimulation : public Simulation {
   Outcome no_other_root(std::size_t coordinate) {
     const auto wall = std::find_if(walls_->sides.begin(), walls_->sides.end(),
                                    [&](const WallSide<R>& side) { return side.coordinate == coordinate; });
-    why_ = "at the wall of " + walls_->names[static_cast<std::size_t>(wall - walls_->sides.begin())] +
-           " no other momentum of that coordinate has the same energy";
+    why_ = "at the wall of " + walls_->names[static_cast<std::size_t>(wall - walls_->sides.begin())] + " " +
+           std::string(no_other_momentum);
     return Outcome::wall;
   }
   Outcome stays_on(std::size_t side) {

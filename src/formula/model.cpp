@@ -128,6 +128,24 @@ std::optional<std::pair<int, int>> parts_of(Forms& forms, int h, std::size_t n) 
   return std::pair{forms.of_terms(of_p), forms.of_terms(of_q)};
 }
 
+/// Whether every term is a constant times a momentum, or times a sum of such terms: 0.5*(2*p_x + p_y).
+bool is_linear(const Forms& forms, int form, std::size_t n) {
+  const std::vector<Term>& terms = forms[form].terms;
+  return std::all_of(terms.begin(), terms.end(), [&](const Term& term) {
+    bool linear = false;  // there is one factor that varies
+    for (const Factor& f : term.factors) {
+      if (forms.is_constant(f)) continue;
+      const Base& base = forms.base_at(f.base);
+      const auto symbol = static_cast<std::size_t>(base.a);
+      const bool is_momentum = base.kind == Base::Kind::symbol && symbol >= n && symbol < 2 * n;
+      const bool is_sum = base.kind == Base::Kind::group && is_linear(forms, base.a, n);
+      if (linear || !f.exponent.is(1) || (!is_momentum && !is_sum)) return false;
+      linear = true;
+    }
+    return linear;
+  });
+}
+
 /// The scalar s of derivatives s x_i, if all of them are one term with the same s.
 bool is_one_scalar(Forms& forms, const std::vector<int>& derivatives, std::size_t first) {
   std::optional<int> scalar;
@@ -276,16 +294,9 @@ Model::Model(const FormulaTexts& texts) {
       force = d.code(of_force);
       structure_.quadratic_kinetic = true;
       for (std::size_t i = 0; i < n && structure_.quadratic_kinetic; ++i) {
-        std::vector<int> rest{by_p[i]};
-        bool any = false;
-        for (std::size_t j = 0; j < n; ++j) {
-          const int second = d.derivative(by_p[i], n + j);
-          any = any || !d.forms.is_zero(second);
-          structure_.quadratic_kinetic = structure_.quadratic_kinetic && d.forms.is_constant(second);
-          if (!d.forms.is_zero(second))
-            rest.push_back(d.forms.scaled({-1, 1}, d.forms.product(second, d.symbol(n + j))));
-        }
-        structure_.quadratic_kinetic = structure_.quadratic_kinetic && any && d.forms.is_zero(d.forms.sum(rest));
+        bool any = false;  // a row of zeros makes M singular
+        for (std::size_t j = 0; j < n; ++j) any = any || !d.forms.is_zero(d.derivative(by_p[i], n + j));
+        structure_.quadratic_kinetic = any && is_linear(d.forms, by_p[i], n);
       }
       if (n > 1 && structure_.quadratic_kinetic && !structure_.time && is_one_scalar(d.forms, by_q, 0) &&
           is_one_scalar(d.forms, by_p, n)) {

@@ -249,11 +249,13 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   }
   table.know_all({Keys::invariants, Keys::constraints});
   if (table.has(Keys::invariants)) texts.invariants = named_texts(table.table(Keys::invariants));
-  texts.constraints = table.texts(Keys::constraints).value_or(texts.constraints);
+  if (table.has_any(Keys::constraints)) {
+    texts.constraints = table.texts(Keys::constraints).value_or(texts.constraints);
+  }
   const auto form = table.text(constraint_form_option());
   if (!texts.constraints.empty()) {
     texts.constraint_form = form.value_or("");
-  } else if (table.has(Keys::constraint_form)) {
+  } else if (table.has(Keys::constraint_form) && !table.has(Keys::constraints)) {
     table.complain(Keys::constraint_form, table.found(Keys::constraint_form) + "; allowed with " + Keys::constraints);
   }
   if (complaints_.size() != before) return std::nullopt;

@@ -24,15 +24,18 @@ void ScenarioReader::usual_units() {
   };
   Request& request = scenario_.request;
   const bool gas = request.problem == GasKeys::problem;  // whose pairs repel each other before they come near
-  if (gas || scenario_.problem == nullptr || !scenario_.problem->has_pairwise_forces || scenario_.start_q.empty()) {
-    // Positions behind a mirror, as far from it as those in front, are exact in double, too.
-    std::vector<double> positions = scenario_.start_q;
-    if (const auto walls = walls_among(request.variant); walls && walls->hard()) {
-      for (const Walls::Interval& wall : walls->intervals) {
-        for (const std::string& text : {wall.min, wall.max})
-          positions.push_back(text.empty() ? 0 : 4 * number_value(text));
-      }
+  const bool pairwise =
+      !gas && scenario_.problem != nullptr && scenario_.problem->has_pairwise_forces && !scenario_.start_q.empty();
+  // Positions behind a mirror, as far from it as those in front, are exact in double, too.
+  std::vector<double> positions = scenario_.start_q;
+  const auto walls = walls_among(request.variant);
+  if (walls && (pairwise ? walls->rule == WallRule::mirror : walls->hard())) {
+    for (const Walls::Interval& wall : walls->intervals) {
+      for (const std::string& text : {wall.min, wall.max})
+        positions.push_back(text.empty() ? 0 : 4 * number_value(text));
     }
+  }
+  if (!pairwise) {
     request.position_unit = unit_for(largest(positions), -9);
     request.momentum_unit = unit_for(largest(scenario_.start_p), -9);
     return;
@@ -48,7 +51,7 @@ void ScenarioReader::usual_units() {
   double factor = 1;
   while (energy_with(factor) - potential < 0x1p-20 * std::abs(potential) && factor < 0x1p400) factor *= 0x1p30;
   const double to_come = factor * std::sqrt(std::abs(potential) / (energy_with(factor) - potential));
-  request.position_unit = unit_for(largest(scenario_.start_q), 0);
+  request.position_unit = unit_for(largest(positions), 0);
   request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
 }
 

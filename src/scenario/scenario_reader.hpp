@@ -80,7 +80,7 @@ class ScenarioReader {
   void read_walls(TomlTable& table);
   void check_walls();
   void check_start(TomlTable& table);
-  void check_constraints(TomlTable& table, const Frame& start);
+  bool check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
   bool read_method_name(TomlTable& table);

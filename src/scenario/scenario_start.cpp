@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
 #include "scenario_reader.hpp"
@@ -308,9 +309,11 @@ void ScenarioReader::check_start(TomlTable& table) {
       return;
     }
   }
+  // Off the constraints their gradients are of no interest.
+  if (problem.residuals && !check_constraints(table, start)) return;
   const std::string why_not = problem.refused_start(request.parameters, start.q);
   if (!why_not.empty()) {
-    table.complain("initial", "found " + why_not);
+    table.complain(table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", "found " + why_not);
     return;
   }
   if (!problem.regular(request.parameters, start.q, start.p)) {
@@ -319,20 +322,47 @@ void ScenarioReader::check_start(TomlTable& table) {
         "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
     return;
   }
-  if (problem.residuals) check_constraints(table, start);
 }
 
-/// The motion begins on the constraints and along them.
-void ScenarioReader::check_constraints(TomlTable& table, const Frame& start) {
-  const auto [position, velocity] = scenario_.problem->residuals(scenario_.request.parameters, start.q, start.p);
+namespace {
+
+/// The largest of typed constraints at a point, with the constraint's key; of others the sum of all.
+std::string largest_of(const Request& request, const Frame& at, double sum, const std::string& formula) {
+  const FormulaTexts texts = request.problem == FormulaKeys::problem ? formula_texts(request.variant) : FormulaTexts();
   const std::string allowed = "; allowed at most " + shortest(most_residual_at_start) + ": ";
-  if (!(position <= most_residual_at_start)) {
-    table.complain("initial", "found a start off the constraints, |g(q)| = " + shortest(position) + allowed +
-                                  scenario_.problem->info.formula);
-  } else if (!(velocity <= most_residual_at_start)) {
-    table.complain("initial", "found a start that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) +
-                                  allowed + "a velocity along them");
+  if (texts.constraints.empty()) return "|g(q)| = " + shortest(sum) + allowed + formula;
+  double most = -1;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < texts.constraints.size(); ++k) {
+    FormulaTexts one = texts;
+    one.constraints = {texts.constraints[k]};
+    const double size =
+        find_problem(request.problem, formula_choices(one)).residuals(request.parameters, at.q, at.p).position;
+    if (size <= most) continue;
+    most = size;
+    worst = k;
+    if (!std::isfinite(size)) break;
   }
+  return "|g(q)| = " + shortest(most) + allowed + FormulaKeys::constraints + "[" + std::to_string(worst) +
+         "] = " + texts.constraints[worst];
+}
+
+}  // namespace
+
+/// The motion begins on the constraints and along them.
+bool ScenarioReader::check_constraints(TomlTable& table, const Frame& start) {
+  const auto [position, velocity] = scenario_.problem->residuals(scenario_.request.parameters, start.q, start.p);
+  if (!(position <= most_residual_at_start)) {
+    table.complain("initial", "found a start off the constraints, " +
+                                  largest_of(scenario_.request, start, position, scenario_.problem->info.formula));
+    return false;
+  }
+  if (!(velocity <= most_residual_at_start)) {
+    table.complain("initial", "found a start that leaves the constraints, |g'(q) M^-1 p| = " + shortest(velocity) +
+                                  "; allowed at most " + shortest(most_residual_at_start) + ": a velocity along them");
+    return false;
+  }
+  return true;
 }
 
 }  // namespace hamflow

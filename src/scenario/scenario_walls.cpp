@@ -204,6 +204,11 @@ void ScenarioReader::check_walls() {
   if (!why_not.empty()) return refuse(why_not);
   if (walls->rule != WallRule::mirror || request.arithmetic != "lattice") return;
   const double unit = request.position_unit;
+  double furthest = 0;
+  for (const Walls::Interval& wall : walls->intervals) {
+    for (const std::string& text : {wall.min, wall.max})
+      furthest = std::max(furthest, text.empty() ? 0 : std::abs(number_value(text)));
+  }
   double most = 0;
   std::vector<std::string> notes;
   for (const Walls::Interval& wall : walls->intervals) {
@@ -211,8 +216,12 @@ void ScenarioReader::check_walls() {
       if (text.empty()) continue;
       const double at = number_value(text);
       if (std::abs(at) > 0x1p51 * unit) {
+        int power = 0;  // of the finest unit that is coarse enough for every wall
+        if (std::frexp(furthest, &power) == 0.5) --power;
         refuse("with a wall at " + text + " and a unit of " + shortest(unit) +
-               "; allowed walls within 2^51 units, behind which positions are still exact in double");
+               "; allowed walls within 2^51 units, behind which positions are still exact in double, as with "
+               "run.lattice = { position = \"2^" +
+               std::to_string(power - 51) + "\" }");
         return;
       }
       const double moved = on_half_lattice(at, unit) - at;

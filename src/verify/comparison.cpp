@@ -85,8 +85,10 @@ Outcome time_again(const Request& request, std::int64_t steps, bool beyond_doubl
 std::string reason_of(const Simulation& simulation, Outcome outcome) {
   Frame frame;
   simulation.look(frame);
-  const std::string why = outcome == Outcome::not_converged ? simulation.failure() : std::string(message(outcome));
-  return fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time), why);
+  const bool says_more = outcome == Outcome::not_converged || outcome == Outcome::wall || outcome == Outcome::outside;
+  const std::string own_words = says_more ? simulation.failure() : std::string();
+  return fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time),
+                     own_words.empty() ? std::string(message(outcome)) : own_words);
 }
 
 /// Runs a job, but for its error. Outcome::stopped when the pulse says so.

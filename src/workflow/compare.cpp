@@ -21,7 +21,16 @@ using Json = nlohmann::ordered_json;
 /// A number too small for a double is a text.
 Json json_of(const Magnitude& x) { return x.text.empty() ? Json(x.value) : Json(x.text); }
 
-Json row_of(const ComparisonPoint& p) {
+/// What can be tried where a run failed.
+std::string hint_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
+  Request request = asked.request;
+  const std::vector<std::string> names = comparison_names(asked.methods);
+  const auto name = std::find(names.begin(), names.end(), p.method);
+  if (name != names.end()) request.method = asked.methods[static_cast<std::size_t>(name - names.begin())];
+  return hint_for(request, p.outcome, p.failure);
+}
+
+Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   Json row{
       {"method", p.method},
       {"order", p.order},
@@ -41,11 +50,12 @@ Json row_of(const ComparisonPoint& p) {
   if (!p.done()) {
     row["kind"] = std::string(name(p.outcome));
     row["reason"] = p.failure;
+    row["hint"] = hint_of(p, asked);
   }
   return row;
 }
 
-Json json_of(const Comparison& c, const std::string& status) {
+Json json_of(const Comparison& c, const std::string& status, const ComparisonRequest& asked) {
   // More digits than a JSON number may be read with: texts.
   const std::size_t n = c.reference.end.size() / 2;
   const auto part = [&](std::size_t first) {
@@ -74,7 +84,7 @@ Json json_of(const Comparison& c, const std::string& status) {
     all["reference"]["digits"] = {{"q", std::vector<std::string>(c.reference.digits.begin(), middle)},
                                   {"p", std::vector<std::string>(middle, c.reference.digits.end())}};
   }
-  for (const ComparisonPoint& p : c.points) all["rows"].push_back(row_of(p));
+  for (const ComparisonPoint& p : c.points) all["rows"].push_back(row_of(p, asked));
   for (const ComparisonWinner& w : winners(c)) {
     all["winners"].push_back({{"error", json_of(w.error)}, {"by", w.by}, {"method", w.method}, {"work", w.work}});
     if (w.second.empty()) continue;
@@ -93,8 +103,11 @@ ComparisonReport compare_methods(const ComparisonRequest& request,
   const std::vector<ComparisonPoint>& points = report.comparison.points;
   const bool any_done = std::any_of(points.begin(), points.end(), [](const ComparisonPoint& p) { return p.done(); });
   report.status = report.comparison.stopped ? "interrupted" : any_done ? "done" : "failed";
-  if (report.status == "failed") report.message = "every run failed; the first: " + points.at(0).failure;
-  report.json = json_text(json_of(report.comparison, report.status));
+  if (report.status == "failed") {
+    report.message = "every run failed; the first: " + points.at(0).failure;
+    report.hint = hint_of(points.at(0), request);
+  }
+  report.json = json_text(json_of(report.comparison, report.status, request));
   report.csv = comparison_csv(report.comparison);
   report.text = comparison_table(report.comparison);
   return report;

@@ -14,6 +14,7 @@
 #include "reverse_file.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
+#include "wall_checks.hpp"
 #include "warnings.hpp"
 
 namespace hamflow {
@@ -33,9 +34,34 @@ bool palindromic_on_lattice(const Scenario& scenario) {
   return scenario.request.arithmetic == "lattice" && describe(scenario.request.method).symmetric;
 }
 
+/// With what a palindromic splitting returns every bit; empty where none can: on constraints, with an H that no
+/// splitting takes, with steps that are rejected. Bounces that are located are not on the lattice, but mirrors may be.
+std::string exact_return(const Scenario& scenario) {
+  if (rejects_steps(scenario)) return {};
+  Request request = scenario.request;
+  const std::string lattice = "run.arithmetic = \"lattice\"";
+  request.arithmetic = "lattice";
+  auto walls = walls_among(request.variant);
+  const bool located = walls && walls->rule == WallRule::event;
+  if (located) {
+    walls->rule = WallRule::mirror;
+    put_among(*walls, request.variant);
+  }
+  for (const MethodEntry& entry : methods()) {
+    const MethodSpec method{.name = entry.name};
+    if (!scenario.problem->accepts(method) || !refusal(method, request.arithmetic).empty()) continue;
+    if (!describe(method).symmetric) continue;
+    request.method = method;
+    if (!refused_by_walls(request, *scenario.problem, scenario.start_q).empty()) continue;
+    return lattice + (located ? " and problem.wall_rule = \"mirror\"" : "");
+  }
+  return {};
+}
+
 /// @param tolerance as it was given, else empty
+/// @param exact_with see exact_return
 std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
-                    bool even, bool expected) {
+                    bool even, bool expected, const std::string& exact_with) {
   if (timed) {
     return "H depends on t, which goes on: the motion itself is not reversed by negating the momenta, so that a "
            "distance "
@@ -52,12 +78,9 @@ std::string note_of(const MethodInfo& method, const std::string& tolerance, cons
     return method.name + " is reversible, but steps solved to tolerance = " + tolerance +
            " are not, and neither is rounding";
   }
-  if (arithmetic != "lattice") {
-    return method.name +
-           " is reversible, but rounding is not: with run.arithmetic = \"lattice\" a palindromic splitting "
-           "returns every bit";
-  }
-  return {};
+  if (arithmetic == "lattice") return {};
+  return method.name + " is reversible, but rounding is not" +
+         (exact_with.empty() ? "" : ": with " + exact_with + " a palindromic splitting returns every bit");
 }
 
 const char* const below_the_digits =
@@ -89,7 +112,7 @@ Json warnings_about(const Scenario& scenario, const Simulation& simulation, cons
   Json known = Json::object();
   if (scenario.problem->describe_orbit) known["orbit"] = orbit_of(scenario);
   return warnings_of(scenario, known, same_motion ? simulation.energy() : there, simulation.energy_scale(), r.turn,
-                     &turns);
+                     &turns, simulation.wall_counts(), 2 * r.steps);
 }
 
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
@@ -183,7 +206,7 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   const MethodSpec& method = scenario.request.method;
   const auto tolerance = method.options.find(tolerance_option);
   report.note = note_of(describe(method), tolerance == method.options.end() ? "" : tolerance->second,
-                        scenario.request.arithmetic, timed, even, report.expected_bit_exact);
+                        scenario.request.arithmetic, timed, even, report.expected_bit_exact, exact_return(scenario));
   if (rejects_steps(scenario)) {
     report.note +=
         (report.note.empty() ? "" : "; ") +

@@ -16,6 +16,7 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
 #include "json_text.hpp"
 #include "measures/measures.hpp"
@@ -178,9 +179,14 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   return found;
 }
 
-/// The hint of the outcome, and what method and problem add to it.
-std::string hint_for(const Request& request, Outcome outcome) {
+}  // namespace
+
+std::string hint_for(const Request& request, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
+  if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
+    return "no dt helps: it is H that has a single root in that momentum, so that no hard wall throws it back; allowed "
+           "an H with two, such as p^2/2, or no wall there";
+  }
   std::string text(hint(outcome));
   if (outcome == Outcome::lattice_overflow) {
     text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
@@ -198,6 +204,8 @@ std::string hint_for(const Request& request, Outcome outcome) {
   }
   return text;
 }
+
+namespace {
 
 /// What was computed is kept; here is how to look at it and how to go on.
 Json error_of(const Request& request, const Simulation& simulation, const RunResult& result) {
@@ -220,7 +228,7 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
           {"step", step},
           {"t", frame.time},
           {"message", text},
-          {"hint", hint_for(request, result.outcome)}};
+          {"hint", hint_for(request, result.outcome, result.failure)}};
 }
 }  // namespace
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string_view>
 
 #include "hamflow/run/simulation.hpp"
 #include "hamflow/scenario/scenario.hpp"
@@ -23,6 +24,8 @@ struct RunResult {
 
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
+/// The hint of the outcome, and what method, problem and the sentence about the failure add to it.
+std::string hint_for(const Request& request, Outcome outcome, std::string_view failure);
 /// What the effective potential tells of the start of a problem that describes its orbits.
 nlohmann::ordered_json orbit_of(const Scenario& scenario);
 /// @param certificate null where nobody has watched   @param measures null where nothing was measured

@@ -110,6 +110,9 @@ std::string readable(const Json& s) {
                             s["newton"]["stagnated"].get<long long>()));
   }
   for (const auto& [key, value] : s["events"].items()) text += row("event " + key, written_json(value));
+  if (s.contains("event_notes")) {
+    for (const Json& note : s["event_notes"]) text += row("event note", note.get<std::string>());
+  }
   for (const MeasureKind& kind : measure_kinds()) {
     if (s.contains(kind.key)) text += row(kind.label, kind.text(s[kind.key]));
   }

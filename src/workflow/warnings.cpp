@@ -56,7 +56,21 @@ double period_of_orbit(const Json& orbit) {
   return std::isfinite(round) && std::isfinite(radial) ? std::max(radial, round) : 0;
 }
 
-void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns, Json& all) {
+/// From one bounce off a wall to the next off the same: the mean of the wall that was met most often, which no fastest
+/// oscillation is slower than. Where there are several bounces in a step its two ends tell nothing of it.
+/// @param length the time of all steps, or more
+std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, double length) {
+  std::optional<FastestTurns> fastest;
+  for (const WallCount& wall : walls) {
+    if (wall.bounces < static_cast<std::int64_t>(TurnWatch::fewest_periods)) continue;
+    const double period = length / static_cast<double>(wall.bounces);
+    if (!fastest || period < fastest->period) fastest = {period, 0, wall.coordinate};
+  }
+  return fastest;
+}
+
+void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns,
+                   std::span<const WallCount> walls, std::int64_t steps, Json& all) {
   // Of steps of varying length dt is the first: it is compared with the period of an orbit that is known.
   const bool varies = describe(scenario.request.method).varies_steps;
   const auto seen = varies ? std::nullopt : turns.fastest();
@@ -64,9 +78,12 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
   double period = 0;
   std::string whose;
   if (seen) {
+    const auto bounces = between_bounces(walls, static_cast<double>(steps) * dt);
+    const bool at_wall = bounces && bounces->period < seen->period;
     dt = std::abs(seen->dt);
-    period = seen->period;
-    whose = fmt::format("shortest period seen, {:.3g} (of {})", period, name_of(scenario, seen->coordinate));
+    period = at_wall ? bounces->period : seen->period;
+    whose = fmt::format("shortest period seen, {:.3g} (of {})", period,
+                        name_of(scenario, at_wall ? bounces->coordinate : seen->coordinate));
   } else if (summary.contains("orbit")) {
     period = period_of_orbit(summary["orbit"]);
     whose = fmt::format("period of the orbit, {:.3g}", period);
@@ -181,13 +198,14 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, doubl
 Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns) {
   Frame end;
   simulation.look(end);
-  Json all = warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns);
+  Json all = warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns,
+                         simulation.wall_counts(), end.step);
   add_long_search(scenario, simulation, all);
   return all;
 }
 
 Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, double scale, const Frame& end,
-                 const TurnWatch* turns) {
+                 const TurnWatch* turns, std::span<const WallCount> walls, std::int64_t steps) {
   Json all = Json::array();
   if (is_energy_nonsense(scenario, energy, scale, end)) {
     all.push_back(warning(
@@ -199,7 +217,7 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
             scale > 0 ? fmt::format("more than its scale, {:.3g}", scale) : std::string("and is 0 at the start"),
             scenario.request.problem, describe(scenario.request.method).carries_copy ? ", a larger omega" : "")));
   }
-  if (turns != nullptr) add_long_step(scenario, summary, *turns, all);
+  if (turns != nullptr) add_long_step(scenario, summary, *turns, walls, steps, all);
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
       has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ord
                                    const Simulation& simulation, const TurnWatch* turns);
 /// The same of a motion that ended elsewhere than the simulation stands.
 /// @param summary its orbit   @param end where it ended
+/// @param walls how often they were met   @param steps in how many steps
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
-                                   const Excursion& energy, double scale, const Frame& end, const TurnWatch* turns);
+                                   const Excursion& energy, double scale, const Frame& end, const TurnWatch* turns,
+                                   std::span<const WallCount> walls = {}, std::int64_t steps = 0);
 /// "kind: message" of each, for the terminal; none of a summary without the key.
 std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 

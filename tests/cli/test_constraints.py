@@ -178,6 +178,58 @@ steps = 100
         self.assertIn("inertias", self.refused(self.rods(), "--set", "problem.inertias=[1, 0]"))
         self.assertIn("no variant", self.refused(self.rods(), "--set", "problem.model=linear"))
 
+    def constrained(self, constraints, problem="", method="rattle"):
+        return self.write("dependent.toml", f"""
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "(p_x^2 + p_y^2)/2 + y"
+constraints = {constraints}
+{problem}
+initial = {{ q = [1, 0], p = [0, 1] }}
+[method]
+name = "{method}"
+[run]
+dt = 0.05
+steps = 10
+""")
+
+    def test_dependent_constraints(self):
+        for constraints in ('["x^2 + y^2 - 1", "2*x^2 + 2*y^2 - 2"]', '["x^2 + y^2 - 1", "x - 1"]',
+                            '["sqrt(x^2 + y^2)/3 - 1/3", "x^2 + y^2 - 1"]', '["x - 1", "(x - 1)*(y + 1)", "x^2 - 1"]'):
+            for form in ("", 'constraint_form = "multiplier"'):
+                text = self.refused(self.constrained(constraints, form, "rk4" if form else "rattle"))
+                self.assertIn("problem.constraints: found constraints whose gradients depend on each other at the start; "
+                              "allowed independent ones, fewer than coordinates", text)
+        text = self.refused(self.constrained('["(x - 1)^2"]'))
+        self.assertIn("found a constraint whose gradient vanishes at the start", text)
+
+    def test_the_constraint_that_fails_is_named(self):
+        text = self.refused(self.constrained('["x - 1", "x^2 + y^2 - 4"]'))
+        self.assertIn("off the constraints, |g(q)| = 3; allowed at most 1e-12: constraints[1] = x^2 + y^2 - 4", text)
+
+    def test_no_constraints_are_an_empty_list(self):
+        for form in ("", 'constraint_form = "manifold"'):
+            s = self.summary(self.constrained("[]", form, "stv4"))
+            self.assertEqual(s["status"], "done")
+            self.assertNotIn("constraints", s)
+
+    def test_a_cross_term_under_a_common_factor(self):
+        ends = []
+        for kinetic in ("(p_x^2 + p_x*p_y + p_y^2)/2", "p_x^2/2 + p_x*p_y/2 + p_y^2/2"):
+            file = self.constrained('["x^2 + y^2 - 1"]')
+            text = (self.folder / file).read_text().replace("(p_x^2 + p_y^2)/2", kinetic).replace(
+                "p = [0, 1]", 'p = ["-1/2", 1]')
+            for method in ("rattle", "rkn8-s19"):
+                other = text.replace('"rattle"', f'"{method}"')
+                if method != "rattle":
+                    other = other.replace("constraints", "# constraints")
+                s = self.summary(self.write("cross.toml", other))
+                ends.append(s["final"]["q"] + s["final"]["p"])
+        for one, other in zip(ends[:2], ends[2:], strict=True):  # ten steps that round differently
+            for a, b in zip(one, other, strict=True):
+                self.assertAlmostEqual(a, b, delta=256 * EPSILON)
+
     def test_typed_constraints_are_checked(self):
         self.assertIn("problem.constraints[0]", self.refused(self.typed("x^2 + z^2 - 1")))
         self.assertIn("found p_x in it; allowed coordinates and parameters", self.refused(self.typed("x*p_x")))

@@ -327,6 +327,118 @@ steps = 10
         self.assertFalse(found["expected_bit_exact"])
         self.assertIn("one-to-one", found["note"])
 
+    def test_mirrors_of_bodies_on_the_lattice(self):
+        """The unit by default is coarse enough for walls further out than any body starts."""
+        self.write("bodies.toml", """
+[problem]
+name = "n-body"
+masses = [1, 0.5, 0.1]
+softening = 0.1
+initial = { q = [0, 0, 0.5, 0, -0.5, 0.3], p = [0, 0, 0, 0.4, 0, -0.1] }
+walls = [{ coordinate = "x1", min = -1, max = 1 }, { coordinate = "q4", min = -2, max = 1 }]
+wall_rule = "mirror"
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 500
+arithmetic = "lattice"
+""")
+        found = json.loads(self.hamflow("reverse", "bodies.toml", "--json").stdout)
+        self.assertTrue(found["bit_exact"])
+        given = "run.lattice={{position='2^{}'}}"
+        text = self.refused("bodies.toml", "--set", given.format(-52))
+        self.assertIn('with run.lattice = { position = "2^-50" }', text)
+        self.refused("bodies.toml", "--set", given.format(-51))
+        self.assertEqual(self.summary("bodies.toml", "--set", given.format(-50))["status"], "done")
+
+    def test_what_a_note_of_a_reversal_proposes_is_possible(self):
+        def note(*arguments):
+            return json.loads(self.hamflow("reverse", *arguments, "--json").stdout)["note"]
+
+        box = ('[{ coordinate = "q1", min = -0.5, max = 0.5 }]', "stv4")
+        every_bit = "a palindromic splitting returns every bit"
+        self.assertIn('with run.arithmetic = "lattice" and problem.wall_rule = "mirror" ' + every_bit, note(self.box(*box)))
+        self.assertIn('with run.arithmetic = "lattice" ' + every_bit, note(self.box(*box, 'wall_rule = "mirror"')))
+        self.assertTrue(json.loads(self.hamflow("reverse", self.box(*box, 'wall_rule = "mirror"'), "--set",
+                                                "run.arithmetic=lattice", "--json").stdout)["bit_exact"])
+        rejecting = note(self.box(*box, 'wall_rule = "reject"'))
+        self.assertNotIn("every bit", rejecting)
+        self.assertIn("no return is promised", rejecting)
+
+    def test_a_mirror_that_is_left_too_far_names_its_coordinate(self):
+        file = self.free("verlet", 'wall_rule = "mirror"')
+        done = self.hamflow("run", file, "--out", "none", "--set", "run.dt=5000", status=1)
+        self.assertIn("more than 1000 bounces in one step, the last off the wall of x", done.stderr)
+
+    def test_an_h_that_no_wall_throws_back(self):
+        for rule in ("event", "reject"):
+            self.write("one_way.toml", f"""
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x + x^2/2"
+initial = {{ q = [0], p = [1] }}
+walls = [{{ coordinate = "x", max = 1 }}]
+wall_rule = "{rule}"
+[method]
+name = "verlet"
+[run]
+dt = 0.1
+steps = 20
+""")
+            error = self.summary("one_way.toml", status=1)["error"]
+            self.assertIn("at the wall of x no other momentum", error["message"])
+            self.assertIn("it is H that has a single root in that momentum", error["hint"])
+            self.assertNotIn("smaller dt", error["hint"])
+
+    def free(self, method, rule=""):
+        return self.write("free.toml", f"""
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2"
+initial = {{ q = [0.3], p = [1] }}
+walls = [{{ coordinate = "x", min = 0, max = 1 }}]
+{rule}
+[method]
+name = "{method}"
+[run]
+dt = 7.3
+steps = 10
+""")
+
+    def test_the_period_between_bounces_within_a_step(self):
+        """The true period is 2; the ends of the steps alone show one of 20.6."""
+        for arguments in (("run", self.free("verlet"), "--out", "none"), ("reverse", self.free("verlet"))):
+            text = self.hamflow(*arguments).stderr
+            self.assertIn("a tenth of the shortest period seen, 1.97 (of x); try dt = 0.099 or less", text)
+
+    def test_events_that_jump_at_walls(self):
+        file = self.free("verlet")
+        jumps = ("--set", "run.events=[{expression='p_x',direction=0}]", "--set", "run.dt=0.1", "--set", "run.steps=73")
+        s = self.summary(file, *jumps)
+        self.assertEqual(s["events"]["user:event1"], 0)
+        bounces = s["events"]["wall:x:min"] + s["events"]["wall:x:max"]
+        sentence = f"event1: {bounces} changes of sign were no zeros: the expression jumps there, or has a pole"
+        self.assertEqual(s["event_notes"], [sentence])
+        self.assertIn(sentence, self.hamflow("run", file, *jumps, "--out", "none").stdout)
+        self.assertNotIn("event_notes", self.summary(file, "--set", "run.events=[{expression='x-0.5',direction=0}]"))
+
+    def test_a_comparison_says_which_wall(self):
+        for rule, dt, words, hint in (
+                ('wall_rule = "soft"\nstrength = 1e-9\nexponent = 2', "0.7", "x stood on a soft wall or beyond it",
+                 "a larger exponent"),
+                ('wall_rule = "mirror"', "1300", "more than 1000 bounces in one step, the last off the wall of x",
+                 "pressed onto a wall")):
+            done = self.hamflow("compare", self.free("stv4", rule), "--methods", "stv4", "--set", f"run.dt={dt}", "--set",
+                                "run.steps=1", "--dt", dt, "--json", status=1)
+            (row,) = json.loads(done.stdout)["rows"]
+            self.assertIn(words, row["reason"])
+            self.assertIn(hint, row["hint"])
+            self.assertIn(words, done.stderr)
+            self.assertIn(hint, done.stderr)
+
     def test_a_sweep_counts_for_each_member(self):
         self.tube()
         self.hamflow("sweep", "tube.toml", "--vary", "problem.velocities[0]=1,6", "--out", "s.sweep", "--set",

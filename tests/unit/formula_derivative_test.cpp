@@ -137,6 +137,14 @@ TEST(FormulaStructure, IsFoundFromTheExpression) {
   EXPECT_TRUE(natural.separable && natural.quadratic_kinetic && !natural.time);
   EXPECT_TRUE(structure("k*(p_x^2/m + x^2)/2 + (p_y^2 + p_x*p_y + y^4)").quadratic_kinetic);
   EXPECT_TRUE(structure("(p_x^2 + p_y^2 + x^2 + y^2)/2").quadratic_kinetic);
+  for (const std::string cross :
+       {"(p_x^2 + p_x*p_y + p_y^2)/2", "0.5*(p_x^2 + p_x*p_y + p_y^2)", "(p_x*p_x + p_x*p_y + p_y*p_y)/2",
+        "((p_x + p_y)^2 + p_x^2)/6", "k*(p_x*(2*p_x + m*p_y) + p_y^2)", "m*p_x^2 + k*p_x^2 + (p_y - p_x)^2"}) {
+    EXPECT_TRUE(structure(cross + " + x^2*y").quadratic_kinetic) << cross;
+    EXPECT_FALSE(structure(cross + " + (p_x + p_y)/2 + x^2*y").quadratic_kinetic) << cross;
+    EXPECT_FALSE(structure(cross + " + p_x^3 + x^2*y").quadratic_kinetic) << cross;
+  }
+  EXPECT_FALSE(structure("(p_x^2 + p_x*p_y + p_y^2)*(1 + x^2)/2").quadratic_kinetic);
   const auto relativistic = structure("sqrt(1 + p_x^2 + p_y^2) + x^2 + y^2");
   EXPECT_TRUE(relativistic.separable && !relativistic.quadratic_kinetic);
   EXPECT_FALSE(structure("(p_x^2 + p_y^2)/2 + p_x + x*y").quadratic_kinetic);  // a linear term

@@ -15,6 +15,7 @@ struct ComparisonReport {
   std::string json;
   std::string csv;
   std::string text;  // for people
+  std::string hint;  // of a failure: what can be tried
 };
 
 /// @param progress told how far the comparison is; returns false to stop   @throws Error

@@ -8,6 +8,7 @@
 #include "measure_list.hpp"
 #include "number_text.hpp"
 #include "recorder.hpp"
+#include "section_text.hpp"
 
 namespace hamflow {
 
@@ -40,6 +41,13 @@ class EventsMeasure final : public Measure, public Observer {
   }
   void add_events(Json& events) const override {
     for (std::size_t i = 0; i < events_.size(); ++i) events["user:" + events_[i].name] = finders_[i]->points();
+  }
+  std::vector<std::string> event_notes() const override {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      if (finders_[i]->jumps() > 0) all.push_back(events_[i].name + ": " + jumps_text(finders_[i]->jumps()));
+    }
+    return all;
   }
   std::vector<std::int64_t> event_counts() const override {
     std::vector<std::int64_t> all;

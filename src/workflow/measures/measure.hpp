@@ -34,6 +34,8 @@ class Measure {
   virtual nlohmann::ordered_json summary() const = 0;
   /// What it counts among the events.
   virtual void add_events(nlohmann::ordered_json& /*events*/) const {}
+  /// What there is to say of those counts.
+  virtual std::vector<std::string> event_notes() const { return {}; }
   /// Whether the run ends here by its own will.
   virtual bool stops() const { return false; }
   /// Long steps into which it could not look closely enough.

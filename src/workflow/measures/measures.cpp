@@ -36,6 +36,7 @@ std::vector<NamedObserver> Measures::observers() const {
 void Measures::add_to(nlohmann::ordered_json& summary) const {
   for (const auto& [kind, measure] : requested_) {
     measure->add_events(summary["events"]);
+    for (const std::string& note : measure->event_notes()) summary["event_notes"].push_back(note);
     if (const auto entry = measure->summary(); !entry.is_null()) summary[kind->key] = entry;
   }
 }

@@ -8,6 +8,7 @@
 #include "number_text.hpp"
 #include "recorder.hpp"
 #include "run_keys.hpp"
+#include "section_text.hpp"
 
 namespace hamflow {
 
@@ -27,9 +28,7 @@ class SectionMeasure final : public Measure {
     Json all{{"points", finder_.points()}, {"max_residual", finder_.max_residual()}};
     std::string message;
     if (finder_.jumps() > 0) {
-      message = fmt::format("{} of sign {}: the expression jumps there, or has a pole",
-                            finder_.jumps() == 1 ? "1 change" : fmt::format("{} changes", finder_.jumps()),
-                            finder_.jumps() == 1 ? "was no zero" : "were no zeros");
+      message = jumps_text(finder_.jumps());
     }
     if (finder_.failed()) {
       message += (message.empty() ? "" : "; ") + std::string("a partial step failed: no points after it were sought");
