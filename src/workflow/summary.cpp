@@ -14,6 +14,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/methods/step_control.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
@@ -180,7 +181,22 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
 
 /// The hint of the outcome, and what method and problem add to it.
 std::string hint_for(const Request& request, Outcome outcome) {
-  if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
+  if (outcome == Outcome::not_converged) {
+    const std::string solved = hint_after_divergence(request.method);
+    const MethodInfo method = describe(request.method);
+    if (!method.varies_steps) return solved;
+    // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
+    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+    const auto monitor = request.method.options.find(monitor_option);
+    const bool follows_distance = monitor != request.method.options.end() && monitor->second == distance_monitor_name;
+    const std::string other = problem.has_distance && !follows_distance
+                                  ? fmt::format(" or method.{} = \"{}\"", monitor_option, distance_monitor_name)
+                                  : "";
+    const std::string of_density = "try a smaller dt" + other;
+    return method.explicit_step
+               ? of_density
+               : "where the density of steps is at fault, " + of_density + "; where a step was not solved, " + solved;
+  }
   std::string text(hint(outcome));
   if (outcome == Outcome::lattice_overflow) {
     text += fmt::format(", e.g. {{ position = \"2^{}\", momentum = \"2^{}\" }}", std::ilogb(request.position_unit) + 8,
