@@ -9,6 +9,7 @@
 #include "gas_checks.hpp"
 #include "guarded.hpp"
 #include "hamflow/methods/step_control.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "method_keys.hpp"
@@ -72,7 +73,9 @@ class RequestReader {
         MethodSpec method = parse_method(name);
         if (!varies_by_file_) shared.add_to(method, name);
         std::string why_not;
-        if (const auto refused = refused_option(method)) why_not = "method." + refused->name + ": " + refused->message;
+        auto refused = refused_option(method);
+        if (!refused) refused = refused_option(method, scenario_.start_q.size());
+        if (refused) why_not = "method." + refused->name + ": " + refused->message;
         if (why_not.empty()) why_not = refusal(method, scenario_.request.arithmetic);
         if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
         Request one = scenario_.request;

@@ -235,6 +235,7 @@
 #include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/iterated_simulation.hpp"
 #include "hamflow/run/iteration_runner.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/method_family.hpp"
 #include "hamflow/run/observer.hpp"

@@ -100,9 +100,10 @@ MethodSpec parse_method(const std::string& text) {
   if (open == std::string::npos) return spec;
   const std::string rest = trimmed(text.substr(open));
   if (const auto close = rest.rfind(')'); close == std::string::npos) {
-    throw Error("method '" + text + "' lacks its closing parenthesis");
+    throw Error("found '" + text + "', which lacks its closing parenthesis; allowed " + text + ")");
   } else if (close + 1 < rest.size()) {
-    throw Error("method '" + text + "' has '" + trimmed(rest.substr(close + 1)) + "' behind its closing parenthesis");
+    throw Error("found '" + text + "', which has '" + trimmed(rest.substr(close + 1)) +
+                "' behind its closing parenthesis; allowed " + trimmed(text.substr(0, text.rfind(')') + 1)));
   }
   const std::string inside = trimmed(rest.substr(1, rest.size() - 2));
   if (inside.empty()) return spec;

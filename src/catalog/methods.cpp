@@ -4,6 +4,7 @@
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/splitting_named.hpp"
 #include "recipes.hpp"
 #include "step_control.hpp"
@@ -76,6 +77,72 @@ std::vector<std::string> first_methods() {
     if (!advice(MethodSpec{.name = entry.name}).purpose.empty()) names.push_back(entry.name);
   }
   return names;
+}
+
+namespace {
+/// The unknowns of a step, and how they were to be found. None where no number of them changes that.
+struct Unknowns {
+  std::size_t count = 0;
+  Iteration iteration = Iteration::newton;
+  int max_iterations = 0;
+  int usual_iterations = 0;  // where nothing is said
+  bool diagnostics = false;
+};
+
+template <class Options>
+Unknowns unknowns(std::size_t count, const Options& options) {
+  return {count, options.iteration, options.max_iterations, Options{}.max_iterations, options.diagnostics};
+}
+
+/// As the recipes count them.
+Unknowns unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
+  return visit_method(spec, [&]<class M>(const M& recipe) -> Unknowns {
+    const auto times = [&](int per_coordinate) { return coordinates * static_cast<std::size_t>(per_coordinate); };
+    if constexpr (std::is_same_v<M, Averages>) {
+      return unknowns(times(recipe.options.element.degree), recipe.options.element);
+    } else if constexpr (std::is_same_v<M, Cg>) {
+      return unknowns(coordinates, recipe.options);
+    } else if constexpr (std::is_same_v<M, Eg>) {
+      return unknowns(times(recipe.options.degree), recipe.options);
+    } else if constexpr (std::is_same_v<M, Lobatto>) {
+      return unknowns(times(2 * recipe.options.stages), recipe.options);
+    } else if constexpr (std::is_same_v<M, DiscreteGradient> || std::is_same_v<M, ItohAbe>) {
+      return unknowns(times(2), recipe.options);
+    } else {
+      return {};
+    }
+  });
+}
+
+std::string above_the_most(const Unknowns& step) {
+  return "a step has " + std::to_string(step.count) + " unknowns, and above " + std::to_string(most_dense_unknowns) +
+         " they are found ";
+}
+}  // namespace
+
+std::optional<RefusedOption> refused_option(const MethodSpec& spec, std::size_t coordinates) {
+  const Unknowns step = unknowns_of_step(spec, coordinates);
+  if (step.count <= most_dense_unknowns || !step.diagnostics) return std::nullopt;
+  return RefusedOption{diagnostics_option,
+                       "found true; allowed false: " + above_the_most(step) + "without a tangent, which it is about"};
+}
+
+std::vector<ReplacedOption> replaced_options(const MethodSpec& spec, std::size_t coordinates) {
+  const Unknowns step = unknowns_of_step(spec, coordinates);
+  std::vector<ReplacedOption> all;
+  if (step.count <= most_dense_unknowns || step.iteration == Iteration::fixed_point) return all;
+  if (const auto asked = spec.options.find(families::iteration_option); asked != spec.options.end()) {
+    all.push_back(
+        {asked->first, "\"" + asked->second + "\" is not used: " + above_the_most(step) + "by fixed-point iteration"});
+  }
+  const bool as_if_unsaid = step.iteration == Iteration::newton && step.max_iterations == step.usual_iterations;
+  if (const auto asked = spec.options.find(families::max_iterations_option);
+      asked != spec.options.end() && as_if_unsaid) {
+    all.push_back({asked->first, asked->second + " is taken as " + std::to_string(linear_iterations) + ": " +
+                                     above_the_most(step) + "by fixed-point iteration, for which " + asked->second +
+                                     ", what newton takes where nothing is said, counts as nothing said"});
+  }
+  return all;
 }
 
 std::string hint_after_divergence(const MethodSpec& spec) {

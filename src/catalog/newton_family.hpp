@@ -10,6 +10,10 @@
 
 namespace hamflow::families {
 
+/// The options that a system of very many unknowns does not take as they are given.
+inline constexpr const char* iteration_option = "iteration";
+inline constexpr const char* max_iterations_option = "max_iterations";
+
 /// Of elements: the Gauss points. @param position among the options
 template <class Options>
 BoundOption<Options> quadrature_option(int position) {
@@ -51,14 +55,16 @@ void add_newton_options(BoundOptions<Options>& all) {
                  .default_value = "stagnation",
                  .meaning = "with seed stagnation above the tolerance is an error, as in the thesis' programs"},
                 &Options::seed_criterion, {{"stagnation", false}, {"seed", true}}));
-  all.push_back(
-      bind_number({.name = "max_iterations",
-                   .default_value = "15",
-                   .meaning = "corrections a step may take; 100 where nothing is said and iteration is not newton",
-                   .range = Range::whole_from(1, 1000)},
-                  &Options::max_iterations));
+  all.push_back(bind_number(
+      {.name = max_iterations_option,
+       .default_value = "15",
+       .meaning =
+           "corrections of each attempt at a step, of which other first guesses and half steps make several; 100 where "
+           "nothing is said and newton is not taken",
+       .range = Range::whole_from(1, 1000)},
+      &Options::max_iterations));
   all.push_back(bind_word(
-      {.name = "iteration",
+      {.name = iteration_option,
        .default_value = "newton",
        .meaning = "how the equations of a step are solved, from the last steps continued: newton with the exact "
                   "tangent, simplified with one factored once a step, fixed-point with none, from first derivatives; "
@@ -86,7 +92,7 @@ template <class Options>
 Options read_newton(const BoundOptions<Options>& options, const Texts& given) {
   Options read = read_options(options, given);
   if (read.seed_criterion && !read.tolerance) read.tolerance = 1e-13;  // the listings' own
-  if (read.iteration != Iteration::newton && !given.contains(last_option(options, 3))) {
+  if (read.iteration != Iteration::newton && !given.contains(max_iterations_option)) {
     read.max_iterations = linear_iterations;
   }
   return read;
@@ -102,11 +108,23 @@ std::pair<std::string, std::string> refused_together(const BoundOptions<Options>
   return {};
 }
 
+/// Why a step found no solution is not known here, so that each advice says when it helps.
 template <class Options>
 std::string divergence_hint(const Options& read) {
-  return std::string("try a smaller dt, ") + (read.halve ? "" : "method.on_divergence = \"halve\", ") +
-         (read.iteration == Iteration::newton ? "" : "method.iteration = \"newton\", ") +
-         "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
+  const int usual = read.iteration == Iteration::newton ? Options{}.max_iterations : linear_iterations;
+  std::string text = "try ";
+  if (read.max_iterations < usual) {
+    text += std::string("a larger method.") + max_iterations_option + " (" + std::to_string(usual) + " unless said), ";
+  }
+  text += std::string("a smaller dt, ") + (read.halve ? "" : "method.on_divergence = \"halve\", ") +
+          (read.iteration == Iteration::newton ? "" : "method.iteration = \"newton\", ") +
+          "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
+  if constexpr (requires { read.quadrature; }) {
+    if (read.quadrature == 0) {
+      text += "; where H has a kink or a jump, which no quadrature resolves, method.name = \"discrete-gradient\"";
+    }
+  }
+  return text;
 }
 
 }  // namespace hamflow::families

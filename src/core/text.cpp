@@ -106,7 +106,15 @@ std::string nearest(const std::string& name, std::span<const std::string> candid
   const auto begun = std::find_if(candidates.begin(), candidates.end(), [&](const std::string& candidate) {
     return lower_case(candidate).starts_with(wanted);
   });
-  return begun == candidates.end() ? "" : *begun;
+  if (begun != candidates.end()) return *begun;
+  // Words of four letters allow one slip; of one that begins like a single candidate a second one is no other word.
+  constexpr std::size_t beginning = 3;
+  const auto near = [&](const std::string& candidate) {
+    const std::string word = lower_case(candidate);
+    return word.starts_with(wanted.substr(0, beginning)) && edit_distance(wanted, word) == 2;
+  };
+  const bool single = name.size() > beginning && std::count_if(candidates.begin(), candidates.end(), near) == 1;
+  return single ? *std::find_if(candidates.begin(), candidates.end(), near) : "";
 }
 
 std::string suggestion(const std::string& name, std::span<const std::string> candidates) {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
 
@@ -40,20 +41,26 @@ std::string suggested_problem(const std::string& name) {
   return "; did you mean " + problems_by_choice().at(choice) + "?";
 }
 
-std::string key_elsewhere(const std::string& path) {
+std::string key_elsewhere(const std::string& path, const ProblemEntry* problem, const std::string& method) {
   const std::size_t dot = path.rfind('.');
   const std::string name = path.substr(dot == std::string::npos ? 0 : dot + 1);
   std::vector<std::string> places;
   for (const DeclaredTable& table : declared_tables()) {
     if (has(option_names(table.keys), name)) places.push_back(table.name + "." + name);
   }
-  if (has(all_method_keys(), name)) places.push_back("method." + name);
-  const bool of_problem = std::any_of(problems().begin(), problems().end(), [&](const ProblemEntry& entry) {
+  const bool of_method =
+      method.empty() ? has(all_method_keys(), name) : find_option(find_method(method).family->options, name) != nullptr;
+  if (of_method) places.push_back("method." + name);
+  const auto has_key = [&](const ProblemEntry& entry) {
     const auto is_choice = [&](const auto& choice) { return choice.first == name; };
     return find_option(entry.info.parameters, name) != nullptr ||
            std::any_of(entry.info.variant.begin(), entry.info.variant.end(), is_choice);
-  });
-  if (of_problem || name == "initial" || name == "orbit") places.push_back("problem." + name);
+  };
+  const bool of_problem =
+      problem == nullptr ? std::any_of(problems().begin(), problems().end(), has_key) : has_key(*problem);
+  const bool typed = problem != nullptr && problem->structure && find_option(problem->info.parameters, name) != nullptr;
+  if (typed) places.push_back(std::string("problem.") + FormulaKeys::parameters + "." + name);
+  if ((of_problem && !typed) || name == "initial" || name == "orbit") places.push_back("problem." + name);
   std::erase(places, path);
   return places.empty() ? "" : "; did you mean " + joined(places, " or ") + "?";
 }

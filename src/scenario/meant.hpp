@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "hamflow/run/catalog.hpp"
+
 namespace hamflow {
 
 /// "; did you mean ...?" for a problem that there is not: the name of one, or one of its choices, as in
@@ -10,6 +12,8 @@ namespace hamflow {
 std::string suggested_problem(const std::string& name);
 
 /// "; did you mean run.dt?" for a dotted path whose last part is a key of another table. Empty where it is none.
-std::string key_elsewhere(const std::string& path);
+/// @param problem,method whose keys alone are meant; null, or empty: those of any
+std::string key_elsewhere(const std::string& path, const ProblemEntry* problem = nullptr,
+                          const std::string& method = "");
 
 }  // namespace hamflow

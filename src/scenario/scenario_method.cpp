@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hamflow/methods/step_control.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "method_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -48,7 +49,20 @@ void ScenarioReader::read_method(TomlTable& table) {
     const std::string why_not = refusal(spec, *scenario_.problem);
     if (!why_not.empty()) table.complain(key, table.found(key) + "; " + why_not);
   }
-  table.finish();
+  table.finish(scenario_.problem, spec.name);
+}
+
+/// What a step of so many unknowns does not allow, and what it takes in place of what was asked for.
+void ScenarioReader::check_method_for_size(TomlTable& table) {
+  if (!has_method() || scenario_.problem == nullptr || refused_option(scenario_.request.method)) return;
+  const MethodSpec& spec = scenario_.request.method;
+  const std::size_t coordinates = scenario_.start_q.size();
+  if (const auto refused = refused_option(spec, coordinates)) {
+    table.complain(table.has(refused->name) ? refused->name : method_name_key().name, refused->message);
+  }
+  for (const ReplacedOption& replaced : replaced_options(spec, coordinates)) {
+    scenario_.notes.push_back(table.full(replaced.name) + " = " + replaced.message);
+  }
 }
 
 /// False where there is none that is known.

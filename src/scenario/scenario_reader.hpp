@@ -44,6 +44,7 @@ class ScenarioReader {
     read_run(run);
     check_walls();
     check_gas();
+    check_method_for_size(method);
     read_output(output);
     root_.finish();
     return scenario_;
@@ -84,6 +85,7 @@ class ScenarioReader {
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
   bool read_method_name(TomlTable& table);
+  void check_method_for_size(TomlTable& table);
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
   void read_kernel(TomlTable& table);

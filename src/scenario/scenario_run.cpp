@@ -34,7 +34,7 @@ void ScenarioReader::read_run(TomlTable& table) {
   read_measures(table);
   read_kernel(table);
   read_lattice(table);
-  table.finish();
+  table.finish(scenario_.problem, scenario_.request.method.name);
 }
 
 void ScenarioReader::read_kernel(TomlTable& table) {

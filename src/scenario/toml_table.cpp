@@ -333,7 +333,7 @@ TomlTable TomlTable::table(const std::string& key) {
   return {node == nullptr ? nullptr : node->as_table(), full(key), file_, *complaints_};
 }
 
-void TomlTable::finish() {
+void TomlTable::finish(const ProblemEntry* problem, const std::string& method) {
   if (table_ == nullptr) return;
   std::vector<std::string> distinct;
   for (const std::string& key : known_) {
@@ -349,7 +349,7 @@ void TomlTable::finish() {
     const bool in_file = key.source().begin.line > 0 && !hamflow::is_set(node);
     const toml::source_region& where = in_file ? key.source() : node.source();
     const std::string near = suggestion(name, known_);
-    const std::string meant = near.empty() ? key_elsewhere(full(name)) : near;
+    const std::string meant = near.empty() ? key_elsewhere(full(name), problem, method) : near;
     complain_at(where, name, "found an unknown key; allowed " + joined(known_) + meant);
   }
 }

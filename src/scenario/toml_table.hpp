@@ -55,7 +55,8 @@ class TomlTable {
   bool is_set(const std::string& key) const;
 
   /// Complains about every key that no look-up has made known, and names the nearest that is.
-  void finish();
+  /// @param problem,method where they are known: what stands in other tables with them, alone is proposed
+  void finish(const ProblemEntry* problem = nullptr, const std::string& method = "");
 
   /// The text of a string; none where the value is another, which is not complained about.
   std::optional<std::string> plain_string(const std::string& key);

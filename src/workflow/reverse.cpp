@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
@@ -58,10 +59,23 @@ std::string exact_return(const Scenario& scenario) {
   return {};
 }
 
-/// @param tolerance as it was given, else empty
+/// What the distance says about a method that is not reversible: where rounding explains it, nothing.
+std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, const std::string& method) {
+  const std::string begun = method + " is not reversible";
+  if (r.outcome != Outcome::done) return begun;
+  if (r.bit_exact) return begun + ", but every bit came back: its defect is below rounding here";
+  const ReversalEvidence evidence = reversal_evidence(scenario.request, *scenario.problem, r.steps, std::nullopt);
+  if (evidence.proves == ReversalProof::not_reversible) {
+    return begun + ": the distance is its own, not that of rounding alone";
+  }
+  return begun + ", but no distance of its own is shown: " + evidence.reason;
+}
+
+/// @param tolerance as it was given, else empty   @param irreversible what to say of a method that is not reversible
 /// @param exact_with see exact_return
 std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
-                    bool even, bool expected, const std::string& exact_with) {
+                    bool even, bool expected, const std::function<std::string()>& irreversible,
+                    const std::string& exact_with) {
   if (timed) {
     return "H depends on t, which goes on: the motion itself is not reversed by negating the momenta, so that a "
            "distance "
@@ -72,8 +86,7 @@ std::string note_of(const MethodInfo& method, const std::string& tolerance, cons
            "distance says nothing about the method";
   }
   if (expected) return "a palindromic splitting on the lattice returns every bit";
-  if (!method.reversible)
-    return method.name + " is not reversible: the distance is its own, not that of rounding alone";
+  if (!method.reversible) return irreversible();
   if (!tolerance.empty()) {
     return method.name + " is reversible, but steps solved to tolerance = " + tolerance +
            " are not, and neither is rounding";
@@ -205,8 +218,10 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   const Reversal& r = report.reversal;
   const MethodSpec& method = scenario.request.method;
   const auto tolerance = method.options.find(tolerance_option);
-  report.note = note_of(describe(method), tolerance == method.options.end() ? "" : tolerance->second,
-                        scenario.request.arithmetic, timed, even, report.expected_bit_exact, exact_return(scenario));
+  const MethodInfo info = describe(method);
+  report.note = note_of(
+      info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic, timed, even,
+      report.expected_bit_exact, [&] { return note_of_irreversible(scenario, r, info.name); }, exact_return(scenario));
   if (rejects_steps(scenario)) {
     report.note +=
         (report.note.empty() ? "" : "; ") +

@@ -5,6 +5,7 @@
 
 #include "gas_checks.hpp"
 #include "hamflow/methods/step_control.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "method_keys.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
@@ -112,9 +113,9 @@ void Session::set_method(const MethodSpec& method) {
   const auto control = next.method.options.find(step_control_option);
   const bool varies = control != next.method.options.end() && control->second == reversible_steps;
   if (!varies && !method.options.contains(monitor_option)) next.method.options.erase(monitor_option);
-  if (const auto refused = refused_option(next.method)) {
-    throw Error(method.name + ": " + refused->name + ": " + refused->message);
-  }
+  auto refused = refused_option(next.method);
+  if (!refused) refused = refused_option(next.method, scenario_.start_q.size());
+  if (refused) throw Error(method.name + ": " + refused->name + ": " + refused->message);
   if (const std::string why_not = refused_by_walls(next, *scenario_.problem, scenario_.start_q); !why_not.empty()) {
     throw Error("method: found " + describe(next.method).name + " beside problem.wall_rule = \"" + rule_of_walls(next) +
                 "\" " + why_not);

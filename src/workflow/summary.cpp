@@ -14,6 +14,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/core/text_place.hpp"
 #include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/methods/step_control.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/wall_failures.hpp"
@@ -181,11 +182,27 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
 
 }  // namespace
 
+/// The hint of the outcome, and what method and problem add to it.
 std::string hint_for(const Request& request, Outcome outcome, std::string_view failure) {
-  if (outcome == Outcome::not_converged) return hint_after_divergence(request.method);
   if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
     return "no dt helps: it is H that has a single root in that momentum, so that no hard wall throws it back; allowed "
            "an H with two, such as p^2/2, or no wall there";
+  }
+  if (outcome == Outcome::not_converged) {
+    const std::string solved = hint_after_divergence(request.method);
+    const MethodInfo method = describe(request.method);
+    if (!method.varies_steps) return solved;
+    // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
+    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+    const auto monitor = request.method.options.find(monitor_option);
+    const bool follows_distance = monitor != request.method.options.end() && monitor->second == distance_monitor_name;
+    const std::string other = problem.has_distance && !follows_distance
+                                  ? fmt::format(" or method.{} = \"{}\"", monitor_option, distance_monitor_name)
+                                  : "";
+    const std::string of_density = "try a smaller dt" + other;
+    return method.explicit_step
+               ? of_density
+               : "where the density of steps is at fault, " + of_density + "; where a step was not solved, " + solved;
   }
   std::string text(hint(outcome));
   if (outcome == Outcome::lattice_overflow) {

@@ -214,7 +214,25 @@ record_every = true
 
     def test_what_stands_behind_a_parenthesis(self):
         self.assertIn("has 'x' behind its closing parenthesis", self.hamflow("verify", "cg(2)x", status=2).stderr)
-        self.assertIn("lacks its closing parenthesis", self.hamflow("verify", "cg(2", status=2).stderr)
+        for told in (self.hamflow("verify", "cg(2", status=2).stderr,
+                     self.hamflow("run", "kepler.toml", "--set", "method.name=cg(2", status=2).stderr):
+            self.assertIn("found 'cg(2', which lacks its closing parenthesis; allowed cg(2)", told)
+
+    def test_a_key_of_another_table_is_proposed_where_the_problem_and_the_method_have_it(self):
+        self.write("typed.toml", '[problem]\nname = "formula"\ncoordinates = ["x"]\nmomenta = ["p"]\n'
+                   'hamiltonian = "p^2/2 - a*cos(x)"\nparameters = { a = 2 }\ninitial = { q = [1], p = [0] }\n'
+                   '[method]\nname = "cg"\n[run]\ndt = 0.1\nsteps = 1\n')
+
+        def told(*settings, scenario="typed.toml"):
+            sets = [word for setting in settings for word in ("--set", setting)]
+            return self.hamflow("run", scenario, *sets, "--out", "none", status=2).stderr
+
+        self.assertNotIn("did you mean", told("method.omega=20"))
+        self.assertIn("did you mean problem.parameters.a?", told("method.a=20"))
+        self.assertIn("did you mean problem.k?", told("method.k=20", scenario="kepler.toml"))
+        self.assertIn("did you mean method.quadrature?", told("run.quadrature=3"))
+        self.assertNotIn("did you mean", told("run.quadrature=3", "method.name=verlet"))
+        self.assertIn("did you mean halve?", told("method.on_divergence=half"))
 
     def test_a_page_is_written_somewhere(self):
         self.assertIn("found --out none", self.hamflow("reproduce", "G2.8", "--quick", "--out", "none", status=2).stderr)

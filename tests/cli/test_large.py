@@ -61,7 +61,7 @@ class Large(CommandCase):
     def test_what_needs_a_matrix_is_refused(self):
         scenario = self.cluster(200, 'name = "cg"\ndiagnostics = true')
         said = self.hamflow("run", scenario, "--out", "none", status=2).stderr
-        self.assertIn("systems of more than 500 unknowns are solved without a tangent", said)
+        self.assertIn("unknowns, and above 500 they are found without a tangent", said)
 
     def test_it_is_said(self):
         for name in ("cg", "gauss", "avf", "implicit-midpoint"):

@@ -184,7 +184,7 @@ class OtherImplicit(CommandCase):
         self.write("steep.toml", "[problem]\nname='formula'\ncoordinates=['x']\nhamiltonian='p_x^2/2 + 1e6*x^2/2 + x^4'\n"
                    "initial={q=[1],p=[0]}\n[method]\nname='discrete-gradient'\niteration='fixed-point'\non_divergence='halve'\n"
                    "[run]\ndt=0.1\nsteps=3\n")
-        for method in ("discrete-gradient", "itoh-abe", "lobatto-3a-3b"):
+        for method in ("discrete-gradient", "itoh-abe"):
             found = self.summary("steep.toml", "--set", f"method.name={method}")
             self.assertGreater(found["events"]["halved"], 0, method)
 
@@ -214,6 +214,76 @@ class OtherImplicit(CommandCase):
             self.assertIn("no bijection of the lattice", self.refused("plane.toml", chosen, "run.arithmetic=lattice"))
             self.assertIn("needs the exact force", self.refused("plane.toml", chosen, "run.kernel=fast"))
             self.assertIn("unknown key", self.refused("plane.toml", chosen, "method.quadrature=3"))
+
+
+LARGE = FREE % ('name = "fput"\nn = 600\nalpha = 0.25\n'
+                f'initial = {{ q = {[round(math.sin(math.pi * (i + 1) / 601), 3) for i in range(600)]}, p = {[0.0] * 600} }}', 0.1)
+KINK = """
+[problem]
+name = "formula"
+coordinates = ["x"]
+momenta = ["p"]
+hamiltonian = "p^2/2 + abs(x)"
+initial = { q = [0.7], p = [0.4] }
+[method]
+name = "cg(1)"
+[run]
+dt = 0.05
+steps = 200
+"""
+
+
+class WhatASystemOfManyUnknownsDoesNotTake(CommandCase):
+    """Above 500 unknowns no tangent is made: what is about one is refused as every wrong value is, what asks for one noted."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("large.toml", LARGE.replace("steps = 60", "steps = 1"))
+
+    def test_diagnostics(self):
+        for method in ("cg(1)", "cg(2)", "gauss(2)", "discrete-gradient", "lobatto-3a-3b(2)", "avf", "implicit-midpoint"):
+            sets = ("--set", f"method.name={method}", "--set", "method.diagnostics=true")
+            done = self.hamflow("run", "large.toml", *sets, "--out", "none", "--json", status=2)
+            (error,) = json.loads(done.stdout)["errors"]
+            self.assertEqual(error["key"], "method.diagnostics", method)
+            self.assertRegex(error["message"], "found true; allowed false: a step has [0-9]+ unknowns, and above 500", method)
+            self.assertIn("--set: error: method.diagnostics: found true", done.stderr)
+        self.write("kept.toml", LARGE.replace('"gauss(2)"', '"gauss(2)"\ndiagnostics = true'))
+        self.assertRegex(self.hamflow("run", "kept.toml", status=2).stderr, "kept.toml:[0-9]+:[0-9]+: error: method.diagnostics: found")
+        told = self.hamflow("sweep", "large.toml", "--vary", "run.dt=0.1,0.2", "--set", "method.diagnostics=true", "--out",
+                            "none", status=2).stderr
+        self.assertIn("method.diagnostics: found true", told)
+        told = self.hamflow("compare", "large.toml", "--methods", "cg(2,3,diagnostics=true),gauss(2)", status=2).stderr
+        self.assertIn("found 'cg(2,3,diagnostics=true)'; method.diagnostics: found true; allowed false", told)
+
+    def test_what_is_taken_in_place_of_newton_is_noted(self):
+        def told(*settings):
+            sets = [word for setting in settings for word in ("--set", setting)]
+            return self.hamflow("run", "large.toml", *sets, "--out", "none").stderr
+
+        self.assertNotIn("note: method", told())
+        self.assertNotIn("note: method", told("method.iteration=fixed-point", "method.max_iterations=50"))
+        for asked in ("newton", "simplified"):
+            self.assertIn(f'note: method.iteration = "{asked}" is not used: a step has 1200 unknowns', told(f"method.iteration={asked}"))
+        self.assertIn("note: method.max_iterations = 15 is taken as 100", told("method.max_iterations=15"))
+        self.assertNotIn("note: method", told("method.max_iterations=60"))
+
+
+class WhatAStepThatFoundNoSolutionIsToldToTry(CommandCase):
+    def hint(self, *settings, scenario="kink.toml"):
+        self.write("kink.toml", KINK)
+        sets = [word for setting in settings for word in ("--set", setting)]
+        return self.summary(scenario, *sets, status=1)["error"]["hint"]
+
+    def test_too_few_iterations(self):
+        few = ("problem.hamiltonian=p^2/2-cos(x)", "method.max_iterations=1", "method.name=gauss(2)", "run.dt=1")
+        self.assertIn("a larger method.max_iterations (15 unless said)", self.hint(*few))
+        self.assertNotIn("max_iterations", self.hint())
+
+    def test_a_kink(self):
+        self.assertIn('method.name = "discrete-gradient"', self.hint())
+        self.assertNotIn("discrete-gradient", self.hint("method.name=cg(1,3)", "method.tolerance=1e-300", "method.criterion=seed"))
+        self.summary("kink.toml", "--set", "method.name=discrete-gradient")
 
 
 def max_of(errors):

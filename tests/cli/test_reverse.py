@@ -36,6 +36,18 @@ class Reverse(CommandCase):
         self.assertGreater(s["relative_distance"], 1e-3)
         self.assertIn("not reversible", s["note"])
 
+    def test_a_defect_below_rounding_is_not_called_its_own(self):
+        self.write("pendulum.toml", '[problem]\nname = "formula"\ncoordinates = ["x"]\nmomenta = ["p"]\n'
+                   'hamiltonian = "p^2/2 - cos(x)"\ninitial = { q = [2], p = [0] }\n'
+                   '[method]\nname = "itoh-abe"\n[run]\ndt = 0.1\nsteps = 50\n')
+        near = self.reverse("pendulum.toml")
+        self.assertLess(near["digits_lost"], 1)
+        if not near["bit_exact"]:
+            self.assertRegex(near["note"], "^itoh-abe is not reversible, but no distance of its own is shown: .* off, of which "
+                             "rounding explains .*its defect is below that")
+        far = self.reverse("pendulum.toml", "--set", "method.name=rk4")
+        self.assertEqual(far["note"], "rk4 is not reversible: the distance is its own, not that of rounding alone")
+
     def test_rounding(self):
         s = self.reverse("kepler.toml", "--set", "method={name='stv4'}", "--set", "run.steps=1000")
         self.assertFalse(s["expected_bit_exact"])

@@ -191,6 +191,15 @@ class StepControl(CommandCase):
         error = json.loads(done.stdout)["error"]
         self.assertEqual(error["kind"], "not_converged")
         self.assertIn("density of steps", error["message"])
+        self.assertEqual(error["hint"], "try a smaller dt")
+        eccentric = ("--set", "problem.orbit={ kind='ellipse', r_per=0.1, r_aph=1.9 }", "--set", "problem.mass=1", "--set",
+                     "method={ name='gauss(3)', step_control='reversible' }", "--set", "run.dt=0.02", "--set", "run.steps=100",
+                     "--out", "none", "--json")
+        error = json.loads(self.hamflow("run", "kepler.toml", *eccentric, status=1).stdout)["error"]
+        self.assertIn("density of steps", error["message"])
+        self.assertEqual(error["hint"].split(";")[0],
+                         'where the density of steps is at fault, try a smaller dt or method.monitor = "distance"')
+        self.hamflow("run", "kepler.toml", *eccentric, "--set", "method.monitor=distance")
 
 
 if __name__ == "__main__":

@@ -178,7 +178,7 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
       std::to_string(methods().size() - first_methods().size()) + " others (hamflow list methods)";
   EXPECT_EQ(message("verlett"), "found the method 'verlett" + first + others + "; did you mean verlet?");
   EXPECT_EQ(message("qqqqqqqqqqqq"), "found the method 'qqqqqqqqqqqq" + first + others);
-  EXPECT_EQ(message("cg(1,5"), "method 'cg(1,5' lacks its closing parenthesis");
+  EXPECT_EQ(message("cg(1,5"), "found 'cg(1,5', which lacks its closing parenthesis; allowed cg(1,5)");
   EXPECT_EQ(message("stv4(2)"),
             "stv4: found an option without a name; allowed by name: step_control=VALUE, monitor=VALUE");
   const std::string points = "; allowed a whole number from 1 to 64, or \"auto\"";

@@ -32,6 +32,8 @@ TEST(Text, TheNearestNameIsTheOneWithFewestEdits) {
   EXPECT_EQ(nearest("yosida6", names), "yoshida6");
   EXPECT_EQ(nearest("completely-different", names), "");
   EXPECT_EQ(nearest("x", Words{}), "");
+  EXPECT_EQ(nearest("half", Words{"error", "halve"}), "halve") << "two slips in a word that begins like one candidate";
+  EXPECT_EQ(nearest("half", Words{"halve", "halts"}), "") << "or like two";
   EXPECT_EQ(nearest("ab", Words{"ax", "ay"}), "ax") << "the first of equally near ones";
 }
 

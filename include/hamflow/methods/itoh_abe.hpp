@@ -1,9 +1,9 @@
 // The discrete gradient of coordinate increments: coordinates change one after the other, q1 .. qn, then p1 .. pn, and
 //     DH_i = [H(z1_1 .. z1_i, z0_(i+1) ..) - H(z1_1 .. z1_(i-1), z0_i ..)]/(z1_i - z0_i).   [ItohAbe1988]
-// Order 1, conserves H whatever it is, needs no derivative of H; not symmetric. The quotient comes from a recording of
-// H (numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a coordinate does not move.
-// Newton takes the exact tangent: dDH_i/dz_j, j < i, is the same quotient of dH/dz_j, and dDH_i/dz1_i is found by dual
-// numbers through the quotient.
+// Order 1, conserves H whatever it is, no derivative of H stands in the map; not symmetric. The quotient comes from a
+// recording of H (numerics/slope.hpp): it rounds like dH/dz_i for any increment, and is dH/dz_i where a coordinate does
+// not move. Newton takes the exact tangent: dDH_i/dz_j, j < i, is the same quotient of dH/dz_j, and dDH_i/dz1_i is
+// found by dual numbers through the quotient.
 #pragma once
 
 #include "hamflow/methods/implicit/discrete_gradient.hpp"
@@ -15,7 +15,8 @@ namespace hamflow {
 
 inline MethodInfo coordinate_increment_claims() {
   return {.name = "itoh-abe",
-          .summary = "coordinate increments of Itoh and Abe: conserves any H, without derivatives",
+          .summary =
+              "coordinate increments of Itoh and Abe: conserves any H, made of its values, solved with its derivatives",
           .reference = "ItohAbe1988; HLW2006, Sect. V.5",
           .order = 1,
           .explicit_step = false,

@@ -22,7 +22,9 @@ struct ItohAbe {
   static MethodFamily declared() {
     return {
         .name = "itoh-abe",
-        .meaning = "the coordinate increments of Itoh and Abe: conserves any H, without derivatives, order 1",
+        .meaning =
+            "the coordinate increments of Itoh and Abe: conserves any H, made of its values, solved with its "
+            "derivatives, order 1",
         .methods = {"itoh-abe"},
         .options = declarations_of(options()),
         .read = [](const Texts& given) { return std::any(read(given)); },
