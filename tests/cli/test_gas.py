@@ -333,6 +333,15 @@ class Gas(CommandCase):
             self.assertAlmostEqual(s["return_error"][name + "_rms"], length / 11, delta=1e-12 * length)
         self.assertAlmostEqual(s["digits_lost"], math.log10(s["relative_distance"] * 2**53), delta=1e-12)
 
+    def test_pairs_beyond_a_cutoff_are_not_counted_as_computed(self):
+        self.write("gas.toml", GAS % "cutoff = 1.4")
+        s = self.reverse("gas.toml")
+        self.assertIsNone(s["pair_evaluations"])
+        self.assertEqual(s["force_evaluations"], 2 * (20 * 3 + 1))
+        self.assertIn("; 122 force evaluations\n", self.hamflow("reverse", "gas.toml").stdout)
+        self.write("gas.toml", GAS % "")
+        self.assertIn(f"; {122 * 16 * 15 // 2} pairs computed\n", self.hamflow("reverse", "gas.toml").stdout)
+
     def test_every_bit_comes_back(self):
         for keys in ("", 'container = { kind = "none" }', 'container = { kind = "box", size = [2.1, 2.1] }',
                      'cutoff = { radius = 1.6, kind = "smooth", inner = 1.2 }\ncontainer = { kind = "periodic", size = [2.7, 3] }',
