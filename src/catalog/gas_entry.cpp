@@ -16,6 +16,7 @@
 #include "outside_simulation.hpp"
 #include "recipes.hpp"
 #include "start_of_energy.hpp"
+#include "step_control.hpp"
 
 namespace hamflow {
 
@@ -254,8 +255,11 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   const R h = evaluate_number<R>(request.dt);
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
-    const bool walls = walls_among(request.variant).has_value();  // these are told behind virtual calls
-    if (request.arithmetic == "lattice" && !walls) simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
+    // Walls are told, and steps of varying length taken, behind virtual calls.
+    const bool behind_calls = walls_among(request.variant) || step_control_of(request.method).reversible;
+    if (request.arithmetic == "lattice" && !behind_calls) {
+      simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
+    }
   }
   if (!simulation) {
     ErasedFunctions<R> functions = gas_functions<R>(shape, given, size);

@@ -353,6 +353,19 @@ class Gas(CommandCase):
             self.assertEqual(s["hash"]["start"], s["hash"]["end"])
             self.assertNotEqual(s["hash"]["start"], s["hash"]["turn"])
 
+    def test_steps_of_varying_length_on_the_lattice(self):
+        varying = ("--set", "method.step_control=reversible", "--set", "run.steps=50")
+        for keys in ("", 'pair = "formula"\nphi = "r^-12 - 2*r^-6"', "cutoff = 1.4",
+                     'cutoff = 1.2\ncontainer = { kind = "periodic", size = [2.7, 3] }'):
+            with self.subTest(keys):
+                on_lattice = self.gas(keys, *varying, "--set", "run.arithmetic=lattice")
+                double = self.gas(keys, *varying)
+                self.assertEqual(on_lattice["method"], "stv4(step_control=reversible)")
+                self.assertAlmostEqual(on_lattice["final"]["t"], double["final"]["t"], delta=1e-9)
+                self.assertGreater(abs(double["final"]["t"] - 50 * 0.0005), 1e-4)
+                s = self.reverse("gas.toml", *varying, "--set", "run.arithmetic=lattice")
+                self.assertTrue(s["bit_exact"] and s["expected_bit_exact"])
+
     def test_threads_change_no_bit(self):
         turns = [self.reverse(str(EXAMPLES / "gas_121.toml"), "--set", "run.arithmetic=lattice", "--set",
                               "run.steps=10", "--set", f"run.threads={n}")["hash"] for n in (1, 2, 4)]
