@@ -85,6 +85,12 @@ class Gas(CommandCase):
                             ("x,y,p_x,p_y,masss\n0,0,0,0,1\n", "masss"), ("x,y,p_x,p_y\n", "no particle")):
             self.write("start.csv", wrong)
             self.assertIn(said, self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
+        for wrong in (b"", b"\x89HDF\r\n\x1a\n and then nothing"):
+            (self.folder / "bad.h5").write_bytes(wrong)
+            self.assertIn("found bad.h5, which is damaged or no HDF5 file",
+                          self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.file=bad.h5", status=2).stderr)
+        self.assertIn('allowed with particles_per_side, else "listing" or a number',
+                      self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.scale=per-side", status=2).stderr)
         (self.folder / "start.csv").unlink()
         self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
 
@@ -254,6 +260,10 @@ class Gas(CommandCase):
                 ("masses = [1, 2, 3]", "problem.masses: found 3 numbers; allowed one, or 16"),
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
+                ('seed = 3\nstart = "corner"', 'problem.seed: found 3; allowed with start = "lattice"'),
+                ('seed = 3\nstart = "file"\nfile = "x.csv"', 'problem.seed: found 3; allowed with start = "lattice"'),
+                ('scale = 1\ncutoff = 1\ncontainer = { kind = "periodic", size = [3, 2] }',
+                 "particles 1 and 13 at images of one point"),
                 ('wall_rule = "mirror"', "walls"),
                 ("initial = { q = [0, 0, 0, 0], p = [0, 0, 0, 0] }", "particles 1 and 2 at one point"),
                 ("particle = 3", "did you mean")):
