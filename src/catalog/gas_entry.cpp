@@ -16,6 +16,7 @@
 #include "outside_simulation.hpp"
 #include "recipes.hpp"
 #include "start_of_energy.hpp"
+#include "step_control.hpp"
 
 namespace hamflow {
 
@@ -164,6 +165,33 @@ std::pair<std::string, std::string> refused_parameters(const Kind& kind, const T
           "allowed at most " + shortest(most) + ", half the shortest edge of the periodic box (times scale)"};
 }
 
+/// Two particles of a periodic box whose nearest images are at one point, from 0.
+std::optional<std::pair<std::size_t, std::size_t>> at_images(const std::vector<double>& q,
+                                                             const std::vector<double>& edges) {
+  const std::size_t space = edges.size();
+  const auto in_box = [&](std::size_t i) {
+    std::vector<double> place(space);
+    for (std::size_t k = 0; k < space; ++k) {
+      const double x = q[i * space + k];
+      place[k] = x - edges[k] * std::floor(x / edges[k] + 0.5);
+    }
+    return place;
+  };
+  std::vector<std::pair<std::vector<double>, std::size_t>> places;
+  for (std::size_t i = 0; i < q.size() / space; ++i) places.emplace_back(in_box(i), i);
+  std::sort(places.begin(), places.end());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const auto [a, b] = std::minmax(places[i - 1].second, places[i].second);
+    bool same = places[i - 1].first == places[i].first;
+    for (std::size_t k = 0; same && k < space; ++k) {  // as the pair itself is computed
+      const double d = q[a * space + k] - q[b * space + k];
+      same = d - edges[k] * std::nearbyint(d / edges[k]) == 0;
+    }
+    if (same) return std::pair<std::size_t, std::size_t>(a, b);
+  }
+  return std::nullopt;
+}
+
 /// Particles outside, and two at one point, where phi is not defined.
 std::string refused_start(const Kind& kind, const Texts& texts, const std::vector<double>& q) {
   const Parameters<double> given(texts);
@@ -193,6 +221,13 @@ std::string refused_start(const Kind& kind, const Texts& texts, const std::vecto
     if (!std::equal(place(a), end(a), place(b))) continue;
     return "particles " + std::to_string(a + 1) + " and " + std::to_string(b + 1) +
            " at one point; allowed different positions";
+  }
+  if (kind.shape.container != ContainerKind::periodic) return {};
+  if (const auto same = at_images(q, given.list(Keys::size))) {
+    return "particles " + std::to_string(same->first + 1) + " and " + std::to_string(same->second + 1) +
+           " at images of one point, whole edges of the periodic box apart; allowed different positions in a box of "
+           "size = [" +
+           joined(given.list(Keys::size), shortest) + "]";
   }
   return {};
 }
@@ -254,8 +289,11 @@ std::unique_ptr<Simulation> simulate_in(const GasShape& shape, const Request& re
   const R h = evaluate_number<R>(request.dt);
   std::unique_ptr<Simulation> simulation;
   if constexpr (std::is_same_v<R, double>) {
-    const bool walls = walls_among(request.variant).has_value();  // these are told behind virtual calls
-    if (request.arithmetic == "lattice" && !walls) simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
+    // Walls are told, and steps of varying length taken, behind virtual calls.
+    const bool behind_calls = walls_among(request.variant) || step_control_of(request.method).reversible;
+    if (request.arithmetic == "lattice" && !behind_calls) {
+      simulation = simulate_gas_on_lattice(gas, s.q, s.p, h, request);
+    }
   }
   if (!simulation) {
     ErasedFunctions<R> functions = gas_functions<R>(shape, given, size);

@@ -88,10 +88,12 @@ Series track_of(const Curve& track, const Curve& opening, Series how, bool& open
   return how;
 }
 
-std::string opening_note(const FigureData& data) {
+void note_opening(Page& page, const FigureData& data) {
+  if (!data.opening.t.empty() && !data.t.empty() && data.opening.t.back() == data.t.back()) return;  // all of the run
   const auto text = [](double t) { return short_value(t); };
-  return "the first steps alone, to {/:Italic t} = " + text(data.opening.t.empty() ? 0 : data.opening.t.back()) +
-         " of " + text(data.t.empty() ? 0 : data.t.back());
+  page.notes.push_back(
+      "the first steps alone, to {/:Italic t} = " + text(data.opening.t.empty() ? 0 : data.opening.t.back()) + " of " +
+      text(data.t.empty() ? 0 : data.t.back()));
 }
 
 Curve dots_on_line(const Curve& track, const Panel& panel) {

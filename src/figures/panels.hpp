@@ -25,8 +25,8 @@ Series series_of(const Figure& figure, std::size_t run);
 /// The samples of a path: a line where chords follow it; else the line of its opening, where that is known and does;
 /// else dots. `opened` becomes true where the opening was taken.
 Series track_of(const Curve& track, const Curve& opening, Series how, bool& opened);
-/// "first part of the run, t = 0 to 12": of figures with an opening.
-std::string opening_note(const FigureData& data);
+/// "the first steps alone, to t = 12 of 300", of figures with an opening; nothing where that is all of the run.
+void note_opening(Page& page, const FigureData& data);
 /// Dots about a millimetre apart in print, so that the exact line shows between them.
 Curve dots_on_line(const Curve& track, const Panel& panel);
 

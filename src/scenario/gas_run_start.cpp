@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
@@ -145,7 +146,13 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
   const auto open = [&](unsigned flags) { return H5Fopen(file.c_str(), flags, H5P_DEFAULT); };
   const hid_t plain = open(H5F_ACC_RDONLY);
   const Open h5(plain >= 0 ? plain : open(H5F_ACC_RDONLY | H5F_ACC_SWMR_READ), H5Fclose);
-  if (h5.id < 0) throw Error("found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
+  if (h5.id < 0) {
+    std::error_code none;
+    const bool is_there = std::filesystem::is_regular_file(file, none) && std::ifstream(file).good();
+    throw Error(is_there
+                    ? "found " + file.string() + ", which is damaged or no HDF5 file; allowed a whole run.h5, or a CSV"
+                    : "found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
+  }
   const Place place = place_of(h5.id, file, which);
   if (place.numbers % space != 0) {
     throw Error("found states of " + std::to_string(place.numbers) + " numbers in " + file.string() + "; allowed " +

@@ -220,6 +220,9 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
   const auto file = table.text(o.file);
   const auto seed = table.whole(o.seed);
   if (table.has("initial")) return {};  // which overrides it
+  if (seed && kind != GasStarts::lattice) {
+    table.complain(o.seed.name, table.found(o.seed.name) + "; allowed " + o.seed.condition);
+  }
   if (kind == GasStarts::file) {
     if (!file) {
       if (!table.has(o.file.name)) table.missing(o.file.name, o.file.meaning);
@@ -273,7 +276,8 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
   const bool corner = table.plain_string(o.start.name) == GasStarts::corner && !table.has("initial");
   if (word == GasScales::per_side) {
     if (n == 0) {
-      table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else a number");
+      table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else \"" +
+                                       GasScales::listing + "\" or a number");
     }
     parameters[GasKeys::scale] = corner ? std::to_string(n - 1) : std::to_string(n - 1) + "/2";
   } else if (word == GasScales::listing) {

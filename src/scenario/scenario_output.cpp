@@ -60,7 +60,7 @@ void ScenarioReader::read_observables(TomlTable& output) {
     return;
   }
   TomlTable table = output.table(key);
-  if (scenario_.problem != nullptr) {
+  if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {  // without a start there are no parameters either
     const StateNames names = state_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
     taken.insert(taken.end(), names.q.begin(), names.q.end());
     taken.insert(taken.end(), names.p.begin(), names.p.end());

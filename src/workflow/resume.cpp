@@ -38,6 +38,28 @@ std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   return all;
 }
 
+/// A value on one line; of a long list its first and last entries, and how many there are.
+std::string shown(const std::string& value) {
+  constexpr std::size_t longest = 120, kept = 40;
+  std::string line;
+  for (const char c : value) {
+    const bool blank = c == '\n' || c == '\t' || c == ' ';
+    if (c == ']' && line.ends_with(' ')) line.pop_back();
+    if (!blank) line += c;
+    if (blank && !line.empty() && line.back() != ' ' && line.back() != '[') line += ' ';
+  }
+  if (line.size() <= longest) return line;
+  const bool is_list = line.starts_with('[') && line.find_first_of("[{\"'", 1) == std::string::npos;
+  const std::vector<std::string> entries = is_list ? list_parts(line) : std::vector<std::string>();
+  if (entries.size() < 8) {
+    return line.substr(0, kept) + " ... " + line.substr(line.size() - kept) + " (" + std::to_string(line.size()) +
+           " characters)";
+  }
+  const std::size_t last = entries.size() - 1;
+  return "[" + entries[0] + ", " + entries[1] + ", " + entries[2] + ", ..., " + entries[last - 1] + ", " +
+         entries[last] + "] (" + std::to_string(entries.size()) + " entries)";
+}
+
 std::optional<std::string> text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
@@ -59,16 +81,17 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
   for (const auto& [key, setting] : settings) {
     if (is_free_on_resume(key)) continue;
     const std::string& value = setting.text;
+    const std::string found = shown(value);
     const auto there = before.find(key);
     if (there == before.end()) {
-      complain(key, "found " + value + "; allowed with --resume nothing, as when the run began");
+      complain(key, "found " + found + "; allowed with --resume nothing, as when the run began");
     } else if (there->second != value) {
-      complain(key, "found " + value + "; allowed with --resume " + there->second + ", as when the run began");
+      complain(key, "found " + found + "; allowed with --resume " + shown(there->second) + ", as when the run began");
     }
   }
   for (const auto& [key, value] : before) {
     if (is_free_on_resume(key) || settings.contains(key)) continue;
-    complain(key, "found nothing; allowed with --resume " + value + ", as when the run began");
+    complain(key, "found nothing; allowed with --resume " + shown(value) + ", as when the run began");
   }
   if (scenario.steps < checkpoint.step) {
     const std::string by_time = run_path(run_keys().t_end);

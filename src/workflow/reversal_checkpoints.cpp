@@ -51,8 +51,11 @@ std::optional<Checkpoint> kept_reversal(const Scenario& scenario, const fs::path
     // A short one leaves no state, but it is complete all the same.
     const bool turned = progress_in(checkpoint).turned || checkpoint.summary_hash != 0;
     if (turned && scenario.steps != checkpoint.steps && complaints.empty()) {
-      const std::string steps = run_path(run_keys().steps);
-      complaints.push_back({scenario.file, 1, 1, steps,
+      const std::string by_time = run_path(run_keys().t_end);
+      const std::string steps = scenario.settings.contains(by_time) ? by_time : run_path(run_keys().steps);
+      const auto given = scenario.settings.find(steps);
+      const Setting where = given == scenario.settings.end() ? Setting{{}, 1, 1} : given->second;
+      complaints.push_back({scenario.file, where.line, where.column, steps,
                             "found " + std::to_string(scenario.steps) + " steps; allowed with --resume the " +
                                 std::to_string(checkpoint.steps) + " after which the momenta were negated"});
     }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
 #include "json_text.hpp"
 #include "number_text.hpp"
@@ -156,7 +157,14 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"digits_lost", done ? Json(digits_lost(r, scenario.request.arithmetic)) : Json(nullptr)}};
   if (const std::size_t bodies = bodies_in(scenario); bodies > 0) {
     s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
-    s["pair_evaluations"] = simulation.effort().force * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
+    // With a cut-off only near pairs are computed, and how many there were is not counted.
+    const std::int64_t forces = simulation.effort().force;
+    if (scenario.request.parameters.contains(GasKeys::cutoff)) {
+      s["pair_evaluations"] = nullptr;
+      s["force_evaluations"] = forces;
+    } else {
+      s["pair_evaluations"] = forces * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
+    }
   }
   s["warnings"] = warnings;
   if (s["status"] == "failed") {
@@ -188,11 +196,12 @@ std::string readable_reversal(const Json& s) {
                                         number_text(s["relative_distance"], "{:.3g}")));
     text += row("digits lost", fmt::format("{:.2f}", s["digits_lost"].get<double>()));
     if (s.contains("return_error")) {
-      text +=
-          row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N); {} pairs computed",
-                                          number_text(s["return_error"]["position"], "{:.3g}"),
-                                          number_text(s["return_error"]["momentum"], "{:.3g}"),
-                                          s["pair_evaluations"].get<std::int64_t>()));
+      const std::string effort = s["pair_evaluations"].is_null()
+                                     ? fmt::format("{} force evaluations", s["force_evaluations"].get<std::int64_t>())
+                                     : fmt::format("{} pairs computed", s["pair_evaluations"].get<std::int64_t>());
+      text += row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N); {}",
+                                              number_text(s["return_error"]["position"], "{:.3g}"),
+                                              number_text(s["return_error"]["momentum"], "{:.3g}"), effort));
     }
     text += row("every bit", s["bit_exact"].get<bool>() ? "yes" : "no");
     text +=
@@ -270,6 +279,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
     if (!from)
       note("there is no checkpoint in " + settings.folder.string() + ": the reversal starts from the beginning");
   } else {
+    if (settings.existing == Existing::replace) refuse_own_input(scenario, settings.folder, FolderOf::reversal);
     make_folder(settings.folder, FolderOf::reversal, settings.existing != Existing::refuse);
   }
   const FolderLock lock(settings.folder);

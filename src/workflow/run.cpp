@@ -102,6 +102,7 @@ class ScenarioRun {
         Writer probe;
         observer->archive(probe);
       }
+      if (settings.existing == Existing::replace) refuse_own_input(scenario, settings.folder, FolderOf::run);
       if (last == nullptr) make_folder(settings.folder, FolderOf::run, settings.existing != Existing::refuse);
       lock_.emplace(settings.folder);
       if (last == nullptr) {  // from here on the folder is known as this run's, however early it is killed

@@ -2,14 +2,17 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <toml++/toml.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 
 #include "figure_kinds.hpp"
+#include "gas_options.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/scenario/rejection.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {
@@ -120,7 +123,33 @@ void clear(const fs::path& folder, FolderOf what) {
   }
 }
 
+/// Both as a name in its folder and as what a link leads to: either may be removed.
+bool is_among(const fs::path& file, const fs::path& folder, const Names& names) {
+  std::error_code none;
+  const fs::path there = fs::weakly_canonical(fs::absolute(folder), none);
+  const fs::path whole = fs::absolute(file);
+  const fs::path spellings[] = {fs::weakly_canonical(whole, none),
+                                fs::weakly_canonical(whole.parent_path(), none) / whole.filename()};
+  return std::any_of(names.begin(), names.end(), [&](const fs::path& name) {
+    return std::any_of(std::begin(spellings), std::end(spellings),
+                       [&](const fs::path& spelling) { return spelling == there / name; });
+  });
+}
+
 }  // namespace
+
+void refuse_own_input(const Scenario& scenario, const fs::path& folder, FolderOf what) {
+  const std::string key = "problem." + gas_options().file.name;
+  const auto given = scenario.settings.find(key);
+  if (given == scenario.settings.end()) return;
+  // A setting is kept as it would stand in a file: with quotes.
+  const toml::table read = toml::parse("file = " + given->second.text);
+  const auto file = read["file"].value<std::string>();
+  if (!file || !is_among(fs::path(scenario.file).parent_path() / *file, folder, found_in(folder, what))) return;
+  throw Rejection({{scenario.file, given->second.line, given->second.column, key,
+                    "found \"" + *file + "\", which --force would remove with what is in " + folder.string() +
+                        "; allowed another --out, or a copy of the file elsewhere"}});
+}
 
 std::string left_in(const fs::path& folder, FolderOf what) {
   Names found = found_in(folder, what);

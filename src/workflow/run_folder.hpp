@@ -9,6 +9,8 @@
 
 namespace hamflow {
 
+struct Scenario;
+
 /// What leaves a folder. Each knows its own files, and takes no others away.
 enum class FolderOf { run, sweep, comparison, reversal };
 
@@ -19,6 +21,9 @@ constexpr const char* comparison_figure = "work-precision";
 /// nothing else: of figures/ only the figures that it draws.
 /// @throws FileError when it exists or cannot be made; with `force` when it is that of another kind
 void make_folder(const std::filesystem::path& folder, FolderOf what, bool force);
+
+/// @throws Rejection when the file from which particles start is among what make_folder would remove with `force`
+void refuse_own_input(const Scenario& scenario, const std::filesystem::path& folder, FolderOf what);
 
 /// The names of what a run left in an existing folder, e.g. "run.h5, figures/orbit.svg"; empty if it left nothing.
 std::string left_in(const std::filesystem::path& folder, FolderOf what);

@@ -85,6 +85,7 @@ SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path fol
                                    journal_name, folder_.string()));
     }
     lock_.reset();
+    if (existing == Existing::replace) refuse_own_input(sweep_.common(), folder_, FolderOf::sweep);
     make_folder(folder_, FolderOf::sweep, existing != Existing::refuse);
     lock_.emplace(folder_);
   }

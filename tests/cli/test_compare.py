@@ -7,6 +7,7 @@ import math
 import os
 import pty
 import re
+import select
 import signal
 import subprocess
 import time
@@ -92,6 +93,21 @@ steps = 40
         lines = self.hamflow("compare", "gas.toml", "--methods", "chin4a,discrete-gradient,verlet", status=2).stderr.splitlines()
         for line, name in zip(lines, ("chin4a", "discrete-gradient"), strict=True):
             self.assertTrue(line.startswith(f"--methods: error: found '{name}'; with 3042 coordinates"), line)
+
+    def test_a_reference_of_many_coordinates_is_announced(self):
+        """Before it starts: nothing else is seen of it for long."""
+        gas = ("[problem]\nname='gas'\nparticles_per_side=%d\ncutoff={radius=2,skin=0.5}\ncontainer={kind='none'}\n"
+               "[method]\nname='verlet'\n[run]\ndt=1e-5\nsteps=1\n")
+        said = "1058 coordinates in double-double, is what takes the time; a smaller run.steps or run.t_end, or fewer"
+        for side, announced in ((23, True), (4, False)):
+            self.write("g.toml", gas % side)
+            process = subprocess.Popen([HAMFLOW, "compare", "g.toml", "--methods", "verlet", "--json"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            ready, _, _ = select.select([process.stderr], [], [], 30)
+            first = process.stderr.readline() if ready else ""
+            process.send_signal(signal.SIGINT)
+            first += process.communicate(timeout=60)[1]
+            (self.assertIn if announced else self.assertNotIn)(said, first)
 
     def test_two_integrations_where_there_is_no_closed_form(self):
         c = self.compare("henon.toml", "--methods", "verlet,yoshida6,rk4")

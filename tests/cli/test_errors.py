@@ -250,5 +250,14 @@ record_every = true
             self.assertIn(allowed, self.hamflow(*words, status=2).stderr)
 
 
+    def test_observables_of_a_problem_without_a_start(self):
+        self.write("nb.toml", '[problem]\nname = "n-body"\n[method]\nname = "verlet"\n[run]\ndt = 0.01\nsteps = 10\n'
+                              '[output]\nobservables = { a = "x1" }\n')
+        for command in (["run"], ["reverse"], ["compare", "--methods", "verlet"], ["sweep", "--vary", "run.dt=1,2"]):
+            said = self.hamflow(command[0], "nb.toml", *command[1:], status=2).stderr
+            self.assertIn("problem.masses: found nothing", said)
+            self.assertIn("problem.initial: found nothing", said)
+
+
 if __name__ == "__main__":
     unittest.main()

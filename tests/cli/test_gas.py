@@ -85,6 +85,12 @@ class Gas(CommandCase):
                             ("x,y,p_x,p_y,masss\n0,0,0,0,1\n", "masss"), ("x,y,p_x,p_y\n", "no particle")):
             self.write("start.csv", wrong)
             self.assertIn(said, self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
+        for wrong in (b"", b"\x89HDF\r\n\x1a\n and then nothing"):
+            (self.folder / "bad.h5").write_bytes(wrong)
+            self.assertIn("found bad.h5, which is damaged or no HDF5 file",
+                          self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.file=bad.h5", status=2).stderr)
+        self.assertIn('allowed with particles_per_side, else "listing" or a number',
+                      self.hamflow("run", "file.toml", "--out", "none", "--set", "problem.scale=per-side", status=2).stderr)
         (self.folder / "start.csv").unlink()
         self.assertIn("no file", self.hamflow("run", "file.toml", "--out", "none", status=2).stderr)
 
@@ -254,6 +260,10 @@ class Gas(CommandCase):
                 ("masses = [1, 2, 3]", "problem.masses: found 3 numbers; allowed one, or 16"),
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
+                ('seed = 3\nstart = "corner"', 'problem.seed: found 3; allowed with start = "lattice"'),
+                ('seed = 3\nstart = "file"\nfile = "x.csv"', 'problem.seed: found 3; allowed with start = "lattice"'),
+                ('scale = 1\ncutoff = 1\ncontainer = { kind = "periodic", size = [3, 2] }',
+                 "particles 1 and 13 at images of one point"),
                 ('wall_rule = "mirror"', "walls"),
                 ("initial = { q = [0, 0, 0, 0], p = [0, 0, 0, 0] }", "particles 1 and 2 at one point"),
                 ("particle = 3", "did you mean")):
@@ -333,6 +343,15 @@ class Gas(CommandCase):
             self.assertAlmostEqual(s["return_error"][name + "_rms"], length / 11, delta=1e-12 * length)
         self.assertAlmostEqual(s["digits_lost"], math.log10(s["relative_distance"] * 2**53), delta=1e-12)
 
+    def test_pairs_beyond_a_cutoff_are_not_counted_as_computed(self):
+        self.write("gas.toml", GAS % "cutoff = 1.4")
+        s = self.reverse("gas.toml")
+        self.assertIsNone(s["pair_evaluations"])
+        self.assertEqual(s["force_evaluations"], 2 * (20 * 3 + 1))
+        self.assertIn("; 122 force evaluations\n", self.hamflow("reverse", "gas.toml").stdout)
+        self.write("gas.toml", GAS % "")
+        self.assertIn(f"; {122 * 16 * 15 // 2} pairs computed\n", self.hamflow("reverse", "gas.toml").stdout)
+
     def test_every_bit_comes_back(self):
         for keys in ("", 'container = { kind = "none" }', 'container = { kind = "box", size = [2.1, 2.1] }',
                      'cutoff = { radius = 1.6, kind = "smooth", inner = 1.2 }\ncontainer = { kind = "periodic", size = [2.7, 3] }',
@@ -343,6 +362,19 @@ class Gas(CommandCase):
             self.assertEqual((s["digits_lost"], s["return_error"]["position"]), (0, 0))
             self.assertEqual(s["hash"]["start"], s["hash"]["end"])
             self.assertNotEqual(s["hash"]["start"], s["hash"]["turn"])
+
+    def test_steps_of_varying_length_on_the_lattice(self):
+        varying = ("--set", "method.step_control=reversible", "--set", "run.steps=50")
+        for keys in ("", 'pair = "formula"\nphi = "r^-12 - 2*r^-6"', "cutoff = 1.4",
+                     'cutoff = 1.2\ncontainer = { kind = "periodic", size = [2.7, 3] }'):
+            with self.subTest(keys):
+                on_lattice = self.gas(keys, *varying, "--set", "run.arithmetic=lattice")
+                double = self.gas(keys, *varying)
+                self.assertEqual(on_lattice["method"], "stv4(step_control=reversible)")
+                self.assertAlmostEqual(on_lattice["final"]["t"], double["final"]["t"], delta=1e-9)
+                self.assertGreater(abs(double["final"]["t"] - 50 * 0.0005), 1e-4)
+                s = self.reverse("gas.toml", *varying, "--set", "run.arithmetic=lattice")
+                self.assertTrue(s["bit_exact"] and s["expected_bit_exact"])
 
     def test_threads_change_no_bit(self):
         turns = [self.reverse(str(EXAMPLES / "gas_121.toml"), "--set", "run.arithmetic=lattice", "--set",

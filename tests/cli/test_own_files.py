@@ -75,6 +75,33 @@ class OwnFiles(CommandCase):
         for name, text in mine.items():
             self.assertEqual((folder / name).read_text(), text)
 
+    def test_force_does_not_remove_what_it_starts_from(self):
+        self.write("g.toml", '[problem]\nname = "gas"\nparticles_per_side = 3\ncontainer = { kind = "none" }\n'
+                             '[method]\nname = "verlet"\n[run]\ndt = 0.001\nsteps = 5\n')
+        self.hamflow("run", "g.toml", "--out", "f", "--quiet")
+        (self.folder / "link").symlink_to("f")
+        (self.folder / "link.h5").symlink_to("f/run.h5")
+        before = self.contents("f")
+        for file in ("f/run.h5", "link/run.h5", "link.h5", str(self.folder / "f" / "run.h5")):
+            begins = ("g.toml", "--set", "problem.start=file", "--set", f"problem.file={file}", "--quiet")
+            for out in ("f", "link"):
+                said = self.hamflow("run", *begins, "--out", out, "--force", status=2).stderr
+                self.assertIn(f'problem.file: found "{file}", which --force would remove with what is in {out}', said)
+                self.assertEqual(self.contents("f"), before)
+            for _ in range(2):  # another folder is replaced
+                self.hamflow("run", *begins, "--out", "other", "--force")
+        # A table that somebody kept under a name of a sweep, or of a reversal.
+        rows = "x,y,p_x,p_y\n0,0,0,0\n1,0,0,0\n"
+        for command, out, name in ((["sweep", "--vary", "run.dt=0.001,0.002"], "s", "sweep.csv"),
+                                   (["reverse"], "v", "reverse.json")):
+            (self.folder / out).mkdir()
+            (self.folder / out / name).write_text(rows)
+            begins = ["g.toml", "--set", "problem.start=file", "--set", f"problem.file={out}/{name}", "--set",
+                      "problem.scale=1", "--out", out, "--force"]
+            self.write("g.toml", (self.folder / "g.toml").read_text().replace("particles_per_side = 3\n", ""))
+            self.assertIn("which --force would remove", self.hamflow(command[0], *begins, *command[1:], status=2).stderr)
+            self.assertEqual((self.folder / out / name).read_text(), rows)
+
     def test_force_follows_no_link_and_removes_no_folder(self):
         elsewhere = self.folder / "elsewhere"
         elsewhere.mkdir()

@@ -230,6 +230,13 @@ steps = 2
         self.assertTrue(any(label.startswith("the first steps alone, to t = ") for label in labels), labels)
         self.assertNotIn("gpPt6'", (self.folder / "f.svg").read_text().split("</defs>")[1])
 
+    def test_an_opening_that_is_the_whole_run_has_no_note(self):
+        self.write("g.toml", '[problem]\nname = "gas"\nparticles_per_side = 4\n[method]\nname = "verlet"\n[run]\n'
+                             'dt = 0.001\nsteps = 50\nrecord_every = 50\n')
+        self.hamflow("run", "g.toml", "--out", "g")
+        for chosen in (("--kind", "orbit"), ("--kind", "phase", "--x", "x1", "--y", "p_x1")):
+            self.assertFalse([label for label in self.plot("g", *chosen) if "first steps" in label], chosen)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -204,6 +204,16 @@ class Resume(CommandCase):
         self.assertIn("s.toml:9:6: error: run.dt: found 0.03;", self.run_to("r", "--resume", status=2).stderr)
         self.assertEqual({p.name: p.read_bytes() for p in (self.folder / "r").iterdir()}, before)
 
+    def test_long_lists_are_not_told_whole(self):
+        times = ",\n".join(f"{k / 100}" for k in range(1500))
+        self.scenario(run=f"dt = 0.01\nsteps = 3000\nrecord = [{times}]")
+        self.run_to("r")
+        said = self.run_to("r", "--resume", "--set", "run.record=[1, 2]", status=2).stderr
+        self.assertIn("run.record: found [1, 2]; allowed with --resume [0.0, 0.01, 0.02, ..., 14.98", said)
+        self.assertIn("] (1500 entries), as when the run began", said)
+        self.assertNotIn("\\n", said)
+        self.assertLess(len(said), 400)
+
     def test_options_that_exclude_each_other(self):
         self.scenario()
         for other in (["--force"], ["--out", "none"]):

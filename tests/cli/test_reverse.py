@@ -173,7 +173,9 @@ class Reverse(CommandCase):
         self.hamflow("reverse", "kepler.toml", *sets)
         for steps in (401, 4000, 399):
             told = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", f"run.steps={steps}", status=2).stderr
-            self.assertIn(f"run.steps: found {steps} steps", told)
+            self.assertIn(f"--set: error: run.steps: found {steps} steps", told)
+        told = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", "run.t_end=41", status=2).stderr
+        self.assertIn("--set: error: run.t_end: found 410 steps", told)
         self.assertIn("nothing to do", self.hamflow("reverse", "kepler.toml", *sets, "--resume").stderr)
 
     def test_warnings(self):

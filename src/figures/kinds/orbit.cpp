@@ -148,7 +148,7 @@ Page page(const Figure& figure) {
     all.columns = 2;
     all.width = two_columns;
   }
-  if (opened) all.notes.push_back(opening_note(figure.runs.front()));
+  if (opened) note_opening(all, figure.runs.front());
   return all;
 }
 }  // namespace orbit

@@ -109,7 +109,7 @@ Page page(const Figure& figure) {
   for (const Plane& plane : chosen) {
     all.panels.push_back(phase_panel(figure, plane, all.columns, all.panels.empty(), opened));
   }
-  if (opened) all.notes.push_back(opening_note(figure.runs.front()));
+  if (opened) note_opening(all, figure.runs.front());
   return all;
 }
 }  // namespace phase
