@@ -221,7 +221,8 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
   const auto seed = table.whole(o.seed);
   if (table.has("initial")) return {};  // which overrides it
   if (seed && kind != GasStarts::lattice) {
-    table.complain(o.seed.name, table.found(o.seed.name) + "; allowed " + o.seed.condition);
+    scenario_.notes.push_back(table.full(o.seed.name) + " is not used: no momenta are drawn with " + o.start.name +
+                              " = \"" + kind + "\"");
   }
   if (kind == GasStarts::file) {
     if (!file) {

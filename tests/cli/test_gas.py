@@ -260,8 +260,6 @@ class Gas(CommandCase):
                 ("masses = [1, 2, 3]", "problem.masses: found 3 numbers; allowed one, or 16"),
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
-                ('seed = 3\nstart = "corner"', 'problem.seed: found 3; allowed with start = "lattice"'),
-                ('seed = 3\nstart = "file"\nfile = "x.csv"', 'problem.seed: found 3; allowed with start = "lattice"'),
                 ('scale = 1\ncutoff = 1\ncontainer = { kind = "periodic", size = [3, 2] }',
                  "particles 1 and 13 at images of one point"),
                 ('wall_rule = "mirror"', "walls"),
@@ -278,6 +276,13 @@ class Gas(CommandCase):
         told = self.gas("container = { kind = 'none' }\n" + walls, "--set", "run.steps=0")["parameters"]
         self.assertEqual(told["exponent"], 3)
         self.assertNotIn("wall_exponent", told)
+
+    def test_a_seed_of_nothing_drawn_is_noted(self):
+        self.write("gas.toml", GAS % "seed = 3")
+        drawn = self.hamflow("run", "gas.toml", "--out", "none")
+        self.assertNotIn("seed", drawn.stderr)
+        still = self.hamflow("run", "gas.toml", "--out", "none", "--set", "problem.start=corner")
+        self.assertIn('note: problem.seed is not used: no momenta are drawn with start = "corner"', still.stderr)
 
     def test_what_a_wrong_gas_is_told(self):
         typed = "container = { kind = 'none' }\npair = 'formula'\n"
