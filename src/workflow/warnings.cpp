@@ -71,10 +71,15 @@ std::optional<FastestTurns> between_bounces(std::span<const WallCount> walls, do
 
 void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatch& turns,
                    std::span<const WallCount> walls, std::int64_t steps, Json& all) {
-  // Of steps of varying length dt is the first: it is compared with the period of an orbit that is known.
+  // Of steps of varying length dt is the first: it is compared with the period of an orbit that is known, and so is
+  // their mean, since a density that is summed up from steps that are too long leaves what it should follow.
   const bool varies = describe(scenario.request.method).varies_steps;
   const auto seen = varies ? std::nullopt : turns.fastest();
-  double dt = varies ? std::abs(scenario.dt) : turns.longest_step();
+  const double first = varies ? std::abs(scenario.dt) : turns.longest_step();
+  const double mean = varies && steps > 0 && summary.contains("final") && summary["final"]["t"].is_number()
+                          ? std::abs(summary["final"]["t"].get<double>()) / static_cast<double>(steps)
+                          : 0;
+  double dt = std::max(first, mean);
   double period = 0;
   std::string whose;
   if (seen) {
@@ -89,8 +94,15 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
     whose = fmt::format("period of the orbit, {:.3g}", period);
   }
   if (period == 0 || steps_per_period * dt <= period) return;
+  const double enough = period / (2 * steps_per_period);
+  if (mean > first) {
+    all.push_back(warning("long_step", fmt::format("the mean of the steps, {:.3g}, is more than a tenth of the {}; try "
+                                                   "dt = {:.2g} or less, of which they follow, or another monitor",
+                                                   mean, whose, scenario.dt * enough / mean)));
+    return;
+  }
   all.push_back(warning("long_step", fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less",
-                                                 dt, whose, period / (2 * steps_per_period))));
+                                                 dt, whose, enough)));
 }
 
 /// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes

@@ -57,6 +57,14 @@ class Warnings(CommandCase):
             self.assertIn("long_step", self.warned(KEPLER, method, f"dt = {dt}\nsteps = 3"))
         self.assertEqual(self.warned(KEPLER, method, f"dt = {PERIOD / 40}\nsteps = 100"), [])
 
+    def test_steps_that_have_left_their_density(self):
+        # From 0.005 on at the pericentre of e = 0.9 the summed density of arclength ends at steps of a period and more.
+        lost = KEPLER.replace("mass = 2.0\n", "").replace("r_per = 1.0, r_aph = 3.0", "r_per = 0.1, r_aph = 1.9")
+        for monitor, kinds in (("arclength", ["long_step"]), ("distance", [])):
+            method = f"kahan-li8(step_control=reversible,monitor={monitor})"
+            found = self.warned(lost, method, "dt = 0.005\nsteps = 100_000")
+            self.assertEqual([kind for kind in found if kind == "long_step"], kinds, monitor)
+
     def test_sub_steps_of_a_methods_own_may_be_long(self):
         for method in ("dop853", "taylor"):
             self.assertEqual(self.warned(KEPLER, method, "dt = 30\nsteps = 50"), [])
