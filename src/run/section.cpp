@@ -73,7 +73,7 @@ SectionSearch::Sample SectionSearch::sample(const Simulation& before_step, doubl
 }
 
 void SectionSearch::complete(const Simulation& before_step, Piece& piece) {
-  for (const std::size_t k : {1, 3}) {
+  for (const std::size_t k : {1u, 3u}) {
     if (!failed_) piece[k] = sample(before_step, (piece[k - 1].theta + piece[k + 1].theta) / 2);
   }
 }
@@ -215,7 +215,7 @@ void SectionSearch::see(const Simulation& before_step, Piece& piece, int depth) 
     for (std::size_t k = 0; k + 1 < piece.size(); ++k) see_between(before_step, piece, k);
     return;
   }
-  for (const std::size_t first : {0, 2}) {
+  for (const std::size_t first : {0u, 2u}) {
     Piece half{piece[first], {}, piece[first + 1], {}, piece[first + 2]};
     complete(before_step, half);
     see(before_step, half, depth + 1);
