@@ -89,6 +89,9 @@ class RequestReader {
         }
         if (why_not.empty()) {
           request.methods.push_back(method);
+          for (const ReplacedOption& replaced : replaced_options(method, scenario_.start_q.size())) {
+            notes.push_back("'" + name + "': " + replaced.name + " = " + replaced.message);
+          }
         } else {
           complain("--methods", "found '" + name + "'; " + why_not);
         }
@@ -97,7 +100,8 @@ class RequestReader {
         complain("--methods", what.starts_with("found") ? what : "found '" + name + "'; " + what);
       }
     }
-    notes = shared.notes();
+    const std::vector<std::string> unused = shared.notes();
+    notes.insert(notes.begin(), unused.begin(), unused.end());
     if (complaints.empty()) refuse_the_same(all);
   }
 

@@ -184,11 +184,26 @@ Figure section_figure_of(const Sweep& sweep) {
   return figure;
 }
 
+/// The column that a name means: its own, or the only one that ends with it behind a slash. None of these: the name.
+std::string whole_name(const std::vector<DrawnColumn>& all, const std::string& name) {
+  std::string found = name;
+  int ends = 0;
+  for (const DrawnColumn& column : all) {
+    if (column.name == name) return name;
+    if (!column.name.ends_with("/" + name)) continue;
+    found = column.name;
+    ++ends;
+  }
+  return ends == 1 ? found : name;
+}
+
 /// What is wrong with a column; empty if nothing is.
 std::string refused_column(const Sweep& sweep, const std::string& colour) {
+  const std::vector<DrawnColumn> all = drawn_columns(sweep);
+  const std::string name = whole_name(all, colour);
   std::vector<std::string> columns;
-  for (const DrawnColumn& column : drawn_columns(sweep)) columns.push_back(column.name);
-  if (colour.empty() || std::find(columns.begin(), columns.end(), colour) != columns.end()) return {};
+  for (const DrawnColumn& column : all) columns.push_back(column.name);
+  if (colour.empty() || std::find(columns.begin(), columns.end(), name) != columns.end()) return {};
   const auto whole = std::find_if(columns.begin(), columns.end(),
                                   [&](const std::string& column) { return column.ends_with("/" + colour); });
   const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
@@ -238,8 +253,9 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   const Varied& varied = sweep.varied();
   const std::size_t over = varied.free_keys().front();
   const Vary& key = varied.keys()[over];
-  const std::vector<std::string> names = columns_to_average(columns);
   const std::vector<DrawnColumn> all = drawn_columns(sweep);
+  std::vector<std::string> names = columns_to_average(columns);
+  for (std::string& name : names) name = whole_name(all, name);
   ParameterMap figure;
   figure.title = title_of(sweep);
   figure.x_label = key_label(sweep, key.path);
@@ -305,7 +321,8 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
     write_figure(figure, "section", file);
     return;
   }
-  const std::string colour = column.empty() ? usual_colour : column;
+  std::vector<DrawnColumn> all = drawn_columns(sweep);
+  const std::string colour = column.empty() ? usual_colour : whole_name(all, column);
   const Varied& varied = sweep.varied();
   const FigureKeys keys = figure_keys(varied);
   ParameterMap figure;
@@ -313,7 +330,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
   figure.value_label = value_label(sweep, colour);
   figure.x_label = key_label(sweep, varied.keys()[keys.over].path);
   if (keys.map) figure.y_label = key_label(sweep, varied.keys()[keys.above].path);
-  for (DrawnColumn& one : drawn_columns(sweep)) {
+  for (DrawnColumn& one : all) {
     if (one.name == colour) figure.value = std::move(one.numbers);
   }
   const Vary& x = varied.keys()[keys.over];

@@ -410,6 +410,11 @@ steps = 333
         for column in ("final/q1", "final/p2", "invariants/angular_momentum/final", "varied/run.dt"):
             self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "run.dt=0.01:0.1:4", "--out", "none",
                          "--quiet", "--figure", "column.svg", "--colour", column)
+        # The end of a name is enough where it is the end of one column alone.
+        for name in ("varied/run.dt", "run.dt"):
+            self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "run.dt=0.01:0.1:4", "--out", "none",
+                         "--quiet", "--figure", name.replace("/", "_") + ".svg", "--colour", name)
+        self.assertEqual((self.folder / "run.dt.svg").read_text(), (self.folder / "varied_run.dt.svg").read_text())
         # Means over the second key of a column that is the second key, and of one more.
         self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "method.name=verlet,stv4",
                      "--vary", "run.dt=0.01:0.1:4", "--out", "none", "--quiet", "--figure", "mean.svg",

@@ -68,6 +68,7 @@ class CyclicAverages : public AverageEquations<P, R> {
   }
   /// The energy that finer equations see the step gain.
   detail::Gain<Real> gain_of_energy(const Variables& x) const { return rest_.gain_of_energy(x); }
+  Real own_gain(const Variables& x) const { return rest_.own_gain(x); }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const { return rest_.too_coarse(x, {}); }
   bool believable(const Variables& x, const Increment<Real, n>&) const { return rest_.believable(x, {}); }
 

@@ -114,9 +114,12 @@ class NaturalAverages : public AverageEquations<P, R> {
 
   /// The energy that finer equations see the step gain.
   detail::Gain<Real> gain_of_energy(const Variables& x) const { return gain(x, setup_.finer()); }
+  /// The energy that the equations themselves see it gain: the rounding of the solution.
+  Real own_gain(const Variables& x) const { return gain(x, setup_.table()).gain; }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
-    return detail::gains_energy(gain(x, setup_.finer()), setup_.has_finest(),
-                                [&] { return gain(x, setup_.finest()).gain; });
+    return detail::overlooks_a_gain(
+        gain(x, setup_.finer()), setup_.has_finest(), [&] { return gain(x, setup_.finest()).gain; },
+        [&] { return own_gain(x); });
   }
   /// Whether the energy is kept to a hundredth of the work done, where that is promised.
   bool believable(const Variables& x, const Increment<Real, n>&) const {

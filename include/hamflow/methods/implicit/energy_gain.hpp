@@ -31,14 +31,24 @@ struct Gain {
   Real noise{0};  // that rounding explains
 };
 
-/// Whether a step gains energy that is no rounding: one more point sees more than rounding explains, and two more see
-/// the same. Where the estimate of rounding is too small, they see different noise.
+/// Whether a rule of points overlooks energy that a step gains: one more point sees more than rounding explains, and
+/// two more see the same. Where the estimate of rounding is too small, they see different noise. What the rule itself
+/// sees of the energy is no fault of its points: it is the rounding of the solution, which in a stiff step is far more
+/// than that of the work, and which every rule sees alike.
 /// @param two_more(): the gain as two more points see it   @param has_two whether there are so many
-template <class Real, class TwoMore>
-bool gains_energy(const Gain<Real>& one, bool has_two, const TwoMore& two_more) {
+/// @param own(): the gain as the rule itself sees it
+template <class Real, class TwoMore, class Own>
+bool overlooks_a_gain(const Gain<Real>& one, bool has_two, const TwoMore& two_more, const Own& own) {
   if (abs(one.gain) <= one.noise) return false;
-  if (abs(one.gain) > Real(4096) * one.noise || !has_two) return true;
-  return abs(two_more() - one.gain) <= abs(one.gain) / 2;
+  const Real overlooked = abs(one.gain - own());
+  if (overlooked <= one.noise) return false;
+  if (overlooked > Real(4096) * one.noise || !has_two) return true;
+  return abs(two_more() - one.gain) <= overlooked / 2;
+}
+
+template <class Real, class TwoMore>
+bool overlooks_a_gain(const Gain<Real>& one, bool has_two, const TwoMore& two_more) {
+  return overlooks_a_gain(one, has_two, two_more, [] { return Real(0); });
 }
 
 /// What H rounds by near a state: it has terms that cancel, of which those of the virial tell.
@@ -55,9 +65,10 @@ Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real
 /// Whether H has changed by 256 roundings of its terms along a step that no rule of points sees any gain in. Either
 /// both rules are far from converged, so that what they see differs as noise does, or H is not smooth: where it has a
 /// kink (abs(x)) beyond the outermost points, two rules agree about what neither has seen.
-template <class P, class Real, std::size_t N>
+/// @param own(): the gain as the rule in use sees it, which is no more than the rounding of the solution
+template <class P, class Real, std::size_t N, class Own>
 bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vector<Real, N>& p0,
-                        const Increment<Real, N>& taken) {
+                        const Increment<Real, N>& taken, const Own& own) {
   constexpr auto epsilon = Epsilon<Real>{};
   Vector<Real, N> q1 = q0;
   Vector<Real, N> p1 = p0;
@@ -66,10 +77,12 @@ bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vecto
     p1[i] += taken.p[i];
   }
   const Real before = energy(problem, q0, p0);
-  const Real change = abs(energy(problem, q1, p1) - before);
+  const Real change = energy(problem, q1, p1) - before;
   constexpr int most_roundings = 256;
-  if (change <= epsilon * Real(most_roundings * abs(before))) return false;  // most steps need to know no more
-  return change > epsilon * Real(most_roundings * (size_of_terms(problem, q0, p0) + size_of_terms(problem, q1, p1)));
+  if (abs(change) <= epsilon * Real(most_roundings * abs(before))) return false;  // most steps need to know no more
+  const Real sizes = size_of_terms(problem, q0, p0) + size_of_terms(problem, q1, p1);
+  const Real explained = epsilon * Real(most_roundings * sizes);
+  return abs(change) > explained && abs(change - own()) > explained;
 }
 
 }  // namespace hamflow::detail

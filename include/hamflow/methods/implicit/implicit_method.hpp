@@ -315,8 +315,9 @@ class ImplicitMethod {
     const NewtonReport report{options_, effort_, diagnostics_, log};
     const auto before = setup_.mark();
     for (;;) {
-      const bool coarse = E(setup_, problem, h, q0, p0, effort_).too_coarse(found.x, found.taken);
-      if (!coarse && !detail::overlooks_a_change(problem, q0, p0, found.taken)) return found;
+      const E step(setup_, problem, h, q0, p0, effort_);
+      const bool coarse = step.too_coarse(found.x, found.taken);
+      if (!coarse && !overlooks_a_change(step, problem, q0, p0, found)) return found;
       if (options_.tolerance && fine_without_tolerance(problem, h, q0, p0, found)) return found;
       const bool finer = setup_.refine();
       if (log != nullptr) {
@@ -343,7 +344,17 @@ class ImplicitMethod {
     const E step(setup_, problem, h, q0, p0, effort_);
     Newton<E> trial = newton_;  // what it learns of guesses is no state of the run
     return trial.solve_refined(step, report, found) && !step.too_coarse(found.x, found.taken) &&
-           !detail::overlooks_a_change(problem, q0, p0, found.taken);
+           !overlooks_a_change(step, problem, q0, p0, found);
+  }
+  static bool overlooks_a_change(const E& step, const P& problem, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
+                                 const Solution& found) {
+    return detail::overlooks_a_change(problem, q0, p0, found.taken, [&] {
+      if constexpr (requires { step.own_gain(found.x); }) {
+        return step.own_gain(found.x);
+      } else {
+        return Real(0);
+      }
+    });
   }
 
   [[gnu::noinline]] void diagnose(const P& problem, const PhasePoint<A, n>& z, long long solves) {

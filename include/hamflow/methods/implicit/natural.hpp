@@ -164,8 +164,8 @@ class NaturalElement : public SegmentEquations<P, R> {
   /// energy_gain.hpp has it. (Up to four their sum is at most twice the root of the sum of their squares.)
   bool too_coarse(const V&, const Increment<Real, n>& taken) const {
     if (q0_.size() > 4) {
-      return detail::gains_energy(finer_work(taken, 1), rule_.points + 2 <= most_gauss_points,
-                                  [&] { return finer_work(taken, 2).gain; });
+      return detail::overlooks_a_gain(finer_work(taken, 1), rule_.points + 2 <= most_gauss_points,
+                                      [&] { return finer_work(taken, 2).gain; });
     }
     const Real rounding = rounding_of_work(taken);
     return abs(finer_work(taken).gain) > rounding;

@@ -116,6 +116,13 @@ template <class E>
   return most;
 }
 
+template <class R>
+R sum_of(const Vector<R, dynamic>& all) {
+  R sum(0);
+  for (const R& each : all) sum += each;
+  return sum;
+}
+
 template <class E>
 struct GuessesOf {
   using type = Extrapolation<typename E::Memory>;
@@ -254,9 +261,10 @@ class Newton {
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     int stalls = 0;
-    [[maybe_unused]] int doubts = 0;        // of what is taken for rounding
-    bool is_anew = true;                    // there is no full correction before this one, in the same units
-    [[maybe_unused]] Variables rounding{};  // of the residual, beside what its terms tell; empty: not asked for
+    [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
+    bool is_anew = true;                     // there is no full correction before this one, in the same units
+    [[maybe_unused]] Variables rounding{};   // of the residual, beside what its terms tell; empty: not asked for
+    [[maybe_unused]] Real rounded_terms(0);  // what its terms told there
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
     for (int k = 0;; ++k) {
       if constexpr (detail::AnyIteration<E>) {
@@ -266,6 +274,11 @@ class Newton {
       if (!damped || !evaluated) step.evaluate(x, at);
       evaluated = false;
       if constexpr (detail::StartsElsewhere<E>) {
+        // What was asked far from a solution, where forces are larger, is not true at one.
+        if (rounding.size() > 0 && detail::sum_of(at.noise) < rounded_terms / 2) {
+          rounding = {};
+          is_anew = true;
+        }
         for (std::size_t i = 0; i < rounding.size(); ++i) at.noise[i] += rounding[i];
       }
       if (options.tolerance || report.log != nullptr || options.diagnostics) {
@@ -330,6 +343,7 @@ class Newton {
       if constexpr (detail::StartsElsewhere<E>) {
         if (!at_rounding && rounding.size() == 0 && have_stalled(options.iteration, stalls)) {
           rounding = detail::rounding_by_state(step, x);
+          rounded_terms = detail::sum_of(at.noise);
           is_anew = true;
         }
       }
