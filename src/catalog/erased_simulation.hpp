@@ -120,8 +120,9 @@ std::unique_ptr<Simulation> simulate_recorded(const ErasedRun<R>&, const Request
 template <class R, bool recorded>
 std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request& request,
                                           [[maybe_unused]] bool estimated) {
-  const auto simulate = [&]<Capability c, class M>(const M& recipe) {
-    const auto build = [&]<class A>(A arithmetic) -> std::unique_ptr<Simulation> {
+  using Result = std::unique_ptr<Simulation>;
+  const auto simulate = [&]<Capability c, class M>(const M& recipe) -> Result {
+    const auto build = [&]<class A>(A arithmetic) -> Result {
       constexpr bool is_of_recorded = std::is_same_v<R, double> && is_recorded<M>() && !A::exact_undo;
       if constexpr (is_of_recorded && !recorded) {
         return simulate_recorded(run, request, estimated);
@@ -176,11 +177,11 @@ std::unique_ptr<Simulation> simulate_half(const ErasedRun<R>& run, const Request
   if constexpr (!std::is_same_v<R, double>) {
     if (request.method.name == ExtrapolatedMidpoint::name) {
       const double tolerance = number_value(request.method.options.at(tolerance_option));
-      return detail::visit_face<ExtrapolatedMidpoint, 0>(run.functions.capability,
-                                                         ExtrapolatedMidpoint{{.tolerance = tolerance}}, simulate);
+      return detail::visit_face<Result, ExtrapolatedMidpoint, 0>(
+          run.functions.capability, ExtrapolatedMidpoint{{.tolerance = tolerance}}, simulate);
     }
   }
-  return visit_erased(run.functions.capability, run.functions.size, request.method, simulate);
+  return visit_erased<Result>(run.functions.capability, run.functions.size, request.method, simulate);
 }
 
 template <class R>

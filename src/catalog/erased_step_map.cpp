@@ -65,19 +65,20 @@ auto steps_in_quad(const ErasedFunctions<Quad>& functions, const MethodSpec& met
 }
 
 std::unique_ptr<StepMap> map_without_walls(const ErasedProblem& problem, const MethodSpec& method) {
-  return visit_erased(problem.in_double.capability, problem.in_double.size, method,
-                      [&]<Capability c, class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
-                        const auto make = [&]<class R>() { return problem.in<R>().template as<c>(); };
-                        auto map = std::make_unique<StepMapOf<Faces<c>::template Of, Recipe, Beyond::given>>(
-                            make, recipe,
-                            GivenMaps{simulations(problem.in_double, method), flow_of<c>(problem.in_long),
-                                      steps_in_quad(problem.in_quad, method), flow_of<c>(problem.in_quad),
-                                      settle_of<c>(problem.in_quad)});
-                        if constexpr (is_recorded<Recipe>()) {
-                          map->take_tangents_by(tangents_of<c>(problem.in_double, recipe));
-                        }
-                        return map;
-                      });
+  return visit_erased<std::unique_ptr<StepMap>>(
+      problem.in_double.capability, problem.in_double.size, method,
+      [&]<Capability c, class Recipe>(const Recipe& recipe) -> std::unique_ptr<StepMap> {
+        const auto make = [&]<class R>() { return problem.in<R>().template as<c>(); };
+        auto map = std::make_unique<StepMapOf<Faces<c>::template Of, Recipe, Beyond::given>>(
+            make, recipe,
+            GivenMaps{simulations(problem.in_double, method), flow_of<c>(problem.in_long),
+                      steps_in_quad(problem.in_quad, method), flow_of<c>(problem.in_quad),
+                      settle_of<c>(problem.in_quad)});
+        if constexpr (is_recorded<Recipe>()) {
+          map->take_tangents_by(tangents_of<c>(problem.in_double, recipe));
+        }
+        return map;
+      });
 }
 }  // namespace
 

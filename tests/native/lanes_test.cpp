@@ -169,7 +169,7 @@ TEST(LaneLoop, WhatFollowsFromConstantsAloneIsComputedOnce) {
 TEST(LaneLoop, ALaneReadsTheNumbersOfOthers) {
   using Kind = Operand::Kind;
   for (const LaneSet set : all_sets) {
-    for (const std::size_t registers : {1, 2, 3, 4}) {
+    for (const std::size_t registers : {1u, 2u, 3u, 4u}) {
       const std::size_t lanes = registers * (set == LaneSet::avx512 ? 8 : 4);
       for (std::size_t of = 0; of < lanes; ++of) {
         Program p;  // y <- y + x of one lane

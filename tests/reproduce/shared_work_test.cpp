@@ -25,7 +25,7 @@ void on_four_threads(std::size_t count, const std::function<void(std::size_t thr
 }
 
 TEST(SharedWork, CallsEveryPieceOnce) {
-  for (const std::size_t count : {0, 1, 2, 100}) {
+  for (const std::size_t count : {0u, 1u, 2u, 100u}) {
     std::vector<std::vector<std::atomic<int>>> calls(2);
     for (auto& of_thread : calls) of_thread = std::vector<std::atomic<int>>(count);
     on_four_threads(count, [&](std::size_t t, std::size_t i) { ++calls[t][i]; });

@@ -12,14 +12,14 @@ namespace {
 
 using Ensemble = std::vector<std::vector<double>>;
 constexpr std::size_t starts = 32;
-constexpr std::size_t blocks = 511;
+constexpr std::size_t series_blocks = 511;
 
 template <class F>
 Ensemble ensemble(F&& error) {
   Ensemble all;
   for (std::size_t s = 0; s < starts; ++s) {
     std::vector<double> series{-0.5};
-    for (std::size_t b = 1; b <= blocks; ++b) series.push_back(-0.5 + error(s, b, series));
+    for (std::size_t b = 1; b <= series_blocks; ++b) series.push_back(-0.5 + error(s, b, series));
     all.push_back(series);
   }
   return all;

@@ -114,7 +114,7 @@ Differences differences(const P& problem, const FormulaTexts& texts, double leas
 }
 
 /// A second derivative is a sum of at most ten products of some ten factors.
-constexpr double rounding = 100 * test::epsilon;
+constexpr double some_roundings = 100 * test::epsilon;
 
 void expect_bits(const Differences& d, const char* name) {
   EXPECT_EQ(d.force, 0) << name;
@@ -122,7 +122,7 @@ void expect_bits(const Differences& d, const char* name) {
   EXPECT_EQ(d.scaled, 0) << name;
   EXPECT_EQ(d.gradient, 0) << name;
   EXPECT_EQ(d.energy, 0) << name;
-  EXPECT_LE(d.worst_hessian, rounding) << name;
+  EXPECT_LE(d.worst_hessian, some_roundings) << name;
 }
 
 FormulaTexts plane(const std::string& hamiltonian, const Texts& parameters) {
@@ -184,7 +184,7 @@ TEST(FormulaBits, OfAChainAgreeToRounding) {
   const Differences d = differences(Fput<double>(4, 0.25, 0.5), texts);
   EXPECT_EQ(d.velocity, 0);
   EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
-  EXPECT_LE(d.worst_hessian, rounding);
+  EXPECT_LE(d.worst_hessian, some_roundings);
 }
 
 /// Powers of r are powers of u = r^2 by hand, of which every term is added to the force; typed ones are collected.
@@ -193,7 +193,7 @@ TEST(FormulaBits, OfSumsOfPowersAgreeToRounding) {
   const Differences d = differences(
       by_hand, plane("(p_x^2 + p_y^2)/(2*m) + (let r = sqrt(x^2 + y^2) in 0.5*r^3 - 0.5*r^-1.5)", {{"m", "1.7"}}));
   EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
-  EXPECT_LE(d.worst_hessian, rounding);
+  EXPECT_LE(d.worst_hessian, some_roundings);
 }
 
 /// By hand the gradient goes by the rate p_phi/r^2, which is rounded before it is multiplied.
@@ -211,7 +211,7 @@ TEST(FormulaBits, OfPolarFormsAgreeToRounding) {
                     0.5),
         differences(PolarCentralForce<double, Linear>(1.7, Linear<double>(1.3)), typed("k*r", {{"k", "1.3"}}), 0.5)}) {
     EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
-    EXPECT_LE(d.worst_hessian, rounding);
+    EXPECT_LE(d.worst_hessian, some_roundings);
   }
 }
 
@@ -225,7 +225,7 @@ TEST(FormulaBits, OfTheDoublePendulumAgreeToRounding) {
                            .parameters = {{"m", "2"}, {"l", "3"}, {"g", "9.81"}}};
   const Differences d = differences(DoublePendulumNonlinearAbsolute<double>({2, 2}, {3, 3}, {0, 0}, 9.81), texts);
   EXPECT_LE(d.worst_gradient, 10 * test::epsilon);
-  EXPECT_LE(d.worst_hessian, rounding);
+  EXPECT_LE(d.worst_hessian, some_roundings);
 }
 
 }  // namespace
