@@ -7,12 +7,14 @@ namespace hamflow {
 namespace {
 
 /// Dimensions of the space that bodies move in; 0 where the coordinates are not those of bodies. The total momentum has
-/// as many components; a gas, whose container may leave none, has a parameter that tells.
+/// as many components: that of the problem without walls, behind which there is none. A gas, whose container may leave
+/// none, has a parameter that tells.
 std::size_t space_of_bodies(const ProblemEntry& problem, const Texts& parameters, std::size_t size) {
   if (problem.info.name == GasKeys::problem) return number_value(parameters.at(GasKeys::dimension)) == 3 ? 3 : 2;
-  const std::vector<InvariantInfo>& invariants = problem.info.invariants;
+  const ProblemEntry& bare = find_problem(problem.info.name, {});
+  const std::vector<InvariantInfo>& invariants = bare.info.invariants;
   for (std::size_t i = 0; i < invariants.size(); ++i) {
-    if (invariants[i].components == Components::space) return problem.invariant_sizes(parameters, size).at(i);
+    if (invariants[i].components == Components::space) return bare.invariant_sizes(parameters, size).at(i);
   }
   return 0;
 }

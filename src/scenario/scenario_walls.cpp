@@ -158,6 +158,8 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
     return "on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"";
   }
   if (walls->rule != WallRule::mirror) return {};
+  if (!problem.constraint_form.empty())
+    return "with constraints, between which no drift is free; allowed \"event\", \"reject\"";
   const bool drifts = find_method(request.method.name).family->not_on_lattice.empty();
   if (!drifts) {
     return "with " + info.name +

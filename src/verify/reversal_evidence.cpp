@@ -152,6 +152,17 @@ LongNumber explained_by_rounding(const Request& request, const Reversal& reversa
 
 std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:.1e}", x.value) : x.text; }
 
+/// Whether a motion begins on a hard wall, to rounding. There it comes back to the wall with the momentum of before or
+/// behind the bounce, which of them decides the last bit of the time.
+bool begins_on_a_wall(const Request& request, const Frame& start, double size) {
+  const auto walls = walls_among(request.variant);
+  if (!walls || !walls->hard()) return false;
+  const auto sides = wall_sides<double>(*walls);
+  return std::any_of(sides.begin(), sides.end(), [&](const WallSide<double>& side) {
+    return std::abs(side.beyond(start.q[side.coordinate])) <= 8 * epsilon * std::max(size, std::abs(side.at));
+  });
+}
+
 /// What is proved, and why.
 std::pair<ReversalProof, std::string> judged(const Request& request, const ProblemEntry& problem,
                                              const Reversal& reversal, const Waypoints& way, double scale,
@@ -183,7 +194,12 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
     return {ReversalProof::to_rounding,
             "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
   }
-  if (!at_most(reversal.distance, rounding)) return {ReversalProof::not_reversible, explained};
+  if (!at_most(reversal.distance, rounding)) {
+    if (!begins_on_a_wall(request, reversal.start, size)) return {ReversalProof::not_reversible, explained};
+    return {ReversalProof::nothing, explained +
+                                        ", but the motion begins on a wall, where the state before the bounce "
+                                        "and that behind it are one"};
+  }
   if (rounding.value > parted * size) return {ReversalProof::nothing, explained + ", which is too much to tell"};
   if (!method.reversible) {
     return {ReversalProof::nothing,

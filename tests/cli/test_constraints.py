@@ -347,7 +347,7 @@ steps = 10
         self.assertAlmostEqual(other["final"]["q"][3], one["final"]["q"][1], delta=1e-9)
         for rule, method in (("mirror", "rattle"), ("mirror", "rattle4")):
             text = self.refused(self.write("tube.toml", T_TUBE.format(method=method, problem=rails + f'wall_rule = "{rule}"')))
-            self.assertIn("no drifts to be reflected", text)
+            self.assertIn("with constraints, between which no drift is free", text)
         walls = PLANE + '\nwalls = [{ coordinate = "x", max = 0.9 }]'
         self.assertIn("found walls beside constraints", self.refused(self.pendulum(walls)))
 

@@ -269,6 +269,38 @@ class WhatASystemOfManyUnknownsDoesNotTake(CommandCase):
         self.assertNotIn("note: method", told("method.max_iterations=60"))
 
 
+STIFF = """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2 + %s^2*x^2/2 + x^4"
+initial = { q = [1], p = [0] }
+[method]
+name = "cg"
+[run]
+dt = 0.1
+steps = 2000
+"""
+
+
+class StiffSteps(CommandCase):
+    def test_elements_of_any_degree_keep_the_energy(self):
+        """Steps of h omega radians round the energy by h omega units: a walk, whatever the degree, the points and where
+        Newton begins. More points than the degree of H needs would mend nothing of it."""
+        epsilon = 2.0 ** -52
+        for omega in (10, 316, 1000, 10000):
+            self.write("stiff.toml", STIFF % omega)
+            walk = 4 * math.sqrt(2000) * max(1, 0.1 * omega) * epsilon
+            for degree in (1, 2, 3, 4, 6):
+                for options in ("auto", f"{2 * degree}", "auto,max_iterations=100"):
+                    found = json.loads(self.hamflow("run", "stiff.toml", "--set", f"method.name=cg({degree},{options})", "--out",
+                                                    "none", "--quiet", "--json").stdout)
+                    case = (omega, degree, options, found["energy"]["max_error"])
+                    self.assertEqual(found["status"], "done", case)
+                    self.assertLess(found["energy"]["max_error"], walk * found["energy"]["scale"], case)
+                    self.assertNotEqual(found["certificate"]["drift"], "linear", case)
+
+
 class WhatAStepThatFoundNoSolutionIsToldToTry(CommandCase):
     def hint(self, *settings, scenario="kink.toml"):
         self.write("kink.toml", KINK)

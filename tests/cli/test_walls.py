@@ -352,6 +352,36 @@ arithmetic = "lattice"
         self.refused("bodies.toml", "--set", given.format(-51))
         self.assertEqual(self.summary("bodies.toml", "--set", given.format(-50))["status"], "done")
 
+    def test_bodies_keep_their_names_behind_walls(self):
+        self.write("named.toml", """
+[problem]
+name = "n-body"
+masses = [1, 0.5, 0.2]
+softening = 0.1
+initial = { q = [0, 0, 1, 0.1, -0.7, 0.8], p = [0.3, 0.1, -0.2, 0.5, 0.1, -0.2] }
+walls = [{ coordinate = "y2", min = -0.6, max = 0.5 }]
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 1000
+section = { coordinate = "y2" }
+events = [{ expression = "y2 - 0.25" }]
+[output]
+observables = { a = "x1*p_y2 + q1*p4" }
+""")
+        events = self.summary("named.toml")["events"]
+        self.assertGreater(events["wall:y2:max"], 0)
+        self.assertIn("allowed x1, y1, x2, y2", self.refused("named.toml", "--set", "run.section.coordinate=y4"))
+
+    def test_a_reversal_to_a_wall_proves_nothing(self):
+        """There the state before the bounce and that behind it are one: which of them comes back says nothing."""
+        for rule in ("event", "mirror"):
+            told = self.summary(self.free("verlet", f'wall_rule = "{rule}"'), "--set", "problem.initial={q=[1],p=[1]}",
+                                "--set", "run.dt=0.3", "--set", "run.steps=1")["certificate"]["reversal_distance"]
+            self.assertEqual(told["proves"], "nothing", told)
+            self.assertIn("begins on a wall", told["reason"])
+
     def test_what_a_note_of_a_reversal_proposes_is_possible(self):
         def note(*arguments):
             return json.loads(self.hamflow("reverse", *arguments, "--json").stdout)["note"]
