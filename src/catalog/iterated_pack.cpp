@@ -149,7 +149,20 @@ void IteratedPack::judge(std::size_t lane, int k) {
   if (!course.settled && have_stalled(options_->iteration, course.stalls)) {
     return leave(lane, carried_);  // to a closer look
   }
-  if (course.settled && epsilon * course.first > 1) leave(lane, carried_);  // the guess was far away
+  if (!course.settled) return;
+  const bool far = epsilon * course.first > 1;  // the guess was
+  if (far || (options_->iteration == Iteration::newton && is_hidden(lane))) leave(lane, carried_);
+}
+
+/// Whether rounding hides the unknowns, as detail::are_hidden (averages_rows.hpp).
+bool IteratedPack::is_hidden(std::size_t lane) const {
+  double unit = 0;
+  double unknown = 0;
+  for (std::size_t i = 0; i < at_.m; ++i) {
+    unit = larger(unit, number(at_.unit() + i, lane));
+    unknown = larger(unknown, std::abs(number(at_.x() + i, lane)));
+  }
+  return hidden_by_rounding(unit, unknown);
 }
 
 /// The lane waits for others.

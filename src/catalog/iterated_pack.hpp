@@ -47,6 +47,7 @@ class IteratedPack {
   void solve();
   void measure();
   void judge(std::size_t lane, int k);
+  bool is_hidden(std::size_t lane) const;
   void keep_end(std::size_t lane);
   void take_end(std::size_t lane);
   void rest(std::size_t lane);
@@ -56,6 +57,7 @@ class IteratedPack {
   bool is_here(std::size_t lane) const { return places_[lane] == Place::in_lane; }
 
   double& number(std::size_t k, std::size_t lane) { return carried_[k * width_ + lane]; }
+  double number(std::size_t k, std::size_t lane) const { return carried_[k * width_ + lane]; }
 
   const IteratedFamily* family_ = nullptr;
   const NewtonOptions* options_ = nullptr;

@@ -77,6 +77,7 @@ int IterationRunner::solved(std::span<double> frame, int& doubt) {
     previous = size;
     if (!settled && have_stalled(options_.iteration, stalls)) return 0;  // to a closer look
     if (!settled) continue;
+    if (!stages_ && options_.iteration == Iteration::newton && is_hidden(frame)) return 0;
     const bool missed = doubt == 0 && epsilon * first > 1;  // the guess was far away
     if ((missed && !stages_) || !end(frame)) return 0;
     if (missed) {
@@ -116,6 +117,18 @@ double IterationRunner::size_of_correction(std::span<const double> frame) const 
     total += length;
   }
   return size + total <= std::numeric_limits<double>::max() ? size : std::numeric_limits<double>::infinity();
+}
+
+/// Whether rounding hides the unknowns, as detail::are_hidden (averages_rows.hpp).
+bool IterationRunner::is_hidden(std::span<const double> frame) const {
+  const IterationFrame& at = recorded_.frame;
+  double unit = 0;
+  double unknown = 0;
+  for (std::size_t i = 0; i < at.m; ++i) {
+    unit = larger(unit, frame[at.unit() + i]);
+    unknown = larger(unknown, std::abs(frame[at.x() + i]));
+  }
+  return hidden_by_rounding(unit, unknown);
 }
 
 }  // namespace hamflow

@@ -21,6 +21,12 @@ std::array<double, 5> weights_at(double at) {
   return weights;
 }
 
+std::int64_t bounces_of(const Simulation& simulation) {
+  std::int64_t all = 0;
+  for (const WallCount& wall : simulation.wall_counts()) all += wall.bounces;
+  return all;
+}
+
 }  // namespace
 
 double SectionSearch::distance(const Frame& frame) const {
@@ -222,7 +228,8 @@ void SectionSearch::see(const Simulation& before_step, Piece& piece, int depth) 
   }
 }
 
-void SectionSearch::locate_all(const Simulation& before_step, double before, const Frame& frame, double now) {
+void SectionSearch::locate_all(const Simulation& before_step, double before, const Frame& frame, double now,
+                               bool bounced) {
   if (failed_) return;
   changes_.clear();
   looks_ = 0;
@@ -243,7 +250,7 @@ void SectionSearch::locate_all(const Simulation& before_step, double before, con
   }
   whole[4] = end;
   if (is_that_of_the_run) see(before_step, whole, 0);
-  if (!is_that_of_the_run || too_coarse_) ++unseen_;
+  if ((!is_that_of_the_run && !bounced) || too_coarse_) ++unseen_;
   if (!is_that_of_the_run) note_change(0, 1, before, now);
   const bool is_alone = changes_.size() == 1 && before != 0 && (now == 0 || (now > 0) != (before > 0));
   if (is_alone) changes_.front() = {0, 1, before, now};
@@ -266,18 +273,22 @@ Verdict SectionFinder::observe(const Frame& frame) {
   const bool first = !begun_;
   const bool stepped = !first && frame.step > copy_->step();  // a run that goes on shows the state that it has again
   // One sub-step is as many evaluations as a series has terms, or one and a half times the order, the stages of dop853.
-  const bool looks_into = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
+  const std::int64_t bounces = bounces_of(simulation_);
+  const bool bounced = bounces != bounces_;
+  const bool is_long = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
+  const bool looks_into = is_long || bounced;
   if (stepped && (looks_into || search_.crosses(before_, now))) {
     if (copy_->advance(frame.step - 1 - copy_->step()) != Outcome::done) {
       search_.give_up();
     } else if (looks_into) {
-      search_.locate_all(*copy_, before_, frame, now);
+      search_.locate_all(*copy_, before_, frame, now, bounced && !is_long);
     } else {
       search_.locate(*copy_, before_, now);
     }
   }
   before_ = now;
   work_ = work;
+  bounces_ = bounces;
   begun_ = true;
   if (first || frame.step % steps_behind == 0) copy_ = simulation_.clone();
   if (!has_own_substeps_ && search_.is_to_measure(frame.step)) search_.measure(*copy_);
@@ -288,6 +299,7 @@ Verdict SectionFinder::observe(const Frame& frame) {
 void SectionFinder::archive(Reader& ar) {
   fields(ar);
   copy_ = begun_ ? simulation_.clone() : nullptr;
+  bounces_ = bounces_of(simulation_);
 }
 
 }  // namespace hamflow

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hamflow/core/hash.hpp"
+#include "hamflow/run/walls.hpp"
 #include "memory.hpp"
 #include "on_threads.hpp"
 #include "sweep.hpp"
@@ -201,7 +202,9 @@ void Sweep::add(std::size_t member, const Scenario& scenario) {
     group.observables = observables;
     group.has_section = scenario.section.has_value();
     const auto block = make_ensemble_block(request, options_.lanes);
-    const bool alone = block == nullptr || !scenario.events.empty();  // events are sought on a simulation
+    // Events are sought on a simulation, and so are points of a section in steps that bounce.
+    const bool sought = !scenario.events.empty() || (scenario.section && has_hard_walls(request));
+    const bool alone = block == nullptr || sought;
     group.lanes = alone || !block->load(shape, {&start, 1}) ? 0 : block->lanes();
   }
   group.members.push_back(member);

@@ -301,6 +301,31 @@ class StiffSteps(CommandCase):
                     self.assertNotEqual(found["certificate"]["drift"], "linear", case)
 
 
+    def test_a_guess_that_rounding_hides_is_no_solution(self):
+        """Forces of the explicit predictor round by more than the whole step: any correction of it looks like rounding."""
+        for power, omega, method in ((8, 1000, "cg(2,auto)"), (8, 1000, "cg(2,16)"), (8, 300, "cg(2,16)"), (6, 10000, "cg(2,auto)"),
+                                     (12, 300, "cg(2,auto)"), (4, 1000000, "cg(3,auto)"), (4, 100000, "cg(2,4)")):
+            self.write("stiff.toml", (STIFF % omega).replace("x^4", f"x^{power}"))
+            found = json.loads(self.hamflow("run", "stiff.toml", "--set", f"method.name={method}", "--set", "run.steps=40", "--set",
+                                            "problem.initial={q=[1],p=[0.3]}", "--out", "none", "--quiet", "--json").stdout)
+            self.assertEqual(found["status"], "done", (power, omega, method))
+            # as above; with omega = 10^5 the points given round the forces once more
+            self.assertLess(found["energy"]["max_error"], 4 * math.sqrt(40) * 0.1 * omega * 2.0 ** -52 * found["energy"]["scale"],
+                            (power, omega, method))
+
+    def test_members_of_a_sweep_have_the_bits_of_single_runs(self):
+        self.write("stiff.toml", STIFF.replace("%s^2", "w^2").replace("[method]", "parameters = { w = 1 }\n[method]") % ())
+        values = ("10", "1000", "300000", "1e7")
+        for method in ("cg(2,auto)", "cg(3,6)", "gauss(2)"):
+            common = ("--set", f"method.name={method}", "--set", "run.steps=40", "--out", "none", "--quiet", "--json")
+            rows = json.loads(self.hamflow("sweep", "stiff.toml", "--vary", "problem.parameters.w=" + ",".join(values),
+                                           *common).stdout)["rows"]
+            for w, row in zip(values, rows):
+                one = json.loads(self.hamflow("run", "stiff.toml", "--set", f"problem.parameters.w={w}", *common).stdout)
+                self.assertEqual(row["status"], one["status"], (method, w))
+                self.assertEqual(row["final"], {key: one["final"][key] for key in row["final"]}, (method, w))
+
+
 class WhatAStepThatFoundNoSolutionIsToldToTry(CommandCase):
     def hint(self, *settings, scenario="kink.toml"):
         self.write("kink.toml", KINK)

@@ -352,6 +352,37 @@ arithmetic = "lattice"
         self.refused("bodies.toml", "--set", given.format(-51))
         self.assertEqual(self.summary("bodies.toml", "--set", given.format(-50))["status"], "done")
 
+    def test_events_beside_bounces(self):
+        """A ball of period 2 that bounces at odd times: its momentum jumps from -1 to 1 there, and passes 0.95 and -0.95
+        downwards 0.05 behind the bounce and before it. The motion is exact for each of the methods, at any step."""
+        self.write("ball.toml", """
+[problem]
+name = "free-fall"
+walls = [{ coordinate = "q", min = 0 }]
+initial = { q = [0.5], p = [0] }
+[method]
+name = "verlet"
+[run]
+dt = 0.09
+steps = 1111
+events = [{ expression = "p - 0.95", direction = -1 }, { expression = "p + 0.95", direction = -1 },
+          { expression = "q - 0.1", direction = 0 }]
+section = { coordinate = "p", value = 0.95, direction = -1 }
+""")
+        for method in ("verlet", "stv4", "cg(2,auto)", "gauss(2)", "dop853"):
+            found = self.summary("ball.toml", "--set", f"method.name={method}")
+            self.assertEqual([found["events"][f"user:event{i}"] for i in (1, 2, 3)] + [found["section"]["points"]],
+                             [50, 50, 100, 50], method)
+        # However long the steps are beside the time between bounces.
+        for dt, steps in ((0.65, 154), (1.3, 77)):
+            found = self.summary("ball.toml", "--set", f"run.dt={dt}", "--set", f"run.steps={steps}")
+            self.assertEqual([found["events"][f"user:event{i}"] for i in (1, 2, 3)], [50, 50, 100], dt)
+        stop = self.summary("ball.toml", "--set", "run.events=[{expression='p-0.95',direction=-1,action='stop'}]")["stopped_by"]
+        self.assertAlmostEqual(stop["t"], 1.05, delta=1e-12)
+        told = json.loads(self.hamflow("sweep", "ball.toml", "--vary", "run.dt=0.09,0.045", "--set", "run.events=[]", "--out",
+                                       "none", "--json").stdout)
+        self.assertEqual([row.get("section_points", 50) for row in told["rows"]], [50, 50])
+
     def test_bodies_keep_their_names_behind_walls(self):
         self.write("named.toml", """
 [problem]

@@ -36,6 +36,7 @@ class IterationRunner {
   bool end(std::span<double> frame);
   /// Of the last correction. Not finite: it is none.
   double size_of_correction(std::span<const double> frame) const;
+  bool is_hidden(std::span<const double> frame) const;
 
   RecordedIteration recorded_;
   NewtonOptions options_;

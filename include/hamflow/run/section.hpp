@@ -50,8 +50,9 @@ class SectionSearch {
   /// Finds it.   @param before_step as it is before the step   @param before, now x - value before the step and behind
   void locate(const Simulation& before_step, double before, double now);
   /// Finds all points of a step that may be long. One that is alone has the digits that locate() finds.
-  /// @param frame behind the step
-  void locate_all(const Simulation& before_step, double before, const Frame& frame, double now);
+  /// @param frame behind the step   @param bounced it has bounces: under some rules the run did not go through the
+  /// parts that are looked at, and nothing is missed by that
+  void locate_all(const Simulation& before_step, double before, const Frame& frame, double now, bool bounced = false);
   /// Now and then looks into the step that follows, of a method without sub-steps of its own: from the first that is
   /// long beside the motion on, all are. No single bounce or jump makes one long.
   void measure(const Simulation& before_step) { is_long_ = is_long_ || is_long(before_step); }
@@ -117,7 +118,8 @@ class SectionSearch {
 
 /// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
 /// blocks of one, some hundred nanoseconds a step. It looks into those that were made of several sub-steps of the
-/// method's own; of other methods now and then into one, and into all from the first that is long.
+/// method's own, or that have bounces, where x may jump; of other methods now and then into one, and into all from the
+/// first that is long.
 class SectionFinder final : public Observer {
  public:
   /// @param simulation the simulation that is observed
@@ -145,7 +147,8 @@ class SectionFinder final : public Observer {
   bool begun_ = false;
   bool has_own_substeps_;
   int order_;
-  long long work_ = 0;  // evaluations up to the last step
+  long long work_ = 0;        // evaluations up to the last step
+  std::int64_t bounces_ = 0;  // up to there
 };
 
 }  // namespace hamflow

@@ -105,6 +105,9 @@ class GeneralAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::in_units_of_noise(x, at, correction);
   }
+  bool doubts(const Variables& x, const Point& at, const Variables& correction) const {
+    return detail::are_hidden(x, at, correction);
+  }
 
   Increment<Real, n> taken(Variables& x, const Point& at) const {
     x = at.target;

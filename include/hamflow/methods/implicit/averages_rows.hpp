@@ -3,6 +3,7 @@
 
 #include "hamflow/methods/implicit/averages.hpp"
 #include "hamflow/methods/implicit/energy_gain.hpp"
+#include "hamflow/methods/implicit/newton.hpp"
 #include "hamflow/methods/implicit/points.hpp"
 
 namespace hamflow::detail {
@@ -160,6 +161,22 @@ Correction<Real> in_units_of_noise(const Vector<Real, dynamic>& x, const Average
     distance = here <= distance ? distance : here;
   }
   return {distance, Real(1)};
+}
+
+/// Whether rounding hides the unknowns themselves, see hidden_by_rounding. Fixed points do not ask: a correction is the
+/// residual there, which is small nowhere but at a solution.
+template <class Real>
+bool are_hidden(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
+                const Vector<Real, dynamic>& correction) {
+  if (at.tangent.size() == 0) return false;
+  constexpr auto epsilon = Epsilon<Real>{};
+  Real unit(0);
+  Real unknown(0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    unit = larger(unit, Real(epsilon * Real(at.noise[i] + abs(x[i]))));
+    unknown = larger(unknown, Real(abs(x[i] + correction[i])));
+  }
+  return hidden_by_rounding(unit, unknown);
 }
 
 template <class Real>

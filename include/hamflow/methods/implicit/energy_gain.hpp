@@ -40,7 +40,9 @@ struct Gain {
 template <class Real, class TwoMore, class Own>
 bool overlooks_a_gain(const Gain<Real>& one, bool has_two, const TwoMore& two_more, const Own& own) {
   if (abs(one.gain) <= one.noise) return false;
-  const Real overlooked = abs(one.gain - own());
+  const Real of_solution = own();
+  const bool rounds = abs(of_solution) <= one.size / (1 << 20);  // more is no rounding, of whatever step
+  const Real overlooked = abs(rounds ? Real(one.gain - of_solution) : one.gain);
   if (overlooked <= one.noise) return false;
   if (overlooked > Real(4096) * one.noise || !has_two) return true;
   return abs(two_more() - one.gain) <= overlooked / 2;
@@ -80,9 +82,10 @@ bool overlooks_a_change(const P& problem, const Vector<Real, N>& q0, const Vecto
   const Real change = energy(problem, q1, p1) - before;
   constexpr int most_roundings = 256;
   if (abs(change) <= epsilon * Real(most_roundings * abs(before))) return false;  // most steps need to know no more
-  const Real sizes = size_of_terms(problem, q0, p0) + size_of_terms(problem, q1, p1);
-  const Real explained = epsilon * Real(most_roundings * sizes);
-  return abs(change) > explained && abs(change - own()) > explained;
+  const Real size = size_of_terms(problem, q0, p0);
+  const Real explained = epsilon * Real(most_roundings * (size + size_of_terms(problem, q1, p1)));
+  if (!(abs(change) > explained)) return false;
+  return abs(change) > size / (1 << 20) || abs(change - own()) > explained;
 }
 
 }  // namespace hamflow::detail

@@ -62,6 +62,15 @@ constexpr bool have_stalled(Iteration iteration, int stalls) {
   return stalls >= (iteration == Iteration::newton ? 4 : 12);
 }
 
+/// Whether what counts as rounding is no less than a millionth of the unknowns themselves: at a guess so far off that
+/// forces round by more than the whole step, any correction looks small. At the solution of a step that does not begin
+/// at rest it is 10^-12 of them, of one of h omega = 1000 10^-10.
+/// @param unit what the largest of them rounds by   @param unknown the largest of them
+template <class Real>
+constexpr bool hidden_by_rounding(const Real& unit, const Real& unknown) {
+  return unit > unknown / (1 << 20);
+}
+
 namespace detail {
 /// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
 template <class E>
@@ -262,6 +271,7 @@ class Newton {
     bool evaluated = false;  // by damping, already
     int stalls = 0;
     [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
+    [[maybe_unused]] Real doubted_terms(0);  // what the terms of forces rounded by at the last of them
     bool is_anew = true;                     // there is no full correction before this one, in the same units
     [[maybe_unused]] Variables rounding{};   // of the residual, beside what its terms tell; empty: not asked for
     [[maybe_unused]] Real rounded_terms(0);  // what its terms told there
@@ -334,10 +344,14 @@ class Newton {
                         : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
       is_anew = false;
       if constexpr (requires { step.doubts(x, at, correction); }) {
-        if (at_rounding && doubts < 2 && step.doubts(x, at, correction)) [[unlikely]] {
-          ++doubts;
-          at_rounding = false;
-          is_anew = true;
+        if (at_rounding && step.doubts(x, at, correction)) [[unlikely]] {
+          const Real terms = detail::sum_of(at.noise);
+          if (doubts < 2 || terms < doubted_terms / 2) {  // as long as forces become smaller, this is no solution
+            ++doubts;
+            at_rounding = false;
+            is_anew = true;
+          }
+          doubted_terms = terms;
         }
       }
       if constexpr (detail::StartsElsewhere<E>) {
