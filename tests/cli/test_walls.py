@@ -381,7 +381,7 @@ section = { coordinate = "p", value = 0.95, direction = -1 }
         self.assertAlmostEqual(stop["t"], 1.05, delta=1e-12)
         told = json.loads(self.hamflow("sweep", "ball.toml", "--vary", "run.dt=0.09,0.045", "--set", "run.events=[]", "--out",
                                        "none", "--json").stdout)
-        self.assertEqual([row.get("section_points", 50) for row in told["rows"]], [50, 50])
+        self.assertEqual([row["section"]["points"] for row in told["rows"]], [50, 25])
 
     def test_bodies_keep_their_names_behind_walls(self):
         self.write("named.toml", """
