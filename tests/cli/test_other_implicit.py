@@ -267,6 +267,9 @@ class WhatASystemOfManyUnknownsDoesNotTake(CommandCase):
             self.assertIn(f'note: method.iteration = "{asked}" is not used: a step has 1200 unknowns', told(f"method.iteration={asked}"))
         self.assertIn("note: method.max_iterations = 15 is taken as 100", told("method.max_iterations=15"))
         self.assertNotIn("note: method", told("method.max_iterations=60"))
+        compared = self.hamflow("compare", "large.toml", "--methods", "gauss(2,iteration=simplified),verlet", "--dt", "0.1").stderr
+        self.assertIn("note: 'gauss(2,iteration=simplified)': iteration = \"simplified\" is not used: a step has 1200 unknowns",
+                      compared)
 
 
 STIFF = """
@@ -300,7 +303,6 @@ class StiffSteps(CommandCase):
                     self.assertLess(found["energy"]["max_error"], walk * found["energy"]["scale"], case)
                     self.assertNotEqual(found["certificate"]["drift"], "linear", case)
 
-
     def test_a_guess_that_rounding_hides_is_no_solution(self):
         """Forces of the explicit predictor round by more than the whole step: any correction of it looks like rounding."""
         for power, omega, method in ((8, 1000, "cg(2,auto)"), (8, 1000, "cg(2,16)"), (8, 300, "cg(2,16)"), (6, 10000, "cg(2,auto)"),
@@ -309,7 +311,6 @@ class StiffSteps(CommandCase):
             found = json.loads(self.hamflow("run", "stiff.toml", "--set", f"method.name={method}", "--set", "run.steps=40", "--set",
                                             "problem.initial={q=[1],p=[0.3]}", "--out", "none", "--quiet", "--json").stdout)
             self.assertEqual(found["status"], "done", (power, omega, method))
-            # as above; with omega = 10^5 the points given round the forces once more
             self.assertLess(found["energy"]["max_error"], 4 * math.sqrt(40) * 0.1 * omega * 2.0 ** -52 * found["energy"]["scale"],
                             (power, omega, method))
 

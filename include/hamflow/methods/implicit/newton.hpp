@@ -125,6 +125,7 @@ template <class E>
   return most;
 }
 
+/// Of what the terms of forces round by, entry by entry: how large they are at an iterate.
 template <class R>
 R sum_of(const Vector<R, dynamic>& all) {
   R sum(0);
