@@ -42,8 +42,8 @@
 //                                              without its own rounding
 //     bool doubts(const Variables& x, const Point&, const Variables& c) const     asked where the correction c counts
 //                                              as rounding: whether that is far more than a solution rounds by
-//     Real own_gain(const Variables& x) const  the energy that the equations themselves see the step gain: what rounding
-//                                              of the solution makes of it
+//     Real own_gain(const Variables& x) const  the energy that the equations themselves see the step gain: what the
+//                                              rounding of the solution makes of it
 //     bool believable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that was found
 //                                              from a bad start: implicit equations have roots that have nothing to do
 //                                              with the motion
