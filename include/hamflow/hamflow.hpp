@@ -111,6 +111,7 @@
 #include "hamflow/methods/implicit/recorded_energy.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 #include "hamflow/methods/implicit/target.hpp"
+#include "hamflow/methods/implicit/within_rounding.hpp"
 #include "hamflow/methods/itoh_abe.hpp"
 #include "hamflow/methods/lobatto.hpp"
 #include "hamflow/methods/lobatto_options.hpp"

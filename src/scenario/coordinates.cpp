@@ -100,6 +100,11 @@ const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string&
   if (!has_charts || with_coordinates(charts->second, to) == nullptr) {
     const std::string allowed =
         problem.structure ? "those that were typed, " + joined(problem.info.coordinates) : what_charts_there_are();
+    if (charts != charted_problems().end() && problem.info.chart_key.empty()) {  // a variant of its own: in space, say
+      const auto told = [](const auto& choice) { return choice.first + " = " + choice.second; };
+      throw Error("found " + problem.info.name + " with " + joined(problem.info.variant, told) +
+                  ", which has these coordinates only; allowed: " + allowed);
+    }
     throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
   }
   // Entries in charts under keys of their own may lack each other's choices.

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double moved = 0x1p-36;  // of the size of q and of p: 2^16 roundings, and far from where motions part
 constexpr double parted = 1e-3;    // of the size: no longer a small difference
+constexpr double beyond = 16;      // bounds of rounding: what is within so many is no proof against a method
 constexpr std::int64_t most_waypoints = 64;                // at which two motions are compared
 constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates of all of them: 128 MB, with momenta
 
@@ -138,10 +139,11 @@ Parting parting(const Request& request, const Reversal& reversal, const Waypoint
 /// the start does on the way to j, which is measured. Roundings of unit size u then add up like a walk: to u
 /// sqrt(2 a sum_j g_j^2) for a actions a step; four of them,
 /// which is more than six times what reversible methods were found to need (tools/confusion_table.py).
+/// @param bounds so many times that
 LongNumber explained_by_rounding(const Request& request, const Reversal& reversal, const Parting& parting,
-                                 const Waypoints& way, double actions) {
+                                 const Waypoints& way, double actions, double bounds = 1) {
   const double factor =
-      4 * (1 + std::sqrt(2 * actions * static_cast<double>(reversal.steps))) * parting.root_mean_square;
+      bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(reversal.steps))) * parting.root_mean_square;
   const int digits = digits_beyond_double(request.arithmetic);
   if (digits > 0) return times_power_of_ten(factor, 1 - digits);
   if (request.arithmetic != "lattice") return factor * epsilon;
@@ -195,6 +197,13 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
             "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
   }
   if (!at_most(reversal.distance, rounding)) {
+    if (method.reversible &&
+        at_most(reversal.distance, explained_by_rounding(request, reversal, apart, way, actions, beyond))) {
+      return {ReversalProof::nothing,
+              explained + fmt::format(": less than {:g} times that, of which a stiff step rounds by more than is "
+                                      "estimated, is no proof; an arithmetic of more digits is",
+                                      beyond)};
+    }
     if (!begins_on_a_wall(request, reversal.start, size)) return {ReversalProof::not_reversible, explained};
     return {ReversalProof::nothing, explained +
                                         ", but the motion begins on a wall, where the state before the bounce "

@@ -67,7 +67,6 @@ class AverageSetup {
   /// The same averages seen by one point more: for elements of fewer points than there can be.
   const AverageTable<Real>& finer() const { return *finer_; }
   /// By two points more, where there are so many.
-  bool has_finest() const { return table().points + 2 <= most_gauss_points; }
   const AverageTable<Real>& finest() const { return element_table<Real>(table().averages, table().points + 2); }
   /// One more point than there are is needed to judge.
   bool refine() {

@@ -45,7 +45,7 @@ class CyclicAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return rest_.measure(x, at, correction);
   }
-  bool doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
     return rest_.doubts(x, at, correction);
   }
   Increment<Real, n> taken(Variables& x, const Point& at) const {

@@ -105,8 +105,8 @@ class GeneralAverages : public AverageEquations<P, R> {
   Correction<Real> measure(const Variables& x, const Point& at, const Variables& correction) const {
     return detail::in_units_of_noise(x, at, correction);
   }
-  bool doubts(const Variables& x, const Point& at, const Variables& correction) const {
-    return detail::are_hidden(x, at, correction);
+  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+    return detail::hiding_terms(x, at, correction);
   }
 
   Increment<Real, n> taken(Variables& x, const Point& at) const {
@@ -126,8 +126,8 @@ class GeneralAverages : public AverageEquations<P, R> {
   Real own_gain(const Variables& x) const { return gain(x, setup_.table()).gain; }
   bool too_coarse(const Variables& x, const Increment<Real, n>&) const {
     return detail::overlooks_a_gain(
-        gain(x, setup_.finer()), setup_.has_finest(), [&] { return gain(x, setup_.finest()).gain; },
-        [&] { return own_gain(x); });
+        gain(x, setup_.finer()), table_.points, [&] { return gain(x, setup_.finest()).gain; },
+        [&] { return own_gain(x); }, [&](std::uint64_t draw) { return detail::gain_nearby(*this, x, draw); });
   }
   /// Whether the energy is kept to a hundredth of the work done, where that is promised.
   bool believable(const Variables& x, const Increment<Real, n>&) const {

@@ -163,12 +163,12 @@ Correction<Real> in_units_of_noise(const Vector<Real, dynamic>& x, const Average
   return {distance, Real(1)};
 }
 
-/// Whether rounding hides the unknowns themselves, see hidden_by_rounding. Fixed points do not ask: a correction is the
-/// residual there, which is small nowhere but at a solution.
+/// How large the terms are whose rounding hides the unknowns themselves, see hidden_by_rounding; 0: it does not. Fixed
+/// points do not ask: a correction is the residual there, which is small nowhere but at a solution.
 template <class Real>
-bool are_hidden(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
-                const Vector<Real, dynamic>& correction) {
-  if (at.tangent.size() == 0) return false;
+Real hiding_terms(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
+                  const Vector<Real, dynamic>& correction) {
+  if (at.tangent.size() == 0) return Real(0);
   constexpr auto epsilon = Epsilon<Real>{};
   Real unit(0);
   Real unknown(0);
@@ -176,7 +176,7 @@ bool are_hidden(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
     unit = larger(unit, Real(epsilon * Real(at.noise[i] + abs(x[i]))));
     unknown = larger(unknown, Real(abs(x[i] + correction[i])));
   }
-  return hidden_by_rounding(unit, unknown);
+  return hidden_by_rounding(unit, unknown) ? sum_of(at.noise) : Real(0);
 }
 
 template <class Real>

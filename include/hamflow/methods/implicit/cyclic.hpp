@@ -48,6 +48,10 @@ class CyclicElement : public SegmentEquations<P, R> {
     return rest_.measure(x, at, correction);
   }
 
+  [[gnu::always_inline]] Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
+    return rest_.doubts(x, at, correction);
+  }
+
   [[gnu::always_inline]] Increment<Real, n> taken(Variables& x, const Point& at) const {
     return closed(rest_.taken(x, at));
   }

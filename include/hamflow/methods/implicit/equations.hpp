@@ -40,8 +40,9 @@
 // Optional:
 //     void sharpen(const Variables&, Point&) const        after evaluate(), before the last corrections: the residual
 //                                              without its own rounding
-//     bool doubts(const Variables& x, const Point&, const Variables& c) const     asked where the correction c counts
-//                                              as rounding: whether that is far more than a solution rounds by
+//     Real doubts(const Variables& x, const Point&, const Variables& c) const     asked where the correction c counts
+//                                              as rounding: how large the terms are where that is far more than a
+//                                              solution rounds by, else 0
 //     Real own_gain(const Variables& x) const  the energy that the equations themselves see the step gain: what the
 //                                              rounding of the solution makes of it
 //     bool believable(const Variables& x, const Increment<Real, n>& taken) const      asked of a root that was found

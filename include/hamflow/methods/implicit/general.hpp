@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "hamflow/methods/implicit/newton.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 
 namespace hamflow {
@@ -80,6 +81,19 @@ class GeneralElement : public SegmentEquations<P, R> {
       distance = here <= distance ? distance : here;
     }
     return {distance, Real(1)};
+  }
+
+  /// The size of the target where its rounding hides the step, else 0, see natural.hpp.
+  Real doubts(const Z& x, const Point& at, const Z& correction) const { return doubted(at.target, x, correction); }
+  template <class X>
+  static Real doubted(const X& target, const X& x, const X& correction) {
+    Real size(0);
+    Real step(0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      size = larger(size, Real(abs(target[i])));
+      step = larger(step, Real(abs(x[i] + correction[i])));
+    }
+    return hidden_by_rounding(Real(epsilon * size), step) ? size : Real(0);
   }
 
   Increment<Real, n> taken(Z& x, const Point& at) const {

@@ -320,6 +320,7 @@ class ImplicitMethod {
       if (!coarse && !overlooks_a_change(step, problem, q0, p0, found)) return found;
       if (options_.tolerance && fine_without_tolerance(problem, h, q0, p0, found)) return found;
       const bool finer = setup_.refine();
+      if (!finer && !overlooks_a_change(step, problem, q0, p0, found, 16)) return found;  // what such forces round by
       if (log != nullptr) {
         log->restart();
         if (!coarse) log->note_change_unseen();
@@ -347,14 +348,17 @@ class ImplicitMethod {
            !overlooks_a_change(step, problem, q0, p0, found);
   }
   static bool overlooks_a_change(const E& step, const P& problem, const Vector<Real, n>& q0, const Vector<Real, n>& p0,
-                                 const Solution& found) {
-    return detail::overlooks_a_change(problem, q0, p0, found.taken, [&] {
-      if constexpr (requires { step.own_gain(found.x); }) {
-        return step.own_gain(found.x);
-      } else {
-        return Real(0);
-      }
-    });
+                                 const Solution& found, int most_roundings = 256) {
+    return detail::overlooks_a_change(
+        problem, q0, p0, found.taken,
+        [&] {
+          if constexpr (requires { step.own_gain(found.x); }) {
+            return step.own_gain(found.x);
+          } else {
+            return Real(0);
+          }
+        },
+        most_roundings);
   }
 
   [[gnu::noinline]] void diagnose(const P& problem, const PhasePoint<A, n>& z, long long solves) {

@@ -110,6 +110,18 @@ class NaturalElement : public SegmentEquations<P, R> {
     for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
     return {max_norm(correction), epsilon * (larger(flight, max_norm(target)) + max_norm(next))};
   }
+  /// The size of the target where its rounding hides the step, else 0: at a guess so far off that forces round by more
+  /// than the whole step, any correction looks small.
+  [[gnu::always_inline]] Real doubts(const V& d, const Point& at, const V& correction) const {
+    return doubted(flight_, at.target, d, correction);
+  }
+  template <class X>
+  [[gnu::always_inline]] static Real doubted(const Real& flight, const X& target, const X& d, const X& correction) {
+    X next = d;
+    for (std::size_t i = 0; i < d.size(); ++i) next[i] += correction[i];
+    const Real size = max_norm(target);
+    return hidden_by_rounding(Real(epsilon * size), larger(flight, max_norm(next))) ? size : Real(0);
+  }
 
   [[gnu::always_inline]] Increment<Real, n> taken(V& d, const Point& at) const {
     V impulse = at.sum;
@@ -164,8 +176,8 @@ class NaturalElement : public SegmentEquations<P, R> {
   /// energy_gain.hpp has it. (Up to four their sum is at most twice the root of the sum of their squares.)
   bool too_coarse(const V&, const Increment<Real, n>& taken) const {
     if (q0_.size() > 4) {
-      return detail::overlooks_a_gain(finer_work(taken, 1), rule_.points + 2 <= most_gauss_points,
-                                      [&] { return finer_work(taken, 2).gain; });
+      return detail::overlooks_a_gain(
+          finer_work(taken, 1), rule_.points, [&] { return finer_work(taken, 2).gain; }, [] { return Real(0); });
     }
     const Real rounding = rounding_of_work(taken);
     return abs(finer_work(taken).gain) > rounding;

@@ -12,10 +12,10 @@
 // evaluation.
 #pragma once
 
-#include "hamflow/core/counter_random.hpp"
 #include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/methods/implicit/extrapolation.hpp"
 #include "hamflow/methods/implicit/newton_log.hpp"
+#include "hamflow/methods/implicit/within_rounding.hpp"
 #include "hamflow/numerics/few.hpp"
 #include "hamflow/numerics/lu_factors.hpp"
 
@@ -92,7 +92,6 @@ template <class E>
 [[gnu::cold, gnu::noinline]] typename E::Variables rounding_by_state(const E& step, const typename E::Variables& x) {
   using Real = typename E::Real;
   const Real epsilon = Epsilon<Real>{} * Real(1);
-  constexpr std::uint64_t draws = 8;
   typename E::Point at, there;
   at.linearised = there.linearised = false;
   step.evaluate(x, at);
@@ -104,16 +103,12 @@ template <class E>
       if (size > most[i]) most[i] = size;
     }
   };
-  for (std::uint64_t draw = 0; draw < draws; ++draw) {
+  for (std::uint64_t draw = 0; draw < rounding_draws; ++draw) {
     auto q = step.positions();
     auto p = step.momenta();
-    const auto move = [&](Real& y, std::uint64_t i) {
-      static constexpr int units[] = {-2, -1, 1, 2};
-      y += Real(units[counter_bits(draw, i) & 3]) * epsilon * y;
-    };
     for (std::size_t i = 0; i < q.size(); ++i) {
-      move(q[i], 2 * i);
-      move(p[i], 2 * i + 1);
+      q[i] = within_rounding(q[i], draw, 2 * i);
+      p[i] = within_rounding(p[i], draw, 2 * i + 1);
     }
     step.from(q, p).evaluate(x, there);
     note();
@@ -126,8 +121,8 @@ template <class E>
 }
 
 /// Of what the terms of forces round by, entry by entry: how large they are at an iterate.
-template <class R>
-R sum_of(const Vector<R, dynamic>& all) {
+template <class R, std::size_t N>
+R sum_of(const Vector<R, N>& all) {
   R sum(0);
   for (const R& each : all) sum += each;
   return sum;
@@ -271,6 +266,7 @@ class Newton {
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     int stalls = 0;
+    [[maybe_unused]] Iteration iteration = options.iteration;
     [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
     [[maybe_unused]] Real doubted_terms(0);  // what the terms of forces rounded by at the last of them
     bool is_anew = true;                     // there is no full correction before this one, in the same units
@@ -279,8 +275,7 @@ class Newton {
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
     for (int k = 0;; ++k) {
       if constexpr (detail::AnyIteration<E>) {
-        at.linearised =
-            options.iteration == Iteration::newton || (k == 0 && options.iteration == Iteration::simplified);
+        at.linearised = iteration == Iteration::newton || (k == 0 && iteration == Iteration::simplified);
       }
       if (!damped || !evaluated) step.evaluate(x, at);
       evaluated = false;
@@ -320,7 +315,7 @@ class Newton {
         if constexpr (detail::AnyIteration<E>) {
           if (at.linearised && options.diagnostics) detail::note_tangent(step.tangent(at), report.diagnostics);
           if (at.linearised) factors.factor(step.tangent(at));
-          return options.iteration == Iteration::fixed_point ? at.residual : factors.solve(at.residual);
+          return iteration == Iteration::fixed_point ? at.residual : factors.solve(at.residual);
         } else {
           const auto tangent = step.tangent(at);
           if (options.diagnostics) {
@@ -331,7 +326,14 @@ class Newton {
         }
       }();
       ++report.effort.linear_solves;
-      const Correction<Real> c = step.measure(x, at, correction);
+      Correction<Real> c = step.measure(x, at, correction);
+      if constexpr (detail::AnyIteration<E>) {
+        // In a stiff step a correction is far smaller than the residual, which is what changes the energy and what a
+        // tangent of old leaves a part of.
+        if (iteration == Iteration::simplified) {
+          c.size = larger(c.size, step.measure(x, at, at.residual).size);
+        }
+      }
       noise = c.noise;
       Real total = c.size;  // NaN and infinity do not get lost in a sum, as they do in a maximum
       for (std::size_t i = 0; i < x.size(); ++i) total += abs(correction[i]);
@@ -340,23 +342,33 @@ class Newton {
         return Ending::diverged;
       }
       if (k == 0) first = c.size;
-      at_rounding = !detail::AnyIteration<E> || options.iteration == Iteration::newton
+      at_rounding = !detail::AnyIteration<E> || iteration == Iteration::newton
                         ? newton_at_rounding(c.size, previous, is_anew || shortened, noise, stalls)
                         : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
       is_anew = false;
+      if constexpr (detail::AnyIteration<E>) {
+        // What a tangent of old leaves of the last correction is no more than rounding where the residual is. Where the
+        // unknowns round by more than that, it takes the tangent of the solution.
+        if (!at_rounding && iteration == Iteration::simplified && stalls >= 2) {
+          iteration = Iteration::newton;
+          is_anew = true;
+        }
+      }
       if constexpr (requires { step.doubts(x, at, correction); }) {
-        if (at_rounding && step.doubts(x, at, correction)) [[unlikely]] {
-          const Real terms = detail::sum_of(at.noise);
-          if (doubts < 2 || terms < doubted_terms / 2) {  // as long as forces become smaller, this is no solution
-            ++doubts;
-            at_rounding = false;
-            is_anew = true;
+        if (at_rounding) {
+          const Real terms = step.doubts(x, at, correction);
+          if (terms > Real(0)) [[unlikely]] {
+            if (doubts < 2 || terms < doubted_terms / 2) {  // as long as forces become smaller, this is no solution
+              ++doubts;
+              at_rounding = false;
+              is_anew = true;
+            }
+            doubted_terms = terms;
           }
-          doubted_terms = terms;
         }
       }
       if constexpr (detail::StartsElsewhere<E>) {
-        if (!at_rounding && rounding.size() == 0 && have_stalled(options.iteration, stalls)) {
+        if (!at_rounding && rounding.size() == 0 && have_stalled(iteration, stalls)) {
           rounding = detail::rounding_by_state(step, x);
           rounded_terms = detail::sum_of(at.noise);
           is_anew = true;

@@ -112,6 +112,10 @@ template <class P>
     if (k == 0) first = size;
     if (newton_at_rounding(size, before, k == 0, noise, stalls)) {
       if (epsilon * first > noise) return {};
+      const double terms = std::max(std::abs(target_x), std::abs(target_y));
+      if (hidden_by_rounding(epsilon * terms, std::max(flight, std::max(std::abs(dx + ex), std::abs(dy + ey))))) {
+        return {};
+      }
       const double low_x = product_error(unit, sums.fx, half_x), low_y = product_error(unit, sums.fy, half_y);
       const double part_x = middle_x - p0[0], part_y = middle_y - p0[1];
       const V rest = velocity_of(((p0[0] - (middle_x - part_x)) + (half_x - part_x)) + low_x,

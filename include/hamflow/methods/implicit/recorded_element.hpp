@@ -119,6 +119,11 @@ class RecordedElement : public SegmentEquations<P, double> {
     }
     return GeneralElement<P, Real>::measured(read(at, frame_.point() + 2 * frame_.m), x, correction);
   }
+  Real doubts(const Few& x, const Point& at, const Few& correction) const {
+    const Few target = read(at, frame_.point() + frame_.m);
+    return is_natural() ? NaturalElement<P, Real>::doubted(at.frame[frame_.number()], target, x, correction)
+                        : GeneralElement<P, Real>::doubted(target, x, correction);
+  }
   Increment<Real, n> taken(Few& x, const Point& at) const {
     put(x, at, frame_.x());
     run(setup_.programs().taken, at);

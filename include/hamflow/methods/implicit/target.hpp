@@ -3,7 +3,7 @@
 // product with h/kappa is rounded once, together with the last correction.
 #pragma once
 
-#include "hamflow/methods/implicit/equations.hpp"
+#include "hamflow/methods/implicit/newton.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 #include "hamflow/numerics/exact_product.hpp"
 
@@ -49,11 +49,11 @@ class TargetEquations {
     return {distance, Real(1)};
   }
 
-  /// Whether what is taken for rounding is far more than the rounding of the step. At an iterate beside a singularity,
-  /// where forces round by more than the whole step, any correction and any residual look small; at the next one, away
-  /// from there, they do not. Newton's last correction is some 10^-8 of a step, and what remains of the residual that
-  /// times the stiffness.
-  bool doubts(const Variables& x, const Point& at, const Variables& correction) const {
+  /// How large terms are of which far more is taken for rounding than the rounding of the step; 0: none. At an iterate
+  /// beside a singularity, where forces round by more than the whole step, any correction and any residual look small;
+  /// at the next one, away from there, they do not. Newton's last correction is some 10^-8 of a step, and what remains
+  /// of the residual that times the stiffness.
+  Real doubts(const Variables& x, const Point& at, const Variables& correction) const {
     Real step(0);
     Real moved(0);
     Real left(0);
@@ -62,7 +62,8 @@ class TargetEquations {
       moved = larger(moved, Real(abs(correction[i])));
       left = larger(left, Real(abs(at.residual[i])));
     }
-    return moved > step / (1 << 20) || left > step / (1 << 10);
+    const bool hidden = moved > step / (1 << 20) || left > step / (1 << 10);
+    return hidden ? detail::sum_of(at.noise) : Real(0);
   }
 
  protected:
