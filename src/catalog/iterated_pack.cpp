@@ -154,7 +154,7 @@ void IteratedPack::judge(std::size_t lane, int k) {
   if (far || (options_->iteration == Iteration::newton && is_hidden(lane))) leave(lane, carried_);
 }
 
-/// Whether rounding hides the unknowns, as detail::are_hidden (averages_rows.hpp).
+/// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
 bool IteratedPack::is_hidden(std::size_t lane) const {
   double unit = 0;
   double unknown = 0;

@@ -119,7 +119,7 @@ double IterationRunner::size_of_correction(std::span<const double> frame) const 
   return size + total <= std::numeric_limits<double>::max() ? size : std::numeric_limits<double>::infinity();
 }
 
-/// Whether rounding hides the unknowns, as detail::are_hidden (averages_rows.hpp).
+/// Whether rounding hides the unknowns, as detail::hiding_terms (averages_rows.hpp).
 bool IterationRunner::is_hidden(std::span<const double> frame) const {
   const IterationFrame& at = recorded_.frame;
   double unit = 0;

@@ -103,7 +103,8 @@ const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string&
     if (charts != charted_problems().end() && problem.info.chart_key.empty()) {  // a variant of its own: in space, say
       const auto told = [](const auto& choice) { return choice.first + " = " + choice.second; };
       throw Error("found " + problem.info.name + " with " + joined(problem.info.variant, told) +
-                  ", which has these coordinates only; allowed: " + allowed);
+                  ", which stands in the coordinates " + joined(problem.info.coordinates) +
+                  " alone; allowed: " + allowed);
     }
     throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
   }

@@ -199,10 +199,11 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
   if (!at_most(reversal.distance, rounding)) {
     if (method.reversible &&
         at_most(reversal.distance, explained_by_rounding(request, reversal, apart, way, actions, beyond))) {
-      return {ReversalProof::nothing,
-              explained + fmt::format(": less than {:g} times that, of which a stiff step rounds by more than is "
-                                      "estimated, is no proof; an arithmetic of more digits is",
-                                      beyond)};
+      return {
+          ReversalProof::nothing,
+          explained + fmt::format(", and less than {:g} times that is no proof: a stiff step rounds by more than is "
+                                  "estimated, and an arithmetic of more digits would tell",
+                                  beyond)};
     }
     if (!begins_on_a_wall(request, reversal.start, size)) return {ReversalProof::not_reversible, explained};
     return {ReversalProof::nothing, explained +

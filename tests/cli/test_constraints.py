@@ -282,7 +282,7 @@ steps = 10
                                  "--json").stdout
             for a, b in zip(json.loads(again)["q"], [math.sin(0.7), -math.cos(0.7)]):
                 self.assertAlmostEqual(a, b, delta=16 * EPSILON)
-        self.assertIn("dimension = 3, constraint_form = manifold, which has these coordinates only", self.hamflow(
+        self.assertIn("dimension = 3, constraint_form = manifold, which stands in the coordinates x, y, z alone", self.hamflow(
             "convert", self.pendulum(SPACE), "--to", "generalised", status=2).stderr)
 
     def test_conversion_of_runs(self):
