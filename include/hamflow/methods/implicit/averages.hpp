@@ -66,7 +66,7 @@ class AverageSetup {
   bool automatic() const { return options_.element.quadrature == 0; }
   /// The same averages seen by one point more: for elements of fewer points than there can be.
   const AverageTable<Real>& finer() const { return *finer_; }
-  /// By two points more, where there are so many.
+  /// By two points more. @pre there are so many
   const AverageTable<Real>& finest() const { return element_table<Real>(table().averages, table().points + 2); }
   /// One more point than there are is needed to judge.
   bool refine() {

@@ -45,7 +45,7 @@ inline constexpr int points_enough = 16;
 /// far from converged they differ, too, but each sees the same along neighbouring steps, which noise does not. What
 /// the rule itself sees of the energy is no fault of its points: it is the rounding of the solution, which in a stiff
 /// step is far more than that of the work, and which every rule sees alike.
-/// @param two_more(): the gain as two more points see it   @param has_two whether there are so many
+/// @param points of the rule   @param two_more(): the gain as two more points see it
 /// @param own(): the gain as the rule itself sees it
 /// @param nearby(draw): what one point more sees along a neighbouring step beyond what the rule itself sees there;
 /// null: is not asked
