@@ -103,12 +103,11 @@ struct RowTile {
         const auto both = [&](const Pair& pair, const Distance<Space>& r, Part(&others)[Space], std::size_t at)
             __attribute__((always_inline)) {
           for (int k = 0; k < Space; ++k) {
-            const Part push = pair.c * r.d[k];
-            sums[t].force[k].v[n] = sums[t].force[k].v[n] + push.v[0];
+            sums[t].force[k].v[n] = times_plus(pair.c, r.d[k], Part{{sums[t].force[k].v[n]}}).v[0];
             if constexpr (Tile > 1) {
-              others[k] = others[k] - push;
+              others[k] = minus_times(others[k], pair.c, r.d[k]);
             } else {
-              store(load<Part>(force[k] + at) - push, force[k] + at);
+              store(minus_times(load<Part>(force[k] + at), pair.c, r.d[k]), force[k] + at);
             }
           }
           if constexpr (Energy) sums[t].energy.v[n] = sums[t].energy.v[n] + pair.phi.v[0];

@@ -54,7 +54,7 @@ struct LennardJones {
   HAMFLOW_INLINE static Pair of(const Law& law, const Part& s, const Part&) {
     const Part s2 = s * s;
     const Part s3 = s2 * s;
-    return {(s2 * s2) * (s3 - all<Part>(law.half_attraction)), s3 * (s3 - all<Part>(law.attraction))};
+    return {(s2 * s2) * times_plus(s2, s, all<Part>(-law.half_attraction)), s3 * (s3 - all<Part>(law.attraction))};
   }
 };
 
