@@ -109,6 +109,7 @@
 #include "hamflow/methods/implicit/rattle_equations.hpp"
 #include "hamflow/methods/implicit/recorded_element.hpp"
 #include "hamflow/methods/implicit/recorded_energy.hpp"
+#include "hamflow/methods/implicit/rounding_by_state.hpp"
 #include "hamflow/methods/implicit/segment.hpp"
 #include "hamflow/methods/implicit/target.hpp"
 #include "hamflow/methods/implicit/within_rounding.hpp"

@@ -172,7 +172,8 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
   const bool in_bulk = problem.info.name == GasKeys::problem && digits_beyond_double(request.arithmetic) == 0 &&
                        (pair == request.variant.end() || pair->second != GasKeys::typed);
   if (request.arithmetic != "lattice" && !in_bulk) {
-    return "in " + request.arithmetic +
+    const bool typed = pair != request.variant.end() && pair->second == GasKeys::typed;
+    return "in " + request.arithmetic + (typed ? " with a typed pair law" : "") +
            " threads would change the order of floating-point sums, and with it the bits; " +
            "allowed 1, or arithmetic = \"lattice\", whose integer sums have no order";
   }

@@ -133,7 +133,9 @@ const char* const head = R"(<!DOCTYPE html>
     figure { max-width: 11cm; }
     .wide { overflow: visible; }
     .verdict, .quiet { color: #000; }
-    nav, .skip, details { display: none; }
+    nav, .skip { display: none; }
+    details > pre { display: block !important; }
+    details::details-content { content-visibility: visible; display: block; height: auto; }
     a { color: #000; text-decoration: none; }
   }
 </style>

@@ -144,9 +144,11 @@ class Run {
     const fs::path folder = request_.folder / "reproduction" / experiment.info.id;
     const std::string print = fingerprint(experiment, request_.extent);
     if (request_.existing == Existing::resume) {
-      if (const auto kept = kept_in(folder, print)) {
-        report.claims = kept->claims;
-        report.seconds = kept->seconds;
+      // What is done in a larger size is done in this one, too.
+      if (const auto done = kept_of(experiment, folder); done && done->extent >= request_.extent) {
+        report.claims = done->kept.claims;
+        report.seconds = done->kept.seconds;
+        report.extent = done->extent;
         report.was_done = true;
         return report;
       }
@@ -198,13 +200,14 @@ class Run {
     return report;
   }
 
-  /// With the experiments that were not asked for and are done in the folder.
+  /// With the experiments that are done in the folder, asked for or not.
   ReproduceReport with_others(const ReproduceReport& asked) const {
     ReproduceReport whole{.status = asked.status};
     for (const Experiment& experiment : all_experiments()) {
       const auto same = [&](const ExperimentReport& one) { return one.info.id == experiment.info.id; };
       const auto found = std::find_if(asked.experiments.begin(), asked.experiments.end(), same);
-      if (found != asked.experiments.end()) {
+      // What did not come to its end may be there in a smaller size, or was there before.
+      if (found != asked.experiments.end() && found->status == "done") {
         whole.experiments.push_back(*found);
       } else if (auto done = kept_of(experiment, request_.folder / "reproduction" / experiment.info.id)) {
         whole.experiments.push_back({.info = experiment.info,
@@ -213,6 +216,8 @@ class Run {
                                      .extent = done->extent,
                                      .seconds = done->kept.seconds,
                                      .was_done = true});
+      } else if (found != asked.experiments.end()) {
+        whole.experiments.push_back(*found);
       }
     }
     return whole;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "figure_text.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/core/hash.hpp"
 #include "hamflow/core/text.hpp"
 #include "hdf5_text.hpp"
 #include "json_text.hpp"
@@ -61,7 +63,33 @@ Claim claim_in(const Json& json) {
   if (grounds == std::end(names_of_grounds)) throw Error("no grounds of a claim");
   claim.grounds = static_cast<Grounds>(grounds - std::begin(names_of_grounds));
   claim.judgement = {verdict_in(json.at("verdict")), json.at("reason")};
+  if (claim.judgement.verdict != ClaimVerdict::nothing_to_test &&
+      judge(claim.rule, claim.measured, claim.grounds).verdict != claim.judgement.verdict) {
+    throw Error("a verdict that does not follow from its numbers");
+  }
   return claim;
+}
+
+std::string contents_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+std::string digest(const std::string& text) { return fmt::format("{:016x}", fnv1a(std::as_bytes(std::span(text)))); }
+/// Of all that stands beside it. What was kept before there were digests has none.
+constexpr const char* own_digest = "fnv1a";
+std::string digest_of_rest(Json all) {
+  all.erase(own_digest);
+  return digest(text_of(all));
+}
+bool is_as_written(const fs::path& folder, const Json& all) {
+  if (all.contains(own_digest) && all.at(own_digest) != digest_of_rest(all)) return false;
+  const Json files = all.value("files", Json::object());  // it has to outlive its items
+  for (const auto& [name, written] : files.items()) {
+    if (digest(contents_of(folder / name)) != written) return false;
+  }
+  return true;
 }
 
 void write_csv(const fs::path& file, const Curves& curves) {
@@ -158,22 +186,28 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   Json all{{"fingerprint", print},   {"seconds", seconds},         {"claims", Json::array()},
            {"notes", study.notes()}, {"scenarios", Json::array()}, {"figures", Json::array()},
            {"tables", Json::array()}};
+  std::vector<std::string> files;
   for (const Claim& claim : study.claims()) all["claims"].push_back(json_with_bounds(claim));
   for (const KeptScenario& scenario : study.scenarios()) {
-    write_text(folder / (scenario.name + ".toml"), scenario.text);
+    write_text(folder / files.emplace_back(scenario.name + ".toml"), scenario.text);
     all["scenarios"].push_back({{"name", scenario.name}, {"command", scenario.command}});
   }
-  for (const Curves& curves : study.curves()) write_csv(folder / (curves.name + ".csv"), curves);
-  if (!study.curves().empty()) write_h5(folder / "curves.h5", study);
+  for (const Curves& curves : study.curves()) write_csv(folder / files.emplace_back(curves.name + ".csv"), curves);
+  if (!study.curves().empty()) write_h5(folder / files.emplace_back("curves.h5"), study);
   for (const Drawn& drawn : study.drawn()) {
-    for (const std::string& format : formats) figures::draw(drawn.page, folder / (drawn.name + "." + format));
+    for (const std::string& format : formats) {
+      figures::draw(drawn.page, folder / files.emplace_back(drawn.name + "." + format));
+    }
     all["figures"].push_back({drawn.name, drawn.caption, in_words(drawn.page)});
   }
   for (const Table& table : study.tables()) {
-    write_table(folder / (table.name + ".csv"), table);
+    write_table(folder / files.emplace_back(table.name + ".csv"), table);
     all["tables"].push_back(
         {{"name", table.name}, {"caption", table.caption}, {"headings", table.headings}, {"rows", table.rows}});
   }
+  all["files"] = Json::object();
+  for (const std::string& file : files) all["files"][file] = digest(contents_of(folder / file));
+  all[own_digest] = digest_of_rest(all);
   write_text(folder / "result.json", text_of(all));
 }
 
@@ -185,6 +219,7 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
   const Json all = read_if_json(text.str());
   if (all.is_discarded() || !all.is_object() || all.value("fingerprint", "") != print) return {};
   try {
+    if (!is_as_written(folder, all)) return {};
     Kept kept;
     for (const Json& claim : all.at("claims")) kept.claims.push_back(claim_in(claim));
     kept.notes = all.at("notes").get<std::vector<std::string>>();
@@ -203,7 +238,7 @@ std::optional<Kept> kept_in(const fs::path& folder, const std::string& print) {
 }
 
 std::optional<KeptOf> kept_of(const Experiment& experiment, const fs::path& folder) {
-  for (const WorkExtent extent : {WorkExtent::quick, WorkExtent::usual, WorkExtent::full}) {
+  for (const WorkExtent extent : {WorkExtent::full, WorkExtent::usual, WorkExtent::quick}) {
     if (auto kept = kept_in(folder, fingerprint(experiment, extent))) return KeptOf{*std::move(kept), extent};
   }
   return {};

@@ -44,7 +44,8 @@ std::optional<KeptOf> kept_of(const Experiment& experiment, const std::filesyste
 /// @param formats of figures   @throws FileError
 void keep(const std::filesystem::path& folder, const Study& study, const std::string& fingerprint, double seconds,
           const std::vector<std::string>& formats);
-/// Nothing where the folder holds no such result, or one of another fingerprint.
+/// Nothing where the folder holds no such result, one of another fingerprint, one whose verdicts do not follow from its
+/// numbers, or one of whose files is missing or not as it was written.
 std::optional<Kept> kept_in(const std::filesystem::path& folder, const std::string& fingerprint);
 
 }  // namespace hamflow::reproduction

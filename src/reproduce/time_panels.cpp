@@ -33,7 +33,7 @@ Panel over_time(const std::string& label, const std::vector<double>& t, const st
   panel.y_label = label;
   panel.aspect = 0.42;
   if (!exact.empty()) panel.series.push_back({Ink::line, "exact", finite_points(t, exact), {.colour = exact_colour}});
-  panel.series.push_back({exact.empty() ? Ink::line : Ink::fine_dots, exact.empty() ? "" : "element",
+  panel.series.push_back({exact.empty() ? Ink::line : Ink::fine_dots, exact.empty() ? "" : "steps",
                           exact.empty() ? finite_points(t, x) : thin_out(finite_points(t, x), most_dots)});
   return panel;
 }
@@ -55,7 +55,7 @@ Panel phase_plane(const std::string& x_label, const std::string& y_label, const 
   if (!exact_x.empty()) {
     panel.series.push_back({Ink::line, "exact", finite_points(exact_x, exact_y), {.colour = exact_colour}});
   }
-  panel.series.push_back({Ink::fine_dots, exact_x.empty() ? "" : "element", thin_out(finite_points(x, y), 2000)});
+  panel.series.push_back({Ink::fine_dots, exact_x.empty() ? "" : "steps", thin_out(finite_points(x, y), 2000)});
   return panel;
 }
 

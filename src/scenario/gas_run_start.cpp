@@ -96,6 +96,7 @@ struct Place {
   std::string p;
   hsize_t row = 0;
   hsize_t numbers = 0;
+  hsize_t dimension = 0;  // 0: the numbers stand in one row
 };
 
 /// H5MD of a gas, else /q and /p.
@@ -119,18 +120,45 @@ Place place_of(hid_t file, const std::filesystem::path& path, RunState which) {
                 "; allowed the run.h5 of a run that kept some");
   }
   for (std::size_t k = 1; k < states.size(); ++k) place.numbers *= states[k];
+  if (states.size() == 3) place.dimension = states[2];
   return place;
+}
+
+/// Of an n-body run; empty where the file has none.
+std::vector<double> masses_of_bodies(hid_t file) {
+  std::vector<double> masses;
+  if (H5Aexists(file, "masses") <= 0) return masses;
+  const Open attribute(H5Aopen(file, "masses", H5P_DEFAULT), H5Aclose);
+  const Open space(H5Aget_space(attribute.id), H5Sclose);
+  masses.resize(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id))));
+  if (masses.empty() || H5Aread(attribute.id, H5T_NATIVE_DOUBLE, masses.data()) < 0) masses.clear();
+  return masses;
+}
+
+/// The particles of another dimension would be as many numbers, and no particles.
+void check_dimension(hid_t file, const Place& place, std::size_t space, const std::string& path) {
+  hsize_t dimension = place.dimension;
+  if (dimension == 0) {
+    const std::size_t bodies = masses_of_bodies(file).size();
+    if (bodies == 0) {
+      throw Error("found in " + path + " the run of a system without bodies, whose states have " +
+                  std::to_string(place.numbers) + " numbers; allowed the run.h5 of a gas or of n-body");
+    }
+    if (bodies > 1 && place.numbers % bodies == 0) dimension = place.numbers / bodies;
+  }
+  if (dimension != 0 ? dimension != space : place.numbers % space != 0) {
+    throw Error("found particles in " +
+                (dimension != 0 ? std::to_string(dimension) + " dimensions"
+                                : "states of " + std::to_string(place.numbers) + " numbers") +
+                " in " + path + "; allowed problem.dimension = " + std::to_string(space) +
+                (dimension == 2 || dimension == 3 ? ", or that of the file" : ""));
+  }
 }
 
 /// One for each particle, or one for all where they are equal; nothing where the file has none.
 std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
   std::vector<double> masses = row_of(file, "particles/all/mass/value", 0);
-  if (masses.empty() && H5Aexists(file, "masses") > 0) {  // of an n-body run
-    const Open attribute(H5Aopen(file, "masses", H5P_DEFAULT), H5Aclose);
-    const Open space(H5Aget_space(attribute.id), H5Sclose);
-    masses.resize(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id))));
-    if (masses.empty() || H5Aread(attribute.id, H5T_NATIVE_DOUBLE, masses.data()) < 0) masses.clear();
-  }
+  if (masses.empty()) masses = masses_of_bodies(file);
   if (masses.size() != particles && masses.size() != 1) return {};
   if (std::all_of(masses.begin(), masses.end(), [&](double m) { return m == masses[0]; })) masses.resize(1);
   std::vector<std::string> texts;
@@ -154,10 +182,7 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
                     : "found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
   }
   const Place place = place_of(h5.id, file, which);
-  if (place.numbers % space != 0) {
-    throw Error("found states of " + std::to_string(place.numbers) + " numbers in " + file.string() + "; allowed " +
-                std::to_string(space) + " for each particle");
-  }
+  check_dimension(h5.id, place, space, file.string());
   GasStart start;
   const bool sampled = place.q.find("start") == std::string::npos;
   start.q = numbers_of(h5.id, place.q, sampled ? "digits/q" : "", place.row);

@@ -132,6 +132,12 @@ class ScenarioRun {
     observers_.push_back(checkpoints_.get());  // the last: what was seen at a step belongs to its checkpoint
   }
 
+  /// Samples by steps end with the last.
+  bool keeps_final_state() const {
+    const auto& formats = scenario_.formats;
+    return writes() && scenario_.record.empty() && std::find(formats.begin(), formats.end(), "h5") != formats.end();
+  }
+
   RunReport carry_out() {
     const auto begin = std::chrono::steady_clock::now();
     RunResult result = take_steps();
@@ -140,7 +146,15 @@ class ScenarioRun {
     result.steps_taken = simulation_->step();
     RunReport report;
     report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken);
-    const Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
+    Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
+    if (summary["final"].contains("dataset") && !keeps_final_state()) {
+      summary["final"]["dataset"] = nullptr;
+      summary["warnings"].push_back(
+          {{"kind", "final_state"},
+           {"message",
+            "the last state has too many numbers for a summary, and no file holds it: samples are kept at the "
+            "times of run.record alone, or not as HDF5"}});
+    }
     report.file_trouble = result.file_trouble;
     report.outcome = result.outcome;
     report.wall_seconds = result.wall_seconds;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/inverse_cube.hpp"
@@ -123,16 +124,17 @@ void add_long_search(const Scenario& scenario, const Simulation& simulation, Jso
                                        scenario.dt)));
 }
 
-/// Where two Lennard-Jones particles repel each other with no energy left, in the lengths of the positions; 0 of
-/// others.
+/// The distance within which two particles of a gas repel each other, in the lengths of the positions: that of the
+/// least of a Lennard-Jones pair's energy, or its cut-off, where that is less; 0 of other laws.
 double core_of(const Scenario& scenario) {
   if (scenario.request.problem != GasKeys::problem) return 0;
   const auto pair = scenario.request.variant.find(GasKeys::pair);
   if (pair != scenario.request.variant.end() && pair->second != "lennard-jones") return 0;
   const Parameters<double> given(scenario.request.parameters);
   const bool usual_form = given.has("sigma") || given.has("epsilon");
-  const double zero = given.has("sigma") ? given["sigma"] : usual_form ? 1 : std::pow(0.5, 1.0 / 6);
-  return zero / given[GasKeys::scale];
+  double least = usual_form ? std::pow(2.0, 1.0 / 6) * (given.has("sigma") ? given["sigma"] : 1) : 1;
+  if (given.has(GasKeys::cutoff)) least = std::min(least, given[GasKeys::cutoff]);
+  return least / given[GasKeys::scale];
 }
 
 double fastest(const Scenario& scenario, const std::vector<double>& p) {
@@ -149,18 +151,55 @@ double fastest(const Scenario& scenario, const std::vector<double>& p) {
   return most;
 }
 
+/// The least distance of two particles, in a periodic box of their images too. @return 0 of more than are worth the
+/// time
+double least_distance(const Scenario& scenario, const std::vector<double>& q) {
+  const Parameters<double> given(scenario.request.parameters);
+  const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
+  constexpr std::size_t most_particles = 3000;
+  const std::size_t count = q.size() / space;
+  if (count > most_particles) return 0;
+  const auto container = scenario.request.variant.find(GasKeys::container);
+  std::vector<double> edges(space, 0.0);
+  if (container != scenario.request.variant.end() && container->second == "periodic") {
+    const std::vector<double> size = given.list(GasKeys::size);
+    for (std::size_t k = 0; k < space && k < size.size(); ++k) edges[k] = size[k];
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      double square = 0;
+      for (std::size_t k = 0; k < space; ++k) {
+        double d = q[i * space + k] - q[j * space + k];
+        if (edges[k] > 0) d -= std::nearbyint(d / edges[k]) * edges[k];
+        square += d * d;
+      }
+      least = std::min(least, square);
+    }
+  }
+  return std::sqrt(least);
+}
+
 /// Two particles that pass through each other within one step leave next to nothing in the energy, and turn nowhere.
+/// What is known of a Lennard-Jones pair is the distance within which it repels; of other laws, how near two stand.
 void add_passing(const Scenario& scenario, const Frame& end, Json& all) {
-  const double core = core_of(scenario);
-  if (core == 0) return;
+  if (scenario.request.problem != GasKeys::problem || !takes_equal_steps(describe(scenario.request.method))) return;
   const double speed = std::max(fastest(scenario, scenario.start_p), fastest(scenario, end.p));
   const double move = speed * std::abs(scenario.dt);
-  if (!(4 * move > core)) return;
-  all.push_back(warning(
-      "long_step",
-      fmt::format("a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
-                  "other: they may pass through each other unseen; try dt = {:.2g} or less",
-                  move, core, core / (20 * speed))));
+  if (const double core = core_of(scenario); core != 0) {
+    if (!(4 * move > core)) return;
+    all.push_back(warning(
+        "long_step",
+        fmt::format("a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
+                    "other: they may pass through each other unseen; try dt = {:.2g} or less",
+                    move, core, core / (20 * speed))));
+    return;
+  }
+  const double apart = std::min(least_distance(scenario, scenario.start_q), least_distance(scenario, end.q));
+  if (!(apart > 0 && move > apart / 2)) return;
+  all.push_back(warning("long_step", fmt::format("a particle moves {:.3g} in a step, and two stand {:.3g} apart: they "
+                                                 "may pass through each other unseen; try dt = {:.2g} or less",
+                                                 move, apart, apart / (20 * speed))));
 }
 
 /// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.

@@ -194,7 +194,7 @@ void compare(Study& study) {
       which += fmt::format("{}{} at t = {:.3g}", which.empty() ? "" : ", ", orbit.figure, ended);
     }
     later.look(study, orbit, reference, 1000);
-    figure.push_back(std::stod(orbit.figure));
+    figure.push_back(std::stod(std::string(orbit.figure).substr(2)));  // 2.10 is not 2.1
     const std::array<double, 8> values{cartesian.iterations, polar.iterations, cartesian.error,   polar.error,
                                        cartesian.energy,     polar.energy,     cartesian.angular, polar.angular};
     for (std::size_t i = 0; i < 8; ++i) columns[i].push_back(values[i]);
@@ -249,7 +249,7 @@ void compare(Study& study) {
                     later.where.empty() ? "none" : later.where)},
        {static_cast<double>(later.of_hamflow), 0, "hamflow with the programs' tolerance, criterion = \"seed\""}});
   study.keep({"comparison",
-              {{"figure", figure},
+              {{"number_of_figure_in_chapter_2", figure},
                {"iterations_cartesian", columns[0]},
                {"iterations_polar", columns[1]},
                {"error_cartesian", columns[2]},

@@ -179,13 +179,6 @@ Real hiding_terms(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
   return hidden_by_rounding(unit, unknown) ? sum_of(at.noise) : Real(0);
 }
 
-template <class Real>
-Real two_norm(const Vector<Real, dynamic>& x) {
-  Real sum(0);
-  for (const Real& each : x) sum += each * each;
-  return sqrt(sum);
-}
-
 /// A sum of several terms and what its rounding has lost.   [Knuth1997, 4.2.2]
 template <class Real>
 struct KeptSum {

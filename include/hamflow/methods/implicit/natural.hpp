@@ -177,7 +177,8 @@ class NaturalElement : public SegmentEquations<P, R> {
   bool too_coarse(const V&, const Increment<Real, n>& taken) const {
     if (q0_.size() > 4) {
       return detail::overlooks_a_gain(
-          finer_work(taken, 1), rule_.points, [&] { return finer_work(taken, 2).gain; }, [] { return Real(0); });
+          finer_work(taken, 1), rule_.points, [&] { return finer_work(taken, 2).gain; }, [] { return Real(0); },
+          [&](std::uint64_t draw) { return gain_nearby(taken, draw); });
     }
     const Real rounding = rounding_of_work(taken);
     return abs(finer_work(taken).gain) > rounding;
@@ -207,6 +208,29 @@ class NaturalElement : public SegmentEquations<P, R> {
     if (rule_.points == 1) return true;
     const detail::Gain<Real> work = finer_work(taken, 1);
     return Real(100) * abs(work.gain) <= work.size;
+  }
+
+  /// What one point more sees beyond what the rule itself sees along a segment so near (energy_gain.hpp).
+  [[gnu::cold, gnu::noinline]] Real gain_nearby(const Increment<Real, n>& taken, std::uint64_t draw) const {
+    const Real unit = Real(1) / Real(1 << 24);
+    V q = q0_;
+    V d = taken.q;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      q[i] = detail::moved_by(unit, q[i], draw, 2 * i);
+      d[i] = detail::moved_by(unit, d[i], draw, 2 * i + 1);
+    }
+    const V middle = detail::midpoint<Real>(q, d);
+    const auto work = [&](const GaussRule<Real>& rule) {
+      V f = zeros_like(d);
+      Real sum(0);
+      for (std::size_t l = 0; l < rule.c.size(); ++l) {
+        force(problem_, detail::on_segment(middle, rule.offset[l], d), f);
+        for (std::size_t i = 0; i < d.size(); ++i) sum += rule.b[l] * d[i] * f[i];
+      }
+      effort_.force += static_cast<long long>(rule.c.size());
+      return sum;
+    };
+    return work(gauss_rule<Real>(std::min(rule_.points + 1, most_gauss_points))) - work(rule_);
   }
 
   /// What more points see of the energy gained.

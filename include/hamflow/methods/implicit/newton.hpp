@@ -15,7 +15,7 @@
 #include "hamflow/methods/implicit/equations.hpp"
 #include "hamflow/methods/implicit/extrapolation.hpp"
 #include "hamflow/methods/implicit/newton_log.hpp"
-#include "hamflow/methods/implicit/within_rounding.hpp"
+#include "hamflow/methods/implicit/rounding_by_state.hpp"
 #include "hamflow/numerics/few.hpp"
 #include "hamflow/numerics/lu_factors.hpp"
 
@@ -71,63 +71,26 @@ constexpr bool hidden_by_rounding(const Real& unit, const Real& unknown) {
   return unit > unknown / (1 << 20);
 }
 
+/// Whether fixed points that have ceased to come nearer came nearer so fast before, by a million, by half or more each
+/// time, that what is left can be nothing but rounding, though neither the terms of forces nor moves of the state tell
+/// of it: exp(x) - exp(y) of small x and y rounds by a unit of 1, and of many particles, most nearly at rest, a few
+/// stand where that unit comes and goes with any change, and take turns for ever. A residual shrinks nowhere but
+/// towards a solution; that of a tangent of old shrinks far from one, too.
+/// @param first, now sizes of the residual   @param corrections until they ceased to shrink
+template <class Real>
+constexpr bool has_contracted(const Real& first, const Real& now, int corrections) {
+  constexpr int digits = 20;  // binary ones
+  Real least(1);
+  for (int k = 0; k < (corrections > digits ? corrections : digits); ++k) least = least / 2;
+  return now <= least * first;
+}
+
 namespace detail {
 /// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
 template <class E>
 concept AnyIteration = requires(typename E::Point& at) {
   { at.linearised } -> std::same_as<bool&>;
 };
-/// Whose residual can be asked for from a state nearby, too.
-template <class E>
-concept StartsElsewhere = requires(const E& step, typename E::Point& at) {
-  step.from(step.positions(), step.momenta());
-  at.noise;
-};
-
-/// By how much the residual moves, entry by entry and in units of epsilon, when the state moves within its rounding, by
-/// one or two units, and when the unknowns move by that: sixteen times the largest of eight draws, as an iteration sums
-/// up several such roundings. What an iteration takes for noise are the terms of a force; where coordinates are large
-/// beside their differences (bodies far from the origin, a smooth chain) rounding is far more.
-template <class E>
-[[gnu::cold, gnu::noinline]] typename E::Variables rounding_by_state(const E& step, const typename E::Variables& x) {
-  using Real = typename E::Real;
-  const Real epsilon = Epsilon<Real>{} * Real(1);
-  typename E::Point at, there;
-  at.linearised = there.linearised = false;
-  step.evaluate(x, at);
-  typename E::Variables most = at.residual;
-  for (Real& each : most) each = Real(0);
-  const auto note = [&] {
-    for (std::size_t i = 0; i < most.size(); ++i) {
-      const Real size = Real(16) * abs(there.residual[i] - at.residual[i]) / epsilon;
-      if (size > most[i]) most[i] = size;
-    }
-  };
-  for (std::uint64_t draw = 0; draw < rounding_draws; ++draw) {
-    auto q = step.positions();
-    auto p = step.momenta();
-    for (std::size_t i = 0; i < q.size(); ++i) {
-      q[i] = within_rounding(q[i], draw, 2 * i);
-      p[i] = within_rounding(p[i], draw, 2 * i + 1);
-    }
-    step.from(q, p).evaluate(x, there);
-    note();
-    typename E::Variables moved = x;
-    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += there.residual[i] - at.residual[i];
-    step.evaluate(moved, there);
-    note();
-  }
-  return most;
-}
-
-/// Of what the terms of forces round by, entry by entry: how large they are at an iterate.
-template <class R, std::size_t N>
-R sum_of(const Vector<R, N>& all) {
-  R sum(0);
-  for (const R& each : all) sum += each;
-  return sum;
-}
-
 template <class E>
 struct GuessesOf {
   using type = Extrapolation<typename E::Memory>;
@@ -270,6 +233,7 @@ class Newton {
     [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
     [[maybe_unused]] Real doubted_terms(0);  // what the terms of forces rounded by at the last of them
     bool is_anew = true;                     // there is no full correction before this one, in the same units
+    [[maybe_unused]] Real first_residual(0);
     [[maybe_unused]] Variables rounding{};   // of the residual, beside what its terms tell; empty: not asked for
     [[maybe_unused]] Real rounded_terms(0);  // what its terms told there
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
@@ -342,6 +306,9 @@ class Newton {
         return Ending::diverged;
       }
       if (k == 0) first = c.size;
+      if constexpr (detail::StartsElsewhere<E>) {
+        if (k == 0 && iteration == Iteration::fixed_point) first_residual = detail::two_norm(at.residual);
+      }
       at_rounding = !detail::AnyIteration<E> || iteration == Iteration::newton
                         ? newton_at_rounding(c.size, previous, is_anew || shortened, noise, stalls)
                         : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
@@ -352,6 +319,13 @@ class Newton {
         if (!at_rounding && iteration == Iteration::simplified && stalls >= 2) {
           iteration = Iteration::newton;
           is_anew = true;
+        }
+      }
+      [[maybe_unused]] bool has_stalled = false;
+      if constexpr (detail::StartsElsewhere<E>) {
+        has_stalled = !at_rounding && rounding.size() == 0 && have_stalled(iteration, stalls);
+        if (has_stalled && iteration == Iteration::fixed_point) {
+          at_rounding = has_contracted(first_residual, Real(detail::two_norm(at.residual)), k - stalls);
         }
       }
       if constexpr (requires { step.doubts(x, at, correction); }) {
@@ -368,7 +342,7 @@ class Newton {
         }
       }
       if constexpr (detail::StartsElsewhere<E>) {
-        if (!at_rounding && rounding.size() == 0 && have_stalled(iteration, stalls)) {
+        if (!at_rounding && has_stalled) {
           rounding = detail::rounding_by_state(step, x);
           rounded_terms = detail::sum_of(at.noise);
           is_anew = true;
