@@ -77,15 +77,20 @@ std::string contents_of(const fs::path& file) {
   return text.str();
 }
 std::string digest(const std::string& text) { return fmt::format("{:016x}", fnv1a(std::as_bytes(std::span(text)))); }
-/// Of all that stands beside it. What was kept before there were digests has none.
+/// Of all that stands beside it but the seconds: equal twice. What was kept before there were digests has none.
 constexpr const char* own_digest = "fnv1a";
 std::string digest_of_rest(Json all) {
   all.erase(own_digest);
+  all.erase("seconds");
   return digest(text_of(all));
 }
+/// The digest of each other file. Figures name the day on which they were drawn, hence a file of its own.
+constexpr const char* digests_of_files = "files.json";
 bool is_as_written(const fs::path& folder, const Json& all) {
-  if (all.contains(own_digest) && all.at(own_digest) != digest_of_rest(all)) return false;
-  const Json files = all.value("files", Json::object());  // it has to outlive its items
+  if (!all.contains(own_digest)) return true;
+  if (all.at(own_digest) != digest_of_rest(all)) return false;
+  const Json files = read_if_json(contents_of(folder / digests_of_files));
+  if (!files.is_object()) return false;
   for (const auto& [name, written] : files.items()) {
     if (digest(contents_of(folder / name)) != written) return false;
   }
@@ -122,7 +127,42 @@ void write_table(const fs::path& file, const Table& table) {
   write_text(file, text);
 }
 
-void write_h5(const fs::path& file, const Study& study) {
+/// A label without the marks of enhanced text, as the name of a column.
+std::string plain_label(const std::string& label) {
+  std::string name;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (label.compare(i, 9, "{/:Italic") == 0) {
+      i += 8;
+    } else if (label[i] == ' ' || label[i] == ',') {
+      if (!name.empty() && name.back() != '_') name += '_';
+    } else if (std::string("{}^").find(label[i]) == std::string::npos && !(label[i] == '_' && name.empty())) {
+      name += label[i];
+    }
+  }
+  return name;
+}
+
+/// What the experiment keeps; of one that keeps no curve those of its figures, as they are drawn.
+std::vector<Curves> curves_of(const Study& study) {
+  std::vector<Curves> all(study.curves().begin(), study.curves().end());
+  if (!all.empty()) return all;
+  for (const Drawn& drawn : study.drawn()) {
+    Curves curves{drawn.name, {}};
+    int number = 0;
+    for (const figures::Panel& panel : drawn.page.panels) {
+      for (const figures::Series& series : panel.series) {
+        const std::string name =
+            fmt::format("{}_{}", ++number, series.name.empty() ? std::string("curve") : plain_label(series.name));
+        curves.columns.emplace_back(name + "_" + plain_label(panel.x_label), series.curve.x);
+        curves.columns.emplace_back(name + "_" + plain_label(panel.y_label), series.curve.y);
+      }
+    }
+    if (!curves.columns.empty()) all.push_back(std::move(curves));
+  }
+  return all;
+}
+
+void write_h5(const fs::path& file, const Study& study, const std::vector<Curves>& all_curves) {
   silence_hdf5();
   WholeFile whole(file, next_name(file));
   Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
@@ -131,7 +171,7 @@ void write_h5(const fs::path& file, const Study& study) {
   for (const KeptScenario& scenario : study.scenarios()) {
     write_text_dataset(id, "scenario_" + scenario.name, scenario.text);
   }
-  for (const Curves& curves : study.curves()) {
+  for (const Curves& curves : all_curves) {
     const Hdf5Handle group = make_group(id, curves.name);
     for (const auto& [name, numbers] : curves.columns) {
       const hsize_t size = numbers.size();
@@ -192,8 +232,9 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
     write_text(folder / files.emplace_back(scenario.name + ".toml"), scenario.text);
     all["scenarios"].push_back({{"name", scenario.name}, {"command", scenario.command}});
   }
-  for (const Curves& curves : study.curves()) write_csv(folder / files.emplace_back(curves.name + ".csv"), curves);
-  if (!study.curves().empty()) write_h5(folder / files.emplace_back("curves.h5"), study);
+  const std::vector<Curves> curves = curves_of(study);
+  for (const Curves& each : curves) write_csv(folder / files.emplace_back(each.name + ".csv"), each);
+  if (!curves.empty()) write_h5(folder / files.emplace_back("curves.h5"), study, curves);
   for (const Drawn& drawn : study.drawn()) {
     for (const std::string& format : formats) {
       figures::draw(drawn.page, folder / files.emplace_back(drawn.name + "." + format));
@@ -205,8 +246,9 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
     all["tables"].push_back(
         {{"name", table.name}, {"caption", table.caption}, {"headings", table.headings}, {"rows", table.rows}});
   }
-  all["files"] = Json::object();
-  for (const std::string& file : files) all["files"][file] = digest(contents_of(folder / file));
+  Json digests = Json::object();
+  for (const std::string& file : files) digests[file] = digest(contents_of(folder / file));
+  write_text(folder / digests_of_files, text_of(digests));
   all[own_digest] = digest_of_rest(all);
   write_text(folder / "result.json", text_of(all));
 }

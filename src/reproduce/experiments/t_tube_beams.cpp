@@ -94,25 +94,30 @@ void claim_beam(Study& study, const Beam& all, const std::string& name, const st
               Grounds::program, "more trajectories: the default size, --full");
 }
 
-void draw_beam(Study& study, const Beam& all) {
-  study.keep({"beam", {{"q1", all.q1}, {"angle_after", all.angle}, {"slope_after", all.slope}}});
+void draw_beam(Study& study, const Beam& all, const std::string& name, const std::string& what) {
+  study.keep({"beam_" + name, {{"q1", all.q1}, {"angle_after", all.angle}, {"slope_after", all.slope}}});
   figures::Panel panel =
       phase_plane("{/:Italic Q}_1 of the start", "angle of the slope after", all.q1, all.angle, {}, {});
-  study.draw("figure",
-             fmt::format("Angle of the slope after the bounce over the start of a trajectory; before: {:.4f}",
+  study.draw("beam_" + name,
+             fmt::format("Angle of the slope after the bounce over the start of a trajectory, {}; before: {:.4f}", what,
                          all.angle_before),
-             {study.info().title, {panel}});
+             {what, {panel}});
 }
 
 void beams(Study& study) {
   for (const char* const v1 : {"0.1", "0.5"}) {
-    claim_beam(study, beam(study, -0.6, v1), fmt::format("repelled_{}", v1),
-               fmt::format("repelling, steep start v = ({}, -1)", v1), -1);
+    const Beam all = beam(study, -0.6, v1);
+    const std::string name = fmt::format("repelled_{}", v1);
+    const std::string what = fmt::format("repelling, steep start v = ({}, -1)", v1);
+    claim_beam(study, all, name, what, -1);
+    draw_beam(study, all, name, what);
   }
   for (const char* const v1 : {"2", "5", "9"}) {
     const Beam all = beam(study, 0.6, v1);
-    claim_beam(study, all, fmt::format("attracted_{}", v1), fmt::format("attracting, flat start v = ({}, -1)", v1), 1);
-    if (std::string(v1) == "5") draw_beam(study, all);
+    const std::string name = fmt::format("attracted_{}", v1);
+    const std::string what = fmt::format("attracting, flat start v = ({}, -1)", v1);
+    claim_beam(study, all, name, what, 1);
+    draw_beam(study, all, name, what);
   }
 }
 
@@ -149,7 +154,14 @@ Measured share(const std::vector<double>& near, const std::vector<double>& all, 
 /// How much of the turning of a trajectory happens within a distance of the origin.
 void near_the_origin(Study& study) {
   const int members = study.sized(20, 60, 200);
+  constexpr double width = 0.1;  // of a ring around the origin
+  std::vector<double> distances;
+  for (int ring = 0; ring < 22; ++ring) distances.push_back((ring + 0.5) * width);
+  figures::Extent up;
+  up.include(0);
+  figures::Panel panel = figures::panel_over({0, 2.2}, "distance from the origin");
   for (const double eps : {-0.6, 0.6}) {
+    std::vector<double> in_ring(distances.size());  // turning of all trajectories
     const std::string side = eps < 0 ? "repelling" : "attracting";
     std::vector<double> near, all;
     double furthest = 0;
@@ -167,6 +179,7 @@ void near_the_origin(Study& study) {
         turned += turn;
         if (r < 0.5) turned_near += turn;
         if (r > 1) turned_far += turn;
+        if (const auto ring = static_cast<std::size_t>(r / width); ring < in_ring.size()) in_ring[ring] += turn;
         before = angle;
       }
       near.push_back(turned_near);
@@ -180,7 +193,21 @@ void near_the_origin(Study& study) {
                 at_most(0.01, "largest turning at distances above 1, in radians: no eye sees it"),
                 {{furthest, 0, "largest of the beam"}});
     study.keep({"turning_" + side, {{"near", near}, {"all", all}}});
+    for (double& turn : in_ring) turn /= width * members;
+    study.keep({"over_distance_" + side, {{"distance", distances}, {"turning_per_length", in_ring}}});
+    up.include(in_ring);
+    panel.series.push_back({figures::Ink::marked,
+                            side,
+                            figures::finite_points(distances, in_ring),
+                            {.colour = eps < 0 ? "#0072b2" : "#d55e00", .shape = eps < 0 ? 7 : 6}});
   }
+  panel.y = figures::fit_axis(up, figures::padding, {6});
+  panel.y_label = "turning of the slope, radians";
+  panel.aspect = 0.6;
+  study.draw("figure",
+             "Change of the slope, in angle, over the distance from the origin at which it happens: mean of the "
+             "trajectories, per unit of distance",
+             {study.info().title, {panel}});
 }
 
 }  // namespace t_tube_beams
