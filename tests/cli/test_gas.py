@@ -25,6 +25,43 @@ steps = 20
 """
 
 
+START_OF = """
+[problem]
+name = "gas"
+%(start)s
+dimension = %(dimension)d
+container = { kind = "none" }
+[method]
+name = "verlet"
+[run]
+dt = 1e-4
+steps = 3
+"""
+TWO = """
+[problem]
+name = "gas"
+%s
+scale = 1
+container = { kind = "none" }
+initial = { q = [-0.6, 0, 0.6, 0], p = [10, 0, -10, 0] }
+[method]
+name = "verlet"
+[run]
+dt = 1e-3
+steps = 1
+"""
+HENON_HEILES = """
+[problem]
+name = "henon-heiles"
+initial = { q = [0.1, 0.2], p = [0.1, 0] }
+[method]
+name = "verlet"
+[run]
+dt = 0.1
+steps = 3
+"""
+
+
 class Gas(CommandCase):
     def gas(self, keys="", *arguments, status=0):
         self.write("gas.toml", GAS % keys)
@@ -173,9 +210,47 @@ class Gas(CommandCase):
             self.assertEqual(self.summary("on.toml", *quad)["final"]["p"], before)
         self.hamflow("run", "gas.toml", "--force")
         self.write("on.toml", GAS % 'start = "file"\nfile = "gas.run/run.h5"\ndimension = 3')
-        self.assertIn("3 for each particle", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)
+        self.assertIn("found particles in 2 dimensions", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)
         (self.folder / "gas.run/run.h5").write_bytes(b"no file")
         self.assertIn("run.h5", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)
+
+    def test_a_run_of_another_dimension(self):
+        """As many numbers would be other particles, or none."""
+        for dimension in (2, 3):
+            self.write(f"{dimension}.toml", START_OF % {"dimension": dimension, "start": "particles_per_side = 6"})
+            self.hamflow("run", f"{dimension}.toml", "--out", f"in{dimension}", "--quiet")
+        for dimension in (2, 3):
+            other = 5 - dimension
+            start = f'start = "file"\nfile = "in{other}/run.h5"'
+            self.write("other.toml", START_OF % {"dimension": dimension, "start": start})
+            told = self.hamflow("run", "other.toml", "--out", "none", status=2).stderr
+            self.assertIn(f"found particles in {other} dimensions", told)
+            self.assertIn(f"allowed problem.dimension = {dimension}, or that of the file", told)
+        self.write("plane.toml", HENON_HEILES)
+        self.hamflow("run", "plane.toml", "--out", "plane", "--quiet")
+        self.write("other.toml", START_OF % {"dimension": 2, "start": 'start = "file"\nfile = "plane/run.h5"'})
+        self.assertIn("a system without bodies", self.hamflow("run", "other.toml", "--out", "none", status=2).stderr)
+
+    def test_particles_that_may_pass_through_each_other(self):
+        """Whatever the law; not of a method whose steps follow the motion."""
+        for pair in ('pair = "lennard-jones"', 'pair = "formula"\nphi = "r^-9 - r^-6"', 'pair = "newton"'):
+            self.write("two.toml", TWO % pair)
+            self.assertIn("pass through each other unseen", str(self.summary("two.toml", "--set", "run.dt=0.12")["warnings"]), pair)
+            slow = self.summary("two.toml", "--set", "run.dt=1e-3")["warnings"]
+            self.assertNotIn("pass through", str(slow), pair)
+        self.write("two.toml", TWO % 'pair = "lennard-jones"')
+        for method in ("dop853", "taylor"):
+            self.assertNotIn("pass through", str(self.summary("two.toml", "--set", "run.dt=0.12", "--set", f"method.name={method}")))
+
+    def test_where_the_last_state_is(self):
+        text = (GAS % 'container = { kind = "none" }\ncutoff = 1.2\ndimension = 3').replace("side = 4", "side = 15")
+        self.write("many.toml", text)
+        for out, settings, place in (("h5", [], "/particles/all"), ("times", ["run.record=[1e-5]"], None),
+                                     ("csv", ['output.formats=["csv"]'], None), ("none", [], None)):
+            s = json.loads(self.hamflow("run", "many.toml", "--set", "run.steps=2", *(w for x in settings for w in ("--set", x)),
+                                        "--out", out, "--json", "--quiet").stdout)
+            self.assertEqual(s["final"]["dataset"], place, out)
+            self.assertEqual("final_state" in str(s["warnings"]), place is None, out)
 
     def test_initial_overrides(self):
         s = self.gas('masses = [1, 2]\ninitial = { q = [0, 0, 1, 0], v = [0, 0.5, 0, 0.5] }', "--set", "run.steps=0")

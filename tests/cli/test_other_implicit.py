@@ -2,9 +2,10 @@
 
 import json
 import math
+import subprocess
 import unittest
 
-from command import CommandCase
+from command import HAMFLOW, CommandCase
 
 PLANE = """
 [problem]
@@ -309,6 +310,19 @@ dt = 0.1
 steps = 300
 """
 
+CHAIN_AT_REST = """
+[problem]
+name = "formula"
+coordinates = ["x[%(n)d]"]
+hamiltonian = "sum(i,1,%(n)d,p_x[i]^2)/2 + sum(i,1,%(last)d,exp(x[i]-x[i+1])-1-(x[i]-x[i+1])) + exp(x[%(n)d]-x[1])-1-(x[%(n)d]-x[1])"
+initial = { q = [%(q)s], p = [%(p)s] }
+[method]
+name = "cg"
+[run]
+dt = 0.1
+steps = 100
+"""
+
 
 class StiffSteps(CommandCase):
     def test_elements_of_any_degree_keep_the_energy(self):
@@ -363,6 +377,40 @@ class StiffSteps(CommandCase):
                 found = self.summary("small.toml", "--set", f"method.name={method}", "--set", "run.steps=10000")
                 self.assertLess(found["energy"]["max_error"], 64 * 2.0 ** -52 * found["energy"]["scale"], (potential, start, method))
                 self.assertNotEqual(found["certificate"]["drift"], "linear", (potential, start, method))
+
+    def test_fixed_points_of_small_oscillations_end(self):
+        """exp(x) - x rounds by a unit of 1 however small x is, which neither the size of the force nor a move of x by a
+        unit of its own tells."""
+        self.write("small.toml", STIFF.replace("%s^2*x^2/2 + x^4", "exp(x) - x").replace("[1]", "[1e-5]"))
+        for method, steps in (("cg(1,auto)", 4000), ("cg(2,auto)", 8000), ("cg(3,6)", 4000), ("gauss(3)", 8000)):
+            found = self.summary("small.toml", "--set", f"method.name={method}", "--set", "method.iteration=fixed-point", "--set",
+                                 f"run.steps={steps}")
+            self.assertLess(found["energy"]["max_error"], 8 * 2.0 ** -52, method)  # H is 1
+
+    def test_chains_that_are_nearly_at_rest(self):
+        """Of many particles most are at rest: a few stand where the unit by which exp(x) rounds comes and goes. H is the
+        small difference of terms of 1, of which neither its size nor the virial tells."""
+        n = 300
+        self.write("toda.toml", CHAIN_AT_REST % {"n": n, "last": n - 1, "q": ", ".join(["0.001"] + ["0"] * (n - 1)),
+                                                 "p": ", ".join(["0"] * n)})
+        for method, steps in (("cg(1,auto)", 40), ("cg(2,auto)", 40), ("cg(2,4)", 200), ("gauss(3)", 200), ("lobatto-3a-3b(3)", 160)):
+            found = self.summary("toda.toml", "--set", f"method.name={method}", "--set", f"run.steps={steps}")
+            error = found["energy"]["max_error"]
+            if not method.startswith("lobatto"):  # of a look at 300 terms of 1, and a walk of their roundings
+                self.assertLess(error, (n + 4 * math.sqrt(steps * n)) * 2.0 ** -52, method)
+            self.assertLess(error, 1e-5 * found["energy"]["scale"], method)
+
+    def test_steps_that_lead_nowhere_are_no_rounding(self):
+        """A force of 10^26 throws the particle out of all that H knows: second differences of H are equal there too."""
+        self.write("far.toml", STIFF.replace("%s^2*x^2/2 + x^4", "1/x^12 - 2/x^6").replace("[1]", "[0.01]"))
+        for iteration in ("newton", "simplified", "fixed-point"):
+            for method in ("cg(1,auto)", "cg(2,auto)", "cg(3,auto)", "cg(4,auto)"):
+                tried = subprocess.run([HAMFLOW, "run", "far.toml", "--set", f"method.name={method}", "--set",
+                                        f"method.iteration={iteration}", "--set", "run.dt=0.02", "--set", "run.steps=20", "--out",
+                                        "none", "--json"], cwd=self.folder, capture_output=True, text=True, check=False)
+                found = json.loads(tried.stdout)
+                kept = found["energy"]["max_error"] < 1e-10 * found["energy"]["scale"]
+                self.assertTrue(found["status"] == "failed" or kept, (iteration, method, found["energy"]))
 
     def test_a_tangent_of_old_leaves_no_drift(self):
         """A correction with it is far smaller than the residual of a stiff step, which is what changes the energy."""

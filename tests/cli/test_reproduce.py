@@ -144,6 +144,46 @@ class Reproduce(CommandCase):
             self.assertIn(f'<h3 id="{name}"', page)
         self.assertEqual(page.count("<img "), 2)
 
+    def test_what_is_done_in_a_larger_size_stays(self):
+        self.reproduce("S-C55", "G2.8")
+        self.reproduce("S-C55", "G2.8", "G2.9", "--quick", "--resume")
+        self.assertEqual([(e["id"], e["size"]) for e in self.verdicts("reproduce")["experiments"]],
+                         [("G2.8", "default"), ("G2.9", "quick"), ("S-C55", "default")])
+
+    def test_what_is_kept_is_looked_at(self):
+        """A verdict that does not follow from its numbers, other numbers, and files that are missing or changed are made
+        again."""
+        self.reproduce("S2.5", "--quick")
+        folder = pathlib.Path(self.folder) / "reproduce" / "reproduction" / "S2.5"
+        first = {file.name: file.read_bytes() for file in folder.iterdir()}
+        result = first["result.json"].decode()
+        for name, content in (("result.json", result.replace('"holds"', '"differs"')),
+                              ("result.json", re.sub(r'"value": [0-9.e-]+', '"value": 0.25', result)),
+                              ("result.json", re.sub(r'(?s),\s*"fnv1a".*?"$', "", result).replace('"holds"', '"differs"')),
+                              ("figure.svg", "garbage"), ("plane.csv", ""), ("curves.h5", None), ("files.json", None)):
+            if content is None:
+                (folder / name).unlink()
+            else:
+                (folder / name).write_text(content)
+            self.reproduce("S2.5", "--quick", "--resume")
+            again = json.loads((folder / "result.json").read_text())
+            self.assertEqual([c["verdict"] for c in again["claims"]], ["holds"], name)
+            for other in ("figure.svg", "plane.csv"):
+                self.assertEqual((folder / other).read_bytes(), first[other], (name, other))
+            for other in ("curves.h5", "files.json"):
+                self.assertTrue((folder / other).is_file(), (name, other))
+
+    def test_every_figure_has_its_curves(self):
+        self.reproduce("G3.6", "S1.2", "S2.4", "--quick")
+        for experiment in ("G3.6", "S1.2", "S2.4"):
+            folder = pathlib.Path(self.folder) / "reproduce" / "reproduction" / experiment
+            self.assertTrue((folder / "curves.h5").is_file(), experiment)
+            tables = [file.read_text().splitlines() for file in folder.glob("*.csv")]
+            self.assertGreater(len(tables), 0, experiment)
+            for table in tables:
+                self.assertGreater(len(table), 10, experiment)
+                self.assertNotRegex(table[0], "[{}/ ]", experiment)
+
     def test_page_is_sound(self):
         self.reproduce(*SOME, "C-polar", "S3.6", "--quick")
         folder = pathlib.Path(self.folder) / "reproduce"
