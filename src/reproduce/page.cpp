@@ -133,9 +133,7 @@ const char* const head = R"(<!DOCTYPE html>
     figure { max-width: 11cm; }
     .wide { overflow: visible; }
     .verdict, .quiet { color: #000; }
-    nav, .skip { display: none; }
-    details > pre { display: block !important; }
-    details::details-content { content-visibility: visible; display: block; height: auto; }
+    nav, .skip, details { display: none; }
     a { color: #000; text-decoration: none; }
   }
 </style>

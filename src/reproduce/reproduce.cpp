@@ -206,7 +206,7 @@ class Run {
     for (const Experiment& experiment : all_experiments()) {
       const auto same = [&](const ExperimentReport& one) { return one.info.id == experiment.info.id; };
       const auto found = std::find_if(asked.experiments.begin(), asked.experiments.end(), same);
-      // What did not come to its end may be there in a smaller size, or was there before.
+      // What was not begun may be there in a smaller size.
       if (found != asked.experiments.end() && found->status == "done") {
         whole.experiments.push_back(*found);
       } else if (auto done = kept_of(experiment, request_.folder / "reproduction" / experiment.info.id)) {

@@ -91,8 +91,8 @@ bool is_as_written(const fs::path& folder, const Json& all) {
   if (all.at(own_digest) != digest_of_rest(all)) return false;
   const Json files = read_if_json(contents_of(folder / digests_of_files));
   if (!files.is_object()) return false;
-  for (const auto& [name, written] : files.items()) {
-    if (digest(contents_of(folder / name)) != written) return false;
+  for (const std::string& name : all.at("files").get<std::vector<std::string>>()) {
+    if (files.value(name, "") != digest(contents_of(folder / name))) return false;
   }
   return true;
 }
@@ -246,6 +246,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
     all["tables"].push_back(
         {{"name", table.name}, {"caption", table.caption}, {"headings", table.headings}, {"rows", table.rows}});
   }
+  all["files"] = files;
   Json digests = Json::object();
   for (const std::string& file : files) digests[file] = digest(contents_of(folder / file));
   write_text(folder / digests_of_files, text_of(digests));

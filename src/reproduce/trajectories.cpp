@@ -30,6 +30,12 @@ double largest_distance(const Trajectory& a, const Trajectory& b) {
   return largest;
 }
 
+double distance_from_segment(const std::vector<double>& x, const std::vector<double>& a, const std::vector<double>& b) {
+  const double u = b[0] - a[0], v = b[1] - a[1], squared = u * u + v * v;
+  const double along = squared > 0 ? std::clamp(((x[0] - a[0]) * u + (x[1] - a[1]) * v) / squared, 0.0, 1.0) : 0;
+  return std::hypot(x[0] - a[0] - along * u, x[1] - a[1] - along * v);
+}
+
 void claim_second_order(Study& study, const Study::Statement& statement, const Halving& halving) {
   if (halving.coarse <= halving.rounding && halving.fine <= halving.rounding) {
     study.claim(statement, at_most(halving.rounding, "rounding of the steps: there is no other error"),

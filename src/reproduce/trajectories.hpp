@@ -13,6 +13,9 @@ namespace hamflow::reproduction {
 /// @throws Error where they have none
 double largest_distance(const Trajectory& a, const Trajectory& b);
 
+/// Of a point of the plane from the segment from a to b.
+double distance_from_segment(const std::vector<double>& x, const std::vector<double>& a, const std::vector<double>& b);
+
 /// The distance from a reference for a step length and half of it.
 struct Halving {
   double coarse = 0;

@@ -132,10 +132,14 @@ class ScenarioRun {
     observers_.push_back(checkpoints_.get());  // the last: what was seen at a step belongs to its checkpoint
   }
 
-  /// Samples by steps end with the last.
+  /// Samples by steps end with the last; those at times may.
   bool keeps_final_state() const {
     const auto& formats = scenario_.formats;
-    return writes() && scenario_.record.empty() && std::find(formats.begin(), formats.end(), "h5") != formats.end();
+    if (!writes() || std::find(formats.begin(), formats.end(), "h5") == formats.end()) return false;
+    if (scenario_.record.empty()) return true;
+    Frame frame;
+    simulation_->look(frame);
+    return evaluate_number<double>(scenario_.record.back()) == frame.time;
   }
 
   RunReport carry_out() {
@@ -149,11 +153,13 @@ class ScenarioRun {
     Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
     if (summary["final"].contains("dataset") && !keeps_final_state()) {
       summary["final"]["dataset"] = nullptr;
-      summary["warnings"].push_back(
-          {{"kind", "final_state"},
-           {"message",
-            "the last state has too many numbers for a summary, and no file holds it: samples are kept at the "
-            "times of run.record alone, or not as HDF5"}});
+      if (writes()) {
+        summary["warnings"].push_back(
+            {{"kind", "final_state"},
+             {"message",
+              "the last state has too many numbers for a summary, and no file holds it: samples are not kept as "
+              "HDF5, or at times of run.record that end before the run"}});
+      }
     }
     report.file_trouble = result.file_trouble;
     report.outcome = result.outcome;

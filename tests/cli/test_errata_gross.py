@@ -21,6 +21,8 @@ EXPECTED = {
     "T3.2/identical_3": "holds",
     # Appendix B: arguments swapped: the same root, more iterations.
     **{f"G-B/same_root_{figure}": "holds" for figure in ("2.26", "2.27", "2.28")},
+    **{f"G-B/order_costs_no_iterations_{figure}": "differs" for figure in ("2.26", "2.27", "2.28")},
+    **{f"G-B/order_costs_no_energy_{figure}": "differs" for figure in ("2.26", "2.27")},
     # Appendix C: c^4 for c^3 in two places, and one iteration is no minimum.
     "G-C/absolute_coupling": "cannot hold",
     "G-C/relative_diagonal": "cannot hold",

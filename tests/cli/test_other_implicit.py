@@ -323,6 +323,26 @@ dt = 0.1
 steps = 100
 """
 
+NO_ROUNDING_SCENARIO = """
+[problem]
+name = "formula"
+coordinates = %s
+parameters = { %s }
+initial = { q = [%s], p = [%s] }
+[method]
+name = "cg"
+[run]
+dt = %s
+steps = 1
+"""
+NO_ROUNDING = [
+    ('["x", "y"]\nhamiltonian = "p_x^2/2 + p_y^2/(2*m) + x^2/2 + m*w^2*y^2/2"', "m = 1e-6, w = 20", "1, 1e-11", "0.3, 0", 0.1,
+     ("cg(1,auto,iteration=fixed-point)",)),
+    ('["x"]\nhamiltonian = "p_x^2/2 + sqrt(1 + (4*(x-1))^2) + e/x^12"', "e = 1e-16", "0.01", "1", 1, ("cg(1,5,iteration=fixed-point)",)),
+    ('["x"]\nhamiltonian = "p_x^2/2 + 0.001*tanh(k*(x-1))"', "k = 1e10", "0.900001", "1", 0.1, ("cg(1,auto)", "cg(2,auto)")),
+    ('["x"]\nhamiltonian = "p_x^2/2 + 1/x^12"', "", "100000000.01", "-1e10", 0.01, ("cg(1,auto)", "cg(2,auto)")),
+]
+
 
 class StiffSteps(CommandCase):
     def test_elements_of_any_degree_keep_the_energy(self):
@@ -411,6 +431,19 @@ class StiffSteps(CommandCase):
                 found = json.loads(tried.stdout)
                 kept = found["energy"]["max_error"] < 1e-10 * found["energy"]["scale"]
                 self.assertTrue(found["status"] == "failed" or kept, (iteration, method, found["energy"]))
+
+    def test_what_is_no_rounding(self):
+        """A mode that diverges beside one that converges, a cycle far below a first residual of 10^11, jumps behind which a
+        step ends, the way into a singularity: none of them is a solution that rounding hides."""
+        for hamiltonian, parameters, q, p, dt, methods in NO_ROUNDING:
+            self.write("no.toml", NO_ROUNDING_SCENARIO % (hamiltonian, parameters, q, p, dt))
+            for method in methods:
+                for steps in (1, 30):
+                    tried = subprocess.run([HAMFLOW, "run", "no.toml", "--set", f"method.name={method}", "--set",
+                                            f"run.steps={steps}", "--out", "none", "--json"], cwd=self.folder,
+                                           capture_output=True, text=True, check=False)
+                    found = json.loads(tried.stdout)
+                    self.assertEqual(found["status"], "failed", (hamiltonian, method, steps, found["energy"]))
 
     def test_a_tangent_of_old_leaves_no_drift(self):
         """A correction with it is far smaller than the residual of a stiff step, which is what changes the energy."""

@@ -160,7 +160,7 @@ class Reproduce(CommandCase):
         for name, content in (("result.json", result.replace('"holds"', '"differs"')),
                               ("result.json", re.sub(r'"value": [0-9.e-]+', '"value": 0.25', result)),
                               ("result.json", re.sub(r'(?s),\s*"fnv1a".*?"$', "", result).replace('"holds"', '"differs"')),
-                              ("figure.svg", "garbage"), ("plane.csv", ""), ("curves.h5", None), ("files.json", None)):
+                              ("figure.svg", "garbage"), ("plane.csv", ""), ("curves.h5", None), ("files.json", None), ("files.json", "{}")):
             if content is None:
                 (folder / name).unlink()
             else:

@@ -117,12 +117,16 @@ double off_line(const Motion& motion, const Trajectory& dots) {
   for (std::size_t k = 0; k < 2; ++k) {
     double most = 0;
     for (const double x : exact[k]) most = std::max(most, std::abs(x));
+    const auto in_panel = [&](double time, double x) {
+      return std::vector<double>{time / end, height * x / (2 * most)};
+    };
     for (std::size_t i = 0; i < dots.size(); ++i) {
+      const std::vector<double> dot = in_panel(dots.t[i], dots.q[i][k]);
       double nearest = 1;
       const std::size_t at = finer * i, reach = 20 * finer;  // no dot is twenty steps early or late
-      for (std::size_t j = at > reach ? at - reach : 0; j < std::min(t.size(), at + reach); ++j) {
-        nearest =
-            std::min(nearest, std::hypot((dots.t[i] - t[j]) / end, height * (dots.q[i][k] - exact[k][j]) / (2 * most)));
+      for (std::size_t j = at > reach ? at - reach : 0; j + 1 < std::min(t.size(), at + reach); ++j) {
+        nearest = std::min(
+            nearest, distance_from_segment(dot, in_panel(t[j], exact[k][j]), in_panel(t[j + 1], exact[k][j + 1])));
       }
       largest = std::max(largest, nearest);
     }

@@ -74,12 +74,6 @@ const char* const reference = "name = \"taylor\"\ntolerance = 1e-15";
 /// Samples of the exact orbit to one of the dots: chords between them leave the line by less than 10^-3 of its size.
 constexpr int refined_line = 10;
 
-double distance_from_segment(const std::vector<double>& x, const std::vector<double>& a, const std::vector<double>& b) {
-  const double u = b[0] - a[0], v = b[1] - a[1], squared = u * u + v * v;
-  const double along = squared > 0 ? std::clamp(((x[0] - a[0]) * u + (x[1] - a[1]) * v) / squared, 0.0, 1.0) : 0;
-  return std::hypot(x[0] - a[0] - along * u, x[1] - a[1] - along * v);
-}
-
 /// cg(1,5) with dt = 0.1/refinement, sampled every 0.1.
 Trajectory with_step(Study& study, const Case& c, int refinement) {
   const int steps = static_cast<int>(std::lround(c.t_end * 10)) * refinement;
@@ -132,10 +126,9 @@ void claim_on_line(Study& study, const Trajectory& figure, const Trajectory& lin
     }
     largest = std::max(largest, nearest);
   }
-  study.claim(
-      {"on_line", "the dots lie on the exact orbit, dt = 0.1", "dots on the line"},
-      at_most(0.01, "distance from the line over the largest coordinate: a dot is drawn no smaller"),
-      {{largest / size, 1e-3 / refined_line, fmt::format("the farthest dot is {:.2g} from the line", largest)}});
+  study.claim({"on_line", "the dots lie on the exact orbit, dt = 0.1", "dots on the line"},
+              at_most(0.01, "distance from the line over the largest coordinate: a dot is drawn no smaller"),
+              {{largest / size, 1e-3, fmt::format("the farthest dot is {:.2g} from the line", largest)}});
 }
 
 void carry_out(const Case& c, Study& study) {

@@ -202,7 +202,7 @@ void near_the_origin(Study& study) {
                             {.colour = eps < 0 ? "#0072b2" : "#d55e00", .shape = eps < 0 ? 7 : 6}});
   }
   panel.y = figures::fit_axis(up, figures::padding, {6});
-  panel.y_label = "turning of the slope, radians";
+  panel.y_label = "turning per distance, radians";
   panel.aspect = 0.6;
   study.draw("figure",
              "Change of the slope, in angle, over the distance from the origin at which it happens: mean of the "

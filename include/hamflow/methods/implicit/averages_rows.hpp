@@ -179,6 +179,13 @@ Real hiding_terms(const Vector<Real, dynamic>& x, const AveragesPoint<Real>& at,
   return hidden_by_rounding(unit, unknown) ? sum_of(at.noise) : Real(0);
 }
 
+template <class R, std::size_t N>
+R two_norm(const Vector<R, N>& all) {
+  R sum(0);
+  for (const R& each : all) sum += each * each;
+  return sqrt(sum);
+}
+
 /// A sum of several terms and what its rounding has lost.   [Knuth1997, 4.2.2]
 template <class Real>
 struct KeptSum {

@@ -102,16 +102,15 @@ Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real
 }
 
 /// What the change of H along a step rounds by where |H| and the virial do not tell of it, since H has terms that
-/// cancel (exp(x) - x - 1 of small x) or a constant: the largest of eight second differences of that change, when both
-/// ends move by small parts of the step. It is the same for moves 16 times as large, while those of a smooth H are
-/// 256 times; 0 where rounding is not what is seen, as where such a part of a step that leads nowhere is enough to
-/// leave a singularity.
-/// @param size of H and its virial
+/// cancel (exp(x) - x - 1 of small x) or a constant, when both ends move by small parts of the step. 0 where it is not
+/// rounding that is seen, and where so small a part of the step changes H by much: a step that long leads nowhere.
+/// @param size of H and its virial at both ends
 template <class P, class Real, std::size_t N>
 [[gnu::cold, gnu::noinline]] Real rounding_of_change(const P& problem, const Vector<Real, N>& q0,
                                                      const Vector<Real, N>& p0, const Increment<Real, N>& taken,
                                                      const Real& size) {
-  const Real begin = energy(problem, q0, p0);
+  using One = Vector<Real, 1>;
+  Real ends[2];  // H there
   bool is_near = true;
   const auto change_from = [&](const Real& part, std::uint64_t draw) {
     Vector<Real, N> q = q0;
@@ -121,27 +120,23 @@ template <class P, class Real, std::size_t N>
       p[i] += moved_by(part, taken.p[i], draw, 2 * i + 1) - taken.p[i];
     }
     const Real before = energy(problem, q, p);
-    is_near = is_near && abs(before - begin) <= size / 128;
     for (std::size_t i = 0; i < q.size(); ++i) {
       q[i] += taken.q[i];
       p[i] += taken.p[i];
     }
-    return Real(energy(problem, q, p) - before);
+    const Real behind = energy(problem, q, p);
+    if (part == Real(0)) {
+      ends[0] = before;
+      ends[1] = behind;
+    }
+    is_near = is_near && abs(before - ends[0]) <= size / 128 && abs(behind - ends[1]) <= size / 128;
+    return Real(behind - before);
   };
   const Real here = change_from(Real(0), 0);
-  Real part = Real(1) / Real(1 << 26);
-  Real smaller(0);  // moves 16 times smaller
-  for (int scale = 0; scale < 5; ++scale) {
-    Real most(0);
-    for (std::uint64_t draw = 0; draw < rounding_draws; ++draw) {
-      most = larger(most, Real(abs(change_from(part, draw) + change_from(-part, draw) - (here + here))));
-    }
-    if (!is_near) return Real(0);
-    if (smaller > Real(0) && most <= Real(8) * smaller) return smaller;
-    smaller = most;
-    part = Real(16) * part;
-  }
-  return Real(0);
+  const Real rounding = plateau_of_rounding<Real>([&](const Real& part, std::uint64_t draw) {
+    return One{(change_from(part, draw) - here) + (change_from(-part, draw) - here)};
+  });
+  return is_near ? rounding : Real(0);
 }
 
 /// Whether H has changed by 256 roundings of its terms along a step that no rule of points sees any gain in. Either

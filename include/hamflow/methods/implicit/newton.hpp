@@ -71,20 +71,6 @@ constexpr bool hidden_by_rounding(const Real& unit, const Real& unknown) {
   return unit > unknown / (1 << 20);
 }
 
-/// Whether fixed points that have ceased to come nearer came nearer so fast before, by a million, by half or more each
-/// time, that what is left can be nothing but rounding, though neither the terms of forces nor moves of the state tell
-/// of it: exp(x) - exp(y) of small x and y rounds by a unit of 1, and of many particles, most nearly at rest, a few
-/// stand where that unit comes and goes with any change, and take turns for ever. A residual shrinks nowhere but
-/// towards a solution; that of a tangent of old shrinks far from one, too.
-/// @param first, now sizes of the residual   @param corrections until they ceased to shrink
-template <class Real>
-constexpr bool has_contracted(const Real& first, const Real& now, int corrections) {
-  constexpr int digits = 20;  // binary ones
-  Real least(1);
-  for (int k = 0; k < (corrections > digits ? corrections : digits); ++k) least = least / 2;
-  return now <= least * first;
-}
-
 namespace detail {
 /// Equations whose tangent is computed where it is asked for: they can be solved by every Iteration.
 template <class E>
@@ -233,7 +219,6 @@ class Newton {
     [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
     [[maybe_unused]] Real doubted_terms(0);  // what the terms of forces rounded by at the last of them
     bool is_anew = true;                     // there is no full correction before this one, in the same units
-    [[maybe_unused]] Real first_residual(0);
     [[maybe_unused]] Variables rounding{};   // of the residual, beside what its terms tell; empty: not asked for
     [[maybe_unused]] Real rounded_terms(0);  // what its terms told there
     [[maybe_unused]] std::conditional_t<detail::AnyIteration<E>, LuFactors<Real>, int> factors{};
@@ -306,9 +291,6 @@ class Newton {
         return Ending::diverged;
       }
       if (k == 0) first = c.size;
-      if constexpr (detail::StartsElsewhere<E>) {
-        if (k == 0 && iteration == Iteration::fixed_point) first_residual = detail::two_norm(at.residual);
-      }
       at_rounding = !detail::AnyIteration<E> || iteration == Iteration::newton
                         ? newton_at_rounding(c.size, previous, is_anew || shortened, noise, stalls)
                         : linear_at_rounding(c.size, previous, is_anew || shortened, noise, least, stalls);
@@ -325,7 +307,7 @@ class Newton {
       if constexpr (detail::StartsElsewhere<E>) {
         has_stalled = !at_rounding && rounding.size() == 0 && have_stalled(iteration, stalls);
         if (has_stalled && iteration == Iteration::fixed_point) {
-          at_rounding = has_contracted(first_residual, Real(detail::two_norm(at.residual)), k - stalls);
+          at_rounding = max_norm(correction) <= Real(4) * detail::rounding_by_unknowns(step, x);
         }
       }
       if constexpr (requires { step.doubts(x, at, correction); }) {

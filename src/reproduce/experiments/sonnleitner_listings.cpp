@@ -1,0 +1,78 @@
+// [Sonnleitner2010]: what the listings of the gas and of the T-tube compute beside what they are said to, by page.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "../experiment.hpp"
+#include "../gas_runs.hpp"
+
+namespace hamflow::reproduction {
+
+namespace sonnleitner_listings {
+
+/// Pages 72 and 81: sqrt(sum |difference|^2)/N of N particles is called their mean error.
+void mean_error(Study& study) {
+  constexpr int particles = 121;
+  constexpr double error = 1e-3;  // of each particle
+  const double of_equal = std::sqrt(particles * error * error) / particles / error;
+  const Return back = there_and_back(study, {.side = 11, .steps = 20});
+  double squares = 0;
+  for (std::size_t i = 0; i < back.start.q.size(); ++i) squares += std::pow(back.end.q[i] - back.start.q[i], 2);
+  const double root_mean_square = std::sqrt(squares / particles);
+  study.claim({"mean", "the mean error of the listing is the size of a particle's error", "mittFehlerOrt", "72, 81"},
+              within(1, 1e-9, "the listing's number over the root mean square, of 121 particles"),
+              {{of_equal, 1e-15, "where all errors are equal: it is 1/sqrt(N) of them"},
+               {back.position / root_mean_square, 1e-12, "of a run, 20 steps there and back"}},
+              Grounds::identity);
+}
+
+/// The listing's factor counts the particles where it should count those of a side.
+void factor_of_scale(Study& study) {
+  for (const int side : {11, 21}) {
+    const double spacing = 2.0 / (side - 1);
+    const auto apart = [&](const char* scale) { return spacing * GasRun{.side = side, .scale = scale}.scale_number(); };
+    const auto claim = [&](const char* scale, const std::string& what) {
+      study.claim(
+          {fmt::format("{}_{}", scale, side * side),
+           fmt::format("{} particles, {}: neighbours start one length of the potential apart", side * side, what),
+           "SkalierFaktor", "72 to 75"},
+          within(1, 1e-12, "spacing of the lattice in lengths of the potential, in which its least lies at 1"),
+          {{apart(scale), 1e-14, fmt::format("{} to a side, {:g} apart", side, spacing)}}, Grounds::identity);
+    };
+    claim("listing", "(number of particles - 1)/2, as listed");
+    claim("per-side", "(number of a side - 1)/2");
+  }
+}
+
+/// The listed tests behind a step that leads to `next`, in their order: each negates one of the momenta p of before.
+std::array<double, 2> listed_bounce(const std::array<double, 2>& p, const std::array<double, 2>& next) {
+  std::array<double, 2> after = p;
+  if (std::abs(next[0]) > 1 || std::abs(next[1] - 1.1) > 1) {
+    if (std::abs(next[0]) > 1) after = {-p[0], p[1]};
+    if (std::abs(next[1] - 1.1) > 1) after = {p[0], -p[1]};
+  }
+  return after;
+}
+
+void both_walls(Study& study) {
+  const std::array<double, 2> p{10, 100}, next{1.05, 2.105};  // from (0.95, 2.095)
+  const std::array<double, 2> after = listed_bounce(p, next);
+  study.claim({"both", "where both bodies are beyond their walls after a step, the listing turns both momenta",
+               "the momentum is negated in part", "103, 104"},
+              within(2, 0.5, "momenta that are turned"),
+              {{static_cast<double>(after[0] == -p[0]) + static_cast<double>(after[1] == -p[1]), 0,
+                "its second test begins with the momenta of before again, and undoes the first"}},
+              Grounds::identity);
+}
+
+}  // namespace sonnleitner_listings
+
+std::vector<Experiment> sonnleitner_listings_experiments() {
+  using namespace sonnleitner_listings;
+  return {{{"S-C72", sonnleitner, "72, 81", "gas: the mean error of the listing"}, mean_error},
+          {{"S-C75", sonnleitner, "72 to 75", "gas: the factor of the scale"}, factor_of_scale},
+          {{"S-C103", sonnleitner, "103, 104", "T-tube: both walls in one step"}, both_walls}};
+}
+
+}  // namespace hamflow::reproduction
