@@ -10,6 +10,7 @@
 #include "../experiment.hpp"
 #include "../gas_listing.hpp"
 #include "../gas_runs.hpp"
+#include "../next_sample.hpp"
 #include "../t_tube_runs.hpp"
 
 namespace hamflow::reproduction {
