@@ -104,7 +104,7 @@ Real size_of_terms(const P& problem, const Vector<Real, N>& q, const Vector<Real
 /// What the change of H along a step rounds by where |H| and the virial do not tell of it, since H has terms that
 /// cancel (exp(x) - x - 1 of small x) or a constant, when both ends move by small parts of the step. 0 where it is not
 /// rounding that is seen, and where so small a part of the step changes H by much: a step that long leads nowhere.
-/// @param size of H and its virial at both ends
+/// @param size of H and its virial at the start
 template <class P, class Real, std::size_t N>
 [[gnu::cold, gnu::noinline]] Real rounding_of_change(const P& problem, const Vector<Real, N>& q0,
                                                      const Vector<Real, N>& p0, const Increment<Real, N>& taken,
