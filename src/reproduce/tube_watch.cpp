@@ -23,7 +23,7 @@ constexpr std::int64_t part_of_block = 20000;  // steps, between which Ctrl-C is
 constexpr std::int64_t seldom = 10;            // steps between looks at a simulation that goes alone
 
 Scenario scenario_for(const TubeSet& set, const TubeStart& start) {
-  Reading reading = read_scenario_text(scenario_of_start(set, start, tube_block), name_of(set.run), set.sets);
+  Reading reading = read_scenario_text(scenario_of_start(set, start, set.block), name_of(set.run), set.sets);
   if (!reading.scenario) throw Error(reading.complaints.at(0).text());
   return *std::move(reading.scenario);
 }
@@ -32,11 +32,12 @@ double energy_of(const Scenario& scenario, const std::vector<double>& q, const s
   return scenario.problem->energy(scenario.request.parameters, q, p);
 }
 
-/// A block has ended in the state q, p. @return whether the run goes on
-bool end_block(const Scenario& scenario, const TubeSet& set, TubeWatch& watch, double mean) {
+/// A block has ended in the state q, p. @param means of the kinetic energies   @return whether the run goes on
+bool end_block(const Scenario& scenario, const TubeSet& set, TubeWatch& watch, const std::vector<double>& means) {
   const double start = energy_of(scenario, scenario.start_q, scenario.start_p);
   const double error = std::abs(energy_of(scenario, watch.q, watch.p) - start) / std::abs(start);
-  watch.blocks.push_back(mean);
+  watch.blocks.push_back(means[0]);
+  if (set.both_bodies) watch.heavy.push_back(means[1]);
   watch.energy_error = std::max(watch.energy_error, error);
   watch.stopped = !(watch.energy_error <= set.most_energy_error);
   return !watch.stopped;
@@ -76,15 +77,19 @@ bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch>
     }
     return true;
   }
-  const NamedExpression kinetic{"kinetic1",
-                                StateExpression("p1^2/2", *scenarios[0].problem, scenarios[0].request.parameters, 2)};
-  const std::vector sums(all.size(), std::span(&kinetic, 1));
+  const auto energy_as = [&](const char* name, const char* text) {
+    return NamedExpression{name, StateExpression(text, *scenarios[0].problem, scenarios[0].request.parameters, 2)};
+  };
+  std::vector<NamedExpression> kinetic{energy_as("kinetic1", "p1^2/2")};
+  if (set.both_bodies) kinetic.push_back(energy_as("kinetic2", "p2^2/200"));
+  const std::vector sums(all.size(), std::span<const NamedExpression>(kinetic));
   if (!block->load(shape, members) || !block->expect_sums(sums)) return false;
-  std::vector<double> before(all.size());
+  std::vector before(all.size(), std::vector<double>(kinetic.size()));
+  std::vector<double> means(kinetic.size());
   Frame frame;
   for (std::size_t b = 0; b < set.blocks; ++b) {
-    for (std::int64_t steps = 0; steps < tube_block; steps += part_of_block) {
-      block->advance(part_of_block);
+    for (std::int64_t steps = 0; steps < set.block; steps += part_of_block) {
+      block->advance(std::min(part_of_block, set.block - steps));
       study.breathe();
     }
     bool any = false;
@@ -97,9 +102,12 @@ bool watch_in_lanes(const Study& study, const TubeSet& set, std::span<TubeWatch>
       }
       block->show(lane, frame);
       watch.q = frame.q, watch.p = frame.p;
-      const double sum = block->sums(lane).at(0).value();
-      const double mean = (sum - std::exchange(before[lane], sum)) / static_cast<double>(tube_block);
-      any = end_block(scenarios[lane], set, watch, mean) || any;
+      const std::vector<StepSum> lane_sums = block->sums(lane);
+      for (std::size_t i = 0; i < kinetic.size(); ++i) {
+        const double sum = lane_sums[i].value();
+        means[i] = (sum - std::exchange(before[lane][i], sum)) / static_cast<double>(set.block);
+      }
+      any = end_block(scenarios[lane], set, watch, means) || any;
       watch.bounces = sum_of(block->look(lane).walls);
     }
     if (!any) break;
@@ -115,19 +123,21 @@ void watch_alone(const Study& study, const TubeSet& set, TubeWatch& watch) {
   Frame frame;
   bool goes_on = true;
   for (std::size_t b = 0; b < set.blocks && goes_on; ++b) {
-    double sum = 0;
-    for (std::int64_t i = 0; i < tube_block / seldom; ++i) {
+    std::vector<double> means(2);
+    const std::int64_t looks = set.block / seldom;
+    for (std::int64_t i = 0; i < looks; ++i) {
       if (simulation->advance(seldom) != Outcome::done) {  // of soft walls: through one
         watch.stopped = true;
         return;
       }
       simulation->look(frame);
-      sum += frame.p[0] * frame.p[0] / 2;
+      means[0] += frame.p[0] * frame.p[0] / 2 / static_cast<double>(looks);
+      means[1] += frame.p[1] * frame.p[1] / 200 / static_cast<double>(looks);
       if (i % 1000 == 0) study.breathe();
     }
     watch.q = frame.q, watch.p = frame.p;
     watch.bounces = sum_of(simulation->wall_counts());
-    goes_on = end_block(scenario, set, watch, sum / static_cast<double>(tube_block / seldom));
+    goes_on = end_block(scenario, set, watch, means);
   }
 }
 
@@ -148,6 +158,7 @@ std::string json_of(const std::vector<TubeWatch>& watches) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const TubeWatch& one : watches) {
     all.push_back({{"blocks", one.blocks},
+                   {"heavy", one.heavy},
                    {"bounces", one.bounces},
                    {"energy_error", one.energy_error},
                    {"stopped", one.stopped},
@@ -170,6 +181,7 @@ std::vector<TubeWatch> kept_watches(const std::filesystem::path& file, std::span
       const auto& one = all[i];
       watches.push_back({.start = starts[i],
                          .blocks = one.at("blocks"),
+                         .heavy = one.at("heavy"),
                          .bounces = one.at("bounces"),
                          .energy_error = one.at("energy_error"),
                          .stopped = one.at("stopped"),
@@ -200,6 +212,23 @@ std::vector<TubeStart> tube_starts(int number) {
         all.push_back({eps, -0.9 + 0.2 * (of_32 - 22) + near, 0});
       }
     }
+  }
+  return all;
+}
+
+std::vector<LateMotion> late_motions(Study& study) {
+  std::vector<LateMotion> all{{"+0.6I", 0.6, 10, {}, {}}, {"-0.6I", -0.6, 129, {}, {}}, {"-0.6I-2", -0.6, 203, {}, {}}};
+  const std::vector<TubeStart> known = tube_starts(512);
+  const TubeSet set{.run = {}, .blocks = late_blocks};
+  std::vector<TubeStart> starts;
+  for (const LateMotion& motion : all) {
+    starts.push_back(known.at(motion.start + (motion.eps > 0 ? 0 : known.size() / 2)));
+  }
+  const std::vector<TubeWatch> seen = watch_tubes(study, "late", set, starts);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].q = seen[i].q, all[i].p = seen[i].p;
+    study.keep_scenario(fmt::format("late_{}", all[i].name),
+                        scenario_of_start(set, starts[i], static_cast<std::int64_t>(late_blocks) * tube_block));
   }
   return all;
 }

@@ -1,5 +1,6 @@
-// The T-tube watched for the late, regular motion of [Sonnleitner2010], ch. 3b: block means of the light body's kinetic
-// energy of many starts at once, by one rule for all of them, fixed before any run.
+// The T-tube watched through long runs of many starts at once, as block means of kinetic energies: for the late,
+// regular motion of [Sonnleitner2010], ch. 3b, by one rule for all of them, fixed before any run, and for its long
+// averages.
 #pragma once
 
 #include <span>
@@ -28,18 +29,33 @@ struct TubeSet {
   std::vector<std::string> sets{};  // PATH=VALUE
   std::size_t blocks = 0;
   double most_energy_error = 1e300;  // of the start's; a run beyond it is stopped, and counts up to there
+  std::int64_t block = tube_block;   // steps
+  bool both_bodies = false;          // the heavy one's kinetic energy, too
 };
 
 /// What is seen of one start.
 struct TubeWatch {
   TubeStart start;
   std::vector<double> blocks;  // means of kinetic1
+  std::vector<double> heavy;   // and of kinetic2, where both are asked for
   std::int64_t bounces = 0;
   double energy_error = 0;               // at the ends of blocks, of the start's
   bool stopped = false;                  // beyond the energy error allowed, or through a soft wall
   std::vector<double> q, p;              // at the end
   std::vector<std::int64_t> two_to_one;  // of a captured one, by find_two_to_one()
 };
+
+/// A motion that the rule "reject" has caught within late_blocks: of one of tube_starts(512), by its number among those
+/// of its eps. That it is regular is what experiments find, not what this says.
+struct LateMotion {
+  const char* name;
+  double eps;
+  std::size_t start;
+  std::vector<double> q, p;  // behind late_blocks
+};
+inline constexpr std::size_t late_blocks = 12;
+/// Runs there, and keeps their scenarios as late_NAME.   @throws Stopped
+std::vector<LateMotion> late_motions(Study& study);
 
 /// All of them, in SIMD lanes where the method goes there. What is seen of every 32 is kept in the experiment's folder
 /// as NAME_FIRST.json: an experiment that was killed takes it from there.   @throws Stopped

@@ -31,26 +31,41 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-/// A state on a late motion of +-0.6I, which reject has caught after 7.2 10^6 and 2.1 10^7 steps.
-struct Late {
-  const char* name;
-  double eps;
-  std::array<double, 2> q, p;
+/// Largest Lyapunov exponents over T and 4 T time units from the end of a run. Of a regular motion neighbours part like
+/// t, so that they fall like log T/T; three times that is allowed for the shear. A chaotic one has 50 times that.
+struct Exponents {
+  double shorter = 0, longer = 0, time = 0;
+  bool regular() const {
+    return std::abs(shorter) <= 3 * std::log(time) / time && std::abs(longer) <= 3 * std::log(4 * time) / (4 * time);
+  }
 };
-constexpr Late late_motions[] = {
-    {"+0.6I", 0.6, {0.15814625933256049, 0.10189244782580631}, {4.2452748414207893, -93.438382498693628}},
-    {"-0.6I", -0.6, {0.55143152800538775, 1.9976493956883772}, {-3.9788341526566837, 92.038549055583402}}};
+
+/// Over so many steps, and four times as many.
+Exponents exponents_from(Study& study, const TubeSet& set, const TubeWatch& seen, const std::string& name,
+                         std::int64_t steps) {
+  const auto over = [&](std::int64_t length, const char* which) {
+    const Trajectory run = study.run(fmt::format("{}_{}", name, which),
+                                     scenario_of_start(set, seen.start, length, seen.q, seen.p), {"run.lyapunov=1"});
+    return read_json(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
+  };
+  return {over(steps, "shorter"), over(4 * steps, "longer"), static_cast<double>(steps) * std::stod(set.run.dt)};
+}
+
+/// @param moved by which Q1 is another
+std::string initial_of(const LateMotion& late, double moved) {
+  const std::vector<double>&q = late.q, &p = late.p;
+  return fmt::format("problem.initial={{ q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}] }}", q[0] + moved, q[1], p[0],
+                     p[1]);
+}
 
 /// How far two neighbours are apart in the later half of a run, over how far they were at first. Of a regular motion
 /// that grows like t; of a chaotic one it ends where they are as far apart as they can be, near 1/shift.
-double parting(Study& study, const std::string& name, TubeRun run, const Late& late, double shift) {
+double parting(Study& study, const std::string& name, TubeRun run, const LateMotion& late, double shift) {
   run.eps = late.eps;
   run.steps = study.sized<std::int64_t>(20000, 100000, 1000000);
   run.record_every = run.steps / 200;
   const auto from = [&](double moved, const std::string& which) {
-    return study.run(fmt::format("{}_{}_{}", late.name, name, which), tube_scenario(run),
-                     {fmt::format("problem.initial={{ q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}] }}",
-                                  late.q[0] + moved, late.q[1], late.p[0], late.p[1])});
+    return study.run(fmt::format("{}_{}_{}", late.name, name, which), tube_scenario(run), {initial_of(late, moved)});
   };
   const Trajectory one = from(0, "one"), other = from(shift, "other");
   std::vector<double> all;
@@ -61,23 +76,49 @@ double parting(Study& study, const std::string& name, TubeRun run, const Late& l
 }
 
 /// The same, and how much it depends on how far apart they were.
-Measured measured_parting(Study& study, const std::string& name, const TubeRun& run, const Late& late,
+Measured measured_parting(Study& study, const std::string& name, const TubeRun& run, const LateMotion& late,
                           const std::string& how) {
   const double one = parting(study, name, run, late, 1e-9), other = parting(study, name + "_wider", run, late, 2e-9);
   return {one, std::abs(one - other), how};
+}
+
+/// Of located bounces each costs a hundred steps, for tangents go through it in more digits.
+std::int64_t steps_in_true_flow(const Study& study) { return study.sized<std::int64_t>(10000, 50000, 200000); }
+
+/// How far around a late motion others are regular, as their own exponents tell: with the listing's rule, and in the
+/// true flow, whose walls are located.
+void tell_neighbourhood(Study& study, const LateMotion& late, Table& table) {
+  std::vector<double> shifts{0};
+  if (study.sized(0, 1, 1) > 0) shifts = {0, 1e-4, 1e-3, 1e-2, 0.1};
+  for (const char* const rule : {"reject", "event"}) {
+    for (const double moved : shifts) {
+      TubeWatch beside{.start = {.eps = late.eps}, .q = late.q, .p = late.p};
+      beside.q[0] += moved;
+      const std::string name = fmt::format("{}_{}_moved_{:g}", late.name, rule, moved);
+      const Exponents of = exponents_from(study, {.run = {.rule = rule}}, beside, name, steps_in_true_flow(study));
+      table.rows.push_back({late.name, rule, fmt::format("{:g}", moved), fmt::format("{:.2g}", of.shorter),
+                            fmt::format("{:.2g}", of.longer), of.regular() ? "yes" : "no"});
+    }
+  }
 }
 
 /// Whether the late motions are regular with the listing's rule, and whether the true flow has them.
 void claim_late_motions(Study& study) {
   const std::string rule =
       "neighbours part like t where the motion is regular; a chaotic one has parted them 3e8 times and more";
-  for (const Late& late : late_motions) {
+  const double time = 0.01 * static_cast<double>(steps_in_true_flow(study));
+  Table table{"neighbourhood",
+              "Motions beside a late one, Q1 moved: with the rule of the listing, and with located bounces (stv4)",
+              {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
+               fmt::format("over {:g}", 4 * time), "by at most 3 log T/T"},
+              {}};
+  for (const LateMotion& late : late_motions(study)) {
     study.claim({fmt::format("regular_{}", late.name),
-                 fmt::format("the late motion of {} is regular, with the rule of the listing", late.name), "regular"},
+                 fmt::format("a late motion of {} is regular, with the rule of the listing", late.name), "regular"},
                 at_most(1e6, rule),
                 {measured_parting(study, "reject", {}, late, "reject, dt = 0.01, neighbours 1e-9 apart")});
     study.claim({fmt::format("true_flow_{}", late.name),
-                 fmt::format("the late motion of {} is a regular orbit of the true flow", late.name), "an island"},
+                 fmt::format("a late motion of {} is a regular orbit of the true flow", late.name), "an island"},
                 at_most(1e6, rule),
                 {measured_parting(study, "element", {.rule = "event", .method = "cg(3)"}, late,
                                   "continued with cg(3) and event, dt = 0.01"),
@@ -90,7 +131,9 @@ void claim_late_motions(Study& study) {
     }
     study.note(fmt::format("{}: with reject neighbours part so many times, by how far they were apart:{}.", late.name,
                            widths));
+    tell_neighbourhood(study, late, table);
   }
+  study.table(std::move(table));
 }
 
 /// Two-to-one rejections over all, from the geometry: rejections lie in a layer h |v| before a wall; of it the part is
@@ -167,25 +210,6 @@ void claim_two_to_one(Study& study) {
   study.keep({"two_to_one", {{"dt", {steps.begin(), steps.end()}}, {"share", means}, {"error", errors}}});
 }
 
-/// Largest Lyapunov exponents over T and 4 T time units from the end of a run. Of a regular motion neighbours part like
-/// t, so that they fall like log T/T; three times that is allowed for the shear. A chaotic one has 50 times that.
-struct Exponents {
-  double shorter = 0, longer = 0, time = 0;
-  bool regular() const {
-    return std::abs(shorter) <= 3 * std::log(time) / time && std::abs(longer) <= 3 * std::log(4 * time) / (4 * time);
-  }
-};
-
-Exponents exponents_after(Study& study, const TubeSet& set, const TubeWatch& seen, const std::string& name) {
-  const std::int64_t steps = study.sized<std::int64_t>(10000, 200000, 200000);
-  const auto over = [&](std::int64_t length, const char* which) {
-    const Trajectory run = study.run(fmt::format("{}_{}", name, which),
-                                     scenario_of_start(set, seen.start, length, seen.q, seen.p), {"run.lyapunov=1"});
-    return read_json(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
-  };
-  return {over(steps, "shorter"), over(4 * steps, "longer"), static_cast<double>(steps) * std::stod(set.run.dt)};
-}
-
 struct Captured {
   TubeWatch seen;
   std::size_t from = 0;  // block
@@ -220,7 +244,7 @@ Counts all_of(Study& study, const std::string& name, const TubeSet& set, int sta
       continue;
     }
     const std::string run = fmt::format("{}_captured_{}", name, counts.captured.size() + 1);
-    const Exponents exponents = exponents_after(study, set, seen, run);
+    const Exponents exponents = exponents_from(study, set, seen, run, study.sized<std::int64_t>(10000, 200000, 200000));
     if (exponents.regular()) {
       counts.captured.push_back({std::move(seen), from, exponents});
     } else {
@@ -406,6 +430,22 @@ void claim_captures(Study& study, Counts& reject) {
       Grounds::program, "runs in which reject captures: the default size");
 }
 
+/// Whether what reject has caught is also a motion between walls that are located.
+void claim_true_flow(Study& study, const Counts& reject) {
+  const auto looked_at = std::min<std::size_t>(reject.captured.size(), 16);
+  int others = 0;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    const Exponents of = exponents_from(study, {.run = {.rule = "event"}}, reject.captured[k].seen,
+                                        fmt::format("captured_{}_in_true_flow", k + 1), steps_in_true_flow(study));
+    if (!of.regular()) ++others;
+  }
+  study.claim({"true_flow_of_captured", "the late motions are regular orbits of the true flow", "physics"},
+              none_of("captured motions that are not, by their exponents: more than 3 log T/T with located bounces"),
+              {{static_cast<double>(others), looked_at == 0 ? unknown : 0.0,
+                fmt::format("the first {} that reject captured, continued with event and stv4", looked_at)}},
+              Grounds::program, "runs in which reject captures: the default size");
+}
+
 void carry_out(Study& study) {
   claim_two_to_one(study);
   claim_late_motions(study);
@@ -423,6 +463,7 @@ void carry_out(Study& study) {
   Counts reject =
       all_of(study, "reject", set_of("reject", "stv4", "0.01", study.sized<std::size_t>(1, 100, 100)), of_reject);
   claim_captures(study, reject);
+  claim_true_flow(study, reject);
   if (!reject.captured.empty()) draw_blocks(study, reject);
   tell_captures(study, reject);
   const Counts event =

@@ -169,7 +169,7 @@ void euler_a(Study& study) {
   claim_period(study, "2.33", 0.01);
   const Trajectory once = study.run("figure", scenario("euler-a", "0.01", 233, 1));
   const Trajectory longer =
-      study.run("longer", scenario("euler-a", "0.01", 233 * study.sized(1000L, 10000L, 100000L), 1));
+      study.run("longer", scenario("euler-a", "0.01", 233 * study.sized(1000L, 10000L, 100000L), 233));
   const double first = energy_error(once), late = energy_error(longer);
   study.claim(
       {"stays", "EulerA does not leave its curve, for longer times neither", "does not leave it"},
