@@ -9,6 +9,7 @@
 #include "hamflow/core/archive.hpp"
 #include "hamflow/core/outside_note.hpp"
 #include "hamflow/run/recorded_step.hpp"
+#include "hamflow/run/step_sums.hpp"
 #include "hamflow/run/wall_failures.hpp"
 #include "run_walls.hpp"
 #include "wall_events.hpp"
@@ -51,6 +52,7 @@ class WalledSimulation : public Simulation {
       const std::int64_t some = walls_->rule == WallRule::soft ? steps : 1;
       const Outcome outcome = some == 1 ? take_step() : inner_->advance(some);
       if (outcome != Outcome::done) return explained(outcome);
+      add_step();
       steps -= some;
     }
     return Outcome::done;
@@ -86,6 +88,12 @@ class WalledSimulation : public Simulation {
     return all;
   }
   void tell_bounces(std::function<void(const Bounce&)> told) override { told_ = std::move(told); }
+  /// What recorded steps do not take is added here.
+  bool add_to_sums(std::span<const NamedExpression> summed, std::span<StepSum> sums) override {
+    if (!inner_->add_to_sums(summed, sums)) return false;
+    if (walls_->rule != WallRule::soft) summed_ = summed, sums_ = sums;
+    return true;
+  }
   std::vector<std::byte> save() const override {
     Writer ar;
     ar(inner_->save(), counts_, given_up_);
@@ -181,6 +189,11 @@ class WalledSimulation : public Simulation {
       count_as_one(before, given_up_before);
     }
     return after_walls(outcome);
+  }
+  void add_step() {
+    if (summed_.empty()) return;
+    inner_->look(frame_);
+    for (std::size_t i = 0; i < summed_.size(); ++i) sums_[i].add(summed_[i].expression(frame_));
   }
   Outcome after_walls(Outcome outcome) {
     if (outcome != Outcome::done) return back_with(outcome);
@@ -445,7 +458,10 @@ class WalledSimulation : public Simulation {
   Effort given_up_;                   // by the search for bounces and by steps that were rejected
   std::vector<Met> met_;              // in the present step
   std::optional<FlightInNumbers> flight_;
-  const RecordedStep* undone_ = nullptr;  // by recorded steps: the next one, which may meet a wall
+  const RecordedStep* undone_ = nullptr;       // by recorded steps: the next one, which may meet a wall
+  std::span<const NamedExpression> summed_{};  // whose values behind each step are added to sums_
+  std::span<StepSum> sums_{};
+  Frame frame_;
   std::string why_;
   std::optional<std::size_t> outside_;  // the interval of a soft wall that was met
   std::function<void(const Bounce&)> told_;

@@ -133,7 +133,9 @@ const char* const head = R"(<!DOCTYPE html>
     figure { max-width: 11cm; }
     .wide { overflow: visible; }
     .verdict, .quiet { color: #000; }
-    nav, .skip, details { display: none; }
+    nav, .skip { display: none; }
+    details::details-content { content-visibility: visible; height: auto; }
+    pre { font-size: 7pt; white-space: pre-wrap; overflow-wrap: anywhere; }
     a { color: #000; text-decoration: none; }
   }
 </style>

@@ -69,6 +69,12 @@ void clear(const fs::path& folder) {
   if (error) throw FileError("cannot remove " + folder.string() + ": " + error.message());
 }
 
+void move(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw FileError("cannot move " + from.string() + " to " + to.string() + ": " + error.message());
+}
+
 std::string contents_of(const fs::path& file) {
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
@@ -142,10 +148,15 @@ class Run {
   ExperimentReport carried_out(const Experiment& experiment) {
     ExperimentReport report{.info = experiment.info, .status = "done", .extent = request_.extent};
     const fs::path folder = request_.folder / "reproduction" / experiment.info.id;
+    const fs::path beside = folder.string() + ".next";  // a smaller size, which stays until the larger one is done
     const std::string print = fingerprint(experiment, request_.extent);
+    bool keeps_smaller = false;
     if (request_.existing == Existing::resume) {
+      if (!is_there(folder) && is_there(beside)) move(beside, folder);
+      const auto done = kept_of(experiment, folder);
+      keeps_smaller = done && done->extent < request_.extent;
       // What is done in a larger size is done in this one, too.
-      if (const auto done = kept_of(experiment, folder); done && done->extent >= request_.extent) {
+      if (done && !keeps_smaller) {
         report.claims = done->kept.claims;
         report.seconds = done->kept.seconds;
         report.extent = done->extent;
@@ -158,15 +169,21 @@ class Run {
       return report;
     }
     const auto begin = std::chrono::steady_clock::now();
-    begin_in(folder, print, request_.existing == Existing::resume);
+    const fs::path place = keeps_smaller ? beside : folder;
+    if (!keeps_smaller) clear(beside);
+    begin_in(place, print, request_.existing == Existing::resume);
     Study study(
-        experiment.info, request_.extent, [this] { return go_on(); }, folder, shared_);
+        experiment.info, request_.extent, [this] { return go_on(); }, place, shared_);
     try {
       experiment.carry_out(study);
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       const bool quick = request_.extent == WorkExtent::quick;
-      keep(folder, study, print, report.seconds,
+      keep(place, study, print, report.seconds,
            quick ? std::vector<std::string>{"svg"} : std::vector<std::string>{"svg", "pdf", "png"});
+      if (keeps_smaller) {
+        clear(folder);
+        move(beside, folder);
+      }
       report.claims = study.claims();
     } catch (const Stopped&) {
       report.status = "interrupted";

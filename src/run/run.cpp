@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/step_sums.hpp"
 
 namespace hamflow {
 
@@ -35,6 +36,43 @@ Outcome wake(const Simulation& simulation, std::span<Observer* const> observers,
   return outcome;
 }
 
+/// One observer of every step that needs sums alone is spared the steps, where the simulation adds by itself.
+class SparedObserver {
+ public:
+  /// @param observers have seen the present state
+  SparedObserver(Simulation& simulation, std::span<Observer* const> observers)
+      : simulation_(simulation), others_(observers.begin(), observers.end()) {
+    for (auto each = others_.begin(); each != others_.end(); ++each) {
+      spared_ = dynamic_cast<SummedSteps*>(*each);
+      if (spared_ == nullptr) continue;
+      if (simulation.add_to_sums(spared_->summed(), spared_->sums())) {
+        others_.erase(each);
+      } else {
+        spared_ = nullptr;
+      }
+      return;
+    }
+  }
+  ~SparedObserver() {
+    if (spared_ != nullptr) (void)simulation_.add_to_sums({}, {});
+  }
+  SparedObserver(const SparedObserver&) = delete;
+  SparedObserver& operator=(const SparedObserver&) = delete;
+
+  std::span<Observer* const> others() const { return others_; }
+  /// Before anybody else sees the state, or asks what was seen.
+  void reach(Frame& frame) {
+    if (spared_ == nullptr) return;
+    simulation_.look(frame);
+    spared_->reach(frame);
+  }
+
+ private:
+  Simulation& simulation_;
+  std::vector<Observer*> others_;
+  SummedSteps* spared_ = nullptr;
+};
+
 std::int64_t earliest_due(std::int64_t from, std::int64_t last, std::span<Observer* const> observers) {
   std::int64_t due = last;
   for (const Observer* observer : observers) due = std::min(due, observer->next_due(from));
@@ -51,12 +89,14 @@ Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* 
   Clock::time_point pulsed = Clock::now();
   Frames frames;
   if (const Outcome first = wake(simulation, observers, frames); first != Outcome::done) return first;
+  SparedObserver spared(simulation, observers);
   while (simulation.step() < last_step) {
     const std::int64_t now = simulation.step();
-    const std::int64_t target = std::min(earliest_due(now + 1, last_step, observers), now + block - since_pulse);
+    const std::int64_t target = std::min(earliest_due(now + 1, last_step, spared.others()), now + block - since_pulse);
     Outcome outcome = simulation.advance(target - now);
     since_pulse += target - now;
-    if (outcome == Outcome::done) outcome = wake(simulation, observers, frames);
+    spared.reach(frames.of_step);
+    if (outcome == Outcome::done) outcome = wake(simulation, spared.others(), frames);
     if (outcome != Outcome::done) return outcome;
     if (since_pulse >= block) {
       const double seconds = std::chrono::duration<double>(Clock::now() - pulsed).count();

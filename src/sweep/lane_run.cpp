@@ -55,7 +55,9 @@ void LaneRun::take_sums() {
   for (std::size_t lane = 0; has_sums_ && taken_ > 0 && lane < observers_.size(); ++lane) {
     if (block_.is_lost(lane)) continue;
     block_.show(lane, frame_);
-    observers_[lane].sums->take_sums(frame_, block_.sums(lane));
+    SummedSteps& observer = *observers_[lane].sums;
+    std::ranges::copy(block_.sums(lane), observer.sums().begin());
+    observer.reach(frame_);
   }
 }
 

@@ -150,6 +150,29 @@ class Reproduce(CommandCase):
         self.assertEqual([(e["id"], e["size"]) for e in self.verdicts("reproduce")["experiments"]],
                          [("G2.8", "default"), ("G2.9", "quick"), ("S-C55", "default")])
 
+    def test_a_smaller_size_stays_until_a_larger_one_is_done(self):
+        self.reproduce("S-T99", "--quick")
+        quick = self.verdicts("reproduce")
+        folder = pathlib.Path(self.folder) / "reproduce"
+        # The default size takes minutes.
+        process = subprocess.Popen([HAMFLOW, "reproduce", "S-T99", "--resume", "--threads", "1"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        begun = folder / "reproduction/S-T99.next/begun.txt"
+        for _ in range(6000):
+            if begun.exists() and begun.read_text():
+                break
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        self.assertEqual(self.verdicts("reproduce")["claims"], quick["claims"])
+        self.assertIn("; size quick", (folder / "index.html").read_text())
+        # Where the larger one was done, and a kill came before it took the place.
+        (folder / "reproduction/S-T99.next").rename(folder / "unfinished")
+        (folder / "reproduction/S-T99").rename(folder / "reproduction/S-T99.next")
+        self.reproduce("S-T99", "--quick", "--resume")
+        self.assertEqual(self.verdicts("reproduce")["claims"], quick["claims"])
+        self.assertFalse((folder / "reproduction/S-T99.next").exists())
+
     def test_what_is_kept_is_looked_at(self):
         """A verdict that does not follow from its numbers, other numbers, and files that are missing or changed are made
         again."""

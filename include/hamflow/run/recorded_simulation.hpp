@@ -16,6 +16,7 @@
 #include "hamflow/run/in_parts.hpp"
 #include "hamflow/run/recorded_part.hpp"
 #include "hamflow/run/recorded_step.hpp"
+#include "hamflow/run/step_sums.hpp"
 
 namespace hamflow {
 
@@ -47,16 +48,15 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   Outcome advance(std::int64_t steps) override {
     const Loop* const loop = loop_for(clock_.step_length(), steps, AtWalls::stop);
     if (loop == nullptr || steps < 1 || loop->step->stops) return ordinary(steps);
-    values_.resize(loop->step->program.values());
-    if (!read_values(*loop->step, values_)) {
+    if (!read_all(*loop->step)) {
       // One step leaves what the method keeps for the next one.
       const Outcome outcome = ordinary(1);
       if (outcome != Outcome::done || --steps == 0) return outcome;
-      if (!read_values(*loop->step, values_)) return ordinary(steps);
+      if (!read_all(*loop->step)) return ordinary(steps);
     }
     if (!loop->steps->run(values_, steps) || !are_finite()) return ordinary(steps);
     if (watch_) {
-      take_values(*loop->step, values_, steps);
+      take_all(*loop->step, steps);
       return Outcome::done;
     }
     // Nobody has looked at the energy yet.
@@ -64,8 +64,10 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     const auto method = method_;
     const auto clock = clock_;
     const auto density = density_;
-    take_values(*loop->step, values_, steps);
+    const std::vector<StepSum> sums(sums_.begin(), sums_.end());
+    take_all(*loop->step, steps);
     if (Base::is_finite(Base::problem(), z_)) return Outcome::done;
+    std::copy(sums.begin(), sums.end(), sums_.begin());
     z_ = z;
     method_ = method;
     clock_ = clock;
@@ -83,9 +85,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     if (is_none) loop = loop_for(h, steps, AtWalls::stop);
     if (loop == nullptr) return 0;
     const RecordedStep& step = *loop->step;
-    values_.resize(step.program.values());
     Base::prepare();
-    if (!read_values(step, values_)) return 0;  // one step by the ordinary road mends it
+    if (!read_all(step)) return 0;  // one step by the ordinary road mends it
     std::int64_t taken = 0;
     std::int64_t block = block_;
     bool has_failed = false;
@@ -106,11 +107,21 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       block = std::min(2 * block, BounceWord::most_steps);
     }
     block_ = has_failed ? first_block : block;
-    take_values(step, values_, taken);
+    take_all(step, taken);
     return taken;
   }
 
   const RecordedStep* undone_step() const override { return undone_; }
+
+  /// Behind walls, of the steps of take_recorded() alone.
+  bool add_to_sums(std::span<const NamedExpression> summed, std::span<StepSum> sums) override {
+    const auto uses_time = [](const NamedExpression& each) { return each.expression.uses_time(); };
+    if (!*recorder_ || std::any_of(summed.begin(), summed.end(), uses_time)) return false;
+    if (!summed_.empty() || !summed.empty()) loops_ = {};
+    summed_ = summed;
+    sums_ = sums;
+    return true;
+  }
 
   void mark(Place place) override {
     Base::mark(place);
@@ -192,7 +203,9 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
   }
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override {
-    return std::make_unique<RecordedSimulation>(*this);
+    auto copy = std::make_unique<RecordedSimulation>(*this);
+    (void)copy->add_to_sums({}, {});
+    return copy;
   }
 
  private:
@@ -244,16 +257,47 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     Base::forget();
   }
   Outcome ordinary(std::int64_t steps) {
+    if (summed_.empty() || behind_walls_) return ordinary_steps(steps);
+    Frame frame;
+    for (; steps > 0; --steps) {
+      if (const Outcome outcome = ordinary_steps(1); outcome != Outcome::done) return outcome;
+      Base::look(frame);
+      for (std::size_t i = 0; i < summed_.size(); ++i) sums_[i].add(summed_[i].expression(frame));
+    }
+    return Outcome::done;
+  }
+  Outcome ordinary_steps(std::int64_t steps) {
     if (watch_) return Base::advance(steps);
     const auto probe = probe_;
     const Outcome outcome = Base::advance(steps);
     probe_ = probe;
     return outcome;
   }
+  /// A sum may be no number.
   bool are_finite() const {
     double most = 0;
-    for (const double x : values_) most = most < abs(x) || x != x ? abs(x) : most;
+    for (const double x : std::span(values_).first(values_.size() - 2 * summed_.size())) {
+      most = most < abs(x) || x != x ? abs(x) : most;
+    }
     return most <= std::numeric_limits<double>::max();
+  }
+  /// The values of a step, and behind them those of the sums.
+  bool read_all(const RecordedStep& step) {
+    const std::size_t of_step = step.program.values();
+    values_.resize(of_step + 2 * summed_.size());
+    if (!read_values(step, std::span(values_).first(of_step))) return false;
+    for (std::size_t i = 0; i < summed_.size(); ++i) {
+      values_[of_step + 2 * i] = sums_[i].sum;
+      values_[of_step + 2 * i + 1] = sums_[i].lost;
+    }
+    return true;
+  }
+  void take_all(const RecordedStep& step, std::int64_t steps) {
+    const std::size_t of_step = step.program.values();
+    take_values(step, std::span(values_).first(of_step), steps);
+    for (std::size_t i = 0; i < summed_.size(); ++i) {
+      sums_[i] = {values_[of_step + 2 * i], values_[of_step + 2 * i + 1]};
+    }
   }
 
   /// Null where there is none, or too few steps have been asked for. Forwards and backwards are two loops, and so are
@@ -270,7 +314,11 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     made->step = record(at_walls);
     constexpr int often_enough = 32;  // the step that was to be recorded may be one of another branch
     if (!made->step && behind_walls_ && ++failures_ < often_enough) return nullptr;
-    if (made->step) made->steps = make_step_loop(made->step->program);
+    if (made->step && summed_.empty()) made->steps = make_step_loop(made->step->program);
+    if (made->step && !summed_.empty()) {
+      const std::optional<std::size_t> undone = made->step->stops ? std::optional(made->step->stop()) : std::nullopt;
+      made->steps = make_step_loop(with_sums(made->step->program, made->step->state, undone, summed_).value());
+    }
     const auto free = std::find(loops_.begin(), loops_.end(), nullptr);
     const auto place = free == loops_.end() ? loops_.begin() : free;
     *place = made;
@@ -289,7 +337,9 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::int64_t asked_ = 0;
   bool behind_walls_ = false;
   const RecordedStep* undone_ = nullptr;
-  int failures_ = 0;  // of recording
+  int failures_ = 0;                           // of recording
+  std::span<const NamedExpression> summed_{};  // whose values behind each step are added to sums_
+  std::span<StepSum> sums_{};
   std::optional<PartsInNumbers> numbers_;
   int parts_asked_ = 0;
   bool is_at_mark_ = false;  // of the flight

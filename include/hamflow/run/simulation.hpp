@@ -24,6 +24,9 @@ struct FrameDigits {
   std::string initial_energy;
 };
 
+struct NamedExpression;
+struct StepSum;
+
 /// A look at the state, in double. Buffers are reused from call to call.
 struct Frame {
   std::int64_t step = 0;
@@ -111,6 +114,11 @@ class Simulation {
   virtual std::vector<WallCount> wall_counts() const { return {}; }
   /// Calls `told` for every bounce from here on, in their order, when its step is done. A copy tells nobody.
   virtual void tell_bounces(std::function<void(const Bounce&)> /*told*/) {}
+
+  /// From here on advance() adds the values of expressions behind each of its steps to sums, as observers of every step
+  /// would (run/step_sums.hpp), and faster. None: no longer. A copy adds nothing.
+  /// @return false: this simulation does not
+  virtual bool add_to_sums(std::span<const NamedExpression> /*summed*/, std::span<StepSum> /*sums*/) { return false; }
 
   /// Everything that decides the bits of the steps to come and of the summary: state, clock, and the memory of the
   /// method and of the probe. Equal simulations give equal bytes.

@@ -33,8 +33,10 @@ class SummedSteps {
  public:
   virtual ~SummedSteps() = default;
   virtual std::span<const NamedExpression> summed() const = 0;
-  /// Instead of all steps but the start: the sums over them, and the state behind the last.
-  virtual void take_sums(const Frame& last, std::span<const StepSum> sums) = 0;
+  /// To add to, one for each of them.
+  virtual std::span<StepSum> sums() = 0;
+  /// Instead of the steps up to this state, whose values are in the sums.
+  virtual void reach(const Frame& last) = 0;
 };
 
 /// A program that also adds the values of expressions behind each step: two more values for each, a sum and what it

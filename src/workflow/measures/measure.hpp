@@ -29,7 +29,7 @@ class Measure {
   /// The same where it follows tangent vectors, which many members carry together.
   virtual TangentWatch* tangents() { return nullptr; }
   /// The same where it needs sums over the steps alone, which lanes keep by themselves.
-  virtual SummedSteps* sums() { return nullptr; }
+  virtual SummedSteps* summing() { return nullptr; }
   /// Its entry in the summary, from what was seen so far; null: none.
   virtual nlohmann::ordered_json summary() const = 0;
   /// What it counts among the events.

@@ -83,7 +83,7 @@ class MeasuredMember final : public MemberWatch {
   }
   SummedSteps* sums() override {
     for (const auto& measure : measures_) {
-      if (SummedSteps* const sums = measure->sums()) return sums;
+      if (SummedSteps* const sums = measure->summing()) return sums;
     }
     return nullptr;
   }

@@ -20,13 +20,12 @@ using Json = nlohmann::ordered_json;
 struct Seen {
   double initial = 0;
   double final = 0;
-  StepSum sum;
 };
 
 class ObservablesMeasure final : public Measure, public Observer, public SummedSteps {
  public:
   explicit ObservablesMeasure(const std::vector<NamedExpression>& observables)
-      : observables_(observables), seen_(observables.size()) {}
+      : observables_(observables), seen_(observables.size()), sums_(observables.size()) {}
 
   Observer& observer() override { return *this; }
   std::int64_t next_due(std::int64_t step) const override { return step; }
@@ -36,7 +35,7 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
       const double x = observables_[i].expression(frame);
       if (frame.step > 0) {
         seen_[i].final = x;
-        seen_[i].sum.add(x);
+        sums_[i].add(x);
       } else {
         seen_[i].initial = seen_[i].final = x;
       }
@@ -44,13 +43,11 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
     steps_ = frame.step;
     return Verdict::go_on;
   }
-  SummedSteps* sums() override { return this; }
+  SummedSteps* summing() override { return this; }
   std::span<const NamedExpression> summed() const override { return observables_; }
-  void take_sums(const Frame& last, std::span<const StepSum> sums) override {
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
-      seen_[i].final = observables_[i].expression(last);
-      seen_[i].sum = sums[i];
-    }
+  std::span<StepSum> sums() override { return sums_; }
+  void reach(const Frame& last) override {
+    for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i].final = observables_[i].expression(last);
     steps_ = last.step;
   }
   void archive(Writer& ar) override { fields(ar); }
@@ -59,9 +56,9 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
   /// {initial, mean, final} of each; without steps the mean is the initial value.
   std::vector<double> row() const override {
     std::vector<double> all;
-    for (const Seen& seen : seen_) {
-      const double mean = steps_ > 0 ? seen.sum.value() / static_cast<double>(steps_) : seen.initial;
-      all.insert(all.end(), {seen.initial, mean, seen.final});
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const double mean = steps_ > 0 ? sums_[i].value() / static_cast<double>(steps_) : seen_[i].initial;
+      all.insert(all.end(), {seen_[i].initial, mean, seen_[i].final});
     }
     return all;
   }
@@ -78,11 +75,12 @@ class ObservablesMeasure final : public Measure, public Observer, public SummedS
   template <class Archive>
   void fields(Archive& ar) {
     ar(steps_);
-    for (Seen& seen : seen_) ar(seen.initial, seen.final, seen.sum);
+    for (std::size_t i = 0; i < seen_.size(); ++i) ar(seen_[i].initial, seen_[i].final, sums_[i]);
   }
 
   const std::vector<NamedExpression>& observables_;
   std::vector<Seen> seen_;
+  std::vector<StepSum> sums_;
   std::int64_t steps_ = -1;  // the last that was seen
 };
 
