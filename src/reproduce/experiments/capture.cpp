@@ -451,7 +451,7 @@ void carry_out(Study& study) {
   claim_late_motions(study);
   // Of the listing's rule more: its rate decides how many captures the others should have. Lanes make a step of it a
   // small part of what one of event costs, for its bounces are located. Of the others so many that no capture at all
-  // would leave the ratio clearly below a half: some 17 expected ones. The largest size has more starts of 10^8 steps each.
+  // would leave the ratio clearly below a half: some 17 expected ones. --full has more starts.
   const int starts = study.sized(2, 64, 512), of_reject = study.sized(2, 256, 512);
   const int of_event = study.sized(2, 112, 512), of_soft = study.sized(2, 96, 512);
   const auto set_of = [](const std::string& rule, const std::string& method, const std::string& dt, std::size_t blocks,
