@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
       ->add_option("--x", plot.x, "column of the horizontal axis, of the kinds orbit, phase, time, particles, tracks")
       ->type_name("COLUMN");
   plot_command->add_option("--y", plot.y, "columns of the vertical axis, commas between")->type_name("COLUMN,...");
-  plot_command->add_option("--at", plot.at, "times of the kinds particles, radial, commas between")->type_name("T,...");
+  plot_command->add_option("--at", plot.at, "times of samples, of the kinds particles, radial, commas between")
+      ->type_name("T,...");
   plot_command->add_option("--size", plot.size, "width and height in centimetres, e.g. 8.5x6; also 85x60mm, 3.35x2.4in")
       ->type_name("WxH");
   plot_command->add_option("--dpi", plot.dpi, "pixels to the inch of a .png [300]")

@@ -6,6 +6,7 @@
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
+#include "particles.hpp"
 
 namespace hamflow {
 
@@ -91,10 +92,9 @@ std::string refused_times(const Figure& figure, const figures::FigureKind& kind)
            " in one figure";
   }
   for (const FigureData& run : figure.runs) {
-    const auto [first, last] = std::minmax({run.t.front(), run.t.back()});
     for (const double t : asked) {
-      if (!(t >= first && t <= last))
-        return "found the time " + shortest(t) + "; allowed from " + shortest(first) + " to " + shortest(last);
+      const std::string none = figures::no_sample_at(run, t);
+      if (!none.empty()) return none;
     }
   }
   return "";

@@ -6,6 +6,7 @@
 
 #include "figure_kind.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/number.hpp"
 #include "panels.hpp"
 #include "text.hpp"
 
@@ -15,13 +16,35 @@ namespace {
 constexpr std::uint64_t seed = 1738;  // any number: the same particles in every figure
 }
 
+namespace {
+std::size_t sample_nearest_to(const FigureData& data, double t) {
+  const auto nearest = std::min_element(data.t.begin(), data.t.end(),
+                                        [&](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+  return static_cast<std::size_t>(nearest - data.t.begin());
+}
+}  // namespace
+
+std::string no_sample_at(const FigureData& data, double t) {
+  const std::size_t k = sample_nearest_to(data, t);
+  const double nearest = data.t[k];
+  // n dt, and a time that is typed, are rounded: as scenarios compare them (run.record).
+  if (std::abs(nearest - t) <= 4 * 0x1p-52 * std::abs(t)) return "";
+  const auto [first, last] = std::minmax({data.t.front(), data.t.back()});
+  const std::string found = "found the time " + shortest(t) + "; allowed ";
+  const std::string range = "from " + shortest(first) + " to " + shortest(last);
+  if (t < first || t > last) {
+    return found + range + ", where samples are; the nearest is at " + shortest(nearest);
+  }
+  // Samples are in the order of time, forwards or backwards; t is between two of them.
+  const bool behind = (t > nearest) == (data.t.back() >= data.t.front());
+  const std::size_t other = behind ? std::min(k + 1, data.t.size() - 1) : k - std::min<std::size_t>(k, 1);
+  return found + "times of the " + std::to_string(data.t.size()) + " samples " + range + "; the nearest are " +
+         shortest(nearest) + " and " + shortest(data.t[other]);
+}
+
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times) {
   std::vector<std::size_t> all;
-  for (const double t : times) {
-    const auto nearest = std::min_element(data.t.begin(), data.t.end(),
-                                          [&](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
-    all.push_back(static_cast<std::size_t>(nearest - data.t.begin()));
-  }
+  for (const double t : times) all.push_back(sample_nearest_to(data, t));
   return all;
 }
 

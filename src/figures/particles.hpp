@@ -12,6 +12,8 @@
 
 namespace hamflow::figures {
 
+/// What to say where there is no sample at a time, to rounding; empty where there is one.
+std::string no_sample_at(const FigureData& data, double t);
 /// The sample nearest to each time.
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times);
 

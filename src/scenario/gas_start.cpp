@@ -35,14 +35,19 @@ std::string fifty_thousandths(std::uint64_t m) {
   return (hundred_thousandths < 0 ? "-" : "") + std::to_string(size / 100000) + "." + digits;
 }
 
-std::vector<std::string> cells_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells{""};
-  for (const char c : line) {
+struct Cell {
+  std::string text;
+  std::size_t column;  // from 1
+};
+std::vector<Cell> cells_of(const std::string& line) {
+  std::vector<Cell> cells{{"", 1}};
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
     if (c == ',') {
-      cells.emplace_back();
-    } else if (c != ' ' && c != '\t' && c != '"') {
-      cells.back() += c;
+      cells.push_back({"", i + 2});
+    } else if (c != ' ' && c != '\t' && c != '"' && c != '\r') {
+      if (cells.back().text.empty()) cells.back().column = i + 1;
+      cells.back().text += c;
     }
   }
   return cells;
@@ -81,45 +86,55 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
     for (std::size_t k = 0; k < space; ++k) names.push_back(p + std::string(1, "xyz"[k]));
   }
   const std::string allowed = "; allowed a first row with " + joined(names) + ", and mass if there is one for each";
+  const auto at = [&](std::size_t line, std::size_t column) {
+    return " in line " + std::to_string(line) + ", column " + std::to_string(column) + " of " + file.string();
+  };
   std::string line;
   if (!std::getline(in, line)) throw Error("found the empty file " + file.string() + allowed);
   if (constexpr std::string_view mark = "\xef\xbb\xbf"; line.starts_with(mark)) line.erase(0, mark.size());
-  const std::vector<std::string> head = cells_of(line);
+  const std::vector<Cell> head = cells_of(line);
+  const auto place_of = [&](const std::string& name) {
+    return std::find_if(head.begin(), head.end(), [&](const Cell& cell) { return cell.text == name; });
+  };
+  for (auto cell = head.begin(); cell != head.end(); ++cell) {
+    const std::string found = "found the column '" + cell->text + "'";
+    if (place_of(cell->text) != cell) throw Error(found + " twice" + at(1, cell->column) + allowed);
+    if (cell->text == "mass" || std::find(names.begin(), names.end(), cell->text) != names.end()) continue;
+    throw Error(found + at(1, cell->column) + suggestion(cell->text, names) + allowed);
+  }
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
-    const auto place = std::find(head.begin(), head.end(), name);
-    if (place == head.end()) throw Error("found no column " + name + " in " + file.string() + allowed);
+    const auto place = place_of(name);
+    if (place == head.end()) throw Error("found no column " + name + " in line 1 of " + file.string() + allowed);
     places.push_back(static_cast<std::size_t>(place - head.begin()));
   }
-  const auto mass = std::find(head.begin(), head.end(), "mass");
-  for (const std::string& name : head) {
-    if (std::count(head.begin(), head.end(), name) > 1) {
-      throw Error("found the column '" + name + "' twice in " + file.string() + allowed);
-    }
-    if (name == "mass" || std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw Error("found the column '" + name + "' in " + file.string() + suggestion(name, names) + allowed);
-  }
+  const auto mass = place_of("mass");
   GasStart start;
   for (std::size_t row = 2; std::getline(in, line); ++row) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() == 1 && cells[0].empty()) continue;
-    const std::string where = " in line " + std::to_string(row) + " of " + file.string();
-    if (cells.size() != head.size()) {
-      throw Error("found " + std::to_string(cells.size()) + " numbers" + where + "; allowed " +
+    const std::vector<Cell> cells = cells_of(line);
+    if (cells.size() == 1 && cells[0].text.empty()) continue;
+    if (cells.size() != head.size()) {  // at the first too many, or where one is missing
+      const bool many = cells.size() > head.size();
+      throw Error("found " + std::to_string(cells.size()) + " numbers" +
+                  at(row, many ? cells[head.size()].column : line.size() + 1) + "; allowed " +
                   std::to_string(head.size()) + ", as many as the first row has names");
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string wrong = refused_value({.name = head[i]}, cells[i]);
-      if (!wrong.empty()) throw Error(wrong + where);
+      const std::string wrong = refused_value({.name = head[i].text}, cells[i].text);
+      if (wrong.empty()) continue;
+      const std::size_t end = std::min(wrong.find("; allowed"), wrong.size());
+      throw Error(wrong.substr(0, end) + " for " + head[i].text + at(row, cells[i].column) + wrong.substr(end));
     }
-    for (std::size_t i = 0; i < places.size(); ++i) (i < space ? start.q : start.p).push_back(cells[places[i]]);
-    if (mass != head.end()) {
-      const std::string& m = cells[static_cast<std::size_t>(mass - head.begin())];
-      if (!(number_value(m) > 0)) throw Error("found mass " + m + where + "; allowed a positive number");
-      start.masses.push_back(m);
+    for (std::size_t i = 0; i < places.size(); ++i) (i < space ? start.q : start.p).push_back(cells[places[i]].text);
+    start.lines.push_back(row);
+    if (mass == head.end()) continue;
+    const Cell& m = cells[static_cast<std::size_t>(mass - head.begin())];
+    if (!(number_value(m.text) > 0)) {
+      throw Error("found mass " + m.text + at(row, m.column) + "; allowed a positive number");
     }
+    start.masses.push_back(m.text);
   }
-  if (start.q.empty()) throw Error("found no particle in " + file.string() + "; allowed a row for each");
+  if (start.q.empty()) throw Error("found no particle below line 1 of " + file.string() + "; allowed a row for each");
   return start;
 }
 

@@ -17,6 +17,30 @@ namespace hamflow {
 
 namespace {
 
+/// A key that the gas has in another table is told its place.
+/// @param own the table's path, with a dot behind it
+void tell_places(TomlTable& table, const std::string& own) {
+  const GasOptions& o = gas_options();
+  const WallKeys& walls = wall_keys();
+  std::vector<OptionInfo> direct = all_gas_options();
+  direct.insert(direct.end(), {walls.walls, walls.wall_rule, walls.strength, walls.exponent});
+  const std::pair<std::string, std::vector<OptionInfo>> tables[] = {
+      {"problem.container.", o.container.keys}, {"problem.cutoff.", o.cutoff.keys}, {"problem.", direct}};
+  for (const std::string& key : table.keys()) {
+    if (table.knows(key)) continue;
+    std::vector<std::string> places;
+    bool is_own = own == "problem." + key + ".";  // a table in itself
+    for (const auto& [path, keys] : tables) {
+      if (find_option(keys, key) == nullptr) continue;
+      is_own = is_own || path == own;
+      places.push_back(path + key);
+    }
+    if (is_own || places.empty()) continue;
+    table.complain(key, table.found(key) + "; allowed as " + joined(places, " or "));
+    table.know(key);
+  }
+}
+
 /// { kind, radius, exponent } or { kind, size }; without it a circle.
 void read_container(TomlTable& table, Choices& choices, Texts& parameters) {
   const GasOptions& o = gas_options();
@@ -43,6 +67,13 @@ void read_container(TomlTable& table, Choices& choices, Texts& parameters) {
   if (has_edges && !container.has(o.of_container.size.name)) {
     container.missing(o.of_container.size.name, "a list of the edges of the box");
   }
+  if (const std::string& walls = wall_keys().walls.name; kind == ContainerNames::box && container.has(walls)) {
+    container.complain(walls, container.found(walls) +
+                                  "; allowed nothing: the walls of a box are at +-size/2, and problem." +
+                                  wall_keys().wall_rule.name + " says what happens at them");
+    container.know(walls);
+  }
+  tell_places(container, "problem.container.");
   container.finish();
 }
 
@@ -73,6 +104,7 @@ void read_cutoff(TomlTable& table, Choices& choices, Texts& parameters) {
                     cutoff.found(o.of_cutoff.inner.name) + "; allowed " + o.of_cutoff.inner.condition);
   }
   if (const auto skin = cutoff.text(o.of_cutoff.skin)) parameters[GasKeys::skin] = *skin;
+  tell_places(cutoff, "problem.cutoff.");
   cutoff.finish();
 }
 
@@ -105,7 +137,13 @@ void ScenarioReader::read_gas(TomlTable& table) {
       if (table.has(key->name)) table.complain(key->name, table.found(key->name) + "; allowed " + key->condition);
     }
   }
+  tell_places(table, "problem.");
   read_container(table, request.variant, parameters);
+  if (const std::string& e = wall_keys().exponent.name; table.has(e) && !table.has(wall_keys().walls.name) &&
+                                                        request.variant[GasKeys::container] == ContainerNames::circle) {
+    table.complain(e, table.found(e) + "; allowed as problem.container." + e + ", or with " + wall_keys().walls.name);
+    table.know(e);
+  }
   read_cutoff(table, request.variant, parameters);
   const std::int64_t n = table.whole(o.particles_per_side).value_or(0);
   GasStart start = read_gas_start(table, n,
@@ -119,6 +157,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
     }
     parameters[GasKeys::masses] = "[" + joined(start.masses) + "]";
   }
+  start_lines_ = std::move(start.lines);
   const std::size_t size = table.has("initial") ? size_of_initial(table) : start.q.size();
   read_scale(table, n, size, parameters);
   if (!table.has("initial")) {
@@ -214,12 +253,30 @@ std::uint64_t hash_of(const GasStart& start) {
 }
 }  // namespace
 
+/// `initial` overrides whatever else says where the particles begin.
+void ScenarioReader::note_unused_start(const TomlTable& table) {
+  const GasOptions& o = gas_options();
+  const toml::node* const scale = table.node().get(o.scale.name);
+  const bool scaled = scale != nullptr && scale->value<std::string>() != GasScales::per_side;
+  std::vector<std::string> unused;
+  for (const OptionInfo* key : {&o.start, &o.file, &o.seed}) {
+    if (table.has(key->name)) unused.push_back(table.full(key->name));
+  }
+  if (scaled && table.has(o.particles_per_side.name)) unused.push_back(table.full(o.particles_per_side.name));
+  if (unused.empty()) return;
+  scenario_.notes.push_back(joined(unused) + (unused.size() == 1 ? " is" : " are") +
+                            " not used: initial says where the particles begin");
+}
+
 GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::size_t space) {
   const GasOptions& o = gas_options();
   const std::string kind = table.text(o.start).value_or(o.start.default_value);
   const auto file = table.text(o.file);
   const auto seed = table.whole(o.seed);
-  if (table.has("initial")) return {};  // which overrides it
+  if (table.has("initial")) {
+    note_unused_start(table);
+    return {};
+  }
   if (seed && kind != GasStarts::lattice) {
     scenario_.notes.push_back(table.full(o.seed.name) + " is not used: no momenta are drawn with " + o.start.name +
                               " = \"" + kind + "\"");

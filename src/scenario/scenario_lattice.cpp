@@ -1,6 +1,9 @@
 // The units of the lattice: those given, or those that fit the start.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
@@ -55,21 +58,69 @@ void ScenarioReader::usual_units() {
   request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
 }
 
-/// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units.
-void ScenarioReader::round_edges() {
+namespace {
+
+/// The coarsest power of two of which a number is a whole multiple.
+double coarsest_unit(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(std::abs(x), &exponent);
+  const auto digits = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
+  return std::ldexp(1.0, exponent - 53 + std::countr_zero(digits));
+}
+
+/// 2^-51, as it is typed for a unit.
+std::string power_text(double unit) { return "2^" + std::to_string(std::ilogb(unit)); }
+
+}  // namespace
+
+/// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units. One that is
+/// not is rounded where that is no more than a typed decimal is by a double of its size, or a position by the usual
+/// unit, 2^-52; any other would be the edge of another box.
+void ScenarioReader::round_edges(TomlTable& table) {
   Request& request = scenario_.request;
   const auto container = request.variant.find(GasKeys::container);
   if (container == request.variant.end() || container->second != ContainerNames::periodic) return;
+  if (scenario_.problem == nullptr || request.problem != GasKeys::problem) return;  // complained about
+  const auto& refused = scenario_.problem->refused_parameters;
+  if (!refused(request.parameters).second.empty()) return;  // likewise
+  const std::string& key = run_keys().lattice.name;
+  const bool given = table.has(key) && table.table(key).has(lattice_keys().position.name);
+  const auto complain = [&](const std::string& message) {
+    if (!given) return table.complain(key, message);
+    table.table(key).complain(lattice_keys().position.name, message);
+  };
+  const double unit = request.position_unit;
+  const double reach =
+      number_value(request.parameters.at(GasKeys::cutoff)) / number_value(request.parameters.at(GasKeys::scale));
+  const double least = std::ceil(2 * reach / unit) * unit;
+  const std::vector<std::string> typed = list_parts(request.parameters.at(GasKeys::size));
   std::vector<std::string> edges;
   double moved = 0;
-  for (const std::string& text : list_parts(request.parameters.at(GasKeys::size))) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const std::string& text : typed) finest = std::min(finest, coarsest_unit(number_value(text)));
+  for (const std::string& text : typed) {
     const double edge = number_value(text);
-    const double rounded = std::nearbyint(edge / request.position_unit) * request.position_unit;
-    moved = std::max(moved, std::abs(rounded - edge));
+    const double rounded = std::nearbyint(edge / unit) * unit;
+    const double by = std::abs(rounded - edge);
+    if (by > 0x1p-53 * std::max(edge, 2.0) || rounded == 0) {
+      complain("found a unit of " + shortest(unit) + (given ? "" : ", the usual one of this start,") +
+               " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
+               " units; allowed whole numbers of units: run." + key + " = { " + lattice_keys().position.name + " = \"" +
+               power_text(finest) + "\" } or finer, or an edge of " + shortest(std::max(rounded, least)));
+      return;
+    }
+    moved = std::max(moved, by);
     edges.push_back(shortest(rounded));
   }
   if (moved == 0) return;
-  request.parameters[GasKeys::size] = "[" + joined(edges) + "]";
+  Texts parameters = request.parameters;
+  parameters[GasKeys::size] = "[" + joined(edges) + "]";
+  if (const auto [wrong, message] = refused(parameters); !message.empty()) {
+    complain("found a unit of " + shortest(unit) + ", whole numbers of which are edges of " + joined(edges) +
+             ", too short for problem." + wrong + " = " + request.parameters.at(GasKeys::cutoff) + "; " + message);
+    return;
+  }
+  request.parameters = std::move(parameters);
   scenario_.notes.push_back("the edges of the periodic box are moved by up to " + shortest(moved) +
                             ", to whole units of the lattice");
 }
@@ -102,7 +153,7 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     if (on_lattice) usual_units();
   }
   if (!on_lattice) return;
-  round_edges();
+  round_edges(table);
   const auto rounding = [](const std::vector<double>& values, double unit) {
     double most = 0;
     for (const double x : values) most = std::max(most, std::abs(std::remainder(x, unit)));

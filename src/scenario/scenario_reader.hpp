@@ -64,6 +64,7 @@ class ScenarioReader {
   void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
   void read_gas(TomlTable& table);
   void read_typed_pair(TomlTable& table, Texts& parameters);
+  void note_unused_start(const TomlTable& table);
   GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space);
   void read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters);
   void read_box(TomlTable& table);
@@ -81,6 +82,7 @@ class ScenarioReader {
   void read_walls(TomlTable& table);
   void check_walls();
   void check_start(TomlTable& table);
+  void complain_of_start(TomlTable& table, const std::string& usual, const std::string& why);
   bool check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
@@ -101,7 +103,7 @@ class ScenarioReader {
   void read_observables(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();
-  void round_edges();
+  void round_edges(TomlTable& table);
   void read_lattice(TomlTable& table);
   void read_output(TomlTable& table);
 
@@ -110,7 +112,8 @@ class ScenarioReader {
   std::string file_method_;
   const toml::table& document_;
   std::string no_start_;
-  StartSpec start_of_bodies_;  // as numbers that any arithmetic works out
+  std::vector<std::size_t> start_lines_;  // of the particles of a gas in its CSV
+  StartSpec start_of_bodies_;             // as numbers that any arithmetic works out
   Scenario scenario_;
 };
 

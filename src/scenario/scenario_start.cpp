@@ -1,8 +1,10 @@
 // [problem]: where it starts, by an orbit, by a numbered case or by a state.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
+#include "gas_options.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
@@ -313,15 +315,53 @@ void ScenarioReader::check_start(TomlTable& table) {
   if (problem.residuals && !check_constraints(table, start)) return;
   const std::string why_not = problem.refused_start(request.parameters, start.q);
   if (!why_not.empty()) {
-    table.complain(table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", "found " + why_not);
+    complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", why_not);
     return;
   }
   if (!problem.regular(request.parameters, start.q, start.p)) {
-    table.complain(
-        geometric ? "orbit" : "initial",
-        "found a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
+    complain_of_start(
+        table, geometric ? "orbit" : "initial",
+        "a start where H or its derivatives are not finite; allowed a regular point of " + problem.info.formula);
     return;
   }
+}
+
+namespace {
+
+/// The numbers of the particles with which a refusal begins: "particles 1 and 3 at", "particle 2 at", "y2 = 1 beyond".
+std::vector<std::size_t> particles_of(const std::string& why) {
+  const std::size_t end = std::min({why.find(" at "), why.find(" = "), why.size()});
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < end; ++i) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(why[i])) != 0;
+    if (!digit) continue;
+    std::size_t length = 0;
+    all.push_back(std::stoull(why.substr(i), &length));
+    i += length;
+  }
+  return all;
+}
+
+}  // namespace
+
+/// At the key that gives the start: `usual`, or that of a gas; of one in a CSV with the lines of those that are named.
+void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& why) {
+  const GasOptions& gas = gas_options();
+  std::string message = "found " + why;
+  if (scenario_.request.problem != GasKeys::problem || table.has("initial")) return table.complain(usual, message);
+  if (table.plain_string(gas.start.name) != GasStarts::file) return table.complain(gas.start.name, message);
+  std::vector<std::string> lines;
+  for (const std::size_t particle : particles_of(why)) {
+    if (particle > 0 && particle <= start_lines_.size()) lines.push_back(std::to_string(start_lines_[particle - 1]));
+  }
+  if (!lines.empty()) {
+    const std::filesystem::path file =
+        std::filesystem::path(scenario_.file).parent_path() / table.plain_string(gas.file.name).value_or("");
+    message.insert(std::min(message.find("; allowed"), message.size()),
+                   std::string(lines.size() == 1 ? ", in line " : ", in lines ") + joined(lines, " and ") + " of " +
+                       file.string());
+  }
+  table.complain(gas.file.name, message);
 }
 
 namespace {

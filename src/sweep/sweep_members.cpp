@@ -143,10 +143,10 @@ void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
   common_has_start_ = has_start;
 }
 
-/// Of these there are as many as methods and keys, however many members there are.
+/// What is not used: of such notes there are as many as methods and keys, however many members there are.
 void Sweep::keep_notes(std::size_t member, const Scenario& scenario) {
   for (const std::string& note : scenario.notes) {
-    if (!note.starts_with("method.")) continue;
+    if (!note.starts_with("method.") && !note.starts_with("problem.")) continue;  // others tell of numbers
     const auto [at, is_new] = method_notes_.try_emplace(note, member);
     if (!is_new) at->second = std::min(at->second, member);
   }

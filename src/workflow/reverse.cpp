@@ -14,6 +14,7 @@
 #include "reversal_checkpoints.hpp"
 #include "reversal_measures.hpp"
 #include "reverse_file.hpp"
+#include "run_description.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
 #include "wall_checks.hpp"
@@ -97,10 +98,16 @@ std::string note_of(const MethodInfo& method, const std::string& tolerance, cons
          (exact_with.empty() ? "" : ": with " + exact_with + " a palindromic splitting returns every bit");
 }
 
+const char* const uncounted_pairs =
+    "with a cut-off only pairs within it are computed: how many they are changes from force to force, and no step "
+    "counts them";
+
 const char* const below_the_digits =
     "every digit of q and p came back; what is carried on below their last digit did not, or a zero has the other sign";
 
-Json state(const Frame& frame) {
+/// Above as many coordinates as run prints, where it stands: a group of reverse.h5; null where none is kept.
+Json state(const Frame& frame, const char* dataset, bool kept) {
+  if (frame.q.size() > most_named_coordinates) return {{"dataset", kept ? Json(dataset) : Json(nullptr)}};
   if (!frame.digits.q.empty()) return {{"q", frame.digits.q}, {"p", frame.digits.p}};
   return {{"q", frame.q}, {"p", frame.p}};
 }
@@ -131,8 +138,9 @@ Json warnings_about(const Scenario& scenario, const Simulation& simulation, cons
 
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
 
-Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report,
-             const Json& warnings) {
+/// @param kept whether reverse.h5 has the states
+Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report, const Json& warnings,
+             bool kept) {
   const Reversal& r = report.reversal;
   const MethodInfo method = describe(scenario.request.method);
   const bool done = r.outcome == Outcome::done;
@@ -142,8 +150,8 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"arithmetic", scenario.request.arithmetic},
          {"dt", scenario.dt},
          {"steps", r.steps},
-         {"start", state(r.start)},
-         {"returned", done ? state(r.end) : Json(nullptr)},
+         {"start", state(r.start, "/start", kept)},
+         {"returned", done ? state(r.end, "/end", kept) : Json(nullptr)},
          {"distance", done ? json_of(r.distance) : Json(nullptr)},
          {"relative_distance", done ? json_of(r.relative_distance) : Json(nullptr)},
          {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},
@@ -157,11 +165,11 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"digits_lost", done ? Json(digits_lost(r, scenario.request.arithmetic)) : Json(nullptr)}};
   if (const std::size_t bodies = bodies_in(scenario); bodies > 0) {
     s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
-    // With a cut-off only near pairs are computed, and how many there were is not counted.
     const std::int64_t forces = simulation.effort().force;
     if (scenario.request.parameters.contains(GasKeys::cutoff)) {
       s["pair_evaluations"] = nullptr;
       s["force_evaluations"] = forces;
+      s["pair_evaluations_note"] = uncounted_pairs;
     } else {
       s["pair_evaluations"] = forces * static_cast<std::int64_t>(bodies * (bodies - 1) / 2);
     }
@@ -189,9 +197,14 @@ std::string readable_reversal(const Json& s) {
   text += row("method", fmt::format("{}, dt = {:g}, {} arithmetic", s["method"].get<std::string>(),
                                     s["dt"].get<double>(), s["arithmetic"].get<std::string>()));
   text += row("steps", fmt::format("{} there, {} back", s["steps"].get<long long>(), s["steps"].get<long long>()));
-  text += row("start q", list(s["start"]["q"])) + row("start p", list(s["start"]["p"]));
+  const auto state_rows = [&](const std::string& label, const Json& at) {
+    if (at.contains("q")) return row(label + " q", list(at["q"])) + row(label + " p", list(at["p"]));
+    return row(label, at["dataset"].is_null() ? "kept nowhere: --out DIR keeps it in reverse.h5"
+                                              : at["dataset"].get<std::string>() + " of reverse.h5");
+  };
+  text += state_rows("start", s["start"]);
   if (!s["returned"].is_null()) {
-    text += row("returned q", list(s["returned"]["q"])) + row("returned p", list(s["returned"]["p"]));
+    text += state_rows("returned", s["returned"]);
     text += row("distance", fmt::format("{} ({} of the start's size)", number_text(s["distance"], "{:.3g}"),
                                         number_text(s["relative_distance"], "{:.3g}")));
     text += row("digits lost", fmt::format("{:.2f}", s["digits_lost"].get<double>()));
@@ -217,7 +230,7 @@ std::string readable_reversal(const Json& s) {
 namespace {
 
 ReversalReport report_of(const Scenario& scenario, const Simulation& simulation, Reversal reversal,
-                         const Excursion& there, const TurnWatch& turns) {
+                         const Excursion& there, const TurnWatch& turns, bool kept) {
   ReversalReport report;
   report.reversal = std::move(reversal);
   const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
@@ -239,8 +252,8 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }
-  const Json json =
-      json_of(scenario, simulation, report, warnings_about(scenario, simulation, r, even && !timed, there, turns));
+  const Json json = json_of(scenario, simulation, report,
+                            warnings_about(scenario, simulation, r, even && !timed, there, turns), kept);
   report.warnings = warning_lines(json);
   report.status = json["status"].get<std::string>();
   if (json.contains("error")) {
@@ -261,7 +274,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   Observer* const observers[] = {&way_there};
   ReversalProgress progress;
   Reversal reversal = reverse(*simulation, scenario.steps, pulse, observers, progress);
-  return report_of(scenario, *simulation, std::move(reversal), progress.energy_there, turns);
+  return report_of(scenario, *simulation, std::move(reversal), progress.energy_there, turns, false);
 }
 
 ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings& settings) {
@@ -310,8 +323,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
         return goes_on;
       },
       observers, checkpoints.progress());
-  ReversalReport report =
-      report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().energy_there, checkpoints.turns());
+  ReversalReport report = report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().energy_there,
+                                    checkpoints.turns(), true);
   const Reversal& r = report.reversal;
   write_reverse_file(settings.folder / "reverse.h5", scenario.text, r.start, r.turn,
                      r.outcome == Outcome::done ? &r.end : nullptr);

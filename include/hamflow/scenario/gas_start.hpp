@@ -11,7 +11,8 @@ namespace hamflow {
 struct GasStart {
   std::vector<std::string> q;  // particle by particle
   std::vector<std::string> p;
-  std::vector<std::string> masses;  // of a file that has them, one for all where they are equal; else empty
+  std::vector<std::string> masses;   // of a file that has them, one for all where they are equal; else empty
+  std::vector<std::size_t> lines{};  // of a CSV, from 1, in which each particle stands
 };
 
 /// n particles on each side of the square, or cube, [-1, 1]^space, the first coordinate changing fastest; momenta
@@ -22,7 +23,7 @@ GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed);
 /// The same on [0, 1]^space, at rest.
 GasStart gas_in_corner(std::int64_t n, std::size_t space);
 /// A CSV whose first row names x, y(, z), p_x, p_y(, p_z)(, mass), in any order; a row a particle.
-/// @throws Error with the line, what was found and what is allowed
+/// @throws Error with the line and column, what was found and what is allowed
 GasStart gas_from_file(const std::filesystem::path& file, std::size_t space);
 
 /// A state of the particles in a run.h5, in double, with their masses: the last sample, or where the run began.
