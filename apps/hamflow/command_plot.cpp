@@ -33,7 +33,8 @@ int plot_command(const PlotOptions& options) {
                  .at = times_of(options.at),
                  .size = options.size,
                  .dpi = options.dpi,
-                 .title = !options.no_title});
+                 .title = !options.no_title,
+                 .note = [](const std::string& note) { print_notes({note}, false); }});
     return exit_done;
   });
 }

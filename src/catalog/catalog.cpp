@@ -166,7 +166,7 @@ std::string refused_threads(const Request& request, const ProblemEntry& problem)
       if (entry.has_pairwise_forces) all.push_back(entry.info.name);
     }
     return "a step of " + problem.info.name + " is too short to be shared; allowed 1 (more for " + joined(all) +
-           " with arithmetic = \"lattice\")";
+           " with arithmetic = \"lattice\", for " + GasKeys::problem + " in double, too)";
   }
   const auto pair = request.variant.find(GasKeys::pair);
   const bool in_bulk = problem.info.name == GasKeys::problem && digits_beyond_double(request.arithmetic) == 0 &&

@@ -93,13 +93,26 @@ std::string refused_times(const Figure& figure, const figures::FigureKind& kind)
   }
   for (const FigureData& run : figure.runs) {
     for (const double t : asked) {
-      const std::string none = figures::no_sample_at(run, t);
-      if (!none.empty()) return none;
+      const figures::OtherSample other = figures::other_sample_at(run, t);
+      if (other.is_beyond) return "found the time " + shortest(t) + "; allowed times of " + other.told;
     }
   }
   return "";
 }
 }  // namespace
+
+std::vector<std::string> notes_on_times(const Figure& figure) {
+  std::vector<std::string> notes;
+  for (const FigureData& run : figure.runs) {
+    for (const double t : figure.options.at) {
+      const figures::OtherSample other = figures::other_sample_at(run, t);
+      if (other.told.empty()) continue;
+      notes.push_back((figure.runs.size() > 1 ? run.label + ": " : "") + "no sample is at the time " + shortest(t) +
+                      ", but at those of " + other.told + ", which is drawn");
+    }
+  }
+  return notes;
+}
 
 FigureFacts facts_of(const FigureData& data) {
   return {.degrees_of_freedom = std::max(data.q.size(), data.particles.count * data.particles.space),

@@ -90,6 +90,9 @@ struct Figure {
 /// whole if the data go round it. Does nothing without r(phi) or without an orbit in the data.
 void sample_polar_curve(const std::function<double(double)>& r_of_phi, FigureData& data);
 
+/// Of times that are asked for: at which no sample is, and which one is drawn instead.
+std::vector<std::string> notes_on_times(const Figure& figure);
+
 /// What the data of a run allow.
 FigureFacts facts_of(const FigureData& data);
 

@@ -24,22 +24,14 @@ std::size_t sample_nearest_to(const FigureData& data, double t) {
 }
 }  // namespace
 
-std::string no_sample_at(const FigureData& data, double t) {
-  const std::size_t k = sample_nearest_to(data, t);
-  const double nearest = data.t[k];
+OtherSample other_sample_at(const FigureData& data, double t) {
+  const double nearest = data.t[sample_nearest_to(data, t)];
   // n dt, and a time that is typed, are rounded: as scenarios compare them (run.record).
-  if (std::abs(nearest - t) <= 4 * 0x1p-52 * std::abs(t)) return "";
+  if (std::abs(nearest - t) <= 4 * 0x1p-52 * std::abs(t)) return {};
   const auto [first, last] = std::minmax({data.t.front(), data.t.back()});
-  const std::string found = "found the time " + shortest(t) + "; allowed ";
-  const std::string range = "from " + shortest(first) + " to " + shortest(last);
-  if (t < first || t > last) {
-    return found + range + ", where samples are; the nearest is at " + shortest(nearest);
-  }
-  // Samples are in the order of time, forwards or backwards; t is between two of them.
-  const bool behind = (t > nearest) == (data.t.back() >= data.t.front());
-  const std::size_t other = behind ? std::min(k + 1, data.t.size() - 1) : k - std::min<std::size_t>(k, 1);
-  return found + "times of the " + std::to_string(data.t.size()) + " samples " + range + "; the nearest are " +
-         shortest(nearest) + " and " + shortest(data.t[other]);
+  const std::string samples = "the " + std::to_string(data.t.size()) + " samples from " + shortest(first) + " to " +
+                              shortest(last) + "; the nearest is at " + shortest(nearest);
+  return {.told = samples, .is_beyond = t < first || t > last};
 }
 
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times) {

@@ -12,8 +12,12 @@
 
 namespace hamflow::figures {
 
-/// What to say where there is no sample at a time, to rounding; empty where there is one.
-std::string no_sample_at(const FigureData& data, double t);
+/// That there is no sample at a time, to rounding: which there are instead, or nothing where there is one.
+struct OtherSample {
+  std::string told{};  // "the 21 samples from 0 to 1; the nearest is at 0.5"
+  bool is_beyond = false;
+};
+OtherSample other_sample_at(const FigureData& data, double t);
 /// The sample nearest to each time.
 std::vector<std::size_t> samples_at(const FigureData& data, const std::vector<double>& times);
 

@@ -1,9 +1,7 @@
 // The units of the lattice: those given, or those that fit the start.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/gas.hpp"
@@ -58,24 +56,8 @@ void ScenarioReader::usual_units() {
   request.momentum_unit = unit_for(std::isfinite(to_come) ? std::max(most, to_come) : most, 0);
 }
 
-namespace {
-
-/// The coarsest power of two of which a number is a whole multiple.
-double coarsest_unit(double x) {
-  int exponent = 0;
-  const double fraction = std::frexp(std::abs(x), &exponent);
-  const auto digits = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
-  return std::ldexp(1.0, exponent - 53 + std::countr_zero(digits));
-}
-
-/// 2^-51, as it is typed for a unit.
-std::string power_text(double unit) { return "2^" + std::to_string(std::ilogb(unit)); }
-
-}  // namespace
-
 /// The images of a particle in a periodic box are on the lattice, too: an edge is a whole number of units. One that is
-/// not is rounded where that is no more than a typed decimal is by a double of its size, or a position by the usual
-/// unit, 2^-52; any other would be the edge of another box.
+/// not is rounded, as the start is, unless nothing is left of it.
 void ScenarioReader::round_edges(TomlTable& table) {
   Request& request = scenario_.request;
   const auto container = request.variant.find(GasKeys::container);
@@ -90,23 +72,17 @@ void ScenarioReader::round_edges(TomlTable& table) {
     table.table(key).complain(lattice_keys().position.name, message);
   };
   const double unit = request.position_unit;
-  const double reach =
-      number_value(request.parameters.at(GasKeys::cutoff)) / number_value(request.parameters.at(GasKeys::scale));
-  const double least = std::ceil(2 * reach / unit) * unit;
   const std::vector<std::string> typed = list_parts(request.parameters.at(GasKeys::size));
   std::vector<std::string> edges;
   double moved = 0;
-  double finest = std::numeric_limits<double>::infinity();
-  for (const std::string& text : typed) finest = std::min(finest, coarsest_unit(number_value(text)));
   for (const std::string& text : typed) {
     const double edge = number_value(text);
     const double rounded = std::nearbyint(edge / unit) * unit;
     const double by = std::abs(rounded - edge);
-    if (by > 0x1p-53 * std::max(edge, 2.0) || rounded == 0) {
+    if (rounded == 0) {
       complain("found a unit of " + shortest(unit) + (given ? "" : ", the usual one of this start,") +
                " for a periodic box whose edge " + text + " is " + shortest(edge / unit) +
-               " units; allowed whole numbers of units: run." + key + " = { " + lattice_keys().position.name + " = \"" +
-               power_text(finest) + "\" } or finer, or an edge of " + shortest(std::max(rounded, least)));
+               " units, of which nothing would be left; allowed units far below the edges, such as \"2^-52\"");
       return;
     }
     moved = std::max(moved, by);

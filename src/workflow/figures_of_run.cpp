@@ -35,6 +35,9 @@ void draw_into(const FigureRequest& request, const std::vector<std::filesystem::
     if (kind == "orbit" || kind == "phase") figure.runs[i].opening = opening_of(request.runs[i]);
   }
   write_figure(figure, kind, files);
+  for (const std::string& note : notes_on_times(figure)) {
+    if (request.note) request.note(note);
+  }
 }
 
 }  // namespace

@@ -39,15 +39,14 @@ class Edges(CommandCase):
         return self.hamflow(command, "gas.toml", *(["--out", "none"] if command == "run" else []), *words, status=status).stderr
 
     def test_a_unit_that_moves_the_box(self):
-        """It would be another box, or none: the unit is refused, with the coarsest that leaves it as it is."""
-        for unit, units in (("1", "2.7"), ("2^-3", "21.6"), ("2^-40", "2968681394995.2")):
-            told = self.told(PERIODIC % 3, "run.arithmetic=lattice", f"run.lattice.position={unit}")
-            self.assertIn("run.lattice.position: found a unit of", told)
-            self.assertIn(f"a periodic box whose edge 2.7 is {units} units; allowed whole numbers of units", told)
-            self.assertIn('run.lattice = { position = "2^-50" } or finer, or an edge of', told)
-        self.assertIn("or an edge of 3", self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=1"))
-        for unit in ("2^-50", "2^-53"):
-            self.assertNotIn("note", self.told(PERIODIC % 3, "run.arithmetic=lattice", f"run.lattice.position={unit}", status=0))
+        """Edges are rounded as the start is, and told; one that would vanish leaves no box, and the cut-off is checked again."""
+        for unit, moved in (("2^-3", "0.0499"), ("2^-40", "1.8")):
+            told = self.told(PERIODIC % 3, "run.arithmetic=lattice", f"run.lattice.position={unit}", status=0)
+            self.assertIn("the edges of the periodic box are moved by up to " + moved, told)
+        told = self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=8")
+        self.assertIn("run.lattice.position: found a unit of 8 for a periodic box whose edge 2.7 is 0.3375 units, of which nothing would be left; allowed units", told)
+        self.assertIn("too short for problem.cutoff", self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=2"))
+        self.assertNotIn("note", self.told(PERIODIC % 3, "run.arithmetic=lattice", "run.lattice.position=2^-53", status=0))
         # Whole numbers of a coarse unit are a box as good as any.
         self.assertNotIn("periodic", self.told((PERIODIC % 3).replace("2.7", "2.75"), "run.arithmetic=lattice",
                                                "run.lattice.position=2^-40", status=0))
@@ -163,20 +162,22 @@ class Edges(CommandCase):
         self.assertNotIn("pair_evaluations_note", json.loads(self.hamflow("reverse", "gas.toml", "--json").stdout))
 
     def test_times_without_a_sample(self):
-        """No other sample is drawn in its place."""
+        """The nearest sample is drawn in its place, and told; a time beyond all of them is refused."""
         self.write("gas.toml", GAS % "")
         self.hamflow("run", "gas.toml", "--quiet", "--out", "late", "--set", "run.record=[0.005, 0.007]")
         self.hamflow("run", "gas.toml", "--quiet", "--out", "all")
         self.hamflow("run", "gas.toml", "--quiet", "--out", "back", "--set", "run.dt=-0.0005")
-        for run, at, said in (("late", "0", "allowed from 0.005 to 0.007, where samples are; the nearest is at 0.005"),
-                              ("late", "0.006", "allowed times of the 2 samples from 0.005 to 0.007; the nearest are"),
-                              ("all", "0.005,0.00512", "found the time 0.00512; allowed times of the 21 samples from 0 to 0.01; the nearest are 0.005 and 0.0055"),
-                              ("all", "1", "the nearest is at 0.01"),
-                              ("back", "-0.00512", "the nearest are -0.005 and -0.0055"),
-                              ("back", "-0.0049", "the nearest are -0.005 and -0.0045")):
+        two, many = "the 2 samples from 0.005 to 0.007", "the 21 samples from 0 to 0.01"
+        for run, at, status, said in (
+                ("late", "0", 2, f"found the time 0; allowed times of {two}; the nearest is at 0.005"),
+                ("late", "0.0058", 0, f"note: no sample is at the time 0.0058, but at those of {two}; the nearest is at 0.005, which is drawn"),
+                ("all", "0.005,0.00512", 0, f"note: no sample is at the time 0.00512, but at those of {many}; the nearest is at 0.005,"),
+                ("all", "1", 2, "the nearest is at 0.01"),
+                ("back", "-0.00512", 0, "the nearest is at -0.005,"), ("back", "-0.011", 2, "the nearest is at -0.01")):
             for kind in ("particles", "radial"):
                 with self.subTest(f"{run} {at} {kind}"):
-                    self.assertIn(said, self.hamflow("plot", run, "--kind", kind, f"--at={at}", "-o", "f.svg", status=2).stderr)
+                    self.assertIn(said, self.hamflow("plot", run, "--kind", kind, f"--at={at}", "-o", "f.svg", status=status).stderr)
+        self.assertEqual(self.hamflow("plot", "all", "--kind", "particles", "--at", "0,0.0015,0.01", "-o", "f.svg").stderr, "")
 
 
 if __name__ == "__main__":
