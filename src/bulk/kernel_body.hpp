@@ -51,95 +51,131 @@ HAMFLOW_INLINE Sums<Space> nothing() {
   return sums;
 }
 
-/// A part of eight pairs: u and the differences.
-template <int Space>
-struct Distance {
-  Part u;
-  Part d[Space];
-};
-
-/// Rows i .. i + Tile - 1 of the same sixteen particles, which share what is read and written of the others.
-template <class L, int Space, bool Energy, int Tile>
+/// Rows i .. i + Tile - 1 of the same sixteen particles, which share what is read and written of the others, and Width
+/// parts of their sums.
+template <class L, int Space, bool Energy, int Tile, int Width>
 struct RowTile {
+  const Law& law;
+  const double* at[Space];
+  const double* w;
+  double* felt[Space];
   Part centre[Tile][Space];
   Part weight[Tile];
-  Sums<Space> sums[Tile];
+  Part force[Tile][Width][Space];
+  Part energy[Tile][Width];
 
-  HAMFLOW_INLINE RowTile(const Rows& rows, std::size_t i) {
+  HAMFLOW_INLINE RowTile(const Rows& rows, const Law& of_pairs, std::size_t i, double* const (&forces)[Space])
+      : law(of_pairs), w(rows.w) {
+    for (int k = 0; k < Space; ++k) {
+      at[k] = rows.x[k];
+      felt[k] = forces[k];
+    }
     each<Tile>([&](auto row) __attribute__((always_inline)) {
       constexpr int t = decltype(row)::value;
       for (int k = 0; k < Space; ++k) centre[t][k] = all<Part>(rows.x[k][i + t]);
       weight[t] = all<Part>(L::weighs ? rows.w[i + t] : 1);
-      sums[t] = nothing<Space>();
+      for (int n = 0; n < Width; ++n) {
+        for (int k = 0; k < Space; ++k) force[t][n][k] = all<Part>(0);
+        energy[t][n] = all<Part>(0);
+      }
     });
   }
-  /// @param bits of the sixteen from j on, row by row: which of them count, where only some do
+  /// From j on.
+  HAMFLOW_INLINE Part difference(int t, int k, std::size_t j) const { return centre[t][k] - load<Part>(at[k] + j); }
+  /// Pairs of one row, a part from j on and that of the next eight, as far as the division, which takes long.
+  struct Begun {
+    Part base[2];
+    typename L::Inverses inverses;
+  };
+  /// @param counts which of them do, where only some do
   template <bool Some>
-  HAMFLOW_INLINE void visit(const Rows& rows, const Law& law, std::size_t j, const unsigned (&bits)[Tile],
-                            double* const (&force)[Space]) {
-    each_part([&](const auto n) __attribute__((always_inline)) {
-      const std::size_t a = j + static_cast<std::size_t>(n) * lanes;
-      const std::size_t b = a + 8;
-      Part x[2][Space];
-      Part other[2][Space];
+  HAMFLOW_INLINE Begun begin(int t, std::size_t j, const Mask* counts) const {
+    Begun r;
+    each<2>([&](auto half) __attribute__((always_inline)) {
+      constexpr int h = decltype(half)::value;
+      Part u;
       for (int k = 0; k < Space; ++k) {
-        x[0][k] = load<Part>(rows.x[k] + a);
-        x[1][k] = load<Part>(rows.x[k] + b);
-        if constexpr (Tile > 1) {
-          other[0][k] = load<Part>(force[k] + a);
-          other[1][k] = load<Part>(force[k] + b);
-        }
+        const Part d = difference(t, k, j + 8 * h);
+        u = k == 0 ? d * d : times_plus(d, d, u);
       }
-      each<Tile>([&](auto row) __attribute__((always_inline)) {
-        constexpr int t = decltype(row)::value;
-        const auto from = [&](const Part(&at)[Space]) __attribute__((always_inline)) {
-          Distance<Space> r;
-          for (int k = 0; k < Space; ++k) {
-            r.d[k] = centre[t][k] - at[k];
-            r.u = k == 0 ? r.d[k] * r.d[k] : times_plus(r.d[k], r.d[k], r.u);
-          }
-          return r;
-        };
-        const auto both = [&](const Pair& pair, const Distance<Space>& r, Part(&others)[Space], std::size_t at)
-            __attribute__((always_inline)) {
-          for (int k = 0; k < Space; ++k) {
-            sums[t].force[k].v[n] = times_plus(pair.c, r.d[k], Part{{sums[t].force[k].v[n]}}).v[0];
-            if constexpr (Tile > 1) {
-              others[k] = minus_times(others[k], pair.c, r.d[k]);
-            } else {
-              store(minus_times(load<Part>(force[k] + at), pair.c, r.d[k]), force[k] + at);
-            }
-          }
-          if constexpr (Energy) sums[t].energy.v[n] = sums[t].energy.v[n] + pair.phi.v[0];
-        };
-        const auto weights = [&](std::size_t at) __attribute__((always_inline)) {
-          return L::weighs ? weight[t] * load<Part>(rows.w + at) : weight[t];
-        };
-        Distance<Space> to_a = from(x[0]);
-        Distance<Space> to_b = from(x[1]);
-        [[maybe_unused]] const Mask counts_a = mask_of(bits[t], n);
-        [[maybe_unused]] const Mask counts_b = mask_of(bits[t] >> 8, n);
-        if constexpr (Some) {
-          to_a.u = where(counts_a, to_a.u, 1);
-          to_b.u = where(counts_b, to_b.u, 1);
-        }
-        typename L::Inverses s;
-        s.begin(L::numerator(law), L::base(law, to_a.u), L::base(law, to_b.u));
-        s.end(L::numerator(law), L::base(law, to_a.u), L::base(law, to_b.u));
-        Pair pair = L::of(law, s.first, weights(a));
-        if constexpr (Some) pair = {where(counts_a, pair.c, 0), where(counts_a, pair.phi, 0)};
-        both(pair, to_a, other[0], a);
-        pair = L::of(law, s.second, weights(b));
-        if constexpr (Some) pair = {where(counts_b, pair.c, 0), where(counts_b, pair.phi, 0)};
-        both(pair, to_b, other[1], b);
-      });
-      if constexpr (Tile > 1) {
-        for (int k = 0; k < Space; ++k) {
-          store(other[0][k], force[k] + a);
-          store(other[1][k], force[k] + b);
-        }
-      }
+      if constexpr (Some) u = where(counts[h], u, 1);
+      r.base[h] = L::base(law, u);
     });
+    r.inverses.begin(L::numerator(law), r.base[0], r.base[1]);
+    return r;
+  }
+  /// The rest of them. Differences are made again: that is less than to keep them.
+  template <bool Some>
+  HAMFLOW_INLINE void end(Begun begun, int t, int n, std::size_t j, Part (&feel)[2][Space], const Mask* counts) {
+    begun.inverses.end(L::numerator(law), begun.base[0], begun.base[1]);
+    each<2>([&](auto half) __attribute__((always_inline)) {
+      constexpr int h = decltype(half)::value;
+      const std::size_t there = j + 8 * h;
+      const Part weights = L::weighs ? weight[t] * load<Part>(w + there) : weight[t];
+      Pair pair = L::of(law, h == 0 ? begun.inverses.first : begun.inverses.second, weights);
+      if constexpr (Some) pair = {where(counts[h], pair.c, 0), where(counts[h], pair.phi, 0)};
+      for (int k = 0; k < Space; ++k) {
+        const Part d = difference(t, k, there);
+        force[t][n][k] = times_plus(pair.c, d, force[t][n][k]);
+        if constexpr (Tile > 1) {
+          feel[h][k] = minus_times(feel[h][k], pair.c, d);
+        } else {
+          store(minus_times(load<Part>(felt[k] + there), pair.c, d), felt[k] + there);
+        }
+      }
+      if constexpr (Energy) energy[t][n] = energy[t][n] + pair.phi;
+    });
+  }
+  /// All rows, one after the other.
+  /// @param bits of sixteen row by row: which of them count, where only some do
+  /// @param part of the eight sums, the n-th of this tile
+  template <bool Some>
+  HAMFLOW_INLINE void visit(std::size_t j, int n, [[maybe_unused]] const unsigned* bits, [[maybe_unused]] int part) {
+    Part feel[2][Space];
+    for (int h = 0; h < 2; ++h) {
+      for (int k = 0; Tile > 1 && k < Space; ++k) feel[h][k] = load<Part>(felt[k] + j + 8 * h);
+    }
+    each<Tile>([&](auto row) __attribute__((always_inline)) {
+      constexpr int t = decltype(row)::value;
+      Mask counts[2] = {};
+      if constexpr (Some) {
+        counts[0] = mask_of(bits[t], part);
+        counts[1] = mask_of(bits[t] >> 8, part);
+      }
+      end<Some>(begin<Some>(t, j, counts), t, n, j, feel, counts);
+    });
+    for (int h = 0; h < 2; ++h) {
+      for (int k = 0; Tile > 1 && k < Space; ++k) store(feel[h][k], felt[k] + j + 8 * h);
+    }
+  }
+  /// The sixteen from j on, of which some count.
+  HAMFLOW_INLINE void visit_some(std::size_t j, const unsigned (&bits)[Tile], int first_part) {
+    each<Width>([&](auto part) __attribute__((always_inline)) {
+      constexpr int n = decltype(part)::value;
+      visit<true>(j + static_cast<std::size_t>(n) * lanes, n, bits, first_part + n);
+    });
+  }
+  /// All of first .. last - 1. Several rows have work for each other's divisions to hide behind; a single one begins
+  /// the next sixteen before it ends these, as what a processor looks ahead is less than what that takes.
+  HAMFLOW_INLINE void visit_all(std::size_t first, std::size_t last) {
+    if constexpr (Tile > 1) {
+      for (std::size_t j = first; j < last; j += 16) visit<false>(j, 0, nullptr, 0);
+    } else if (first < last) {
+      const auto begin_at = [&](std::size_t j) __attribute__((always_inline)) { return begin<false>(0, j, nullptr); };
+      Begun begun[Width];
+      for (int n = 0; n < Width; ++n) begun[n] = begin_at(first + static_cast<std::size_t>(n) * lanes);
+      for (std::size_t j = first; j < last; j += 16) {
+        const std::size_t after = j + 16 < last ? j + 16 : j;
+        each<Width>([&](auto part) __attribute__((always_inline)) {
+          constexpr int n = decltype(part)::value;
+          constexpr std::size_t lane = static_cast<std::size_t>(n) * lanes;
+          const Begun next = begin_at(after + lane);
+          Part none[2][Space];
+          end<false>(begun[n], 0, n, j + lane, none, nullptr);
+          begun[n] = next;
+        });
+      }
+    }
   }
 };
 
@@ -148,6 +184,8 @@ template <int Space>
 constexpr int rows_of_tile = natives > 1  ? 1
                              : Space == 2 ? 4
                                           : 2;
+/// Parts at a time: four of two numbers fit into no registers.
+constexpr int parts_of_tile = natives > 2 ? 1 : natives;
 
 /// All pairs i < j of the rows i, each once: j is added to the (j mod 8)-th partial sum of the row, and what it feels
 /// to the forces of these rows (Scratch), which are summed over rows later.
@@ -166,18 +204,31 @@ std::uint64_t sum_all(const Rows& rows, std::size_t first, std::size_t last, con
     alignas(64) double own_force[Space][16] = {};  // added when no other row of the sixteen reads it any more
     const auto add_rows = [&](auto tile) __attribute__((always_inline)) {
       constexpr int Tile = decltype(tile)::value;
-      RowTile<L, Space, Energy, Tile> t(rows, i);
+      constexpr int Width = parts_of_tile;
       unsigned bits[Tile];
-      for (unsigned r = 0; r < Tile; ++r) bits[r] = (0xfffeu << (i + r - own)) & (own < whole ? 0xffff : rest);
-      t.template visit<true>(rows, law, own, bits, force);
-      for (std::size_t j = own + 16; j < whole; j += 16) t.template visit<false>(rows, law, j, bits, force);
-      if (own < whole && rest != 0) {
-        for (unsigned& r : bits) r = rest;
-        t.template visit<true>(rows, law, whole, bits, force);
+      unsigned ends[Tile];
+      for (unsigned r = 0; r < Tile; ++r) {
+        bits[r] = (0xfffeu << (i + r - own)) & (own < whole ? 0xffff : rest);
+        ends[r] = rest;
+      }
+      Sums<Space> sums[Tile];
+#pragma GCC unroll 1
+      for (int n = 0; n < natives; n += Width) {
+        const std::size_t lane = static_cast<std::size_t>(n) * lanes;
+        RowTile<L, Space, Energy, Tile, Width> t(rows, law, i, force);
+        t.visit_some(own + lane, bits, n);
+        t.visit_all(own + 16 + lane, whole + lane);
+        if (own < whole && rest != 0) t.visit_some(whole + lane, ends, n);
+        for (int r = 0; r < Tile; ++r) {
+          for (int m = 0; m < Width; ++m) {
+            for (int k = 0; k < Space; ++k) sums[r].force[k].v[n + m] = t.force[r][m][k].v[0];
+            if constexpr (Energy) sums[r].energy.v[n + m] = t.energy[r][m].v[0];
+          }
+        }
       }
       for (std::size_t r = 0; r < Tile; ++r) {
-        for (int k = 0; k < Space; ++k) own_force[k][i + r - own] = sum_of(t.sums[r].force[k]);
-        if constexpr (Energy) rows.energy[i + r] = sum_of(t.sums[r].energy);
+        for (int k = 0; k < Space; ++k) own_force[k][i + r - own] = sum_of(sums[r].force[k]);
+        if constexpr (Energy) rows.energy[i + r] = sum_of(sums[r].energy);
       }
       i += Tile;
     };
@@ -224,6 +275,13 @@ template <bool Weighs, int Space, bool Images>
   }
   return found;
 }
+
+/// A part of eight pairs: u and the differences.
+template <int Space>
+struct Distance {
+  Part u;
+  Part d[Space];
+};
 
 /// Sixteen pairs of one row, or some of them. u is made again, with the bits that it had: that is less than to move it.
 template <class L, class C, int Space, bool Energy, bool Some>
