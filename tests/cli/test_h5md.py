@@ -190,7 +190,7 @@ class H5md(CommandCase):
         self.assertIn("g(r)", texts("gas.run", "--kind", "radial", "--at", "0.01,0.04"))
         self.assertIn("x", texts("gas.run", "--kind", "tracks"))
         for arguments, said in ((("--kind", "tracks", "--at", "0.01"), "allowed for particles, radial"),
-                                (("--kind", "particles", "--at", "0.05"), "allowed from 0 to 0.04"),
+                                (("--kind", "particles", "--at", "0.05"), "allowed times of the 41 samples from 0 to 0.04"),
                                 (("--kind", "particles", "--at", "soon"), "--at"),
                                 (("--kind", "particles", "--y", "z"), "allowed x, y")):
             self.assertIn(said, self.hamflow("plot", "gas.run", *arguments, "-o", "g.svg", status=2).stderr)
