@@ -269,13 +269,17 @@ int main(int argc, char** argv) {
   list_command->add_flag("--json", list_json, "print JSON, always of all");
   list_command->callback([&] { status = hamflow::app::list_command(what, list_all, list_json); });
 
-  std::string name;
-  CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",
-                               "  hamflow show central-force\n  hamflow show cg\n");
+  std::string name, shown_folder;
+  CLI::App* show_command = add(app, "show", "Tell everything about a problem, a method or an experiment",
+                               "  hamflow show central-force\n  hamflow show cg\n  hamflow show S-T81 --out quick\n");
   show_command->add_option("name", name, "a problem, a method, a figure or an experiment")
       ->required()
       ->type_name("NAME");
-  show_command->callback([&] { status = hamflow::app::show_command(name); });
+  show_command
+      ->add_option("--out", shown_folder,
+                   "of an experiment: the folder into which it was carried out, with its claims [reproduce]")
+      ->type_name("DIR");
+  show_command->callback([&] { status = hamflow::app::show_command(name, shown_folder); });
 
   try {
     reject_unknown_command(app, argc, argv);
