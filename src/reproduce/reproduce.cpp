@@ -56,7 +56,7 @@ void prepare(const ReproduceRequest& request) {
 }
 
 /// A folder of an experiment holds nothing but its own files: it can be made anew. One without the mark is as a kill
-/// leaves it, empty or with half a mark, or it is somebody else's.
+/// leaves it, empty or with half a mark, or it is somebody else's; the mark is therefore the last to go.
 void clear(const fs::path& folder) {
   std::error_code error;
   if (is_there(folder) && !is_there(folder / mark_of_begin)) {
@@ -66,8 +66,15 @@ void clear(const fs::path& folder) {
       }
     }
   }
-  fs::remove_all(folder, error);
-  if (error) throw FileError("cannot remove " + folder.string() + ": " + error.message());
+  std::vector<fs::path> all;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename() != mark_of_begin) all.push_back(entry.path());
+  }
+  all.push_back(folder);  // with the mark
+  for (const fs::path& one : all) {
+    fs::remove_all(one, error);
+    if (error) throw FileError("cannot remove " + one.string() + ": " + error.message());
+  }
 }
 
 fs::path folder_of(const fs::path& reproduction, const std::string& id) { return reproduction / "reproduction" / id; }
@@ -167,8 +174,13 @@ class Run {
     const std::string print = fingerprint(experiment, request_.extent);
     bool keeps_smaller = false;
     if (request_.existing == Existing::resume) {
-      if (!is_there(folder) && is_there(beside)) move(beside, folder);
       auto done = done_in(folder, experiment);
+      // A kill came when the larger size was about to take the place.
+      if (!done && (!is_there(folder) || done_in(beside, experiment)) && is_there(beside)) {
+        clear(folder);
+        move(beside, folder);
+        done = done_in(folder, experiment);
+      }
       keeps_smaller = done && done->extent < request_.extent;
       // What is done in a larger size is done in this one, too.
       if (done && !keeps_smaller) return *std::move(done);

@@ -4,9 +4,11 @@ import csv
 import html.parser
 import json
 import math
+import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -206,6 +208,34 @@ class Reproduce(CommandCase):
         self.reproduce("S-T99", "--quick", "--resume")
         self.assertEqual(self.verdicts("reproduce")["claims"], quick["claims"])
         self.assertFalse((folder / "reproduction/S-T99.next").exists())
+
+    def test_a_kill_while_a_larger_size_takes_the_place(self):
+        """Of which the smaller one was removed in part: what was done is there, and is not done again."""
+        self.reproduce("G2.8", "--out", "larger")
+        self.reproduce("G2.8", "--quick")
+        place = self.folder / "reproduce/reproduction/G2.8"
+        shutil.copytree(self.folder / "larger/reproduction/G2.8", f"{place}.next")
+        (place / "result.json").unlink()
+        before = (pathlib.Path(f"{place}.next") / "result.json").read_bytes()
+        self.reproduce("G2.8", "--resume")
+        self.assertEqual((place / "result.json").read_bytes(), before)  # with the seconds that it took
+        self.assertEqual(self.verdicts("reproduce"), self.verdicts("larger"))
+        self.assertFalse(pathlib.Path(f"{place}.next").exists())
+
+    def test_a_kill_while_a_folder_is_removed(self):
+        """What is left of it is still known for hamflow's own."""
+        self.reproduce("G1.1", "--quick")
+        folder = self.folder / "reproduce/reproduction/G1.1"
+        for _ in range(4):
+            for i in range(500):
+                os.close(os.open(folder / f"{i}.csv", os.O_CREAT))
+            process = subprocess.Popen([HAMFLOW, "reproduce", "G1.1", "--quick", "--force", "--threads", "1"],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL)
+            while process.poll() is None and len(os.listdir(folder)) > 150:
+                pass
+            process.kill()
+            process.wait()
+            self.reproduce("G1.1", "--quick", "--resume")
 
     def test_what_is_kept_is_looked_at(self):
         """A verdict that does not follow from its numbers, other numbers, and files that are missing or changed are made
