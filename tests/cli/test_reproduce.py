@@ -231,7 +231,7 @@ class Reproduce(CommandCase):
                 os.close(os.open(folder / f"{i}.csv", os.O_CREAT))
             process = subprocess.Popen([HAMFLOW, "reproduce", "G1.1", "--quick", "--force", "--threads", "1"],
                                        cwd=self.folder, stdout=subprocess.DEVNULL)
-            while process.poll() is None and len(os.listdir(folder)) > 150:
+            while process.poll() is None and folder.exists() and sum(1 for _ in folder.glob("*.csv")) > 150:
                 pass
             process.kill()
             process.wait()
