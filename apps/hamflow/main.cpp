@@ -181,7 +181,8 @@ int main(int argc, char** argv) {
   reproduce_command->add_option("--threads", reproduce.threads, "how many, 0: all cores; verdicts do not depend on it")
       ->type_name("N")
       ->transform(whole_number(0, hamflow::most_sweep_threads));
-  reproduce_command->add_flag("--json", reproduce.json, "print verdicts.json, and nothing else, on stdout");
+  reproduce_command->add_flag("--json", reproduce.json,
+                              "print what verdicts.json says, of the experiments asked for alone, and nothing else");
   reproduce_command->add_flag("--quiet", reproduce.quiet, "no progress, no notes");
   reproduce_command->callback([&] { status = hamflow::app::reproduce_command(reproduce); });
 
