@@ -344,14 +344,16 @@ int list_command(const std::string& what, bool all, bool json) {
   });
 }
 
-int show_command(const std::string& name) {
+int show_command(const std::string& name, const std::string& folder) {
   return guarded(false, [&] {
+    if (show_experiment(name, folder)) return exit_done;
+    if (!folder.empty())
+      throw Error("found --out with " + name + "; allowed with an experiment (hamflow list experiments)");
     if (name.ends_with(".toml")) {
       show_scenario(accepted(read_scenario(name, {})));
       return exit_done;
     }
     bool found = false;
-    if (show_experiment(name)) return exit_done;
     std::vector<std::string> names;
     for (const ProblemEntry& entry : problems()) {
       names.push_back(entry.info.name);

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "experiments.hpp"
 #include "guarded.hpp"
+#include "hamflow/reproduce/kept_experiment.hpp"
 #include "hamflow/reproduce/reproduce.hpp"
 #include "progress.hpp"
 
@@ -89,11 +90,53 @@ void list_experiments(bool json) {
   if (json) std::cout << all.dump(2) << '\n';
 }
 
-bool show_experiment(const std::string& id) {
+namespace {
+void show_claim(const Claim& claim) {
+  const auto line = [](const char* name, const std::string& text) {
+    if (!text.empty()) std::cout << fmt::format("    {:<10}{}\n", name, text);
+  };
+  std::cout << "\n  " << claim.id << '\n';
+  line("page", claim.page);
+  line("states", claim.statement);
+  line("printed", claim.printed);
+  line("rule", claim.rule.text);
+  for (const Measured& one : claim.measured) {
+    const std::string how = one.how.empty() ? "" : " (" + one.how + ")";
+    line("measured", fmt::format("{:.8g} +- {:.2g}{}", one.value, one.uncertainty, how));
+  }
+  line("verdict", fmt::format("{}: {}", name(claim.judgement.verdict), claim.judgement.reason));
+}
+
+/// Claims are made while an experiment runs: what it measures stands in them.
+void show_claims(const std::string& id, const std::filesystem::path& folder) {
+  std::error_code none;
+  const bool is_there = std::filesystem::exists(folder / "reproduction", none);
+  const auto kept = is_there ? kept_experiment(folder, id) : std::nullopt;
+  if (!kept) {
+    std::cout << fmt::format(
+        "\n  Its claims are made while it runs, and {} has none of this version. To get them:\n"
+        "    hamflow reproduce {} --quick{}{}\n    hamflow show {}{}\n",
+        folder.string(), id, is_there ? " --resume" : "", folder == "reproduce" ? "" : " --out " + folder.string(), id,
+        folder == "reproduce" ? "" : " --out " + folder.string());
+    return;
+  }
+  constexpr const char* sizes[] = {"quick", "default", "full"};
+  std::cout << fmt::format("\n  Claims, as judged in {}: size {}, {:.1f} s\n", folder.string(),
+                           sizes[static_cast<int>(kept->extent)], kept->seconds);
+  for (const Claim& claim : kept->claims) show_claim(claim);
+}
+}  // namespace
+
+bool show_experiment(const std::string& id, const std::string& folder) {
   for (const ExperimentInfo& info : experiment_infos()) {
     if (info.id != id) continue;
-    std::cout << fmt::format("{}\n  {}\n  {}, page {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n", info.id,
-                             info.title, info.thesis, info.page, info.id);
+    if (!folder.empty()) kept_experiment(folder, id);  // which refuses what is no reproduction
+    std::cout << fmt::format(
+        "{}\n  {}\n  {}, page {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n"
+        "  sizes: --quick, default, --full; all experiments together take a minute, 20 minutes, 10 hours on 2 "
+        "processors\n",
+        info.id, info.title, info.thesis, info.page, info.id);
+    show_claims(id, folder.empty() ? "reproduce" : folder);
     return true;
   }
   return false;

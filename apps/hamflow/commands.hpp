@@ -126,6 +126,7 @@ struct ReproduceCommandOptions {
 int reproduce_command(const ReproduceCommandOptions& options);
 
 int list_command(const std::string& what, bool all, bool json);
-int show_command(const std::string& name);
+/// @param folder of a reproduction, for an experiment; empty: the one that `reproduce` writes into
+int show_command(const std::string& name, const std::string& folder);
 
 }  // namespace hamflow::app

@@ -7,8 +7,9 @@
 namespace hamflow::app {
 
 void list_experiments(bool json);
-/// False where there is no experiment of that ID.
-bool show_experiment(const std::string& id);
+/// With its claims as they were judged in a folder, that of `reproduce` where it is empty. False where there is no
+/// experiment of that ID.   @throws FileError where a folder that was named is none of a reproduction
+bool show_experiment(const std::string& id, const std::string& folder);
 std::vector<std::string> experiment_ids();
 
 }  // namespace hamflow::app

@@ -182,7 +182,8 @@ int main(int argc, char** argv) {
   reproduce_command->add_option("--threads", reproduce.threads, "how many, 0: all cores; verdicts do not depend on it")
       ->type_name("N")
       ->transform(whole_number(0, hamflow::most_sweep_threads));
-  reproduce_command->add_flag("--json", reproduce.json, "print verdicts.json, and nothing else, on stdout");
+  reproduce_command->add_flag("--json", reproduce.json,
+                              "print what verdicts.json says, of the experiments asked for alone, and nothing else");
   reproduce_command->add_flag("--quiet", reproduce.quiet, "no progress, no notes");
   reproduce_command->callback([&] { status = hamflow::app::reproduce_command(reproduce); });
 
@@ -270,13 +271,17 @@ int main(int argc, char** argv) {
   list_command->add_flag("--json", list_json, "print JSON, always of all");
   list_command->callback([&] { status = hamflow::app::list_command(what, list_all, list_json); });
 
-  std::string name;
-  CLI::App* show_command = add(app, "show", "Tell everything about a problem or a method",
-                               "  hamflow show central-force\n  hamflow show cg\n");
+  std::string name, shown_folder;
+  CLI::App* show_command = add(app, "show", "Tell everything about a problem, a method or an experiment",
+                               "  hamflow show central-force\n  hamflow show cg\n  hamflow show S-T81 --out quick\n");
   show_command->add_option("name", name, "a problem, a method, a figure or an experiment")
       ->required()
       ->type_name("NAME");
-  show_command->callback([&] { status = hamflow::app::show_command(name); });
+  show_command
+      ->add_option("--out", shown_folder,
+                   "of an experiment: the folder into which it was carried out, with its claims [reproduce]")
+      ->type_name("DIR");
+  show_command->callback([&] { status = hamflow::app::show_command(name, shown_folder); });
 
   try {
     reject_unknown_command(app, argc, argv);

@@ -223,6 +223,7 @@
 #include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/problems/t_tube.hpp"
 #include "hamflow/reproduce/claim.hpp"
+#include "hamflow/reproduce/kept_experiment.hpp"
 #include "hamflow/reproduce/reproduce.hpp"
 #include "hamflow/run/any_problem.hpp"
 #include "hamflow/run/carried.hpp"

@@ -2,6 +2,8 @@
 // on a telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -101,6 +103,9 @@ const char* const head = R"(<!DOCTYPE html>
   table { border-collapse: collapse; width: 100%; font-size: 0.9rem; }
   caption { text-align: left; padding: 0.3rem 0; }
   th, td { text-align: left; vertical-align: top; font-weight: 400; padding: 0.35rem 0.6rem 0.35rem 0; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
+  .claims th, .claims td { min-width: 7em; }
+  .claims th:nth-child(2), .claims td:nth-child(2) { min-width: 3.5em; }
+  .claims th:nth-child(4), .claims td:nth-child(4) { min-width: 10em; }
   thead th { font-weight: 600; }
   .numbers th, .numbers td { overflow-wrap: normal; min-width: 4rem; }
   .verdict { white-space: nowrap; font-weight: 600; padding: 0.05rem 0.4rem; border-radius: 3px; border: 2px solid; }
@@ -115,8 +120,8 @@ const char* const head = R"(<!DOCTYPE html>
   }
   pre { background: var(--code); padding: 0.6rem; margin: 0.5rem 0; white-space: pre-wrap; overflow-wrap: anywhere; font: 0.8rem/1.45 ui-monospace, monospace; border-radius: 4px; }
   .quiet { color: var(--quiet); font-size: 0.9rem; }
-  @media screen and (max-width: 40rem) {
-    .claims, .claims tbody, .claims tr, .claims th, .claims td { display: block; width: 100%; }
+  @media screen and (max-width: 48rem) {
+    .claims, .claims tbody, .claims tr, .claims th, .claims td { display: block; width: 100%; min-width: 0 !important; }
     .claims thead { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
     .claims th, .claims td { border: 0; padding: 0.1rem 0; }
     .claims td[data-label]::before { content: attr(data-label) ": "; color: var(--quiet); }
@@ -164,8 +169,15 @@ std::string verdict_html(ClaimVerdict verdict) {
                      mark_of(verdict), name(verdict));
 }
 
+/// As many digits as the uncertainty leaves: two of it, and eight of a number that has none.
+std::string number_text(const Measured& one) {
+  if (!(one.uncertainty > 0) || one.value == 0) return fmt::format("{:.8g}", one.value);
+  const double digits = std::ceil(std::log10(std::abs(one.value) / one.uncertainty)) + 1;
+  return fmt::format("{:.{}g}", one.value, static_cast<int>(std::clamp(digits, 2.0, 15.0)));
+}
+
 std::string number_html(const Measured& one) {
-  std::string text = fmt::format("{:.8g}", one.value);
+  std::string text = number_text(one);
   if (one.uncertainty > 0) text += fmt::format(" &plusmn; {:.2g}", one.uncertainty);
   if (!one.how.empty()) text += "<br><span class=\"quiet\">" + escaped_html(one.how) + "</span>";
   return text;
@@ -272,13 +284,13 @@ std::string page_of(const ReproduceReport& report, const fs::path& folder) {
       "does, <em>cannot hold</em> where it is wrong whatever the program: by an identity, or in two independent "
       "ways. It is <em>undecided</em> where the number is too uncertain, and <em>nothing to test</em> where the thesis "
       "shows no number; neither counts as agreement. Each experiment has three sizes, quick, default and full, and "
-      "says on which its verdicts rest.</p>\n</header>\n<h2>Verdicts</h2>\n<table><caption "
+      "says on which its verdicts rest.</p>\n</header>\n<main>\n<h2>Verdicts</h2>\n<table><caption "
       "class=\"heard\">How many claims have which verdict</caption>\n<thead><tr><th scope=\"col\">verdict</th><th "
       "scope=\"col\">claims</th></tr></thead>\n<tbody>\n";
   for (const ClaimVerdict verdict : all_claim_verdicts) {
     text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", verdict_html(verdict), counts[verdict]);
   }
-  text += "</tbody></table>\n<main id=\"experiments\">\n";
+  text += "</tbody></table>\n<div id=\"experiments\" tabindex=\"-1\">\n";
   std::string thesis;
   for (const ExperimentReport& one : report.experiments) {
     if (one.info.thesis != thesis) {
@@ -294,10 +306,10 @@ std::string page_of(const ReproduceReport& report, const fs::path& folder) {
     }
     text += section_of(one, folder);
   }
-  return text +
-         fmt::format(
-             "</main>\n<footer><p class=\"quiet\">hamflow {}, {:.0f} s of work.</p></footer>\n</body>\n</html>\n",
-             escaped_html(HAMFLOW_VERSION), seconds);
+  return text + fmt::format(
+                    "</div>\n</main>\n<footer><p class=\"quiet\">hamflow {}, {:.0f} s of "
+                    "work.</p></footer>\n</body>\n</html>\n",
+                    escaped_html(HAMFLOW_VERSION), seconds);
 }
 
 }  // namespace hamflow::reproduction

@@ -13,6 +13,7 @@
 
 #include "gnuplot.hpp"
 #include "hamflow/core/error.hpp"
+#include "hamflow/reproduce/kept_experiment.hpp"
 #include "report.hpp"
 #include "run_folder.hpp"
 #include "shared_work.hpp"
@@ -55,7 +56,7 @@ void prepare(const ReproduceRequest& request) {
 }
 
 /// A folder of an experiment holds nothing but its own files: it can be made anew. One without the mark is as a kill
-/// leaves it, empty or with half a mark, or it is somebody else's.
+/// leaves it, empty or with half a mark, or it is somebody else's; the mark is therefore the last to go.
 void clear(const fs::path& folder) {
   std::error_code error;
   if (is_there(folder) && !is_there(folder / mark_of_begin)) {
@@ -65,8 +66,29 @@ void clear(const fs::path& folder) {
       }
     }
   }
-  fs::remove_all(folder, error);
-  if (error) throw FileError("cannot remove " + folder.string() + ": " + error.message());
+  std::vector<fs::path> all;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename() != mark_of_begin) all.push_back(entry.path());
+  }
+  all.push_back(folder);  // with the mark
+  for (const fs::path& one : all) {
+    fs::remove_all(one, error);
+    if (error) throw FileError("cannot remove " + one.string() + ": " + error.message());
+  }
+}
+
+fs::path folder_of(const fs::path& reproduction, const std::string& id) { return reproduction / "reproduction" / id; }
+
+/// An experiment that is done in its folder, of whichever size.
+std::optional<ExperimentReport> done_in(const fs::path& folder, const Experiment& experiment) {
+  auto done = kept_of(experiment, folder);
+  if (!done) return {};
+  return ExperimentReport{.info = experiment.info,
+                          .status = "done",
+                          .claims = std::move(done->kept.claims),
+                          .extent = done->extent,
+                          .seconds = done->kept.seconds,
+                          .was_done = true};
 }
 
 void move(const fs::path& from, const fs::path& to) {
@@ -147,22 +169,21 @@ class Run {
   }
   ExperimentReport carried_out(const Experiment& experiment) {
     ExperimentReport report{.info = experiment.info, .status = "done", .extent = request_.extent};
-    const fs::path folder = request_.folder / "reproduction" / experiment.info.id;
+    const fs::path folder = folder_of(request_.folder, experiment.info.id);
     const fs::path beside = folder.string() + ".next";  // a smaller size, which stays until the larger one is done
     const std::string print = fingerprint(experiment, request_.extent);
     bool keeps_smaller = false;
     if (request_.existing == Existing::resume) {
-      if (!is_there(folder) && is_there(beside)) move(beside, folder);
-      const auto done = kept_of(experiment, folder);
+      auto done = done_in(folder, experiment);
+      // A kill came when the larger size was about to take the place.
+      if (!done && (!is_there(folder) || done_in(beside, experiment)) && is_there(beside)) {
+        clear(folder);
+        move(beside, folder);
+        done = done_in(folder, experiment);
+      }
       keeps_smaller = done && done->extent < request_.extent;
       // What is done in a larger size is done in this one, too.
-      if (done && !keeps_smaller) {
-        report.claims = done->kept.claims;
-        report.seconds = done->kept.seconds;
-        report.extent = done->extent;
-        report.was_done = true;
-        return report;
-      }
+      if (done && !keeps_smaller) return *std::move(done);
     }
     if (!go_on()) {
       report.status = "interrupted";
@@ -226,13 +247,8 @@ class Run {
       // What was not begun may be there in a smaller size.
       if (found != asked.experiments.end() && found->status == "done") {
         whole.experiments.push_back(*found);
-      } else if (auto done = kept_of(experiment, request_.folder / "reproduction" / experiment.info.id)) {
-        whole.experiments.push_back({.info = experiment.info,
-                                     .status = "done",
-                                     .claims = std::move(done->kept.claims),
-                                     .extent = done->extent,
-                                     .seconds = done->kept.seconds,
-                                     .was_done = true});
+      } else if (auto done = done_in(folder_of(request_.folder, experiment.info.id), experiment)) {
+        whole.experiments.push_back(*std::move(done));
       } else if (found != asked.experiments.end()) {
         whole.experiments.push_back(*found);
       }
@@ -253,6 +269,14 @@ class Run {
 };
 
 }  // namespace
+
+std::optional<ExperimentReport> kept_experiment(const fs::path& folder, const std::string& id) {
+  const Experiment& experiment = experiment_of(id);
+  if (!is_there(folder / "reproduction")) {
+    throw FileError("found in " + folder.string() + " no reproduction; allowed the folder of one");
+  }
+  return done_in(folder_of(folder, id), experiment);
+}
 
 ReproduceReport reproduce(const ReproduceRequest& request,
                           const std::function<bool(std::size_t done, std::size_t all)>& pulse) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <sstream>
 
+#include "figure_seen.hpp"
 #include "figure_text.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/hash.hpp"
@@ -239,7 +240,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
     for (const std::string& format : formats) {
       figures::draw(drawn.page, folder / files.emplace_back(drawn.name + "." + format));
     }
-    all["figures"].push_back({drawn.name, drawn.caption, in_words(drawn.page)});
+    all["figures"].push_back({drawn.name, drawn.caption, in_words(drawn.page) + " " + seen_in(drawn.page)});
   }
   for (const Table& table : study.tables()) {
     write_table(folder / files.emplace_back(table.name + ".csv"), table);

@@ -1,10 +1,14 @@
 """hamflow reproduce: the experiments of both theses; hamflow list experiments, hamflow show ID."""
 
+import csv
 import html.parser
 import json
+import math
+import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -24,6 +28,7 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.faults, self.headings, self.ids, self.targets, self.commands = [], [], [], [], []
+        self.landmarks = []
         self.style = text[text.index("<style>"):text.index("</style>")]
         self.inside = None
         without_names = re.sub("http://www.w3.org/(2000/svg|1999/xlink)%22", "", text)  # of the figures' language
@@ -35,12 +40,17 @@ class Page(html.parser.HTMLParser):
         given = dict(attributes)
         if "id" in given:
             self.ids.append(given["id"])
+        if tag in ("header", "main", "footer"):
+            self.landmarks.append(tag)
         if re.fullmatch("h[1-6]", tag):
             self.headings.append(int(tag[1]))
+            if not self.landmarks:
+                self.faults.append("a heading outside of the landmarks")
         if tag == "html" and given.get("lang") != "en":
             self.faults.append("no language")
         if tag == "img":
-            if len(given.get("alt", "")) < 20:
+            # Axes, and what is to be seen between them.
+            if not re.search("x from .* y from .*(reaches from|stays at)", given.get("alt", "")):
                 self.faults.append("a figure without words")
             if not given["src"].startswith("data:image/svg+xml"):
                 self.faults.append("a figure that is elsewhere")
@@ -52,6 +62,10 @@ class Page(html.parser.HTMLParser):
         if tag in ("script", "link", "iframe") or "style" in given or "width" in given:
             self.faults.append(f"{tag} {given}")
         self.inside = tag
+
+    def handle_endtag(self, tag):
+        if self.landmarks and self.landmarks[-1] == tag:
+            self.landmarks.pop()
 
     def handle_data(self, data):
         if self.inside == "pre":
@@ -72,6 +86,27 @@ class Reproduce(CommandCase):
         self.assertEqual(len({e["id"] for e in listed}), len(listed))
         self.assertIn("Gross, page 42", self.hamflow("show", "G2.8").stdout)
         self.assertIn("did you mean G2.8", self.hamflow("show", "G2.80", status=2).stderr)
+
+    def test_show_tells_the_claims_of_a_folder(self):
+        """Which are made while an experiment runs: without a folder it says how to get them."""
+        told = self.hamflow("show", "G2.8").stdout
+        self.assertIn("hamflow reproduce G2.8 --quick\n    hamflow show G2.8\n", told)
+        self.reproduce("G2.8", "G1.1", "--quick", "--out", "r")
+        told = self.hamflow("show", "G2.8", "--out", "r").stdout
+        self.assertIn("Claims, as judged in r: size quick", told)
+        for claim in self.verdicts("r")["claims"]:
+            if claim["id"].startswith("G2.8/"):
+                for key in ("id", "page", "statement", "printed", "rule", "reason"):
+                    self.assertIn(claim[key], told, claim["id"])
+                self.assertIn(f"{claim['verdict']}: {claim['reason']}", told)
+        # A folder without it is gone on with.
+        way = re.search("hamflow (reproduce .*)", self.hamflow("show", "G2.9", "--out", "r").stdout.split("To get them")[1])[1]
+        self.hamflow(*shlex.split(way))
+        self.assertIn("G2.9/kept", self.hamflow("show", "G2.9", "--out", "r").stdout)
+        self.reproduce("G2.8", "--quick")
+        self.assertIn("Claims, as judged in reproduce", self.hamflow("show", "G2.8").stdout)
+        self.assertIn("no reproduction", self.hamflow("show", "G2.8", "--out", "none", status=3).stderr)
+        self.assertIn("found --out", self.hamflow("show", "cg", "--out", "r", status=2).stderr)
 
     def test_claims_and_their_counts(self):
         found = json.loads(self.reproduce(*SOME, "--quick", "--json").stdout)
@@ -134,6 +169,7 @@ class Reproduce(CommandCase):
         self.assertEqual([e["id"] for e in added["experiments"]], ["G2.9"])
         again = json.loads(self.reproduce("G1.1", "--force", "--json").stdout)
         self.assertEqual([e["id"] for e in again["experiments"]], ["G1.1"])
+        self.assertEqual((again["status"], sum(again["verdicts"].values()), len(again["claims"])), ("done", 1, 1))
         whole = self.verdicts("reproduce")
         self.assertEqual([(e["id"], e["size"]) for e in whole["experiments"]],
                          [("G1.1", "default"), ("G2.8", "quick"), ("G2.9", "quick")])
@@ -172,6 +208,34 @@ class Reproduce(CommandCase):
         self.reproduce("S-T99", "--quick", "--resume")
         self.assertEqual(self.verdicts("reproduce")["claims"], quick["claims"])
         self.assertFalse((folder / "reproduction/S-T99.next").exists())
+
+    def test_a_kill_while_a_larger_size_takes_the_place(self):
+        """Of which the smaller one was removed in part: what was done is there, and is not done again."""
+        self.reproduce("G2.8", "--out", "larger")
+        self.reproduce("G2.8", "--quick")
+        place = self.folder / "reproduce/reproduction/G2.8"
+        shutil.copytree(self.folder / "larger/reproduction/G2.8", f"{place}.next")
+        (place / "result.json").unlink()
+        before = (pathlib.Path(f"{place}.next") / "result.json").read_bytes()
+        self.reproduce("G2.8", "--resume")
+        self.assertEqual((place / "result.json").read_bytes(), before)  # with the seconds that it took
+        self.assertEqual(self.verdicts("reproduce"), self.verdicts("larger"))
+        self.assertFalse(pathlib.Path(f"{place}.next").exists())
+
+    def test_a_kill_while_a_folder_is_removed(self):
+        """What is left of it is still known for hamflow's own."""
+        self.reproduce("G1.1", "--quick")
+        folder = self.folder / "reproduce/reproduction/G1.1"
+        for _ in range(4):
+            for i in range(500):
+                os.close(os.open(folder / f"{i}.csv", os.O_CREAT))
+            process = subprocess.Popen([HAMFLOW, "reproduce", "G1.1", "--quick", "--force", "--threads", "1"],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL)
+            while process.poll() is None and folder.exists() and sum(1 for _ in folder.glob("*.csv")) > 150:
+                pass
+            process.kill()
+            process.wait()
+            self.reproduce("G1.1", "--quick", "--resume")
 
     def test_what_is_kept_is_looked_at(self):
         """A verdict that does not follow from its numbers, other numbers, and files that are missing or changed are made
@@ -220,7 +284,9 @@ class Reproduce(CommandCase):
             self.assertIn(target, page.ids)
         for width in re.findall(r"(?:width|flex-basis): *([0-9.]+)(px|rem|em)", re.sub(r"max-width[^;]*;", "", page.style)):
             self.assertLessEqual(float(width[0]) * (1 if width[1] == "px" else 16), 328, "wider than a telephone")
-        self.assertIn("@media print", page.style)
+        printed = page.style[page.style.index("@media print"):]
+        self.assertIn("details::details-content { content-visibility: visible;", printed)  # the commands, on paper
+        self.assertEqual(page.landmarks, [])
         words = [word.replace(" ", "-") for word in VERDICTS]
         for word in words:
             self.assertIn(f".{word} {{", page.style)
@@ -228,6 +294,43 @@ class Reproduce(CommandCase):
         self.assertGreater(len(runs), 20)
         for _, _, scenario in runs:
             self.assertTrue((folder / scenario).is_file(), scenario)
+
+    def figure_of(self, experiment, name="figure"):
+        """Its words for who cannot see it, and the numbers of a table beside it."""
+        folder = self.folder / "reproduce/reproduction" / experiment
+        figures = json.loads((folder / "result.json").read_text())["figures"]
+        return next(words for drawn, _, words in figures if drawn == name)
+
+    def columns_of(self, experiment, name):
+        with open(self.folder / "reproduce/reproduction" / experiment / f"{name}.csv") as file:
+            return [{key: float(x) for key, x in row.items() if x} for row in csv.DictReader(file)]
+
+    def test_figures_show_what_they_are_of(self):
+        self.reproduce("G2.5", "G2.26", "G2.27", "G2.28", "S2.1", "S2.6", "--quick")
+        # One effective potential with three energies: 1, 2 crossings, and the minimum.
+        self.assertTrue((self.folder / "reproduce/reproduction/G2.5/effective_1.csv").is_file())
+        self.assertFalse((self.folder / "reproduce/reproduction/G2.5/effective_2.csv").exists())
+        self.assertIn("turning points", self.figure_of("G2.5"))
+        for case in ("G2.26", "G2.27", "G2.28"):
+            self.assertIn("1: r over t, x from 0 to 10, y from", self.figure_of(case))
+            self.assertEqual(self.figure_of(case).count("exact: a line, steps: dots"), 3, case)
+            self.assertIn("x from -4.2 to 4.2, y from 0 to 3.5", self.figure_of(case))  # of the listing
+        for row in self.columns_of("G2.27", "motion"):
+            self.assertAlmostEqual(row["exact_r"], 4 / math.cosh(math.sqrt(8) * row["t"]), delta=1e-12)
+        for case, k, square in (("G2.26", 1, 7), ("G2.28", 2, 12)):  # mu = 2
+            for row in self.columns_of(case, "motion"):
+                energy = row["exact_rate"]**2 + k / 2 * (row["exact_r"]**2 - square)**2
+                self.assertAlmostEqual(energy, k / 2 * (16 - square)**2, delta=1e-10)
+        ranges = re.findall("y from [^;,]*", self.figure_of("S2.1"))
+        self.assertEqual(ranges[0], ranges[1], "two panels to compare, on two scales")
+        self.assertIn("level of H", self.figure_of("S2.1", "plane"))
+        self.assertIn("in 10^-6", self.figure_of("S2.6"))  # H less its value: H itself is a constant to the eye
+
+    def test_numbers_of_the_page_have_the_digits_that_they_are_judged_by(self):
+        self.reproduce("S2.6", "--quick")
+        page = (self.folder / "reproduce/index.html").read_text()
+        # Printed: -0.167875643; 6 digits, or 8, would not show by what they differ.
+        self.assertIsNotNone(re.search("-0[.]16787564376854[0-9]* &plusmn;", page))
 
     def test_what_is_wrong_is_told_before_anything_runs(self):
         for args, text in [(["G2.80"], "did you mean G2.8"),

@@ -3,15 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "../experiment.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
+#include "axis.hpp"
+#include "hamflow/core/error.hpp"
+#include "hamflow/problems/duffing.hpp"
 
 namespace hamflow::reproduction {
 
 namespace duffing_cases {
+
+constexpr double mu = 2;
 
 struct Case {
   const char* id;
@@ -104,6 +110,53 @@ void claim_dwelling(Study& study, const Trajectory& figure) {
                          distance));
 }
 
+/// The exact motion at the times of a run, by elliptic functions: of x and of its rate.
+std::array<std::vector<double>, 2> exact_motion(const Case& c, const Trajectory& run) {
+  const double lambda = std::stod(c.lambda);
+  const Duffing<> problem(mu, -2 * c.k * lambda, 2 * c.k, c.k * lambda * lambda / 2);
+  std::array<std::vector<double>, 2> motion;
+  for (const double t : run.t) {
+    const auto state = problem.exact({run.q[0][0]}, {run.p[0][0]}, t);
+    if (!state) throw Error("no exact motion of the Duffing oscillator at t = " + std::to_string(t));
+    motion[0].push_back(static_cast<double>(state->q[0]));
+    motion[1].push_back(static_cast<double>(state->p[0]) / mu);
+  }
+  return motion;
+}
+
+/// E over t and V over r share their axes, whose range is that of the program's listing.
+figures::Panel energy_panel(const Case& c, const Trajectory& run) {
+  const double lambda = std::stod(c.lambda);
+  figures::Panel panel =
+      over_time("{/:Italic E}, {/:Italic V}", run.t, run.energy, std::vector<double>(run.size(), std::stod(c.energy)));
+  figures::Curve potential;
+  for (int i = 0; i <= 400; ++i) {
+    const double r = c.t_end * i / 400, V = c.k / 2 * (r * r - lambda) * (r * r - lambda);
+    if (V <= 90) potential.add(r, V);
+  }
+  panel.series.push_back({figures::Ink::level, "{/:Italic V}({/:Italic r})", potential});
+  figures::Extent range;
+  range.include(-10);
+  range.include(90);
+  panel.y = figures::fit_axis(range, 0, {6});
+  panel.x_label = "{/:Italic t}, {/:Italic r}";
+  return panel;
+}
+
+/// Iterations of Newton's method over r, as the program of the thesis shows them.
+figures::Panel iterations_panel(const Trajectory& run) {
+  const std::vector<double> r = run.coordinate(0);
+  figures::Panel panel = phase_plane("{/:Italic r}", "iterations", {r.begin() + 1, r.end()},
+                                     {run.iterations.begin() + 1, run.iterations.end()}, {}, {});
+  figures::Extent across, up;
+  for (const double x : {-4.2, 4.2}) across.include(x);
+  for (const double x : {0.0, 3.5}) up.include(x);
+  panel.x = figures::fit_axis(across, 0, {7, 40});
+  panel.y = figures::fit_axis(up, 0, {6});
+  panel.aspect = 0.42;
+  return panel;
+}
+
 void carry_out(const Case& c, Study& study) {
   const Trajectory figure = element(study, c, 1);
   const double scale = figure.report.energy_scale;
@@ -139,12 +192,24 @@ void carry_out(const Case& c, Study& study) {
   }
   std::vector<double> speed;
   for (const auto& p : figure.p) speed.push_back(p[0] / 2);
-  study.keep({"motion", {{"t", figure.t}, {"r", figure.coordinate(0)}, {"rate", speed}, {"energy", figure.energy}}});
-  study.draw("figure", fmt::format("{}: r and its rate over t, and the phase curve", c.title),
-             {c.title,
-              {over_time("{/:Italic r}", figure.t, figure.coordinate(0)),
-               phase_plane("{/:Italic r}", "d{/:Italic r}/d{/:Italic t}", figure.coordinate(0), speed, {}, {}),
-               over_time("{/:Italic E}", figure.t, figure.energy)}});
+  const auto [exact_r, exact_rate] = exact_motion(c, figure);
+  study.keep({"motion",
+              {{"t", figure.t},
+               {"r", figure.coordinate(0)},
+               {"rate", speed},
+               {"energy", figure.energy},
+               {"exact_r", exact_r},
+               {"exact_rate", exact_rate},
+               {"iterations", {figure.iterations.begin() + 1, figure.iterations.end()}}}});
+  study.draw(
+      "figure",
+      fmt::format("{}: r over t, energy over t with V over r (dashed), phase curve, iterations over r; steps of "
+                  "dt = 0.02 (dots) and exact (line)",
+                  c.title),
+      {c.title,
+       {over_time("{/:Italic r}", figure.t, figure.coordinate(0), exact_r), energy_panel(c, figure),
+        phase_plane("{/:Italic r}", "d{/:Italic r}/d{/:Italic t}", figure.coordinate(0), speed, exact_r, exact_rate),
+        iterations_panel(figure)}});
 }
 
 }  // namespace duffing_cases

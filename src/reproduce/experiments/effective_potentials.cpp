@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "../experiment.hpp"
 #include "../trajectories.hpp"
@@ -27,11 +28,21 @@ struct Level {
   int crossings;  // as drawn and told
 };
 
+/// The energy that only touches the effective potential.
+struct Circle {
+  const char* keys;
+  std::function<double(double)> V;
+  double energy;
+  double l;
+  double radius;  // l^2/(mu k), equation 2.42
+};
+
 struct Case {
   const char* id;
   const char* page;
   const char* title;
-  std::vector<Level> levels;
+  std::vector<Level> levels;  // those of one potential and one l side by side
+  std::optional<Circle> circle{};
 };
 
 const std::vector<Case>& cases() {
@@ -43,8 +54,9 @@ const std::vector<Case>& cases() {
       {"G2.5",
        "25",
        "effective potential of Kepler",
-       {{"E above 0", "potential = \"kepler\"\nk = 1", kepler, 0.25, std::sqrt(12.0), 6, 20, 1},
-        {"E below 0", "potential = \"kepler\"\nk = 1", kepler, -0.25, std::sqrt(3.0), 2, 40, 2}}},
+       {{"E above 0", "potential = \"kepler\"\nk = 1", kepler, 0.25, std::sqrt(3.0), 4, 20, 1},
+        {"E below 0", "potential = \"kepler\"\nk = 1", kepler, -0.25, std::sqrt(3.0), 2, 40, 2}},
+       Circle{"potential = \"kepler\"\nk = 1", kepler, -1.0 / 3, std::sqrt(3.0), 1.5}},
       {"G2.14",
        "52",
        "effective potential of Hooke",
@@ -65,16 +77,27 @@ const std::vector<Case>& cases() {
 
 double effective(const Level& level, double r) { return level.V(r) + level.l * level.l / (2 * mu * r * r); }
 
+/// Where the energy meets the effective potential, inside of r = 0.001 to 1000.
+std::vector<double> crossings_of(const Level& level) {
+  return roots([&](double r) { return effective(level, r) - level.energy; }, geometric_grid(1e-3, 1e3, 4000));
+}
+
+/// From (r, 0), by a method of order 8.
+Trajectory orbit_from(Study& study, const std::string& name, const char* keys, double r, double p_r, double l,
+                      double t_end) {
+  const double dt = 0.001;
+  return study.run(
+      name,
+      fmt::format("[problem]\nname = \"central-force\"\nmass = {}\n{}\ninitial = {{ q = [{:.17g}, 0], p = [{:.17g}, "
+                  "{:.17g}] }}\n\n[method]\nname = \"rkn8-s19\"\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = 1\n",
+                  mu, keys, r, p_r, l / r, dt, static_cast<long>(std::lround(t_end / dt))));
+}
+
 /// The turning radii of an integrated orbit, increasing, each once.
 std::vector<double> turning_radii(Study& study, const Level& level, std::size_t number) {
   const double p_r = -std::sqrt(2 * mu * (level.energy - effective(level, level.start)));
-  const double dt = 0.001;
-  const auto steps = static_cast<long>(std::lround(level.t_end / dt));
-  const Trajectory run = study.run(
-      "level_" + std::to_string(number),
-      fmt::format("[problem]\nname = \"central-force\"\nmass = {}\n{}\ninitial = {{ q = [{:.17g}, 0], p = [{:.17g}, "
-                  "{:.17g}] }}\n\n[method]\nname = \"rkn8-s19\"\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = 1\n",
-                  mu, level.keys, level.start, p_r, level.l / level.start, dt, steps));
+  const Trajectory run =
+      orbit_from(study, "level_" + std::to_string(number), level.keys, level.start, p_r, level.l, level.t_end);
   std::vector<double> r, rate;
   for (std::size_t i = 0; i < run.size(); ++i) {
     r.push_back(std::hypot(run.q[i][0], run.q[i][1]));
@@ -91,25 +114,46 @@ std::vector<double> turning_radii(Study& study, const Level& level, std::size_t 
   return once;
 }
 
-figures::Page page_of(const Case& c) {
+/// Near the energies: V' itself has no bounds.
+figures::Curve curve_of(const Level& level) {
+  figures::Curve curve;
+  const double room = 2 * std::max(std::abs(level.energy), 0.3);
+  for (const double r : geometric_grid(0.2, 3 * level.start, 600)) {
+    if (std::abs(effective(level, r) - level.energy) < room) curve.add(r, effective(level, r));
+  }
+  return curve;
+}
+
+/// One curve for each potential and l, with all energies that are looked at on it; turning points are rings.
+figures::Page page_of(const Case& c, Study& study) {
   figures::Panel panel;
   figures::Extent x, y;
   std::size_t shape = 0;
   constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73"};
+  figures::Curve turns, drawn;
+  const auto add_level = [&](double energy) {
+    panel.series.push_back({figures::Ink::level, "", {{drawn.x.front(), drawn.x.back()}, {energy, energy}}});
+  };
+  const Level* before = nullptr;
   for (const Level& level : c.levels) {
-    figures::Curve curve;
-    const auto grid = geometric_grid(0.2, 3 * level.start, 600);
-    const double room = 2 * std::max(std::abs(level.energy), 0.3);
-    for (const double r : grid) {
-      if (std::abs(effective(level, r) - level.energy) < room) curve.add(r, effective(level, r));
+    if (before == nullptr || before->keys != std::string(level.keys) || before->l != level.l) {
+      drawn = curve_of(level);
+      x.include(drawn.x);
+      y.include(drawn.y);
+      const std::string name = c.circle ? "{/:Italic V}'({/:Italic r})" : level.name;
+      panel.series.push_back({figures::Ink::line, name, drawn, {.colour = colours[shape++ % 3]}});
+      study.keep({fmt::format("effective_{}", shape), {{"r", drawn.x}, {"V_effective", drawn.y}}});
     }
-    x.include(curve.x);
-    y.include(curve.y);
-    const figures::Mark mark{.colour = colours[shape++ % 3]};
-    panel.series.push_back(
-        {figures::Ink::level, "", {{curve.x.front(), curve.x.back()}, {level.energy, level.energy}}});
-    panel.series.push_back({figures::Ink::line, level.name, curve, mark});
+    before = &level;
+    add_level(level.energy);
+    for (const double r : crossings_of(level)) turns.add(r, level.energy);
   }
+  if (c.circle) {
+    add_level(c.circle->energy);
+    turns.add(c.circle->radius, c.circle->energy);
+    y.include(c.circle->energy);
+  }
+  panel.series.push_back({figures::Ink::marks, "turning points", turns, {.colour = "#000000", .shape = 6}});
   panel.x = figures::fit_axis(x, 0.02, {7, 40});
   panel.y = figures::fit_axis(y, 0.06, {6});
   panel.x_label = "{/:Italic r}";
@@ -117,11 +161,23 @@ figures::Page page_of(const Case& c) {
   return {c.title, {panel}};
 }
 
+/// An energy at the minimum leaves the radius no room.
+void claim_circle(const Circle& circle, Study& study) {
+  const Trajectory run = orbit_from(study, "circle", circle.keys, circle.radius, 0, circle.l, 20);
+  double off = 0;
+  for (const auto& q : run.q) off = std::max(off, std::abs(std::hypot(q[0], q[1]) - circle.radius));
+  study.claim({"circle", "at the minimum of the effective potential the orbit is a circle of radius l^2/(mu k)",
+               "a circle, equation 2.42"},
+              at_most(1e-10, "the tolerance of the turning points"),
+              {{off, 0,
+                fmt::format("largest |r - {:.3g}| up to t = 20 (rkn8-s19), E = {:.6g}", circle.radius,
+                            run.report.energy.initial)}});
+}
+
 void carry_out(const Case& c, Study& study) {
   for (std::size_t n = 0; n < c.levels.size(); ++n) {
     const Level& level = c.levels[n];
-    const std::vector<double> crossings =
-        roots([&](double r) { return effective(level, r) - level.energy; }, geometric_grid(1e-3, 1e3, 4000));
+    const std::vector<double> crossings = crossings_of(level);
     const std::string where = std::string(level.name) + ": ";
     study.claim({"crossings_" + std::to_string(n + 1), where + "how often the energy meets the effective potential",
                  std::to_string(level.crossings)},
@@ -137,7 +193,9 @@ void carry_out(const Case& c, Study& study) {
                 at_most(1e-10, "cubic pieces of samples at dt = 0.001"),
                 {{gap, 0, "largest distance of a crossing and a turning point of the orbit (rkn8-s19)"}});
   }
-  study.draw("figure", std::string(c.title) + " (lines) and energies (dashed)", page_of(c));
+  if (c.circle) claim_circle(*c.circle, study);
+  study.draw("figure", std::string(c.title) + " (lines), energies (dashed) and turning points (rings)",
+             page_of(c, study));
 }
 
 }  // namespace effective_potentials

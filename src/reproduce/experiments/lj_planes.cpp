@@ -60,6 +60,33 @@ Levels departures(const Trajectory& run, double dt) {
   return levels;
 }
 
+/// The two levels in the plane, with a step so large that they can be told apart.
+void draw_levels(Study& study) {
+  const double dt = 0.04;
+  const Trajectory run = study.run("plane", scenario("verlet", "0.04", 580, 1));
+  const auto H = [](double q, double p) { return p * p / 2 + std::pow(q, -12) - 2 * std::pow(q, -6); };
+  const auto modified = [&](double q, double p) { return H(q, p) + dt * dt * modified_part(q, p); };
+  figures::Extent across, up;
+  for (const double q : {0.8, 1.6}) across.include(q);
+  for (const double p : {-1.6, 1.6}) up.include(p);
+  const figures::Curve of_h = figures::level_curve(H, run.energy[0], across, up),
+                       of_modified = figures::level_curve(modified, modified(1.5, 0), across, up);
+  study.keep({"level_of_h", {{"q", of_h.x}, {"p", of_h.y}}});
+  study.keep({"level_of_modified_h", {{"q", of_modified.x}, {"p", of_modified.y}}});
+  study.keep({"plane", {{"t", run.t}, {"q", run.coordinate(0)}, {"p", run.momentum(0)}}});
+  figures::Panel panel =
+      phase_plane("{/:Italic q}", "{/:Italic p}", run.coordinate(0), run.momentum(0), of_h.x, of_h.y);
+  panel.series.front().name = "level of {/:Italic H}";
+  panel.series.insert(panel.series.begin() + 1, {figures::Ink::line,
+                                                 "of {/:Italic H} + {/:Italic h}^2{/:Italic H}_3",
+                                                 of_modified,
+                                                 {.colour = "#000000", .dash = 2}});
+  study.draw("plane",
+             "The level of H through the start, that of H + dt^2 H_3 (dashed), and ten periods of verlet with dt = "
+             "0.04 (dots)",
+             {study.info().title, {panel}});
+}
+
 void neighbouring_levels(Study& study) {
   const Trajectory coarse = study.run("figure", scenario("verlet", "0.01/2", 466, 1));
   const Trajectory fine = study.run("finer", scenario("verlet", "0.01/4", 932, 1));
@@ -83,10 +110,12 @@ void neighbouring_levels(Study& study) {
     modified.push_back(coarse.energy[i] + 0.005 * 0.005 * modified_part(coarse.q[i][0], coarse.p[i][0]));
   }
   study.keep({"levels", {{"t", coarse.t}, {"energy", coarse.energy}, {"modified_energy", modified}}});
-  study.draw("figure", "H (line) and H + dt^2 H_3 (below) over one period of verlet with dt = 0.005",
-             {study.info().title,
-              {over_time("{/:Italic H}", coarse.t, coarse.energy),
-               over_time("{/:Italic H} + {/:Italic h}^2{/:Italic H}_3", coarse.t, modified)}});
+  figures::Panel below = over_time("{/:Italic H} + {/:Italic h}^2{/:Italic H}_3", coarse.t, modified);
+  figures::Panel above = over_time("{/:Italic H}", coarse.t, coarse.energy);
+  below.y = above.y;  // one scale for what the two are to be compared in
+  study.draw("figure", "H (above) and H + dt^2 H_3 (below) over one period of verlet with dt = 0.005, on one scale",
+             {study.info().title, {above, below}});
+  draw_levels(study);
 }
 
 /// The times at which p turns from positive to negative: each ends a period.

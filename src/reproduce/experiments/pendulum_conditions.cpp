@@ -31,9 +31,38 @@ std::vector<std::size_t> peaks(const std::vector<double>& x) {
   return all;
 }
 
-double range(const std::vector<double>& x) {
-  const auto [low, high] = std::minmax_element(x.begin() + 1, x.end());
-  return *high / *low;
+/// The largest value, and that over the smallest, in the window that ends with each step.
+struct Rise {
+  std::vector<double> largest, rise;
+};
+Rise rise_of(const std::vector<double>& x) {
+  double low = x[1], high = x[1];  // the start has no step before it
+  Rise all{{high}, {1}};
+  for (std::size_t k = 1; k < x.size(); ++k) {
+    low = std::min(low, x[k]);
+    high = std::max(high, x[k]);
+    all.largest.push_back(high);
+    all.rise.push_back(high / low);
+  }
+  return all;
+}
+
+/// a/b for every window that shows two peaks at least, as the figures do whose window is not known: least and most.
+struct Ratios {
+  double least = 1e300, most = 0;
+  std::string windows;
+};
+Ratios ratios(const std::vector<double>& a, const std::vector<double>& b, const std::vector<std::size_t>& peaks,
+              const std::vector<double>& t) {
+  Ratios all;
+  const std::size_t first = peaks.size() < 2 ? a.size() : peaks[1] + 1;
+  for (std::size_t k = first; k < a.size(); ++k) {
+    all.least = std::min(all.least, a[k] / b[k]);
+    all.most = std::max(all.most, a[k] / b[k]);
+  }
+  if (first == a.size()) return {std::nan(""), std::nan(""), "no window shows two peaks"};
+  all.windows = fmt::format("windows that end from t = {:.4g}, behind the second peak, to 26", t[first]);
+  return all;
 }
 
 /// The largest distance, in steps, of one of some peaks from the nearest of others.
@@ -64,11 +93,23 @@ void carry_out(Study& study, bool absolute) {
   const Trajectory& in_relative = absolute ? other : own;
   const auto of_mass = peaks(own.condition_inverse_mass);
   const double count = static_cast<double>(of_mass.size());
-  study.claim({"peaks", "the condition rises almost by jumps at two times, if the window is that of the other figures",
+  study.claim(
+      {"peaks", "the condition rises almost by jumps at two times: if the window were that of figures 3.21 to 3.26",
+       "2", "124"},
+      as_printed("2"),
+      {{count, 0, "peaks of cond(M^-1) up to t = 26, which is assumed"},
+       {passages(in_absolute), 0, "passages of the rods through one line, sin(q1 - q2) = 0, up to t = 26"}});
+  const std::string two_are_seen =
+      count < 2    ? "never 2"
+      : count == 2 ? fmt::format("2 from t = {:.4g} on", own.t[of_mass[1]])
+                   : fmt::format("2 if it ends between t = {:.4g} and {:.4g}", own.t[of_mass[1]], own.t[of_mass[2]]);
+  study.claim({"peaks_in_the_window", "the condition rises almost by jumps at two times: in the window of the figure",
                "2", "124"},
               as_printed("2"),
-              {{count, 0, "peaks of cond(M^-1) up to t = 26"},
-               {passages(in_absolute), 0, "passages of the rods through one line, sin(q1 - q2) = 0"}});
+              {{count / 2, count / 2,
+                fmt::format("0 to {:.0f} peaks of cond(M^-1), as the window ends anywhere up to t = 26: {}", count,
+                            two_are_seen)}},
+              Grounds::program, "the end of the figure's time axis, which is not legible");
   if (count > 2) {
     study.note(
         fmt::format("The peaks of cond(M^-1) are at t = {:.4g}, {:.4g}, {:.4g}, ...: a window with two ends "
@@ -85,28 +126,31 @@ void carry_out(Study& study, bool absolute) {
         fmt::format("cond(K_T) has {} peaks above the middle of its range: beside most of those {} it shares with "
                     "cond(M^-1) stand two lower ones, about 0.1 before and after.",
                     of_tangent.size(), of_mass.size()));
+    const Ratios rises =
+        ratios(rise_of(own.condition_tangent).rise, rise_of(own.condition_inverse_mass).rise, of_mass, own.t);
     study.claim({"damped", "the condition of K_T rises less than that of M^-1", "lower", "124"},
                 at_most(1, "ratio of both rises, largest over smallest value"),
-                {{range(own.condition_tangent) / range(own.condition_inverse_mass), 1e-6, "up to t = 26"}});
+                {{rises.most, 1e-6, "largest of all " + rises.windows}});
   } else {
-    const double rise = range(own.condition_tangent);
+    const Rise tangent = rise_of(own.condition_tangent), other_tangent = rise_of(other.condition_tangent);
+    const Ratios rises = ratios(tangent.rise, other_tangent.rise, of_mass, own.t);
     study.claim({"rises_less", "the condition of K_T rises less than in absolute angles: hardly", "hardly", "125"},
                 at_most(1, "ratio of both rises, largest over smallest value; \"hardly\" has no number"),
-                {{rise / range(other.condition_tangent), 1e-6,
-                  fmt::format("rises by {:.3g}, in absolute angles by {:.3g}", rise, range(other.condition_tangent))}});
+                {{rises.most, 1e-6,
+                  fmt::format("largest of all {}, up to which it rises by {:.3g}, in absolute angles by {:.3g}",
+                              rises.windows, tangent.rise.back(), other_tangent.rise.back())}});
+    const Ratios of_inverse_mass =
+        ratios(rise_of(own.condition_inverse_mass).rise, rise_of(other.condition_inverse_mass).rise, of_mass, own.t);
     study.claim({"mass_rises_more", "the condition of M^-1 rises more than in absolute angles", "more", "125"},
-                at_least(1, "ratio of both largest values"),
-                {{*std::max_element(own.condition_inverse_mass.begin() + 1, own.condition_inverse_mass.end()) /
-                      *std::max_element(other.condition_inverse_mass.begin() + 1, other.condition_inverse_mass.end()),
-                  1e-6, "up to t = 26"}});
+                at_least(1, "ratio of both rises, largest over smallest value"),
+                {{of_inverse_mass.least, 1e-6, "smallest of all " + of_inverse_mass.windows}});
     double worse = 0;
     for (std::size_t k = 1; k < own.size(); ++k) worse += own.condition_tangent[k] > other.condition_tangent[k] ? 1 : 0;
+    const Ratios largest = ratios(tangent.largest, other_tangent.largest, of_mass, own.t);
     study.claim(
         {"better", "the linear system of Newton's method is better conditioned in relative angles", "better", "125"},
         at_most(1, "ratio of the largest cond(K_T) in relative and in absolute angles"),
-        {{*std::max_element(own.condition_tangent.begin() + 1, own.condition_tangent.end()) /
-              *std::max_element(other.condition_tangent.begin() + 1, other.condition_tangent.end()),
-          1e-6, "largest values up to t = 26"}});
+        {{largest.most, 1e-6, "largest of all " + largest.windows}});
     study.note(
         fmt::format("In {:.3g} of the steps cond(K_T) is larger in relative angles: it is the peaks that are lower.",
                     worse / static_cast<double>(own.size() - 1)));
