@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "axis.hpp"
 #include "figure_text.hpp"
@@ -25,7 +26,8 @@ std::string told(double x, const Axis& axis) {
   if (!axis.logarithmic && is_near(x, 0, axis)) return "0";
   const double resolved = axis.logarithmic ? 0 : std::abs(axis.high - axis.low) * std::pow(10.0, axis.exponent) / 300;
   const int digits = resolved > 0 ? static_cast<int>(std::ceil(std::log10(std::abs(x) / resolved))) : 3;
-  return fmt::format("{:.{}g}", x, std::clamp(digits, 1, 10));
+  // Rounded first: "1000", not "1e+03".
+  return fmt::format("{:.10g}", std::stod(fmt::format("{:.{}g}", x, std::clamp(digits, 1, 10))));
 }
 
 std::string told(const Curve& curve, const Panel& panel) {
