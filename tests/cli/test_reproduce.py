@@ -367,7 +367,8 @@ class Reproduce(CommandCase):
                                         "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL)
             time.sleep(delay)
             process.send_signal(sign)
-            self.assertIn(process.wait(), (0, 130, -signal.SIGKILL))
+            # On a machine with much else to do SIGINT may come before it is looked for.
+            self.assertIn(process.wait(), (0, 130, -signal.SIGKILL, -signal.SIGINT))
         self.assertEqual(self.reproduce(*SOME, "--quick", "--json", "--resume", "--out", "cut").stdout, whole)
 
 
