@@ -17,37 +17,16 @@
 // e = 0.1 with 63 steps to a period rho is 15 000 at its least, of e = 0.6 with 21 steps 12.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <utility>
 
 #include "hamflow/core/radial_forces.hpp"
 #include "hamflow/methods/eg_options.hpp"
 #include "hamflow/numerics/tape_replay.hpp"
 
 namespace hamflow {
-
-/// phi and phi' on a tape, for their divided differences.
-template <class R>
-class RecordedLaw {
- public:
-  template <class P>
-  explicit RecordedLaw(const P& problem) {
-    Recorder<R> recorder(Folding::exact);
-    const auto law = problem.radial_law(recorder.input(R(5) / R(7)));
-    tape_ = std::make_shared<const Tape<R>>(recorder.finish({law.value, law.first}));
-  }
-  /// phi[a, b] and phi'[a, b].
-  template <class S>
-  std::pair<S, S> differences(const S& a, const S& b) const {
-    Vector<Slope<S>, dynamic> nodes(tape_->nodes.size());
-    nodes[0] = Slope<S>(a, b, S(R(1)));
-    (void)replay(*tape_, nodes);  // laws have no branches
-    const auto slope = [&](std::size_t k) { return nodes[static_cast<std::size_t>(tape_->outputs[k])].slope; };
-    return {slope(0), slope(1)};
-  }
-
- private:
-  std::shared_ptr<const Tape<R>> tape_;
-};
 
 /// The law at a number, or along a dual number; of phi'' the value alone.
 template <class P, class S>
@@ -59,6 +38,54 @@ RadialLaw<S> law_at(const P& problem, const S& u) {
     return problem.radial_law(u);
   }
 }
+
+/// phi and phi' on tapes, for their divided differences: one for each side of the branches of a law, such as those of a
+/// cut-off, that has been met.
+template <class R>
+class RecordedLaw {
+ public:
+  template <class P>
+  explicit RecordedLaw(const P& problem) {
+    tapes_[0] = recorded(problem, R(5) / R(7));
+  }
+  /// phi[a, b] and phi'[a, b]. Where a branch lies between a and b the difference of the values is taken as it is: its
+  /// rounding, over b - a, does the work of a rounding of phi.
+  template <class P, class S>
+  std::pair<S, S> differences(const P& problem, const S& a, const S& b) const {
+    std::pair<S, S> found;
+    for (const Recorded& tape : tapes_) {
+      if (tape && on(*tape, a, b, found)) return found;
+    }
+    // What was met longest ago makes room.
+    std::move_backward(tapes_.begin(), tapes_.end() - 1, tapes_.end());
+    tapes_[0] = recorded(problem, R(value_of(a)));
+    if (on(*tapes_[0], a, b, found)) return found;
+    const RadialLaw<S> first = law_at(problem, a), second = law_at(problem, b);
+    return {(second.value - first.value) / (b - a), (second.first - first.first) / (b - a)};
+  }
+
+ private:
+  using Recorded = std::shared_ptr<const Tape<R>>;
+
+  template <class P>
+  static Recorded recorded(const P& problem, const R& u) {
+    Recorder<R> recorder(Folding::exact);
+    const auto law = problem.radial_law(recorder.input(u));
+    return std::make_shared<const Tape<R>>(recorder.finish({law.value, law.first}));
+  }
+  /// @return false where a or b lies on another side of a branch
+  template <class S>
+  static bool on(const Tape<R>& tape, const S& a, const S& b, std::pair<S, S>& found) {
+    Vector<Slope<S>, dynamic> nodes(tape.nodes.size());
+    nodes[0] = Slope<S>(a, b, S(R(1)));
+    if (!replay(tape, nodes)) return false;
+    const auto slope = [&](std::size_t k) { return nodes[static_cast<std::size_t>(tape.outputs[k])].slope; };
+    found = {slope(0), slope(1)};
+    return true;
+  }
+
+  mutable std::array<Recorded, 4> tapes_;  // follow from the law: no part of a run's memory
+};
 
 /// Weights of k Gauss points, and N = A B^-1 - 1/2, antisymmetric.   [HLW2006, Sect. II.1.3]
 template <class R>
@@ -126,7 +153,7 @@ struct RadialPair {
       }
       law[l] = law_at(problem, u[l]);
     }
-    const auto [mean, bend] = recorded.differences(u0, u1);
+    const auto [mean, bend] = recorded.differences(problem, u0, u1);
     for (std::size_t l = 0; l < k; ++l) factor[l] = mean;
     if (k > 1) project(stages, h, u0, mean, bend, R(R(4) * h * strength));
   }
