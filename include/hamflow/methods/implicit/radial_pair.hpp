@@ -53,13 +53,13 @@ class RecordedLaw {
   template <class P, class S>
   std::pair<S, S> differences(const P& problem, const S& a, const S& b) const {
     std::pair<S, S> found;
-    for (const Recorded& tape : tapes_) {
-      if (tape && on(*tape, a, b, found)) return found;
+    if (on_any(a, b, found)) return found;
+    if (!on_any(a, a, found)) {
+      // What was met longest ago makes room.
+      std::move_backward(tapes_.begin(), tapes_.end() - 1, tapes_.end());
+      tapes_[0] = recorded(problem, R(value_of(a)));
+      if (on(*tapes_[0], a, b, found)) return found;
     }
-    // What was met longest ago makes room.
-    std::move_backward(tapes_.begin(), tapes_.end() - 1, tapes_.end());
-    tapes_[0] = recorded(problem, R(value_of(a)));
-    if (on(*tapes_[0], a, b, found)) return found;
     const RadialLaw<S> first = law_at(problem, a), second = law_at(problem, b);
     return {(second.value - first.value) / (b - a), (second.first - first.first) / (b - a)};
   }
@@ -72,6 +72,11 @@ class RecordedLaw {
     Recorder<R> recorder(Folding::exact);
     const auto law = problem.radial_law(recorder.input(u));
     return std::make_shared<const Tape<R>>(recorder.finish({law.value, law.first}));
+  }
+  template <class S>
+  bool on_any(const S& a, const S& b, std::pair<S, S>& found) const {
+    return std::any_of(tapes_.begin(), tapes_.end(),
+                       [&](const Recorded& tape) { return tape && on(*tape, a, b, found); });
   }
   /// @return false where a or b lies on another side of a branch
   template <class S>
