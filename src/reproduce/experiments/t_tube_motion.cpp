@@ -81,11 +81,48 @@ int visited_cells(const std::vector<double>& x, const std::vector<double>& y, in
   return static_cast<int>(visited.size());
 }
 
+/// A late motion, continued. Its start is what a capture by "reject" has left.
+Trajectory continued_late(Study& study, const LateMotion& from, std::int64_t steps, const std::string& name) {
+  TubeRun run{.eps = from.eps};
+  run.steps = steps;
+  run.record_every = 1;
+  return study.run(fmt::format("{}_{}", from.name, name), tube_scenario(run),
+                   {fmt::format("problem.initial={{ q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}] }}", from.q[0],
+                                from.q[1], from.p[0], from.p[1])});
+}
+
 /// For a figure: every tenth.
 std::vector<double> thinned(const std::vector<double>& numbers) {
   std::vector<double> some;
   for (std::size_t i = 0; i < numbers.size(); i += 10) some.push_back(numbers[i]);
   return some;
+}
+
+/// The first numbers, up to a time.
+std::vector<double> up_to(double t, const Trajectory& path, const std::vector<double>& numbers) {
+  const auto end = std::upper_bound(path.t.begin(), path.t.end(), t + 1e-9) - path.t.begin();
+  return {numbers.begin(), numbers.begin() + end};
+}
+
+/// Figures 3.4b, c and e: a day of the thesis is 86 400 time units, of which the first 600 are shown and kept.
+void late_momenta(Study& study) {
+  const LateMotion late = late_motions(study).front();
+  const Trajectory path = continued_late(study, late, 60000, "late");
+  const std::vector<double> light = path.momentum(0), heavy = path.momentum(1);
+  study.claim({"late_heavy_captured", "P2 stays between its start values also late, a motion that reject has captured",
+               "[-100, 100]", "89"},
+              at_most(101, "100 and a deviation of 1 %"),
+              {range(heavy, "600 time units of the late motion +0.6I of S3.5")});
+  study.note(fmt::format(
+      "P1 of the late motion drawn here stays within {:.4g}, not 4.29: each capture has a range of its own.",
+      largest(light)));
+  study.keep({"late", {{"t", path.t}, {"P1", light}, {"P2", heavy}}});
+  constexpr double minutes = 180;
+  study.draw("late", "Late: P1 over 600 time units (3.4b) and over 180 (3.4c), P2 over 600 (3.4e); +0.6I, reject",
+             {study.info().title,
+              {over_time("{/:Italic P}_1", thinned(path.t), thinned(light)),
+               over_time("{/:Italic P}_1", up_to(minutes, path, path.t), up_to(minutes, path, light)),
+               over_time("{/:Italic P}_2", thinned(path.t), thinned(heavy))}});
 }
 
 void momenta(Study& study) {
@@ -103,6 +140,9 @@ void momenta(Study& study) {
                  {study.info().title,
                   {over_time("{/:Italic P}_1", thinned(path.t), thinned(path.momentum(0))),
                    over_time("{/:Italic P}_2", thinned(path.t), thinned(path.momentum(1)))}});
+      study.draw("first_minute", "P2 during the first 60 time units (3.4d), reject",
+                 {study.info().title,
+                  {over_time("{/:Italic P}_2", up_to(60, path, path.t), up_to(60, path, path.momentum(1)))}});
     }
     const Trajectory attracted = early(study, rule, 0.6);
     heavy_attracted = range(attracted.momentum(1), fmt::format("eps = 0.6, first 600 time units, {}", rule));
@@ -121,6 +161,7 @@ void momenta(Study& study) {
               at_most(101, "100 and a deviation of 1 %"),
               {heavy_attracted, {bound_of_heavy(0.6), 1e-10, "what the energy allows: with P1 = 0 at (0, 0.1)"}},
               Grounds::program);
+  late_momenta(study);
   // Whether the motion becomes regular: S-capture has the rule; here block means as they come.
   TubeRun run{.eps = -0.6, .v1 = "6"};
   run.steps = study.sized<std::int64_t>(20000, 500000, 5000000);
@@ -149,15 +190,8 @@ struct Followed {
   Measured growth;
 };
 Followed followed(Study& study, const LateMotion& from) {
-  const auto follow = [&](std::int64_t steps, const std::string& name) {
-    TubeRun run{.eps = from.eps};
-    run.steps = steps;
-    run.record_every = 1;
-    return study.run(fmt::format("{}_{}", from.name, name), tube_scenario(run),
-                     {fmt::format("problem.initial={{ q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}] }}", from.q[0],
-                                  from.q[1], from.p[0], from.p[1])});
-  };
-  const Trajectory path = follow(40000, "once"), longer = follow(160000, "longer");
+  const Trajectory path = continued_late(study, from, 40000, "once");
+  const Trajectory longer = continued_late(study, from, 160000, "longer");
   const int once = visited_cells(path.coordinate(0), path.coordinate(1), 200);
   const int later = visited_cells(longer.coordinate(0), longer.coordinate(1), 200);
   return {path,
