@@ -412,7 +412,7 @@ class Gas(CommandCase):
         listing = self.summary(*case, *lattice, "--set", "problem.scale='listing'", status=1)["error"]
         self.assertEqual((listing["kind"], listing["step"]), ("outside", 23))
         self.assertRegex(listing["message"], r"particle \d+ stood .* in double \d steps? further on: the lattice has no integer")
-        narrow = self.summary(*case, *lattice, "--set", "run.dt=0.0001", "--set",
+        narrow = self.summary(*case, *lattice, "--set", "run.dt=0.0005", "--set", "run.steps=60", "--set",
                               "run.lattice={position='2^-52', momentum='2^-62'}", status=1)["error"]
         self.assertEqual(narrow["kind"], "lattice_overflow")
 
@@ -464,7 +464,7 @@ class Gas(CommandCase):
             self.assertIn("a force that jumps there", found["reason"])
         for cutoff in (2.1, "{ radius = 2, kind = 'force-shifted' }"):
             self.assertEqual(back(cutoff)["proves"], "reversible to rounding", cutoff)
-        self.assertEqual(back(2.1, "--set", "method={name='rk4'}", "--set", "run.dt=0.01")["proves"], "not reversible")
+        self.assertEqual(back(2.1, "--set", "method={name='rk4'}", "--set", "run.dt=0.003")["proves"], "not reversible")
 
     def test_a_drift_below_the_sum_of_sizes_is_no_conservation(self):
         """Errors of many particles are independent: what the sizes of all add up to is not what rounding does."""
