@@ -8,13 +8,21 @@ namespace {
 
 class OutsideSimulation final : public Simulation {
  public:
-  explicit OutsideSimulation(std::unique_ptr<Simulation> inner) : inner_(std::move(inner)) {}
+  OutsideSimulation(std::unique_ptr<Simulation> inner, StepInDouble in_double)
+      : inner_(std::move(inner)), in_double_(std::move(in_double)) {}
 
   Outcome advance(std::int64_t steps) override {
     why_.clear();
     std::optional<std::size_t> particle;
     const OutsideNote note(particle);
-    return explained(inner_->advance(steps), particle, why_);
+    const Outcome outcome = inner_->advance(steps);
+    if (outcome == Outcome::lattice_overflow && !particle && in_double_) {
+      Frame frame;
+      inner_->look(frame);
+      why_ = in_double_(frame, backwards_);
+      if (!why_.empty()) return Outcome::outside;
+    }
+    return explained(outcome, particle, why_);
   }
   Outcome look_ahead(const std::string& time, Frame& frame) const override {
     std::optional<std::size_t> particle;
@@ -29,11 +37,14 @@ class OutsideSimulation final : public Simulation {
     return explained(inner_->look_part(theta, frame), particle, why);
   }
   std::string failure() const override { return why_.empty() ? inner_->failure() : why_; }
-  std::unique_ptr<Simulation> clone() const override { return std::make_unique<OutsideSimulation>(inner_->clone()); }
+  std::unique_ptr<Simulation> clone() const override { return copy(); }
 
   std::int64_t step() const override { return inner_->step(); }
   void look(Frame& frame) const override { inner_->look(frame); }
-  void reverse_time() override { inner_->reverse_time(); }
+  void reverse_time() override {
+    inner_->reverse_time();
+    backwards_ = !backwards_;
+  }
   void negate_momenta() override { inner_->negate_momenta(); }
   std::vector<std::byte> bits() const override { return inner_->bits(); }
   Excursion energy() const override { return inner_->energy(); }
@@ -59,14 +70,22 @@ class OutsideSimulation final : public Simulation {
     return Outcome::outside;
   }
 
+  std::unique_ptr<OutsideSimulation> copy() const {
+    auto other = std::make_unique<OutsideSimulation>(inner_->clone(), in_double_);
+    other->backwards_ = backwards_;
+    return other;
+  }
+
   std::unique_ptr<Simulation> inner_;
+  StepInDouble in_double_;
+  bool backwards_ = false;
   std::string why_;
 };
 
 }  // namespace
 
-std::unique_ptr<Simulation> telling_who_is_outside(std::unique_ptr<Simulation> simulation) {
-  return std::make_unique<OutsideSimulation>(std::move(simulation));
+std::unique_ptr<Simulation> telling_who_is_outside(std::unique_ptr<Simulation> simulation, StepInDouble in_double) {
+  return std::make_unique<OutsideSimulation>(std::move(simulation), std::move(in_double));
 }
 
 }  // namespace hamflow

@@ -70,8 +70,10 @@ void measure_maps(const Region& region, const MethodSpec& method, MethodCertific
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const MomentumMap& map = maps[i];
     if (map.rounding) {
+      const bool in_doubt = nothing.empty() && !map.conserved();
       found.momentum_maps.push_back({region.problem, map.name, simulation->step(), map.max_error, map.relative,
-                                     *map.rounding, nothing.empty() ? map.conserved() : std::nullopt, nothing});
+                                     *map.rounding, nothing.empty() ? map.conserved() : std::nullopt,
+                                     in_doubt ? "its error may be of rounding or of the method" : nothing});
     } else if (simulation->step() == 0 && problem.info.invariants[i].terms != Terms::other) {
       constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
       found.momentum_maps.push_back({region.problem, map.name, 0, unknown, unknown, unknown, std::nullopt, nothing});

@@ -16,9 +16,11 @@ namespace hamflow {
 
 namespace {
 
-constexpr double moved = 0x1p-36;  // of the size of q and of p: 2^16 roundings, and far from where motions part
-constexpr double parted = 1e-3;    // of the size: no longer a small difference
-constexpr double beyond = 16;      // bounds of rounding: what is within so many is no proof against a method
+constexpr double moved = 0x1p-36;       // of the size of q and of p: 2^16 roundings, and far from where motions part
+constexpr double moved_less = 0x1p-40;  // the same for the motions that tell whether what parts is in proportion
+constexpr double in_proportion = 4;     // up to such a factor: a smooth motion has 1, and roundings add to it
+constexpr double parted = 1e-3;         // of the size: no longer a small difference
+constexpr double beyond = 16;           // bounds of rounding: what is within so many is no proof against a method
 constexpr std::int64_t most_waypoints = 64;                // at which two motions are compared
 constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates of all of them: 128 MB, with momenta
 
@@ -80,14 +82,30 @@ class DistancesFrom final : public Observer {
   std::vector<double> distances_;
 };
 
-std::vector<std::string> moved_by(const std::vector<double>& x, double size, std::uint64_t seed) {
+/// How the start of another motion lies beside that of the first: every coordinate moved by `size` of the largest one,
+/// up or down by chance. With `unequal`, by half of it up to the whole: no two particles then move alike, so that the
+/// distance of every pair changes, and of a move and the opposite one either brings it nearer.
+struct Move {
+  double size = moved;
+  std::uint64_t seed = 1;
+  bool unequal = false;
+};
+
+std::vector<std::string> moved_by(const std::vector<double>& x, double size, const Move& move, std::uint64_t seed) {
   std::vector<std::string> texts;
   texts.reserve(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double sign = counter_bits(seed, i) % 2 == 0 ? 1 : -1;
-    texts.push_back(shortest(x[i] + sign * moved * size));
+    const std::uint64_t random = counter_bits(seed, i);
+    const double sign = random % 2 == 0 ? 1 : -1;
+    const double share = move.unequal ? 0.5 + 0.5 * static_cast<double>(random >> 11U) * 0x1p-53 : 1;
+    texts.push_back(shortest(x[i] + sign * share * move.size * size));
   }
   return texts;
+}
+
+std::function<bool(std::int64_t)> pulse_of(const GoOn& go_on) {
+  if (!go_on) return {};
+  return [&go_on](std::int64_t) { return go_on(); };
 }
 
 /// The run itself has all threads that can be started here: one thread gives the same bits.
@@ -102,27 +120,29 @@ std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
   }
 }
 
-/// How far two motions part that begin 2^-36 apart.
+/// How far two motions part that begin `Move::size` apart.
 struct Parting {
   bool measured = false;
-  double root_mean_square = 0;  // over the way, in 2^-36
+  double root_mean_square = 0;  // over the way, in that
   double furthest = 0;          // as it is
 };
 
 /// In double: what is small beside the motion grows alike in every arithmetic.
-Parting parting(const Request& request, const Reversal& reversal, const Waypoints& way) {
+Parting parting(const Request& request, const Reversal& reversal, const Waypoints& way, const GoOn& go_on,
+                const Move& move = {}) {
   Request other = request;
   other.watch = false;
   other.arithmetic = "double";
   other.threads = 1;
   other.start = {};
-  other.start.q = moved_by(reversal.start.q, way.q_size(), 1);
-  other.start.p = moved_by(reversal.start.p, way.p_size(), 2);
+  other.start.q = moved_by(reversal.start.q, way.q_size(), move, move.seed);
+  other.start.p = moved_by(reversal.start.p, way.p_size(), move, move.seed + 1);
   DistancesFrom beside(way);
   Observer* const watch[] = {&beside};
   const auto simulation = make_simulation_of(std::move(other));
   Parting found;
-  if (run(*simulation, reversal.steps, watch) != Outcome::done || beside.all().size() != way.count()) return found;
+  const Outcome outcome = run(*simulation, reversal.steps, watch, pulse_of(go_on));
+  if (outcome != Outcome::done || beside.all().size() != way.count()) return found;
   double squares = 0;
   for (const double distance : beside.all()) {
     if (!std::isfinite(distance)) return found;
@@ -130,7 +150,7 @@ Parting parting(const Request& request, const Reversal& reversal, const Waypoint
     squares += distance * distance;
   }
   found.measured = true;
-  found.root_mean_square = std::sqrt(squares / static_cast<double>(way.count())) / moved;
+  found.root_mean_square = std::sqrt(squares / static_cast<double>(way.count())) / std::abs(move.size);
   return found;
 }
 
@@ -165,10 +185,32 @@ bool begins_on_a_wall(const Request& request, const Frame& start, double size) {
   });
 }
 
+/// Why what rounding becomes is not known; empty where small differences grow in proportion to themselves, as those of
+/// every motion do that depends on its start smoothly. Where a force jumps between two motions that are close, one of
+/// them takes a kick that the other does not, however close they are. A rounding then does as much as the move here.
+std::string out_of_proportion(const Request& request, const Reversal& reversal, const Waypoints& way,
+                              const Parting& apart, const GoOn& go_on) {
+  for (const double size : {moved_less, -moved_less}) {
+    const Parting nearer = parting(request, reversal, way, go_on, {size, 3, true});
+    if (!nearer.measured) return "how far rounding is carried could not be measured";
+    const double ratio = nearer.root_mean_square / apart.root_mean_square;
+    if (ratio <= in_proportion && ratio * in_proportion >= 1) continue;
+    if (reversal.distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;  // no jump did that
+    return fmt::format(
+        "but what rounding becomes is not known: motions that begin {:.1e} apart part by {:.1e}, those that begin "
+        "{:.1e} "
+        "apart by {:.1e}, which is not in proportion; a force that jumps there is taken on one side or the other as a "
+        "rounding decides",
+        moved * std::max(way.q_size(), way.p_size()), apart.furthest, moved_less * std::max(way.q_size(), way.p_size()),
+        nearer.furthest);
+  }
+  return {};
+}
+
 /// What is proved, and why.
 std::pair<ReversalProof, std::string> judged(const Request& request, const ProblemEntry& problem,
                                              const Reversal& reversal, const Waypoints& way, double scale,
-                                             double actions) {
+                                             double actions, const GoOn& go_on) {
   const MethodInfo method = describe(request.method);
   const Frame* const states[] = {&reversal.start, &reversal.turn};
   if (!even_in_momenta(problem, request.parameters, states, scale)) {
@@ -180,7 +222,7 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
     return {ReversalProof::nothing,
             "every bit came back, but " + method.name + " is not reversible: its defect is below rounding"};
   }
-  const Parting apart = parting(request, reversal, way);
+  const Parting apart = parting(request, reversal, way, go_on);
   const double size = std::max(way.q_size(), way.p_size());
   if (!apart.measured) return {ReversalProof::nothing, "how far rounding is carried could not be measured"};
   const LongNumber rounding = explained_by_rounding(request, reversal, apart, way, actions);
@@ -195,6 +237,12 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
   if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
     return {ReversalProof::to_rounding,
             "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
+  }
+  Parting nothing_grows = apart;  // what is below the bound of such a motion needs no other one
+  nothing_grows.root_mean_square = std::min(apart.root_mean_square, size);
+  if (!at_most(reversal.distance, explained_by_rounding(request, reversal, nothing_grows, way, actions))) {
+    const std::string unknown = out_of_proportion(request, reversal, way, apart, go_on);
+    if (!unknown.empty()) return {ReversalProof::nothing, brief(reversal.distance) + " off, " + unknown};
   }
   if (!at_most(reversal.distance, rounding)) {
     if (method.reversible &&
@@ -219,15 +267,13 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
 }
 
 /// The step of the first bounce; 0: there is none in so many steps.
-std::int64_t first_bounce(const Request& request, std::int64_t steps) {
+std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn& go_on) {
   const auto simulation = simulation_beside_the_run(request);
   std::int64_t first = 0;
   simulation->tell_bounces([&](const Bounce& bounce) {
     if (first == 0) first = bounce.step;
   });
-  for (std::int64_t block = 1000; first == 0 && simulation->step() < steps; block *= 2) {
-    if (simulation->advance(std::min(block, steps - simulation->step())) != Outcome::done) break;
-  }
+  (void)run(*simulation, steps, {}, [&](std::int64_t) { return first == 0 && (!go_on || go_on()); });
   return first;
 }
 
@@ -246,8 +292,13 @@ bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::
 }
 
 ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
-                                   std::optional<double> period) {
+                                   std::optional<double> period, const GoOn& asked) {
   ReversalEvidence found;
+  bool stopped = false;
+  const GoOn go_on = [&] {
+    stopped = stopped || (asked && !asked());
+    return !stopped;
+  };
   if (depends_on_time(problem)) {
     found.reason = "H depends on t, which goes on: the motion itself is not reversed by negating the momenta";
     return found;
@@ -259,18 +310,19 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   const auto most = static_cast<std::int64_t>(1e8 / static_cast<double>(std::max<std::size_t>(1, start.q.size())));
   found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(at_least));
   const bool walled = has_hard_walls(request);
-  if (walled) found.steps = std::max(found.steps, first_bounce(request, std::min(steps_taken, most)));
+  if (walled) found.steps = std::max(found.steps, first_bounce(request, std::min(steps_taken, most), go_on));
   found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
   simulation->tell_bounces([&](const Bounce& bounce) { found.bounces += bounce.step <= found.steps ? 1 : 0; });
   Waypoints way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
-  Reversal reversal = reverse(*simulation, found.steps, {}, watch);
-  if (reversal.outcome != Outcome::done) {
+  Reversal reversal;
+  if (go_on()) reversal = reverse(*simulation, found.steps, pulse_of(go_on), watch);
+  if (!stopped && reversal.outcome != Outcome::done) {
     found.reason = "a step of the way there or back failed: " +
                    (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
-  } else {
+  } else if (!stopped) {
     found.distance = reversal.distance;
     found.relative = reversal.relative_distance;
     found.bit_exact = reversal.bit_exact;
@@ -280,7 +332,13 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const double scale = simulation->energy_scale();
     simulation.reset();  // another one is made, and two of a million particles need not have their lists at a time
     reversal.end = {};
-    std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, scale, actions);
+    std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, scale, actions, go_on);
+  }
+  if (stopped) {
+    ReversalEvidence none;
+    none.was_stopped = true;
+    none.reason = "the reversal was left out: it was stopped before it had come to its end";
+    return none;
   }
   if (walled && found.bounces == 0) found.reason += "; no bounce was met";
   if (found.steps < steps_taken) {

@@ -46,9 +46,10 @@ Json certificate_json(const RunCertificate& c) {
     all["momentum_maps"][map.name] = {{"max_error", json_of(map.max_error)},
                                       {"relative", json_of(map.relative)},
                                       {"rounding", map.rounding ? json_of(*map.rounding) : Json(nullptr)},
-                                      {"conserved", !conserved   ? Json(nullptr)
-                                                    : *conserved ? Json("to rounding")
-                                                                 : Json("not")}};
+                                      {"conserved", !map.rounding ? Json(nullptr)
+                                                    : !conserved  ? Json("undecided")
+                                                    : *conserved  ? Json("to rounding")
+                                                                  : Json("not")}};
   }
   all["reversal_distance"] = c.reversal ? reversal_json(*c.reversal) : Json(nullptr);
   return all;
@@ -64,7 +65,11 @@ std::string certificate_text(const Json& c) {
   std::string text = fmt::format("energy error {}: {}", c["drift"].get<std::string>(), c["reason"].get<std::string>());
   for (const auto& [key, map] : c["momentum_maps"].items()) {
     if (map["conserved"].is_null()) continue;
-    text += fmt::format("; {} {}", key, map["conserved"] == "not" ? "not kept" : "kept to rounding");
+    const auto kept = map["conserved"].get<std::string>();
+    text += fmt::format("; {} {}", key,
+                        kept == "not"         ? "not kept"
+                        : kept == "undecided" ? "kept or not: its error may be of rounding or of the method"
+                                              : "kept to rounding");
   }
   const Json& back = c["reversal_distance"];
   if (!back.is_null()) {

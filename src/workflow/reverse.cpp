@@ -102,6 +102,10 @@ const char* const uncounted_pairs =
     "with a cut-off only pairs within it are computed: how many they are changes from force to force, and no step "
     "counts them";
 
+constexpr const char* other_than_forces =
+    "{} asks for more of the pairs than forces (second derivatives, series or differences of H): how many pairs that "
+    "takes, no step counts";
+
 const char* const below_the_digits =
     "every digit of q and p came back; what is carried on below their last digit did not, or a zero has the other sign";
 
@@ -165,8 +169,15 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"digits_lost", done ? Json(digits_lost(r, scenario.request.arithmetic)) : Json(nullptr)}};
   if (const std::size_t bodies = bodies_in(scenario); bodies > 0) {
     s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
-    const std::int64_t forces = simulation.effort().force;
-    if (scenario.request.parameters.contains(GasKeys::cutoff)) {
+    const Effort effort = simulation.effort();
+    const std::int64_t forces = effort.force;
+    const bool by_forces_alone = forces > 0 && effort.gradient == 0 && effort.hessian == 0;
+    const bool ends = scenario.request.parameters.contains(GasKeys::cutoff);
+    if (r.steps > 0 && !by_forces_alone) {
+      s["pair_evaluations"] = nullptr;
+      s["force_evaluations"] = forces > 0 ? Json(forces) : Json(nullptr);
+      s["pair_evaluations_note"] = fmt::format(other_than_forces, method.name);
+    } else if (ends) {
       s["pair_evaluations"] = nullptr;
       s["force_evaluations"] = forces;
       s["pair_evaluations_note"] = uncounted_pairs;
@@ -209,10 +220,13 @@ std::string readable_reversal(const Json& s) {
                                         number_text(s["relative_distance"], "{:.3g}")));
     text += row("digits lost", fmt::format("{:.2f}", s["digits_lost"].get<double>()));
     if (s.contains("return_error")) {
-      const std::string effort = s["pair_evaluations"].is_null()
-                                     ? fmt::format("{} force evaluations", s["force_evaluations"].get<std::int64_t>())
-                                     : fmt::format("{} pairs computed", s["pair_evaluations"].get<std::int64_t>());
-      text += row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N); {}",
+      const auto counted = [&](const char* key, const char* what) {
+        const bool is_known = s.contains(key) && !s[key].is_null();
+        return is_known ? fmt::format("; {} {}", s[key].get<std::int64_t>(), what) : "";
+      };
+      const std::string effort =
+          counted("pair_evaluations", "pairs computed") + counted("force_evaluations", "force evaluations");
+      text += row("return error", fmt::format("positions {}, momenta {} (sqrt(sum |difference|^2)/N){}",
                                               number_text(s["return_error"]["position"], "{:.3g}"),
                                               number_text(s["return_error"]["momentum"], "{:.3g}"), effort));
     }

@@ -58,11 +58,13 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
   }
 }
 
+constexpr double patience = 5;  // seconds that somebody waits who asked to stop
+
 /// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
 /// stop.
-void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, RunReport& report) {
-  constexpr double patience = 5;
-  const bool asked_before = report.status == "interrupted";
+/// @param asked_before whether somebody did
+void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, bool asked_before,
+          RunReport& report) {
   const auto begin = std::chrono::steady_clock::now();
   const figures::WhileDrawing watch([&] {
     if (!asked_before) return !settings.pulse || settings.pulse(step);
@@ -149,7 +151,10 @@ class ScenarioRun {
         seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.steps_taken = simulation_->step();
     RunReport report;
-    report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken);
+    report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
+                                 going_on(result.outcome == Outcome::stopped, result.steps_taken));
+    const auto& reversal = report.certificate->reversal;
+    certificate_stopped_ = reversal && reversal->was_stopped;
     Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
     if (summary["final"].contains("dataset") && !keeps_final_state()) {
       summary["final"]["dataset"] = nullptr;
@@ -181,6 +186,13 @@ class ScenarioRun {
   }
 
  private:
+  /// What comes after the steps. Who has asked to stop before waits for it no longer than `patience`.
+  GoOn going_on(bool asked_before, std::int64_t step) const {
+    if (!asked_before) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
+    return [begin = std::chrono::steady_clock::now()] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
+    };
+  }
   bool writes() const { return !settings_.folder.empty(); }
 
   RunResult take_steps() {
@@ -230,7 +242,10 @@ class ScenarioRun {
       write_text(settings_.folder / "summary.json", report.json);
       checkpoints_.reset();
       recorder_.reset();  // closes run.h5, from which the figures are drawn
-      if (report.status != "failed") draw(scenario_, settings_, simulation_->step(), report);
+      if (report.status != "failed") {
+        const bool asked_before = report.status == "interrupted" || certificate_stopped_;
+        draw(scenario_, settings_, simulation_->step(), asked_before, report);
+      }
     } catch (const std::exception& error) {  // the run itself is done
       report.file_trouble = error.what();
     }
@@ -247,6 +262,7 @@ class ScenarioRun {
   EnergyBlocks blocks_;
   TurnWatch turns_;
   std::optional<Measures> measures_;
+  bool certificate_stopped_ = false;
   std::vector<Observer*> observers_;
 };
 
@@ -271,7 +287,7 @@ RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
     } else {
       note(settings, "the run is complete: its figures are drawn");
       const FolderLock lock(settings.folder);
-      draw(requested, settings, from->step, report);
+      draw(requested, settings, from->step, report.status == "interrupted", report);
     }
     return report;
   }

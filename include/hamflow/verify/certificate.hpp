@@ -25,7 +25,7 @@ struct EnergyBlockState {
   std::int64_t next = 0;            // the step of the next sample
   std::vector<double> energies;     // in the order of the blocks
   std::vector<std::string> digits;  // the same with all their digits, in arithmetic beyond double; else empty
-  std::vector<double> magnitudes;   // the largest yet of |q|_max, |p|_max, sum |p_i|, sum_ij |q_i p_j| over the samples
+  std::vector<double> magnitudes;   // the largest over the samples; see observe()
   std::vector<Swings> swings;       // of each q, then of each p
 
   template <class Archive>
@@ -42,7 +42,7 @@ class EnergyBlocks final : public Observer {
  public:
   static constexpr std::size_t most_blocks = 256;
 
-  EnergyBlocks() { state_.magnitudes.assign(4, 0); }
+  EnergyBlocks() { state_.magnitudes.assign(5, 0); }
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
 
@@ -63,8 +63,11 @@ struct MomentumMap {
   LongNumber max_error;
   LongNumber relative;                   // to the size of its terms
   std::optional<LongNumber> rounding{};  // the largest error that rounding explains; none where that is not known
+  LongNumber doubtful{};                 // up to here, beyond that, it may be rounding yet
+  /// None: not known, or in doubt.
   std::optional<bool> conserved() const {
-    return rounding ? std::optional<bool>(at_most(max_error, *rounding)) : std::nullopt;
+    if (rounding && at_most(max_error, *rounding)) return true;
+    return rounding && !at_most(max_error, doubtful) ? std::optional<bool>(false) : std::nullopt;
   }
 };
 
@@ -118,11 +121,15 @@ struct ReversalEvidence {
   bool bit_exact = false;
   ReversalProof proves = ReversalProof::nothing;
   std::string reason;  // also what was left out
+  bool was_stopped = false;
 };
+
+/// Asked now and then on the way; false: what is not done yet is to be left out.
+using GoOn = std::function<bool()>;
 
 /// @param period of the slowest oscillation seen, in steps; none was seen   @param steps_taken at least 1
 ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
-                                   std::optional<double> period);
+                                   std::optional<double> period, const GoOn& go_on = {});
 
 /// The invariants of a run beside what rounding explains.
 /// Each is judged by the terms that the problem declares of it (InvariantInfo::terms).
@@ -141,7 +148,8 @@ struct RunCertificate {
 
 /// @param simulation of the run; that of a large system is another one afterwards, in the same state
 /// @param steps_taken of which the reversal takes a small part over again, on a simulation of its own
+/// @param go_on of the reversal: all else takes no steps
 RunCertificate certify(const Request& request, const ProblemEntry& problem, std::unique_ptr<Simulation>& simulation,
-                       const EnergyBlocks& blocks, std::int64_t steps_taken);
+                       const EnergyBlocks& blocks, std::int64_t steps_taken, const GoOn& go_on = {});
 
 }  // namespace hamflow
