@@ -22,6 +22,7 @@
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/math.hpp"
 #include "hamflow/core/method_info.hpp"
+#include "hamflow/core/near_pairs.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/option_info.hpp"
 #include "hamflow/core/optional_functions.hpp"

@@ -115,6 +115,8 @@ Scaled scaled(const BulkPairSystem& s) {
 }
 }  // namespace
 
+const bulk::Kernels& bulk::widest_exact() { return kernels_of(BulkKernel::exact, chosen(BulkSet::best)); }
+
 bool BulkForces::has(BulkSet set) {
   switch (set) {
     case BulkSet::avx512:

@@ -81,5 +81,7 @@ extern const Kernels exact_avx2;
 extern const Kernels exact_avx512;
 extern const Kernels fast_avx2;
 extern const Kernels fast_avx512;
+/// Those of kernel exact with the widest registers of this machine.
+const Kernels& widest_exact();
 
 }  // namespace hamflow::bulk

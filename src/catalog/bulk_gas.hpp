@@ -8,9 +8,6 @@
 
 namespace hamflow {
 
-/// From more particles than these on. Fewer have their steps recorded, with the sums of a loop over pairs.
-inline constexpr std::size_t most_recorded_particles = 12;
-
 /// What the pairs of a gas are for the engine; nothing where phi is typed.
 std::optional<BulkPairSystem> bulk_pair_system(const Gas<double>& gas, double skin);
 

@@ -268,7 +268,7 @@ Request without_start(const Request& request) {
 /// With pairs by the engine, where it takes them: steps are then not recorded, whose sums would have another order.
 ErasedFunctions<double> in_bulk(ErasedFunctions<double> functions, const Gas<double>& gas,
                                 const Parameters<double>& given, Request& request) {
-  const double skin = given.has(Keys::skin) ? given[Keys::skin] : 0.3;
+  const double skin = given.has(Keys::skin) ? given[Keys::skin] : usual_skin;
   if (gas.particles() <= most_recorded_particles || !bulk_pair_system(gas, skin)) return functions;
   const bool fast = request.kernel == "fast" && BulkForces::has_fast_kernel();
   request.record = false;

@@ -8,6 +8,12 @@
 
 namespace hamflow {
 
+/// From more particles than these on double has the engine (bulk_gas.hpp), and pairs with a cut-off have lists. Fewer
+/// have their steps recorded, with the sums of a loop over all pairs.
+inline constexpr std::size_t most_recorded_particles = 12;
+/// Of lists of neighbours, in lengths of the potential.
+inline constexpr double usual_skin = 0.3;
+
 /// What is chosen by words.
 struct GasShape {
   std::string pair;

@@ -12,6 +12,18 @@ PairLaws<R> law_of(const GasShape& shape, const Parameters<R>& given) {
 }
 
 template <class R>
+std::shared_ptr<NearPairs> near_pairs_of(const typename Gas<R>::Model& model, const Parameters<R>& given) {
+  const auto length = [&](const R& x) { return static_cast<double>(R(x / model.scale)); };
+  NearPairs::Reach reach;
+  reach.space = model.space;
+  reach.particles = model.masses.size();
+  reach.radius = length(model.cutoff.radius);
+  reach.skin = length(given.has("skin") ? given["skin"] : R(usual_skin));
+  for (std::size_t k = 0; k < model.edges.size(); ++k) reach.edges.at(k) = static_cast<double>(model.edges[k]);
+  return std::make_shared<NearPairs>(reach);
+}
+
+template <class R>
 Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t size) {
   using Model = typename Gas<R>::Model;
   auto model = std::make_shared<Model>(law_of(shape, given));
@@ -35,6 +47,8 @@ Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t s
     model->edges = given.list("size");
     for (const R& edge : model->edges) model->half_edges.push_back(edge / R(2));
   }
+  if (shape.cutoff != CutoffKind::none && particles > most_recorded_particles)
+    model->near = near_pairs_of(*model, given);
   return Gas<R>(std::move(model));
 }
 

@@ -561,6 +561,30 @@ class Gas(CommandCase):
             ends = [self.summary("gas.toml", "--set", f"problem.cutoff.skin={skin}", "--set", f"run.arithmetic={arithmetic}")
                     for skin in (1e-9, 0.5)]  # lists made at every step, and once
             self.assertEqual(ends[0]["final"], ends[1]["final"])
+        lattice = ("--set", "run.arithmetic=lattice")
+        whole = self.summary("gas.toml", *lattice)
+        self.hamflow("run", "gas.toml", *lattice, "--set", "run.steps=7", "--out", "lattice")
+        parts = json.loads(self.hamflow("run", "gas.toml", *lattice, "--resume", "--json", "--out", "lattice").stdout)
+        self.assertEqual(parts["final"], whole["final"])
+
+    def test_lists_change_no_bit(self):
+        """Those with a skin beyond all distances hold all pairs. stv4 steps back in between."""
+        for container in ('{ kind = "none" }', '{ kind = "circle" }', '{ kind = "box", size = [2.1, 2.1] }',
+                          '{ kind = "periodic", size = [2.5, 2.5] }'):
+            for pair in ("", 'pair = "formula"\nphi = "r^-12 - 2*r^-6"\n'):
+                self.write("gas.toml", GAS.replace("per_side = 4", "per_side = 7") %
+                           f"{pair}container = {container}\ncutoff = {{ radius = 1.4, skin = 100 }}")
+                with self.subTest(container, pair=pair):
+                    lattice = ("--set", "run.arithmetic=lattice", "--set", "run.steps=100")
+                    all_pairs = self.reverse("gas.toml", *lattice)
+                    self.assertTrue(all_pairs["bit_exact"])
+                    for skin, threads in ((1e-9, 1), (0.1, 2), (0.3, 4), (1, 1)):
+                        skinned = ("--set", f"problem.cutoff.skin={skin}")
+                        again = self.reverse("gas.toml", *lattice, *skinned, "--set", f"run.threads={threads}")
+                        self.assertEqual(again["hash"], all_pairs["hash"])
+                    ends = [self.summary("gas.toml", "--set", f"problem.cutoff.skin={skin}") for skin in (100, 1e-9, 0.3)]
+                    for end in ends[1:]:
+                        self.assertEqual((end["final"], end["energy"]), (ends[0]["final"], ends[0]["energy"]))
 
     def test_the_engine_and_more_digits(self):
         """Pairs all at once, against the loop over pairs in quad: rounding alone."""

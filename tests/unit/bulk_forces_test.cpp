@@ -432,11 +432,14 @@ TEST(BulkForces, LeaveNothingForStepsOfAGasToAllocate) {
     request.start.q.push_back(std::to_string(x));
     request.start.p.emplace_back("0");
   }
-  const auto simulation = make_simulation(request);
-  for (int block = 0; block < 3; ++block) ASSERT_EQ(simulation->advance(1), Outcome::done);
-  const long before = allocations;
-  for (const std::int64_t steps : {1, 10, 1, 1}) EXPECT_EQ(simulation->advance(steps), Outcome::done);
-  EXPECT_EQ(allocations, before);
+  for (const char* arithmetic : {"double", "lattice"}) {
+    request.arithmetic = arithmetic;
+    const auto simulation = make_simulation(request);
+    for (int block = 0; block < 3; ++block) ASSERT_EQ(simulation->advance(1), Outcome::done);
+    const long before = allocations;
+    for (const std::int64_t steps : {1, 10, 1, 1}) EXPECT_EQ(simulation->advance(steps), Outcome::done);
+    EXPECT_EQ(allocations, before) << arithmetic;
+  }
 }
 
 TEST(BulkForces, DoNotHideEqualPositionsNorNumbersThatAreNone) {

@@ -25,6 +25,13 @@ concept HasSingleKicks = requires(const P& problem, const F& factor, F (*positio
   problem.single_kicks(factor, position, sink);
 };
 
+/// Lists of the pairs that can contribute: near_pairs(position, team) returns rows, near[i].size() pairs in row i, with
+/// a version() that changes with them; pair_kicks takes it as its last argument.
+template <class P>
+concept HasNearPairs = requires(const P& problem, double (*position)(std::size_t), ThreadTeam* team) {
+  problem.near_pairs(position, team);
+};
+
 /// Copies share their threads, and take turns.
 template <class P, Arithmetic A>
 requires PairwiseForces<P> && IntegerSums<A>
@@ -41,9 +48,14 @@ class PairSums {
   template <class F>
   [[gnu::noinline]] bool evaluate(const P& problem, const F& factor, const PhasePoint<A, n>& z,
                                   Vector<Stored, n>& kick) const {
-    const bool pairs = sum(problem, z, kick, [&](std::size_t first, std::size_t last, Sink& sink) {
-      problem.pair_kicks(factor, Difference{z}, first, last, sink);
-    });
+    const auto visit = [&](const auto& near, std::size_t first, std::size_t last, Sink& sink) {
+      if constexpr (HasNearPairs<P>) {
+        problem.pair_kicks(factor, Difference{z}, first, last, sink, near);
+      } else {
+        problem.pair_kicks(factor, Difference{z}, first, last, sink);
+      }
+    };
+    const bool pairs = sum(problem, z, kick, visit);
     if constexpr (has_singles<F>) {
       Sink sink{z.arithmetic, limit(problem), kick.begin()};
       problem.single_kicks(
@@ -59,7 +71,7 @@ class PairSums {
   [[gnu::noinline]] bool evaluate_with_gradient(const P& problem, const F& first, const F& third,
                                                 const Vector<Real, n>& v, const PhasePoint<A, n>& z,
                                                 Vector<Stored, n>& kick) const {
-    return sum(problem, z, kick, [&](std::size_t from, std::size_t to, Sink& sink) {
+    return sum(problem, z, kick, [&](const auto& /*near*/, std::size_t from, std::size_t to, Sink& sink) {
       problem.pair_gradient_kicks(first, third, v, Difference{z}, from, to, sink);
     });
   }
@@ -108,25 +120,50 @@ class PairSums {
     explicit Crew(std::size_t count) : team(count), shares(count) {}
     std::mutex busy;
     std::vector<std::size_t> rows;  // where each block begins, and the end
+    std::uint64_t version = 0;      // of the lists that they divide
     ThreadTeam team;
     std::vector<Share> shares;
   };
 
-  /// @param visit (first, last, sink): gives the sink what the pairs of these rows contribute
+  /// Of a problem without lists.
+  struct EveryPair {
+    struct Row {
+      std::size_t pairs;
+      std::size_t size() const { return pairs; }
+    };
+    const P& problem;
+    Row operator[](std::size_t i) const { return {problem.pairs_in_row(i)}; }
+    static std::uint64_t version() { return 0; }
+  };
+  static auto pairs_at(const P& problem, [[maybe_unused]] const PhasePoint<A, n>& z,
+                       [[maybe_unused]] ThreadTeam* team) {
+    if constexpr (HasNearPairs<P>) {
+      return problem.near_pairs([&](std::size_t i) { return z.arithmetic.position.read(z.q[i]); }, team);
+    } else {
+      return EveryPair{problem};
+    }
+  }
+
+  /// @param visit (near, first, last, sink): gives the sink what the pairs of these rows contribute
   template <class Visit>
   bool sum(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
     if (crew_) return sum_by_many(problem, z, kick, visit);
     for (Stored& k : kick) k = 0;
     Sink sink{z.arithmetic, limit(problem), kick.begin()};
-    visit(0, problem.pair_rows(), sink);
+    visit(pairs_at(problem, z, nullptr), 0, problem.pair_rows(), sink);
     return !sink.lost;
   }
   template <class Visit>
   bool sum_by_many(const P& problem, const PhasePoint<A, n>& z, Vector<Stored, n>& kick, const Visit& visit) const {
     Crew& crew = *crew_;
     const std::lock_guard turn(crew.busy);
-    if (crew.rows.empty() || crew.rows.back() != problem.pair_rows() || crew.shares[0].sums.size() != kick.size()) {
-      divide(problem, kick.size(), crew);
+    const auto near = pairs_at(problem, z, &crew.team);
+    if (crew.shares[0].sums.size() != kick.size()) {
+      crew.rows.clear();
+      for (Share& share : crew.shares) share = {0, false, std::vector<Stored>(kick.size())};
+    }
+    if (crew.rows.empty() || crew.rows.back() != problem.pair_rows() || crew.version != near.version()) {
+      divide(near, problem.pair_rows(), crew);
     }
     const Real most = limit(problem);
     auto work = [&](std::size_t worker, std::uint64_t call, std::size_t block) {
@@ -137,7 +174,7 @@ class PairSums {
         std::fill(share.sums.begin(), share.sums.end(), Stored{0});
       }
       Sink sink{z.arithmetic, most, share.sums.data()};
-      visit(crew.rows[block], crew.rows[block + 1], sink);
+      visit(near, crew.rows[block], crew.rows[block + 1], sink);
       share.lost = share.lost || sink.lost;
     };
     const std::uint64_t call = crew.team.share(crew.rows.size() - 1, work);
@@ -152,21 +189,23 @@ class PairSums {
   }
 
   /// Rows to blocks of about as many pairs: some for each thread, so that one that comes late holds up nobody.
-  static void divide(const P& problem, std::size_t coordinates, Crew& crew) {
+  template <class Near>
+  static void divide(const Near& near, std::size_t rows, Crew& crew) {
     constexpr std::size_t blocks_each = 4;
     std::size_t pairs = 0;
-    for (std::size_t row = 0; row < problem.pair_rows(); ++row) pairs += problem.pairs_in_row(row);
+    for (std::size_t row = 0; row < rows; ++row) pairs += near[row].size();
     const std::size_t each = pairs / (blocks_each * crew.team.size()) + 1;
+    crew.version = near.version();
+    crew.rows.reserve(blocks_each * crew.team.size() + 2);
     crew.rows.assign(1, 0);
     std::size_t held = 0;
-    for (std::size_t row = 0; row < problem.pair_rows(); ++row) {
-      held += problem.pairs_in_row(row);
-      if (held >= each || row + 1 == problem.pair_rows()) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      held += near[row].size();
+      if (held >= each || row + 1 == rows) {
         crew.rows.push_back(row + 1);
         held = 0;
       }
     }
-    for (Share& share : crew.shares) share = {0, false, std::vector<Stored>(coordinates)};
   }
 
   std::shared_ptr<Crew> crew_;

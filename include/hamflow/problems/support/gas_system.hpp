@@ -28,6 +28,7 @@ struct GasModel : Particles<R> {
   SoftWall<R> wall{};      // of a circle
   std::vector<R> edges{};  // of a periodic box
   std::vector<R> half_edges{};
+  std::shared_ptr<NearPairs> near{};  // with a cut-off; null: all pairs
 
   explicit GasModel(Laws pairs) : law(std::move(pairs)) {}
 

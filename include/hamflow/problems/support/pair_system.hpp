@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hamflow/core/derivatives.hpp"
+#include "hamflow/core/near_pairs.hpp"
 #include "hamflow/core/problem_info.hpp"
 #include "hamflow/core/radial_forces.hpp"
 
@@ -44,7 +45,8 @@ struct Particles {
 ///   strength(i, j), radial_law(u)   as RadialForces has them, u = r^2
 ///   turns_freely(), moves_freely()  whether angular, and linear, momentum is conserved
 ///   sums_by_rows        whether V is the sum of the sums over j, or one sum
-/// and, where it can, bend_times(factor, u, i, j): the same as `bend`, for kicks of the lattice.
+/// and, where it can, bend_times(factor, u, i, j): the same as `bend`, for kicks of the lattice; and near, a shared
+/// NearPairs or null: pairs that it leaves out have energy, pull and kick 0.
 template <class R, class M>
 class PairSystem {
  public:
@@ -108,12 +110,25 @@ class PairSystem {
   template <class F, class Difference, class Sink>
   void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
                   Sink& sink) const {
+    pair_kicks(factor, difference, first, last, sink, AllPairs{particles()});
+  }
+  /// The same without the pairs that `near` leaves out.
+  template <class F, class Difference, class Sink, class Near>
+  void pair_kicks(const F& factor, const Difference& difference, std::size_t first, std::size_t last, Sink& sink,
+                  const Near& near) const {
     if (space() == 2) {
-      pair_kicks_in<2>(factor, difference, first, last, sink);
+      pair_kicks_in<2>(factor, difference, first, last, sink, near);
     } else {
-      pair_kicks_in<3>(factor, difference, first, last, sink);
+      pair_kicks_in<3>(factor, difference, first, last, sink, near);
     }
   }
+  /// As HasNearPairs (methods/pair_sums.hpp).
+  template <class Position>
+  NearPairs::Turn near_pairs(const Position& position, ThreadTeam* team = nullptr) const requires
+      requires(const Model& model) {
+    model.near;
+  }
+  { return model_->near ? model_->near->at(position, team) : NearPairs::Turn(particles()); }
   /// The same of -third V''(q) v besides.
   template <class F, class Difference, class Sink>
   void pair_gradient_kicks(const F& factor, const F& third, const Vector<F, dynamic>& v, const Difference& difference,
@@ -210,12 +225,24 @@ class PairSystem {
   }
 
  private:
+  /// Not at numbers with derivatives or of recordings.
+  template <class S>
+  auto pairs_at([[maybe_unused]] const Vector<S, dynamic>& q) const {
+    if constexpr (std::is_same_v<S, R> && requires { model_->near; }) {
+      return near_pairs([&](std::size_t k) -> const S& { return q[k]; });
+    } else {
+      return AllPairs{particles()};
+    }
+  }
   template <std::size_t Space, class S>
   S potential_in(const Vector<S, dynamic>& q) const {
     S sum(R(0));
+    const auto near = pairs_at(q);
     for (std::size_t i = 0; i < particles(); ++i) {
       S row(R(0));
-      for (std::size_t j = i + 1; j < particles(); ++j) {
+      const auto partners = near[i];
+      for (std::size_t at = 0; at < partners.size(); ++at) {
+        const std::size_t j = partners[at];
         S d[Space];
         for (std::size_t k = 0; k < Space; ++k) d[k] = q[i * Space + k] - q[j * Space + k];
         const S u = model_->square(d, Space);
@@ -228,12 +255,14 @@ class PairSystem {
   template <std::size_t Space, class S>
   void forces_in(const Vector<S, dynamic>& q, Vector<S, dynamic>& f) const {
     for (S& x : f) x = S(R(0));
-    const std::size_t count = particles();
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto near = pairs_at(q);
+    for (std::size_t i = 0; i < particles(); ++i) {
       const S* const a = q.begin() + i * Space;
       S* const on_a = f.begin() + i * Space;
       S total[Space]{};
-      for (std::size_t j = i + 1; j < count; ++j) {
+      const auto partners = near[i];
+      for (std::size_t at = 0; at < partners.size(); ++at) {
+        const std::size_t j = partners[at];
         const S* const b = q.begin() + j * Space;
         S* const on_b = f.begin() + j * Space;
         S d[Space];
@@ -249,12 +278,14 @@ class PairSystem {
       for (std::size_t k = 0; k < Space; ++k) on_a[k] -= total[k];
     }
   }
-  template <std::size_t Space, class F, class Difference, class Sink>
-  void pair_kicks_in(const F& factor, const Difference& difference, std::size_t first, std::size_t last,
-                     Sink& sink) const {
+  template <std::size_t Space, class F, class Difference, class Sink, class Near>
+  void pair_kicks_in(const F& factor, const Difference& difference, std::size_t first, std::size_t last, Sink& sink,
+                     const Near& near) const {
     const auto pull = model_->pull_times(factor);
     for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t j = i + 1; j < particles(); ++j) {
+      const auto partners = near[i];
+      for (std::size_t at = 0; at < partners.size(); ++at) {
+        const std::size_t j = partners[at];
         F d[Space];
         for (std::size_t k = 0; k < Space; ++k) d[k] = difference(i * Space + k, j * Space + k);
         const F u = model_->square(d, Space);
