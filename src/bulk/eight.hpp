@@ -265,7 +265,7 @@ HAMFLOW_INLINE void append(unsigned bits, const std::uint32_t* from, std::uint32
 }
 
 /// x, y, z, w of eight slots.
-/// @param Two only x and y are wanted; the others are then set by nobody
+/// @param Two only x and y are wanted: z and w may be left as they are
 template <bool Two>
 HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eight& x, Eight& y, Eight& z, Eight& w) {
   const auto row = [&](int k) { return at + 4 * (std::size_t)slots[k]; };

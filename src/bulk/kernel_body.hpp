@@ -284,6 +284,7 @@ struct Distance {
 };
 
 /// Sixteen pairs of one row, or some of them. u is made again, with the bits that it had: that is less than to move it.
+/// @param Halves 1: all that count are among the first eight. What is left out would add 0 and divide with u = 1.
 template <class L, class C, int Space, bool Energy, bool Some, int Halves>
 HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t stride, unsigned bits,
                                 Sums<Space>& sums) {
