@@ -265,6 +265,8 @@ HAMFLOW_INLINE void append(unsigned bits, const std::uint32_t* from, std::uint32
 }
 
 /// x, y, z, w of eight slots.
+/// @param Two only x and y are wanted: z and w may be left as they are
+template <bool Two>
 HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eight& x, Eight& y, Eight& z, Eight& w) {
   const auto row = [&](int k) { return at + 4 * (std::size_t)slots[k]; };
 #if HAMFLOW_NATIVE_BYTES == 64
@@ -287,6 +289,16 @@ HAMFLOW_INLINE void load_slots(const double* at, const std::uint32_t* slots, Eig
   w.v[0] = (Native)_mm512_permutex2var_pd(yw, high, yw2);
 #elif HAMFLOW_NATIVE_BYTES == 32
   for (int n = 0; n < natives; ++n) {
+    if constexpr (Two) {
+      const auto two = [&](int low, int high) {
+        return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(row(low))), _mm_load_pd(row(high)), 1);
+      };
+      const __m256d a = two(4 * n, 4 * n + 2);  // x0 y0 x2 y2
+      const __m256d b = two(4 * n + 1, 4 * n + 3);
+      x.v[n] = (Native)_mm256_unpacklo_pd(a, b);
+      y.v[n] = (Native)_mm256_unpackhi_pd(a, b);
+      continue;
+    }
     const __m256d a = _mm256_load_pd(row(4 * n));
     const __m256d b = _mm256_load_pd(row(4 * n + 1));
     const __m256d c = _mm256_load_pd(row(4 * n + 2));

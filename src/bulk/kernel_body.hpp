@@ -256,7 +256,7 @@ template <bool Weighs, int Space, bool Images>
   std::size_t found = 0;
   for (std::size_t j = 0; j < count; j += most_lanes) {
     Eight x[4];
-    load_slots(rows.at, slots + j, x[0], x[1], x[2], x[3]);
+    load_slots<Space == 2 && !Weighs>(rows.at, slots + j, x[0], x[1], x[2], x[3]);
     Eight d[Space];
     Eight u = all(0);
     for (int k = 0; k < Space; ++k) {
@@ -284,14 +284,16 @@ struct Distance {
 };
 
 /// Sixteen pairs of one row, or some of them. u is made again, with the bits that it had: that is less than to move it.
-template <class L, class C, int Space, bool Energy, bool Some>
+/// @param Halves 1: all that count are among the first eight. What is left out would add 0 and divide with u = 1.
+template <class L, class C, int Space, bool Energy, bool Some, int Halves>
 HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t stride, unsigned bits,
                                 Sums<Space>& sums) {
   each_part([&](const auto n) __attribute__((always_inline)) {
     Distance<Space> r[2];
+    r[1].u = all<Part>(1);
     Part w[2];
     Mask counts[2];
-    each<2>([&](auto half) __attribute__((always_inline)) {
+    each<Halves>([&](auto half) __attribute__((always_inline)) {
       constexpr int h = decltype(half)::value;
       counts[h] = mask_of(bits >> (8 * h), n);
       const double* const here = from + 8 * h + n * lanes;
@@ -306,7 +308,7 @@ HAMFLOW_INLINE void add_sixteen(const Law& law, const double* from, std::size_t 
     typename L::Inverses s;
     s.begin(L::numerator(law), L::base(law, r[0].u), L::base(law, r[1].u));
     s.end(L::numerator(law), L::base(law, r[0].u), L::base(law, r[1].u));
-    each<2>([&](auto half) __attribute__((always_inline)) {
+    each<Halves>([&](auto half) __attribute__((always_inline)) {
       constexpr int h = decltype(half)::value;
       Pair pair = C::of(law, r[h].u, w[h], L::of(law, h == 0 ? s.first : s.second, w[h]), L::weighs);
       if constexpr (Some) pair = {where(counts[h], pair.c, 0), where(counts[h], pair.phi, 0)};
@@ -342,9 +344,14 @@ std::uint64_t sum_listed(const Rows& rows, std::size_t first, std::size_t last, 
     Sums<Space> sums = nothing<Space>();
     std::size_t j = 0;
     for (; j + 16 <= count; j += 16) {
-      add_sixteen<L, C, Space, Energy, false>(law, from + j, scratch.row, 0xffff, sums);
+      add_sixteen<L, C, Space, Energy, false, 2>(law, from + j, scratch.row, 0xffff, sums);
     }
-    if (j < count) add_sixteen<L, C, Space, Energy, true>(law, from + j, scratch.row, (1u << (count - j)) - 1, sums);
+    const unsigned bits = (1u << (count - j)) - 1;
+    if (j + 8 < count) {
+      add_sixteen<L, C, Space, Energy, true, 2>(law, from + j, scratch.row, bits, sums);
+    } else if (j < count) {
+      add_sixteen<L, C, Space, Energy, true, 1>(law, from + j, scratch.row, bits, sums);
+    }
     const std::size_t particle = rows.number[i];
     const double strength = rows.times_strength ? rows.at[4 * i + 3] : 1;
     for (int k = 0; k < Space; ++k) {

@@ -56,7 +56,7 @@ void Neighbours::prepare(const Box& box, std::size_t particles, std::size_t work
   made_ = false;
 }
 
-double Neighbours::wrapped(double x, std::size_t k) const {
+inline double Neighbours::wrapped(double x, std::size_t k) const {
   const double edge = box_.edges[k];
   // The same without a division, where most particles are: the quotient rounds to 0.
   if (std::abs(x) < 0.499 * edge || edge == 0) return x;
