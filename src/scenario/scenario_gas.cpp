@@ -321,6 +321,11 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
         return without_own_masses(table, gas_from_run(run, space, RunState::start));
       }
       GasStart there = path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
+      if (path.extension() == ".h5" && n == 0 && !table.has(o.scale.name)) {
+        scenario_.notes.push_back(table.full(o.scale.name) +
+                                  " is not given: it is 1 here, whatever it was in the run of " + path.string() +
+                                  "; allowed " + o.scale.name + " = the number of that run");
+      }
       const double particles = static_cast<double>(there.q.size() / space);
       if (n > 0 && std::pow(static_cast<double>(n), static_cast<double>(space)) != particles) {
         table.complain(o.particles_per_side.name, table.found(o.particles_per_side.name) + " beside " + *file +

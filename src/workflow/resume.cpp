@@ -86,7 +86,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     const std::string found = shown(value);
     const auto there = before.find(key);
     if (there == before.end()) {
-      complain(key, "found " + found + "; allowed with --resume nothing, as when the run began");
+      complain(key, "found " + found + "; allowed with --resume without this key, as when the run began");
     } else if (there->second != value) {
       complain(key, "found " + found + "; allowed with --resume " + shown(there->second) + ", as when the run began");
     }

@@ -66,7 +66,7 @@ class Told(CommandCase):
     def test_methods_refused_at_their_key(self):
         """By the key `method.name` and its place, as all refusals, before anything runs."""
         self.write("gas.toml", BOX.replace('container = { kind = "box", size = [4, 4] }', "").replace("stv4", "taylor"))
-        for phi in ("abs(r)^-6", "abs(r - 1)"):
+        for phi in ("abs(r)^-6", "abs(r - 0.7)"):
             told = self.told("gas.toml", "problem.pair=formula", f"problem.phi={phi}")
             self.assertIn("gas.toml:6:8: error: method.name: found taylor: H has branches", told)
             self.assertIn("dop853", told)
@@ -117,6 +117,30 @@ class Told(CommandCase):
                              "--set", 'problem.container={ kind = "none" }')
             self.assertEqual(s["final"]["p"], list(momenta(seed, 3**dimension * dimension)))
             self.assertEqual(s["final"]["q"][:2 * dimension], [-1] * dimension + [0] + [-1] * (dimension - 1))
+
+    def test_numbers_that_do_not_go_together(self):
+        """With the number found and the key inside the table."""
+        for container, said in (('{ kind = "box", size = [3] }', "gas.toml:4:36: error: problem.container.size: found 1 edge; allowed 2 edges"),
+                                ('{ kind = "box", size = [3, 3, 3] }', "problem.container.size: found 3 edges; allowed 2 edges")):
+            self.write("gas.toml", BOX.replace('{ kind = "box", size = [4, 4] }', container))
+            self.assertIn(said, self.told("gas.toml"))
+        self.write("gas.toml", BOX.replace("[method]", 'cutoff = { radius = 2, kind = "smooth", inner = 2.5 }\n[method]'))
+        self.assertRegex(self.told("gas.toml"), r"gas.toml:5:[0-9]+: error: problem.cutoff.inner: found 2.5 with radius = 2; allowed inner below radius")
+
+    def test_many_columns_are_not_all_listed(self):
+        self.hamflow("run", str(EXAMPLES / "gas_121.toml"), "--out", "g.run", "--quiet", "--set", "output.figures=[]")
+        told = self.hamflow("plot", "g.run", "--kind", "time", "--y", "x122", "-o", "o.svg", status=2).stderr
+        self.assertRegex(told, r'found column "x122"; allowed t, x1, y1, x2, \.\.\., .* \([0-9]+ columns\); did you mean x12')
+        self.assertLess(len(told), 250)
+
+    def test_the_scale_of_a_start_in_a_run(self):
+        """H of the run may have been another one: that is told where no key says it."""
+        self.write("gas.toml", BOX)
+        self.hamflow("run", "gas.toml", "--out", "g.run", "--quiet")
+        self.write("on.toml", FROM_FILE.replace("p.csv", "g.run/run.h5").replace("masses = [2, 3, 1]\n", ""))
+        note = "note: problem.scale is not given: it is 1 here, whatever it was in the run of g.run/run.h5"
+        self.assertIn(note, self.told("on.toml", status=0))
+        self.assertNotIn("note", self.told("on.toml", "problem.scale=1", status=0))
 
     def test_a_figure_of_paths_and_dots_has_no_note_of_first_steps(self):
         """Some of 121 particles have a path that lines follow, others turn too sharply between samples: all are drawn whole."""
