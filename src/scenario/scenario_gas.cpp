@@ -278,7 +278,7 @@ std::filesystem::path ScenarioReader::resumed_run() {
       root_.table(run_table).plain_string(run_keys().arithmetic.name).value_or(run_keys().arithmetic.default_value);
   if (arithmetic != "double" && arithmetic != "lattice") return {};
   std::filesystem::path folder = *resumed_in_;
-  if (folder.empty()) folder = root_.table(output_table).plain_string("folder").value_or("");
+  if (folder.empty()) folder = root_.table(output_table).plain_string(output_keys().folder.name).value_or("");
   if (folder.empty()) folder = std::filesystem::path(scenario_.file).stem().string() + ".run";
   return is_in_run_file(folder / "run.h5") ? folder / "run.h5" : std::filesystem::path();
 }
