@@ -7,6 +7,7 @@
 #include "guarded.hpp"
 #include "hamflow/workflow/run.hpp"
 #include "progress.hpp"
+#include "resumed_scenario.hpp"
 
 namespace hamflow::app {
 
@@ -60,7 +61,9 @@ int run_command(const RunOptions& options) {
   KeptWork kept{.forced = options.force, .checkpoint = "checkpoint.bin"};
   const auto run = [&] {
     check_together(options);
-    const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
+    const Scenario scenario =
+        accepted(options.resume ? read_resumed_scenario(options.scenario, options.sets, options.out)
+                                : read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
     const RunReport report = carry_out(scenario, options, kept);
     return print(report, options.out == "none" ? "" : folder_of(scenario, options.out).string(), options);

@@ -148,10 +148,15 @@ std::pair<std::string, std::string> refused_parameters(const Kind& kind, const T
   const auto& [pair, typed, container, cutoff] = kind.shape;
   const bool has_box = container == ContainerKind::periodic || container == ContainerKind::box;
   if (has_box && given.list(Keys::size).size() != space) {
-    return {Keys::container, "allowed size = [...] with " + std::to_string(space) + " edges"};
+    const std::size_t edges = given.list(Keys::size).size();
+    return {std::string(Keys::container) + "." + Keys::size,
+            "found " + std::to_string(edges) + (edges == 1 ? " edge" : " edges") + "; allowed " +
+                std::to_string(space) + " edges, as many as problem." + Keys::dimension + " says"};
   }
   if (cutoff == CutoffKind::smooth && !(given[Keys::inner] < given[Keys::cutoff])) {
-    return {Keys::cutoff, "allowed inner below radius"};
+    return {std::string(Keys::cutoff) + "." + Keys::inner, "found " + shortest(given[Keys::inner]) +
+                                                               " with radius = " + shortest(given[Keys::cutoff]) +
+                                                               "; allowed inner below radius"};
   }
   if (container != ContainerKind::periodic) return {};
   const std::vector<double>& edges = given.list(Keys::size);

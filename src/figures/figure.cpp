@@ -55,6 +55,17 @@ std::string why_not_alone(const FigureData& data, const FigureOptions& options, 
          (others.empty() ? "; no other figure can be drawn of these samples either" : "; allowed " + joined(others));
 }
 
+/// Of many columns the first and the last, and how many there are.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 24, shown = 4;
+  if (names.size() <= most) return joined(names);
+  const auto part = [&](std::size_t from, std::size_t to) {
+    return joined(std::vector<std::string>(names.begin() + static_cast<std::ptrdiff_t>(from),
+                                           names.begin() + static_cast<std::ptrdiff_t>(to)));
+  };
+  return part(0, shown) + ", ..., " + part(names.size() - shown, names.size()) + " (" + std::to_string(names.size()) +
+         " columns)";
+}
 /// What is wrong with the columns that are asked for.
 std::string refused_columns(const Figure& figure, const figures::FigureKind& kind) {
   std::vector<std::string> asked = figure.options.y;
@@ -70,7 +81,7 @@ std::string refused_columns(const Figure& figure, const figures::FigureKind& kin
     }
     for (const std::string& name : asked) {
       if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
-      return "found column \"" + name + "\"; allowed " + joined(allowed) + suggestion(name, allowed);
+      return "found column \"" + name + "\"; allowed " + listed(allowed) + suggestion(name, allowed);
     }
   }
   return "";

@@ -69,22 +69,36 @@ Series series_of(const Figure& figure, std::size_t run) {
   return {.name = escaped(figure.runs[run].label), .mark = mark_of(run)};
 }
 
-Series track_of(const Curve& track, const Curve& opening, Series how, bool& opened) {
+Series track_of(const Curve& track, Series how) {
   const Curve path = thin_out(track, most_path_points);
   if (track.x.size() > 2 && follows_path(path)) {
     how.ink = Ink::path;
     how.curve = path;
     return how;
   }
-  const Curve start = beginning(opening);
-  if (follows_path(start)) {
-    opened = true;
-    how.ink = Ink::path;
-    how.curve = start;
-    return how;
-  }
   how.ink = track.x.size() > most_separate_dots ? Ink::fine_dots : Ink::place;
   how.curve = thin_out(track, most_dots);
+  return how;
+}
+
+std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
+                              std::vector<Series> how, bool& opened) {
+  bool openings_alone = !tracks.empty();
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    how[k] = track_of(tracks[k], std::move(how[k]));
+    openings_alone = openings_alone && how[k].ink != Ink::path;
+  }
+  std::vector<Curve> starts;
+  for (std::size_t k = 0; openings_alone && k < tracks.size(); ++k) {
+    starts.push_back(beginning(openings[k]));
+    openings_alone = follows_path(starts.back());
+  }
+  if (!openings_alone) return how;
+  opened = true;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    how[k].ink = Ink::path;
+    how[k].curve = std::move(starts[k]);
+  }
   return how;
 }
 

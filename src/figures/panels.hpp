@@ -22,9 +22,13 @@ inline const std::string energy_start = "{/:Italic H}_0";
 /// How the n-th of `count` runs is drawn, with its name in the legend; one alone has none.
 Series series_of(const Figure& figure, std::size_t run);
 
-/// The samples of a path: a line where chords follow it; else the line of its opening, where that is known and does;
-/// else dots. `opened` becomes true where the opening was taken.
-Series track_of(const Curve& track, const Curve& opening, Series how, bool& opened);
+/// The samples of a path: a line where chords follow it, else dots.
+Series track_of(const Curve& track, Series how);
+/// The same of several paths of one panel. Where no line follows any of them, but one follows the opening of each,
+/// these are drawn and `opened` becomes true: a note about the first steps holds for all paths or for none.
+/// @param how one for each track   @param openings one for each track, empty where unknown
+std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
+                              std::vector<Series> how, bool& opened);
 /// "the first steps alone, to t = 12 of 300", of figures with an opening; nothing where that is all of the run.
 void note_opening(Page& page, const FigureData& data);
 /// Dots about a millimetre apart in print, so that the exact line shows between them.

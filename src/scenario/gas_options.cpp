@@ -32,11 +32,17 @@ GasOptions declared() {
       .type = OptionType::text,
       .condition = "with start = \"file\"",
       .example = "start.csv"};
-  o.seed = {.name = "seed",
-            .default_value = "1",
-            .meaning = "of the momenta",
-            .range = Range::whole_from(0, 0x1p53),
-            .condition = "with start = \"lattice\""};
+  o.seed = {
+      .name = "seed",
+      .default_value = "1",
+      .meaning =
+          "of the momenta: with x = seed + (k + 1)*0x9e3779b97f4a7c15, x = (x xor x >> 30)*0xbf58476d1ce4e5b9, "
+          "x = (x xor x >> 27)*0x94d049bb133111eb, x = x xor x >> 31 in whole numbers modulo 2^64 (SplitMix64) and "
+          "m = floor(1e5*(x >> 11)*2^-53) the k-th momentum, k = 0, 1, ... in the order p_x, p_y(, p_z) of one "
+          "particle after another, the first coordinate of the lattice changing fastest, is 2e-5*m - 1, a decimal "
+          "of five places",
+      .range = Range::whole_from(0, 0x1p53),
+      .condition = "with start = \"lattice\""};
   o.masses = {.name = Keys::masses,
               .default_value = "1",
               .meaning =

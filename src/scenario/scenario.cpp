@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "method_keys.hpp"
+#include "resumed_scenario.hpp"
 #include "scenario_family.hpp"
 #include "scenario_reader.hpp"
 #include "toml_depth.hpp"
@@ -100,10 +101,13 @@ std::string effective_text(const std::string& text, const std::vector<std::strin
   return sets.empty() ? text : toml_text(root);
 }
 
-Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
+namespace {
+Reading read_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets,
+                  const std::optional<std::string>& resumed_in) {
   Reading reading;
   std::optional<Document> document = parsed_document(text, name, sets, reading.complaints);
   if (!document) return reading;
+  document->resumed_in = resumed_in;
   Scenario scenario = ScenarioReader(*document, name, reading.complaints).read();
   drop_replaced_method_keys(document->root, document->file_method);  // they were noted
   scenario.text = effective_text(text, sets, document->root);
@@ -113,6 +117,17 @@ Reading read_scenario_text(const std::string& text, const std::string& name, con
                    [](const Complaint& a, const Complaint& b) { return a.line < b.line; });
   if (reading.complaints.empty()) reading.scenario = std::move(scenario);
   return reading;
+}
+
+}  // namespace
+
+Reading read_scenario_text(const std::string& text, const std::string& name, const std::vector<std::string>& sets) {
+  return read_text(text, name, sets, std::nullopt);
+}
+
+Reading read_resumed_scenario(const std::filesystem::path& file, const std::vector<std::string>& sets,
+                              const std::string& folder) {
+  return read_text(scenario_text(file.string()), file.string(), sets, folder);
 }
 
 Reading read_scenario(const std::filesystem::path& file, const std::vector<std::string>& sets) {

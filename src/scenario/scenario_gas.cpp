@@ -1,11 +1,13 @@
 // [problem] with the gas: words that choose its entry of the catalogue, its parameters, and where the particles begin.
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <span>
 
 #include "gas_checks.hpp"
 #include "gas_options.hpp"
 #include "hamflow/core/hash.hpp"
+#include "hamflow/methods/itoh_abe.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
 #include "hamflow/run/gas.hpp"
@@ -268,6 +270,25 @@ void ScenarioReader::note_unused_start(const TomlTable& table) {
                             " not used: initial says where the particles begin");
 }
 
+/// The run.h5 of a run that goes on, which keeps the start; empty where none does, or where its numbers in double would
+/// not be all digits of the start.
+std::filesystem::path ScenarioReader::resumed_run() {
+  if (!resumed_in_) return {};
+  const std::string arithmetic =
+      root_.table(run_table).plain_string(run_keys().arithmetic.name).value_or(run_keys().arithmetic.default_value);
+  if (arithmetic != "double" && arithmetic != "lattice") return {};
+  std::filesystem::path folder = *resumed_in_;
+  if (folder.empty()) folder = root_.table(output_table).plain_string(output_keys().folder.name).value_or("");
+  if (folder.empty()) folder = std::filesystem::path(scenario_.file).stem().string() + ".run";
+  return is_in_run_file(folder / "run.h5") ? folder / "run.h5" : std::filesystem::path();
+}
+
+/// A run.h5 has masses always: where the scenario gives them, these are the same.
+GasStart ScenarioReader::without_own_masses(const TomlTable& table, GasStart start) {
+  if (table.has(gas_options().masses.name)) start.masses.clear();
+  return start;
+}
+
 GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::size_t space) {
   const GasOptions& o = gas_options();
   const std::string kind = table.text(o.start).value_or(o.start.default_value);
@@ -289,12 +310,22 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
     try {
       // A scenario that stands in a run.h5 began where that run did: its file need not be there any more.
       if (is_in_run_file(scenario_.file)) {
-        GasStart began = gas_from_run(scenario_.file, space, RunState::start);
+        GasStart began = without_own_masses(table, gas_from_run(scenario_.file, space, RunState::start));
         scenario_.start_contents = hash_of(began);
         return began;
       }
       const std::filesystem::path path = std::filesystem::path(scenario_.file).parent_path() / *file;
+      if (const std::filesystem::path run = resumed_run(); !run.empty() && !std::ifstream(path).good()) {
+        scenario_.notes.push_back(table.full(o.file.name) + ": found no file " + path.string() +
+                                  " that can be read; the run goes on from the start that " + run.string() + " keeps");
+        return without_own_masses(table, gas_from_run(run, space, RunState::start));
+      }
       GasStart there = path.extension() == ".h5" ? gas_from_run(path, space) : gas_from_file(path, space);
+      if (path.extension() == ".h5" && n == 0 && !table.has(o.scale.name)) {
+        scenario_.notes.push_back(table.full(o.scale.name) +
+                                  " is not given: it is 1 here, whatever it was in the run of " + path.string() +
+                                  "; allowed " + o.scale.name + " = the number of that run");
+      }
       const double particles = static_cast<double>(there.q.size() / space);
       if (n > 0 && std::pow(static_cast<double>(n), static_cast<double>(space)) != particles) {
         table.complain(o.particles_per_side.name, table.found(o.particles_per_side.name) + " beside " + *file +
@@ -396,9 +427,28 @@ std::string without_hessian(const Request& request, std::size_t coordinates, con
 
 std::string refused_by_size(const Request& request, std::size_t coordinates) {
   const std::string& name = request.method.name;
+  if (name == "itoh-abe" && coordinates > ItohAbe::most_coordinates) {
+    return "with " + std::to_string(coordinates) + " coordinates; allowed at most " +
+           std::to_string(ItohAbe::most_coordinates) +
+           ": it evaluates H once a coordinate, a step of more takes minutes; use discrete-gradient";
+  }
   if (name != "chin4a" && name != "chin4b" && name != "discrete-gradient") return {};
   return without_hessian(request, coordinates,
                          "a splitting, e.g. stv4, blanes-moan-s6, or cg with iteration = \"fixed-point\"");
+}
+
+/// Whether what was typed has a derivative of every order is found by recording it, which taylor alone does as it
+/// begins.
+void ScenarioReader::check_branches() {
+  const Request& request = scenario_.request;
+  const bool typed =
+      request.variant.contains(GasKeys::phi) || (scenario_.problem != nullptr && scenario_.problem->structure);
+  if (!complaints_.empty() || !typed || !has_method() || request.method.name != "taylor") return;
+  try {
+    (void)make_simulation(request);
+  } catch (const Error& error) {
+    root_.table("method").complain("name", "found taylor: " + std::string(error.what()));
+  }
 }
 
 void ScenarioReader::check_gas() {
@@ -408,6 +458,7 @@ void ScenarioReader::check_gas() {
     const std::string why_not = refused_by_size(request, size);
     if (!why_not.empty()) root_.table("method").complain("name", "found " + request.method.name + " " + why_not);
   }
+  check_branches();
   const std::string no_measures = without_hessian(request, size, "none");
   if (no_measures.empty()) return;
   TomlTable run = root_.table(run_table);

@@ -156,6 +156,8 @@ void ScenarioReader::check_parameters(TomlTable& table, bool start_is_known) {
   if (message.empty()) return;
   if (key.empty()) {
     table.complain("name", "found parameters that do not go together; allowed: " + message);
+  } else if (key.find('.') != std::string::npos) {  // in a table of its own: the message says what was found
+    table.complain_in(key, message);
   } else {
     table.complain(key, table.found(key) + "; " + message);
   }

@@ -11,7 +11,8 @@ namespace hamflow {
 
 struct Document {
   toml::table root;
-  std::string file_method;  // its name in the file, before anything was set
+  std::string file_method;                  // its name in the file, before anything was set
+  std::optional<std::string> resumed_in{};  // of a run that goes on, its folder; empty: that of the scenario
 };
 
 /// A text as a document in which each --set is carried out; none where it is no TOML, which is complained about.
@@ -30,6 +31,7 @@ class ScenarioReader {
       : root_(&document.root, "", file, complaints),
         complaints_(complaints),
         file_method_(document.file_method),
+        resumed_in_(document.resumed_in),
         document_(document.root) {
     scenario_.file = file;
   }
@@ -65,10 +67,13 @@ class ScenarioReader {
   void read_gas(TomlTable& table);
   void read_typed_pair(TomlTable& table, Texts& parameters);
   void note_unused_start(const TomlTable& table);
+  std::filesystem::path resumed_run();
+  static GasStart without_own_masses(const TomlTable& table, GasStart start);
   GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space);
   void read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters);
   void read_box(TomlTable& table);
   void check_gas();
+  void check_branches();
   void check_parameters(TomlTable& table, bool start_is_known);
   void read_numbered_start(TomlTable& table);
   void read_orbit(TomlTable& table);
@@ -110,6 +115,7 @@ class ScenarioReader {
   TomlTable root_;
   std::vector<Complaint>& complaints_;
   std::string file_method_;
+  const std::optional<std::string>& resumed_in_;
   const toml::table& document_;
   std::string no_start_;
   std::vector<std::size_t> start_lines_;  // of the particles of a gas in its CSV

@@ -142,17 +142,36 @@ void ScenarioReader::read_walls(TomlTable& table) {
   scenario_.problem = &find_problem(scenario_.request.problem, scenario_.request.variant);
 }
 
+namespace {
+/// The rules among `rules` that this problem takes, in quotes, each with ", " behind it: walls of a box are hard, a
+/// soft wall has two ends, and on the lattice no step is cut at a bounce.
+std::string rules_taken(const Request& request, const Walls& walls, const std::vector<WallRule>& rules) {
+  const auto container = request.variant.find(GasKeys::container);
+  const bool box = container != request.variant.end() && container->second == ContainerNames::box;
+  const bool ends = std::all_of(walls.intervals.begin(), walls.intervals.end(),
+                                [](const auto& wall) { return !wall.min.empty() && !wall.max.empty(); });
+  std::string words;
+  for (const WallRule rule : rules) {
+    if (rule == WallRule::soft && (box || !ends)) continue;
+    if (rule == WallRule::event && request.arithmetic == "lattice") continue;
+    words += "\"" + wall_rules()[static_cast<std::size_t>(rule)] + "\", ";
+  }
+  return words;
+}
+}  // namespace
+
 std::string refused_by_walls(const Request& request, const ProblemEntry& problem, const std::vector<double>& start_q) {
   const auto walls = walls_among(request.variant);
   if (!walls) return {};
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
-    return "with steps of varying length, which walls would cut; allowed \"soft\", or step_control = \"fixed\"";
+    const std::string soft = rules_taken(request, *walls, {WallRule::soft});
+    return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : "or ") +
+           "step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {
-    return "with " + info.name +
-           ", which carries a second copy of the state that meets walls elsewhere; allowed "
-           "\"soft\", or another method";
+    return "with " + info.name + ", which carries a second copy of the state that meets walls elsewhere; allowed " +
+           rules_taken(request, *walls, {WallRule::soft}) + "another method, e.g. stv4";
   }
   if (walls->rule == WallRule::event && request.arithmetic == "lattice") {
     return "on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"";
@@ -162,9 +181,8 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
     return "with constraints, between which no drift is free; allowed \"event\", \"reject\"";
   const bool drifts = find_method(request.method.name).family->not_on_lattice.empty();
   if (!drifts) {
-    return "with " + info.name +
-           ", which has no drifts to be reflected; allowed \"event\", \"reject\", or a splitting "
-           "method, e.g. stv4";
+    return "with " + info.name + ", which has no drifts to be reflected; allowed " +
+           rules_taken(request, *walls, {WallRule::event, WallRule::reject}) + "or a splitting method, e.g. stv4";
   }
   const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {

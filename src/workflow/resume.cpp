@@ -27,14 +27,16 @@ std::string instruction_set(const Scenario& scenario) { return std::string(fast_
 std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
 /// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
+std::string contents_key() { return "problem." + gas_options().file.name + ": contents"; }
+
 std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   std::map<std::string, Setting> all = scenario.settings;
   if (!scenario.start_contents) return all;
   const std::string key = "problem." + gas_options().file.name;
   const auto file = all.find(key);
   const Setting where = file == all.end() ? Setting{{}, 1, 1} : file->second;
-  all.emplace(key + ": contents", Setting{"those with the hash " + fmt::format("{:016x}", *scenario.start_contents),
-                                          where.line, where.column});
+  all.emplace(contents_key(), Setting{"those with the hash " + fmt::format("{:016x}", *scenario.start_contents),
+                                      where.line, where.column});
   return all;
 }
 
@@ -84,12 +86,14 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     const std::string found = shown(value);
     const auto there = before.find(key);
     if (there == before.end()) {
-      complain(key, "found " + found + "; allowed with --resume nothing, as when the run began");
+      complain(key, "found " + found + "; allowed with --resume without this key, as when the run began");
     } else if (there->second != value) {
       complain(key, "found " + found + "; allowed with --resume " + shown(there->second) + ", as when the run began");
     }
   }
   for (const auto& [key, value] : before) {
+    // The file is gone, and the start is that of run.h5.
+    if (key == contents_key() && !scenario.start_contents) continue;
     if (is_free_on_resume(key) || settings.contains(key)) continue;
     complain(key, "found nothing; allowed with --resume " + shown(value) + ", as when the run began");
   }
@@ -202,7 +206,14 @@ CheckpointWriter::CheckpointWriter(const Scenario& scenario, const Simulation& s
       checkpoint_(std::move(last)),
       seconds_before_(checkpoint_.wall_seconds) {
   // What the scenario may change when a run goes on.
-  const Checkpoint now = beginning_of(scenario, checkpoint_.identity);
+  Checkpoint now = beginning_of(scenario, checkpoint_.identity);
+  if (!scenario.start_contents) {  // what the file held when the run began is still known
+    for (std::size_t i = 0; i < checkpoint_.keys.size(); ++i) {
+      if (checkpoint_.keys[i] != contents_key()) continue;
+      now.keys.push_back(checkpoint_.keys[i]);
+      now.values.push_back(checkpoint_.values[i]);
+    }
+  }
   checkpoint_.keys = now.keys;
   checkpoint_.values = now.values;
   checkpoint_.steps = now.steps;

@@ -94,7 +94,9 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
   Panel panel;
   Extent x;
   Extent y;
-  std::vector<Series> tracks;
+  std::vector<Curve> paths;
+  std::vector<Curve> openings;
+  std::vector<Series> hows;
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
     const FigureData& data = figure.runs[run];
     for (std::size_t body = 0; body < bodies(data); ++body) {
@@ -105,15 +107,18 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
       }
       if (!with_names) how.name.clear();
       const FigureSamples& samples = data;
-      const Curve track = in_plane(data, data.path.q.empty() ? samples : data.path, body, plane);
-      x.include(track.x);
-      y.include(track.y);
-      if (exact) {
-        tracks.push_back({Ink::dots, "numeric", track});
-      } else {
-        tracks.push_back(track_of(track, in_plane(data, data.opening, body, plane), how, opened));
-      }
+      paths.push_back(in_plane(data, data.path.q.empty() ? samples : data.path, body, plane));
+      x.include(paths.back().x);
+      y.include(paths.back().y);
+      openings.push_back(in_plane(data, data.opening, body, plane));
+      hows.push_back(how);
     }
+  }
+  std::vector<Series> tracks;
+  if (exact) {
+    for (const Curve& path : paths) tracks.push_back({Ink::dots, "numeric", path});
+  } else {
+    tracks = tracks_of(paths, openings, std::move(hows), opened);
   }
   if (exact) {
     x.include(one.curve_x);

@@ -92,11 +92,14 @@ Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns,
     add_exact(panel, one, tracks[0]);
     return panel;
   }
+  std::vector<Curve> openings;
+  std::vector<Series> how;
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
-    Series how = series_of(figure, run);
-    if (!with_names) how.name.clear();
-    panel.series.push_back(track_of(tracks[run], opening_in_plane(figure.runs[run], plane), how, opened));
+    how.push_back(series_of(figure, run));
+    if (!with_names) how.back().name.clear();
+    openings.push_back(opening_in_plane(figure.runs[run], plane));
   }
+  panel.series = tracks_of(tracks, openings, std::move(how), opened);
   return panel;
 }
 

@@ -72,8 +72,7 @@ std::string label_of(const std::vector<Column>& group) {
 
 void add(Panel& panel, const std::vector<double>& x, const std::vector<double>& y, bool over_time, Series how) {
   if (over_time) return add_over_time(panel, x, y, std::move(how));
-  bool opened = false;
-  panel.series.push_back(track_of(finite_points(x, y), {}, std::move(how), opened));
+  panel.series.push_back(track_of(finite_points(x, y), std::move(how)));
 }
 
 Page page(const Figure& figure) {

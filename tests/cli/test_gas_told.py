@@ -1,0 +1,154 @@
+"""The gas where it tells what to do: refusals recommend what this very problem accepts and say at which key, a run goes
+on without the file of its start, momenta can be drawn anew from what `show` says, figures say what they draw."""
+
+import re
+import shutil
+import unittest
+
+from command import CommandCase, EXAMPLES
+
+BOX = """[problem]
+name = "gas"
+particles_per_side = 3
+container = { kind = "box", size = [4, 4] }
+[method]
+name = "stv4"
+[run]
+dt = 0.001
+steps = 2
+"""
+FROM_FILE = """[problem]
+name = "gas"
+start = "file"
+file = "p.csv"
+masses = [2, 3, 1]
+container = { kind = "none" }
+[method]
+name = "stv4"
+[run]
+dt = 0.001
+steps = 100
+"""
+
+
+def momenta(seed, numbers):
+    """As `hamflow show gas` says at `seed`."""
+    word = 2**64 - 1
+    for k in range(numbers):
+        x = (seed + (k + 1) * 0x9E3779B97F4A7C15) & word
+        x = ((x ^ x >> 30) * 0xBF58476D1CE4E5B9) & word
+        x = ((x ^ x >> 27) * 0x94D049BB133111EB) & word
+        x ^= x >> 31
+        m = int(1e5 * ((x >> 11) * 2.0**-53))
+        yield float(f"{2 * m - 100000}e-5")
+
+
+class Told(CommandCase):
+    def told(self, scenario, *sets, status=2):
+        words = [word for each in sets for word in ("--set", each)]
+        return self.hamflow("run", scenario, "--out", "none", *words, status=status).stderr
+
+    def test_rules_that_a_box_has(self):
+        """Every rule that a refusal allows is taken."""
+        self.write("box.toml", BOX)
+        for method in ("tao2", "tao4", "gauss", "rk4", "itoh-abe"):
+            with self.subTest(method):
+                told = self.told("box.toml", f"method.name={method}")
+                self.assertIn("problem.wall_rule: found \"mirror\", the default here, with " + method, told)
+                allowed = told.split("; allowed ")[1]
+                self.assertIn("stv4", allowed)
+                self.told("box.toml", "method.name=stv4", status=0)
+                for rule in re.findall('"([a-z]+)"', allowed):
+                    self.told("box.toml", f"method.name={method}", f"problem.wall_rule={rule}", status=0)
+        told = self.told("box.toml", "method.name=gauss", "method.step_control=reversible", "problem.wall_rule=event")
+        self.assertIn('allowed step_control = "fixed"\n', told)
+
+    def test_methods_refused_at_their_key(self):
+        """By the key `method.name` and its place, as all refusals, before anything runs."""
+        self.write("gas.toml", BOX.replace('container = { kind = "box", size = [4, 4] }', "").replace("stv4", "taylor"))
+        for phi in ("abs(r)^-6", "abs(r - 0.7)"):
+            told = self.told("gas.toml", "problem.pair=formula", f"problem.phi={phi}")
+            self.assertIn("gas.toml:6:8: error: method.name: found taylor: H has branches", told)
+            self.assertIn("dop853", told)
+            self.told("gas.toml", "problem.pair=formula", f"problem.phi={phi}", "method.name=dop853", status=0)
+        self.told("gas.toml", "problem.pair=formula", "problem.phi=r^-6", status=0)
+        self.write("gas.toml", BOX.replace('container = { kind = "box", size = [4, 4] }', "").replace("stv4", "itoh-abe"))
+        told = self.told("gas.toml", "problem.particles_per_side=12")
+        self.assertIn("gas.toml:6:8: error: method.name: found itoh-abe with 288 coordinates; allowed at most 250", told)
+
+    def test_a_run_goes_on_without_the_file_of_its_start(self):
+        """From the folder of the scenario and from another one; what it leaves is what a run leaves that never stopped."""
+        start = "x,y,p_x,p_y\n0,0,0,0\n1,0,0,0.1\n0,1,0.1,0\n"
+        for name in ("a", "b", "c"):
+            (self.folder / name).mkdir()
+        for arithmetic in ("double", "lattice"):
+            with self.subTest(arithmetic):
+                change = ["--set", f"run.arithmetic={arithmetic}", "--quiet"]
+                self.write("a/p.csv", start)
+                self.write("a/f.toml", FROM_FILE)
+                self.hamflow("run", "a/f.toml", "--out", "whole.run", "--set", "run.steps=300", "--set", "output.formats=[\"h5\", \"csv\"]", *change, "--force")
+                part = ["--set", "output.formats=[\"h5\", \"csv\"]", *change]
+                self.hamflow("run", "a/f.toml", "--out", "part.run", "--set", "run.record_every=1", *part, "--force")
+                shutil.copy(self.folder / "a/f.toml", self.folder / "b/f.toml")  # where no p.csv is
+                told = self.hamflow("run", "b/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=200", "--set", "run.record_every=1",
+                                    *[word for word in part if word != "--quiet"])
+                self.assertIn("note: problem.file: found no file b/p.csv that can be read; the run goes on from the start that part.run/run.h5 keeps",
+                              told.stderr)
+                (self.folder / "a/p.csv").unlink()
+                self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=300", "--set", "run.record_every=1", *part)
+                self.assertEqual((self.folder / "part.run/trajectory.csv").read_bytes(), (self.folder / "whole.run/trajectory.csv").read_bytes())
+                # The file is back, with another start: that is told.
+                self.write("a/p.csv", start.replace("0.1", "0.2"))
+                refused = self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.steps=400", "--set", "run.record_every=1", *part, status=2)
+                self.assertIn("a/f.toml:4:8: error: problem.file: contents: found those with the hash", refused.stderr)
+        # A run that does not go on needs its file, and so does one that keeps its start in fewer digits than it had.
+        (self.folder / "a/p.csv").unlink()
+        self.assertIn("found no file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "new.run", status=2).stderr)
+        self.assertIn("found no file a/p.csv", self.hamflow("run", "a/f.toml", "--out", "part.run", "--resume", "--set", "run.arithmetic=quad",
+                                                            status=2).stderr)
+
+    def test_momenta_as_show_says(self):
+        told = " ".join(self.hamflow("show", "gas").stdout.split())
+        for part in ("0x9e3779b97f4a7c15", "0xbf58476d1ce4e5b9", "0x94d049bb133111eb", "m = floor(1e5*(x >> 11)*2^-53)", "2e-5*m - 1"):
+            self.assertIn(part, told)
+        self.write("gas.toml", BOX.replace('container = { kind = "box", size = [4, 4] }', ""))
+        for seed, dimension in ((1, 2), (0, 3), (2**53, 2)):
+            s = self.summary("gas.toml", "--set", f"problem.seed={seed}", "--set", f"problem.dimension={dimension}", "--set", "run.steps=0",
+                             "--set", 'problem.container={ kind = "none" }')
+            self.assertEqual(s["final"]["p"], list(momenta(seed, 3**dimension * dimension)))
+            self.assertEqual(s["final"]["q"][:2 * dimension], [-1] * dimension + [0] + [-1] * (dimension - 1))
+
+    def test_numbers_that_do_not_go_together(self):
+        """With the number found and the key inside the table."""
+        for container, said in (('{ kind = "box", size = [3] }', "gas.toml:4:36: error: problem.container.size: found 1 edge; allowed 2 edges"),
+                                ('{ kind = "box", size = [3, 3, 3] }', "problem.container.size: found 3 edges; allowed 2 edges")):
+            self.write("gas.toml", BOX.replace('{ kind = "box", size = [4, 4] }', container))
+            self.assertIn(said, self.told("gas.toml"))
+        self.write("gas.toml", BOX.replace("[method]", 'cutoff = { radius = 2, kind = "smooth", inner = 2.5 }\n[method]'))
+        self.assertRegex(self.told("gas.toml"), r"gas.toml:5:[0-9]+: error: problem.cutoff.inner: found 2.5 with radius = 2; allowed inner below radius")
+
+    def test_many_columns_are_not_all_listed(self):
+        self.hamflow("run", str(EXAMPLES / "gas_121.toml"), "--out", "g.run", "--quiet", "--set", "output.figures=[]")
+        told = self.hamflow("plot", "g.run", "--kind", "time", "--y", "x122", "-o", "o.svg", status=2).stderr
+        self.assertRegex(told, r'found column "x122"; allowed t, x1, y1, x2, \.\.\., .* \([0-9]+ columns\); did you mean x12')
+        self.assertLess(len(told), 250)
+
+    def test_the_scale_of_a_start_in_a_run(self):
+        """H of the run may have been another one: that is told where no key says it."""
+        self.write("gas.toml", BOX)
+        self.hamflow("run", "gas.toml", "--out", "g.run", "--quiet")
+        self.write("on.toml", FROM_FILE.replace("p.csv", "g.run/run.h5").replace("masses = [2, 3, 1]\n", ""))
+        note = "note: problem.scale is not given: it is 1 here, whatever it was in the run of g.run/run.h5"
+        self.assertIn(note, self.told("on.toml", status=0))
+        self.assertNotIn("note", self.told("on.toml", "problem.scale=1", status=0))
+
+    def test_a_figure_of_paths_and_dots_has_no_note_of_first_steps(self):
+        """Some of 121 particles have a path that lines follow, others turn too sharply between samples: all are drawn whole."""
+        self.hamflow("run", str(EXAMPLES / "gas_121.toml"), "--out", "g.run", "--quiet", "--set", "run.steps=20000", "--set", "run.record_every=100",
+                     "--set", "output.figures=[]")
+        self.hamflow("plot", "g.run", "--kind", "orbit", "-o", "o.svg")
+        self.assertNotIn("first steps", (self.folder / "o.svg").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
