@@ -26,9 +26,9 @@ std::string instruction_set(const Scenario& scenario) { return std::string(fast_
 
 std::uint64_t hash_of(const std::string& text) { return fnv1a(std::as_bytes(std::span(text))); }
 
-/// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
 std::string contents_key() { return "problem." + gas_options().file.name + ": contents"; }
 
+/// The keys of a run with their values; beside the name of a file what stood in it: start and parameters.
 std::map<std::string, Setting> settings_of(const Scenario& scenario) {
   std::map<std::string, Setting> all = scenario.settings;
   if (!scenario.start_contents) return all;
