@@ -207,7 +207,19 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   if (!named.has_filename()) named = named.parent_path();
   result.name = (named.extension() == ".run" ? named.stem() : named.filename()).string();  // not "dt0" of dt0.1
   result.facts = facts_of(scenario);
+  result.start_q = scenario.start_q;
   return result;
+}
+
+void add_start(RunForFigure& run, const std::vector<double>& times) {
+  FigureData& data = run.data;
+  const double first = data.t.front();
+  const auto is_before = [&](double t) { return first > 0 ? t >= 0 && t < first : t <= 0 && t > first; };
+  if (std::none_of(times.begin(), times.end(), is_before)) return;
+  data.t.insert(data.t.begin(), 0.0);
+  data.particles.positions = [start = run.start_q, later = data.particles.positions](std::size_t sample) {
+    return sample == 0 ? start : later(sample - 1);
+  };
 }
 
 FigureSamples opening_of(const fs::path& run) {
