@@ -246,6 +246,7 @@ int compare(const CompareOptions& options) {
   const auto alone = writes ? make_comparison_folder(options.out, options.force) : nullptr;
   const ComparisonReport report = carry_out(reader.request, options);
   std::cout << (options.json ? report.json : report.text);
+  print_warnings(report.warnings);
   if (report.status == "failed") print_error(report.message, report.hint);
   const int written = written_behind_report([&] {
     if (!options.csv.empty()) write_file(options.csv, report.csv);

@@ -122,7 +122,12 @@ std::string refusal(const MethodSpec& spec, const ProblemEntry& problem) {
     const MethodEntry& method = find_method(name);
     return method.family->needs(method.index);
   };
-  std::string text = spec.name + " needs " + needs(spec.name) + ", and that of " + problem.info.name + " is none; ";
+  std::string text = spec.name + " needs " + needs(spec.name) + ", and that of " + problem.info.name + " is ";
+  std::string only;
+  if (problem.info.name == GasKeys::problem) {
+    only = gas_that_accepts(spec, {problem.info.variant.begin(), problem.info.variant.end()});
+  }
+  text += (only.empty() ? "none" : only) + "; ";
   if (!first.empty()) {
     const std::string what = needs(first.front());  // "a separable H ...", "an H ..."
     text += first.front() + " takes any" + what.substr(std::min(what.find(' '), what.size())) + "; ";

@@ -455,6 +455,25 @@ ProblemEntry entry_of(const Words& choices) {
 
 }  // namespace
 
+std::string gas_that_accepts(const MethodSpec& method, const std::map<std::string, std::string>& choices) {
+  const Kind kind = kind_of(choices);
+  if (accepts(kind.shape, method)) return {};
+  GasShape open = kind.shape;
+  open.container = ContainerKind::none;
+  GasShape whole = kind.shape;
+  whole.cutoff = CutoffKind::none;
+  GasShape both = open;
+  both.cutoff = CutoffKind::none;
+  const std::string found = kind.choices.at(Keys::container);
+  const std::string no_container = std::string("with container = { kind = \"") + ContainerNames::none +
+                                   "\" } (found kind = \"" + found + "\"" +
+                                   (found == ContainerNames::circle ? ", the default)" : ")");
+  const std::string no_cutoff = "without cutoff, beyond which phi ends";
+  if (accepts(open, method)) return "one only " + no_container;
+  if (accepts(whole, method)) return "one only " + no_cutoff;
+  return accepts(both, method) ? "one only " + no_container + " and " + no_cutoff : "";
+}
+
 const std::vector<ProblemInfo>& pair_laws() {
   static const std::vector<ProblemInfo> laws = built_in_pairs();
   return laws;

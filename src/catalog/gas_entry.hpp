@@ -10,4 +10,8 @@ namespace hamflow {
 /// @throws FormulaError when a typed phi is wrong
 const ProblemEntry& gas_problem(const std::map<std::string, std::string>& choices);
 
+/// With which container, cut-off or both the gas of these choices would take a method that it refuses: 'one only with
+/// container = ...'; empty where with none.
+std::string gas_that_accepts(const MethodSpec& method, const std::map<std::string, std::string>& choices);
+
 }  // namespace hamflow

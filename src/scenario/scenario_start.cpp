@@ -10,6 +10,7 @@
 #include "hamflow/run/walls.hpp"
 #include "scenario_reader.hpp"
 #include "start_keys.hpp"
+#include "toml_path.hpp"
 
 namespace hamflow {
 
@@ -342,13 +343,32 @@ std::vector<std::size_t> particles_of(const std::string& why) {
   return all;
 }
 
+/// The key of what a particle of which this is told is beyond, or whose images meet; empty where it is none.
+std::string key_of_edge(const std::string& why, bool has_walls) {
+  const auto tells = [&](const char* part) { return why.find(part) != std::string::npos; };
+  const GasOptions& gas = gas_options();
+  const std::string inside = gas.container.name + ".";
+  if (tells(" from the middle, on the soft wall")) return inside + gas.of_container.radius.name;
+  if (tells(" beyond the wall at ")) return has_walls ? wall_keys().walls.name : inside + gas.of_container.size.name;
+  return tells(" at images of one point") ? inside + gas.of_container.size.name : "";
+}
+
 }  // namespace
 
 /// At the key that gives the start: `usual`, or that of a gas; of one in a CSV with the lines of those that are named.
 void ScenarioReader::complain_of_start(TomlTable& table, const std::string& usual, const std::string& why) {
   const GasOptions& gas = gas_options();
   std::string message = "found " + why;
-  if (scenario_.request.problem != GasKeys::problem || table.has("initial")) return table.complain(usual, message);
+  if (scenario_.request.problem != GasKeys::problem) return table.complain(usual, message);
+  // Of a start that nobody typed the container is the cause, and so it is where it alone was changed from outside.
+  const std::string start = table.has("initial") ? "initial" : gas.start.name;
+  const std::string edge = key_of_edge(why, table.has(wall_keys().walls.name));
+  const std::string holder = edge.substr(0, edge.find('.'));
+  const auto is_outside = [&](const std::string& key) { return table.has(key) && touched(*table.node().get(key)); };
+  if (!edge.empty() && (!table.has(start) || (is_outside(holder) && !is_outside(start)))) {
+    return table.complain_in(edge, message);
+  }
+  if (table.has("initial")) return table.complain(usual, message);
   if (table.plain_string(gas.start.name) != GasStarts::file) return table.complain(gas.start.name, message);
   std::vector<std::string> lines;
   for (const std::size_t particle : particles_of(why)) {

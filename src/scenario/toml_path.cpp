@@ -94,7 +94,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& exclusive_k
   return all;
 }
 
-/// Whether a value, or a part of it, was set from outside.
+}  // namespace
+
 bool touched(const toml::node& node) {
   if (is_set(node)) return true;
   if (const auto* table = node.as_table()) {
@@ -103,8 +104,6 @@ bool touched(const toml::node& node) {
   const auto* array = node.as_array();
   return array != nullptr && std::any_of(array->begin(), array->end(), touched);
 }
-
-}  // namespace
 
 toml::table parsed_value(const std::string& text) {
   toml::table value;

@@ -28,5 +28,7 @@ void drop_excluded(toml::table& root);
 
 /// Whether a value was set from outside: then it stands nowhere in the file.
 inline bool is_set(const toml::node& node) { return node.source().begin.line == 0; }
+/// Whether it, or a part of it, was.
+bool touched(const toml::node& node);
 
 }  // namespace hamflow

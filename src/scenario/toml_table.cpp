@@ -38,6 +38,9 @@ std::string shown(const toml::node& node) {
   }
   return out.str();
 }
+
+/// Nowhere in the file where a part of it was set from outside.
+toml::source_region place_of(const toml::node& node) { return touched(node) ? toml::source_region{} : node.source(); }
 }  // namespace
 
 std::string Complaint::text() const {
@@ -88,8 +91,8 @@ void TomlTable::complain_at(const toml::source_region& where, const std::string&
 
 void TomlTable::complain(const std::string& key, const std::string& message) {
   if (has(key)) {
-    complain_at(table_->get(key)->source(), key, message);
-  } else if (table_ != nullptr && table_->source().begin.line > 0) {
+    complain_at(place_of(*table_->get(key)), key, message);
+  } else if (table_ != nullptr) {  // without a line it was --set
     complain_at(table_->source(), key, message);
   } else {
     complaints_->push_back({file_, 1, 1, full(key), message});
@@ -101,7 +104,7 @@ void TomlTable::complain_in(const std::string& part, const std::string& message)
   std::string there = part;
   std::optional<toml::source_region> where;
   while (table_ != nullptr && !where && !there.empty()) {
-    if (const toml::node* node = table_->at_path(there).node()) where = node->source();
+    if (const toml::node* node = table_->at_path(there).node()) where = place_of(*node);
     const std::size_t last = there.find_last_of(".[");
     there = last == std::string::npos ? "" : there.substr(0, last);
   }

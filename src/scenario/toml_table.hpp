@@ -61,7 +61,8 @@ class TomlTable {
   /// The text of a string; none where the value is another, which is not complained about.
   std::optional<std::string> plain_string(const std::string& key);
   void missing(const std::string& key, const std::string& allowed);
-  /// A complaint at the key's value, or at the table when the key is absent.
+  /// A complaint at the key's value, or at the table when the key is absent. Where any of that was set from outside it
+  /// is no fault of the file.
   void complain(const std::string& key, const std::string& message);
   /// The same at a part of a value: "invariants.L", "coordinates[1]".
   void complain_in(const std::string& part, const std::string& message);

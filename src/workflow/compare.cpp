@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "hamflow/run/gas.hpp"
 #include "run_folder.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
+#include "warnings.hpp"
 #include "work_precision.hpp"
 
 namespace hamflow {
@@ -55,6 +58,42 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   return row;
 }
 
+/// Of a gas in how many runs particles may pass through each other, told once, of the largest of their steps: from the
+/// start and, where it is known, the end of the motion itself.
+Json warnings_of(const Comparison& c, const ComparisonRequest& asked) {
+  Json all = Json::array();
+  if (asked.request.problem != GasKeys::problem) return all;
+  const ProblemEntry& problem = find_problem(asked.request.problem, asked.request.variant);
+  const Frame start = problem.start(asked.request);
+  Frame end = start;
+  if (c.reference.kind != "none") {
+    const auto middle = c.reference.end.begin() + static_cast<std::ptrdiff_t>(start.q.size());
+    end.q.assign(c.reference.end.begin(), middle);
+    end.p.assign(middle, c.reference.end.end());
+  }
+  const std::vector<std::string> names = comparison_names(asked.methods);
+  const ComparisonPoint* longest = nullptr;
+  std::size_t count = 0;
+  std::string told;
+  for (const ComparisonPoint& p : c.points) {
+    const auto name = std::find(names.begin(), names.end(), p.method);
+    if (!p.done() || name == names.end()) continue;
+    Request request = asked.request;
+    request.method = asked.methods[static_cast<std::size_t>(name - names.begin())];
+    std::string why = passing_in_a_step(request, problem, p.dt, start, end);
+    if (why.empty()) continue;
+    ++count;
+    if (longest != nullptr && std::abs(p.dt) <= std::abs(longest->dt)) continue;
+    longest = &p;
+    told = std::move(why);
+  }
+  if (count == 0) return all;
+  all.push_back({{"kind", "long_step"},
+                 {"message", fmt::format("in {} of {} runs, with the largest step in {} with dt = {:g}, {}", count,
+                                         c.points.size(), longest->method, longest->dt, told)}});
+  return all;
+}
+
 Json json_of(const Comparison& c, const std::string& status, const ComparisonRequest& asked) {
   // More digits than a JSON number may be read with: texts.
   const std::size_t n = c.reference.end.size() / 2;
@@ -91,6 +130,7 @@ Json json_of(const Comparison& c, const std::string& status, const ComparisonReq
     all["winners"].back()["second"] = w.second;
     all["winners"].back()["second_work"] = w.second_work;
   }
+  all["warnings"] = warnings_of(c, asked);
   return all;
 }
 
@@ -107,7 +147,9 @@ ComparisonReport compare_methods(const ComparisonRequest& request,
     report.message = "every run failed; the first: " + points.at(0).failure;
     report.hint = hint_of(points.at(0), request);
   }
-  report.json = json_text(json_of(report.comparison, report.status, request));
+  const Json json = json_of(report.comparison, report.status, request);
+  report.json = json_text(json);
+  report.warnings = warning_lines(json);
   report.csv = comparison_csv(report.comparison);
   report.text = comparison_table(report.comparison);
   return report;

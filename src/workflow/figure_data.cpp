@@ -207,7 +207,32 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   if (!named.has_filename()) named = named.parent_path();
   result.name = (named.extension() == ".run" ? named.stem() : named.filename()).string();  // not "dt0" of dt0.1
   result.facts = facts_of(scenario);
+  result.start_q = scenario.start_q;
+  result.start_p = scenario.start_p;
   return result;
+}
+
+void add_start(RunForFigure& run, const std::vector<double>& times) {
+  FigureData& data = run.data;
+  const double first = data.t.front();
+  const auto is_before = [&](double t) { return first > 0 ? t >= 0 && t < first : t <= 0 && t > first; };
+  if (std::none_of(times.begin(), times.end(), is_before)) return;
+  const auto begin_with = [](std::vector<double>& list, double x) {
+    if (!list.empty()) list.insert(list.begin(), x);
+  };
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  begin_with(data.t, 0);
+  for (std::size_t i = 0; i < data.q.size(); ++i) {
+    begin_with(data.q[i], run.start_q[i]);
+    begin_with(data.p[i], run.start_p[i]);
+  }
+  for (auto* list : {&data.energy, &data.energy_difference}) begin_with(*list, unknown);
+  for (auto* columns : {&data.observables, &data.diagnostics}) {
+    for (auto& column : *columns) begin_with(column.second, unknown);
+  }
+  data.particles.positions = [start = run.start_q, later = data.particles.positions](std::size_t sample) {
+    return sample == 0 ? start : later(sample - 1);
+  };
 }
 
 FigureSamples opening_of(const fs::path& run) {

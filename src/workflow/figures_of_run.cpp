@@ -29,6 +29,7 @@ void draw_into(const FigureRequest& request, const std::vector<std::filesystem::
   std::vector<RunForFigure> runs;
   for (const std::filesystem::path& run : request.runs) runs.push_back(read_for_figure(run, request.kind));
   tell_apart(runs);
+  for (RunForFigure& run : runs) add_start(run, figure.options.at);
   for (RunForFigure& run : runs) figure.runs.push_back(std::move(run.data));
   const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(figure.runs.at(0)));
   for (std::size_t i = 0; i < request.runs.size(); ++i) {

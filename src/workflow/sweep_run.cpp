@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/workflow/sweep.hpp"
 #include "json_text.hpp"
 #include "measures/measures.hpp"
@@ -52,6 +53,36 @@ bool decides_columns(const std::string& path) {
     if (is_part_of_other(run_path(key), path)) return true;
   }
   return false;
+}
+
+/// Of members of a gas that are done, read anew, how many may have let particles pass through each other: told once,
+/// of the first.
+void add_passing(const Sweep& sweep, const SweepRequest& request, Json& warnings) {
+  if (sweep.common().request.problem != GasKeys::problem) return;
+  MemberReader reader(sweep.varied(), request.text, request.name, request.sets);
+  std::size_t count = 0;
+  std::size_t first = 0;
+  std::string told;
+  for (std::size_t member = 0; member < sweep.members(); ++member) {
+    const MemberRow& row = sweep.rows()[member];
+    if (row.status != Outcome::done || row.nonsense || row.steps == 0) continue;
+    const Reading reading = reader.read(member);
+    if (!reading.scenario) continue;
+    const Scenario& scenario = *reading.scenario;
+    Frame start, end;
+    start.q = scenario.start_q;
+    start.p = scenario.start_p;
+    end.q = row.q;
+    end.p = row.p;
+    std::string why = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
+    if (why.empty()) continue;
+    if (count++ == 0) first = member;
+    if (told.empty()) told = std::move(why);
+  }
+  if (count == 0) return;
+  warnings.push_back({{"kind", "long_step"},
+                      {"message", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(),
+                                              first, told)}});
 }
 
 /// What is wrong with the request beside its scenario goes into `wrong`, a line each.
@@ -161,7 +192,8 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
   sweep.run(look, folder ? keep : std::function<void(std::size_t)>{});
   const double seconds =
       folder ? folder->seconds() : std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const Json summary = sweep_summary(sweep, seconds, stopped);
+  Json summary = sweep_summary(sweep, seconds, stopped);
+  add_passing(sweep, impl_->request, summary["warnings"]);
   SweepReport report;
   report.status = summary["status"].get<std::string>();
   report.json = json_text(summary);

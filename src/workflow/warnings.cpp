@@ -128,19 +128,19 @@ void add_long_search(const Scenario& scenario, const Simulation& simulation, Jso
 
 /// The distance within which two particles of a gas repel each other, in the lengths of the positions: that of the
 /// least of a Lennard-Jones pair's energy, or its cut-off, where that is less; 0 of other laws.
-double core_of(const Scenario& scenario) {
-  if (scenario.request.problem != GasKeys::problem) return 0;
-  const auto pair = scenario.request.variant.find(GasKeys::pair);
-  if (pair != scenario.request.variant.end() && pair->second != "lennard-jones") return 0;
-  const Parameters<double> given(scenario.request.parameters);
+double core_of(const Request& request) {
+  if (request.problem != GasKeys::problem) return 0;
+  const auto pair = request.variant.find(GasKeys::pair);
+  if (pair != request.variant.end() && pair->second != "lennard-jones") return 0;
+  const Parameters<double> given(request.parameters);
   const bool usual_form = given.has("sigma") || given.has("epsilon");
   double least = usual_form ? std::pow(2.0, 1.0 / 6) * (given.has("sigma") ? given["sigma"] : 1) : 1;
   if (given.has(GasKeys::cutoff)) least = std::min(least, given[GasKeys::cutoff]);
   return least / given[GasKeys::scale];
 }
 
-double fastest(const Scenario& scenario, const std::vector<double>& p) {
-  const Parameters<double> given(scenario.request.parameters);
+double fastest(const Request& request, const std::vector<double>& p) {
+  const Parameters<double> given(request.parameters);
   const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
   std::vector<double> masses = given.list(GasKeys::masses);
   masses.resize(p.size() / space, masses.front());
@@ -159,15 +159,15 @@ struct Nearest {
   std::size_t one = 0, other = 0;
 };
 /// @return nothing of more particles than are worth the time
-std::optional<Nearest> nearest(const Scenario& scenario, const std::vector<double>& q) {
-  const Parameters<double> given(scenario.request.parameters);
+std::optional<Nearest> nearest(const Request& request, const std::vector<double>& q) {
+  const Parameters<double> given(request.parameters);
   const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
   constexpr std::size_t most_particles = 3000;
   const std::size_t count = q.size() / space;
   if (count > most_particles) return {};
-  const auto container = scenario.request.variant.find(GasKeys::container);
+  const auto container = request.variant.find(GasKeys::container);
   std::vector<double> edges(space, 0.0);
-  if (container != scenario.request.variant.end() && container->second == "periodic") {
+  if (container != request.variant.end() && container->second == "periodic") {
     const std::vector<double> size = given.list(GasKeys::size);
     for (std::size_t k = 0; k < space && k < size.size(); ++k) edges[k] = size[k];
   }
@@ -189,9 +189,9 @@ std::optional<Nearest> nearest(const Scenario& scenario, const std::vector<doubl
 
 /// Whether the energy tells how near these two are: on the way to each other it changes by more than both move with.
 /// Through a smooth core they may pass.
-bool has_core(const Scenario& scenario, const std::vector<double>& q, const std::vector<double>& p,
-              const Nearest& two) {
-  const Parameters<double> given(scenario.request.parameters);
+bool has_core(const Request& request, const ProblemEntry& problem, const std::vector<double>& q,
+              const std::vector<double>& p, const Nearest& two) {
+  const Parameters<double> given(request.parameters);
   const auto space = static_cast<std::size_t>(given[GasKeys::dimension]);
   const std::vector<double> masses = given.list(GasKeys::masses);
   const auto mass = [&](std::size_t i) { return i < masses.size() ? masses[i] : masses.front(); };
@@ -203,35 +203,45 @@ bool has_core(const Scenario& scenario, const std::vector<double>& q, const std:
     kinetic += p[i] * p[i] / (2 * mass(two.one)) + p[j] * p[j] / (2 * mass(two.other));
   }
   const auto energy = [&](const std::vector<double>& at) {
-    return scenario.problem->energy(scenario.request.parameters, at, p);
+    return problem.energy(request.parameters, at, p);
   };
   return !(std::abs(energy(near) - energy(q)) <= kinetic);
 }
 
+}  // namespace
+
 /// Two particles that pass through each other within one step leave next to nothing in the energy, and turn nowhere.
 /// What is known of a Lennard-Jones pair is the distance within which it repels; of other laws, how near two stand.
+std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
+                              const Frame& end) {
+  if (request.problem != GasKeys::problem || !takes_equal_steps(describe(request.method))) return {};
+  const double speed = std::max(fastest(request, start.p), fastest(request, end.p));
+  const double move = speed * std::abs(dt);
+  if (const double core = core_of(request); core != 0) {
+    if (!(4 * move > core)) return {};
+    return fmt::format("a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
+                       "other: they may pass through each other unseen; try dt = {:.2g} or less",
+                       move, core, core / (20 * speed));
+  }
+  for (const Frame* at : {&start, &end}) {
+    const auto two = nearest(request, at->q);
+    if (!two || !(two->distance > 0 && move > two->distance / 2)) continue;
+    if (!has_core(request, problem, at->q, at->p, *two)) continue;
+    return fmt::format("a particle moves {:.3g} in a step, and two stand {:.3g} apart: they may pass through "
+                       "each other unseen; try dt = {:.2g} or less",
+                       move, two->distance, two->distance / (20 * speed));
+  }
+  return {};
+}
+
+namespace {
+
 void add_passing(const Scenario& scenario, const Frame& end, Json& all) {
-  if (scenario.request.problem != GasKeys::problem || !takes_equal_steps(describe(scenario.request.method))) return;
-  const double speed = std::max(fastest(scenario, scenario.start_p), fastest(scenario, end.p));
-  const double move = speed * std::abs(scenario.dt);
-  if (const double core = core_of(scenario); core != 0) {
-    if (!(4 * move > core)) return;
-    all.push_back(warning(
-        "long_step",
-        fmt::format("a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
-                    "other: they may pass through each other unseen; try dt = {:.2g} or less",
-                    move, core, core / (20 * speed))));
-    return;
-  }
-  for (const auto& [q, p] : {std::pair(&scenario.start_q, &scenario.start_p), std::pair(&end.q, &end.p)}) {
-    const auto two = nearest(scenario, *q);
-    if (!two || !(two->distance > 0 && move > two->distance / 2) || !has_core(scenario, *q, *p, *two)) continue;
-    all.push_back(warning(
-        "long_step", fmt::format("a particle moves {:.3g} in a step, and two stand {:.3g} apart: they may pass through "
-                                 "each other unseen; try dt = {:.2g} or less",
-                                 move, two->distance, two->distance / (20 * speed))));
-    return;
-  }
+  Frame start;
+  start.q = scenario.start_q;
+  start.p = scenario.start_p;
+  const std::string told = passing_in_a_step(scenario.request, *scenario.problem, scenario.dt, start, end);
+  if (!told.empty()) all.push_back(warning("long_step", told));
 }
 
 /// q p of a state, in Cartesian coordinates; its sign is that of the radial velocity.

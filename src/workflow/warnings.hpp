@@ -25,6 +25,10 @@ nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ord
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
                                    const Excursion& energy, double scale, const Frame& end, const TurnWatch* turns,
                                    std::span<const WallCount> walls = {}, std::int64_t steps = 0);
+/// What is said of steps in which particles of a gas may pass through each other unseen; empty where it is nothing.
+/// @param problem that of the request, whose method counts
+std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
+                              const Frame& end);
 /// "kind: message" of each, for the terminal; none of a summary without the key.
 std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 

@@ -170,7 +170,7 @@ class Edges(CommandCase):
         self.hamflow("run", "gas.toml", "--quiet", "--out", "back", "--set", "run.dt=-0.0005")
         two, many = "the 2 samples from 0.005 to 0.007", "the 21 samples from 0 to 0.01"
         for run, at, status, said in (
-                ("late", "0", 2, f"found the time 0; allowed times of {two}; the nearest is at 0.005"),
+                ("late", "-0.001", 2, f"found the time -0.001; allowed times of {two}; the nearest is at 0.005"),
                 ("late", "0.0058", 0, f"note: no sample is at the time 0.0058, but at those of {two}; the nearest is at 0.005, which is drawn"),
                 ("all", "0.005,0.00512", 0, f"note: no sample is at the time 0.00512, but at those of {many}; the nearest is at 0.005,"),
                 ("all", "1", 2, "the nearest is at 0.01"),
@@ -179,6 +179,11 @@ class Edges(CommandCase):
                 with self.subTest(f"{run} {at} {kind}"):
                     self.assertIn(said, self.hamflow("plot", run, "--kind", kind, f"--at={at}", "-o", "f.svg", status=status).stderr)
         self.assertEqual(self.hamflow("plot", "all", "--kind", "particles", "--at", "0,0.0015,0.01", "-o", "f.svg").stderr, "")
+        # The start is drawn where samples begin later: a run.h5 tells where it began.
+        for kind in ("particles", "radial"):
+            for run in ("late", "all"):
+                self.assertEqual(self.hamflow("plot", run, "--kind", kind, "--at", "0", "-o", f"{run}.svg").stderr, "")
+            self.assertEqual((self.folder / "late.svg").read_text(), (self.folder / "all.svg").read_text())
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The gas where it tells what to do: refusals recommend what this very problem accepts and say at which key, a run goes
 on without the file of its start, momenta can be drawn anew from what `show` says, figures say what they draw."""
 
+import json
 import re
 import shutil
 import unittest
@@ -28,6 +29,17 @@ name = "stv4"
 [run]
 dt = 0.001
 steps = 100
+"""
+TWO = """[problem]
+name = "gas"
+scale = 1
+container = { kind = "none" }
+initial = { q = [-0.6, 0, 0.6, 0], p = [10, 0, -10, 0] }
+[method]
+name = "verlet"
+[run]
+dt = 1e-3
+steps = 1
 """
 
 
@@ -148,6 +160,76 @@ class Told(CommandCase):
                      "--set", "output.figures=[]")
         self.hamflow("plot", "g.run", "--kind", "orbit", "-o", "o.svg")
         self.assertNotIn("first steps", (self.folder / "o.svg").read_text())
+
+    def test_particles_that_may_pass_in_a_sweep_and_a_comparison(self):
+        """As `run` says it, once: not for each member."""
+        self.write("two.toml", TWO)
+        passing = "a particle moves 1.2 in a step, more than a quarter of 1, within which two repel each other: they may pass"
+        self.assertIn(passing, self.told("two.toml", "run.dt=0.12", status=0))
+        of_sweep = ["sweep", "two.toml", "--out", "none", "--vary"]
+        told = self.hamflow(*of_sweep, "run.dt=0.001,0.12,0.13").stderr
+        self.assertIn("warning: long_step: in 2 of 3 members, first in member 1, " + passing, told)
+        self.assertEqual(told.count("pass through"), 1)
+        self.assertNotIn("pass through", self.hamflow(*of_sweep, "run.dt=1e-4,2e-4").stderr)
+        # Alone each member says it, too, and what is said of its energy is said in its place.
+        self.assertNotIn("pass through", self.hamflow(*of_sweep, "problem.initial.p[0]=10,20", "--set", "run.dt=0.05").stderr)
+        of_two = ["compare", "two.toml", "--methods", "verlet,stv4", "--set", "run.t_end=0.24", "--set", "problem.initial.q=[-6,0,6,0]", "--json"]
+        told = self.hamflow(*of_two, "--dt", "0.12,0.06,0.0001")
+        self.assertIn("long_step: in 4 of 6 runs, with the largest step in verlet with dt = 0.12, " + passing, told.stderr)
+        self.assertEqual(told.stderr.count("pass through"), 1)
+        self.assertEqual([each["kind"] for each in json.loads(told.stdout)["warnings"]], ["long_step"])
+        told = self.hamflow(*of_two, "--dt", "0.0002,0.0001")
+        self.assertEqual((json.loads(told.stdout)["warnings"], told.stderr), ([], ""))
+        self.assertNotIn("pass through", self.hamflow("compare", "two.toml", "--methods", "dop853", *of_two[4:], "--dt", "0.12").stderr)
+
+    def test_a_refusal_names_the_container_or_the_cutoff(self):
+        """What is recommended is then taken."""
+        self.write("gas.toml", BOX.replace('container = { kind = "box", size = [4, 4] }\n', ""))
+        free = 'problem.container={ kind = "none" }'
+        periodic = 'problem.container={ kind = "periodic", size = [3, 3] }'
+        for method, keys, found, cutoff in (
+                ("eg", [], 'found kind = "circle", the default', False), ("eg", [periodic, "problem.cutoff=1"], 'found kind = "periodic"', False),
+                ("taylor", ["problem.cutoff=1"], None, True), ("taylor", [periodic, "problem.cutoff=1"], 'found kind = "periodic"', True)):
+            with self.subTest(f"{method} {keys}"):
+                told = self.told("gas.toml", f"method.name={method}", *keys)
+                only = told.split(" is one only ")[1].split("; ")[0]
+                self.assertEqual(found is not None, f'with container = {{ kind = "none" }} ({found})' in only, only)
+                self.assertEqual("without cutoff" in only, cutoff, only)
+                self.assertNotIn("is none", told)
+                taken = [key for key in keys if "cutoff" not in key or not cutoff] + ([free] if found else [])
+                self.told("gas.toml", f"method.name={method}", *[key for key in taken if not found or key != periodic], status=0)
+        told = self.hamflow("compare", "gas.toml", "--methods", "verlet,eg", "--out", "none", status=2).stderr
+        self.assertIn('one only with container = { kind = "none" }', told)
+
+    def test_places_of_particles_outside(self):
+        """Nobody has typed a start: it is the container's key, or where it would stand."""
+        for container, place in (('{ kind = "circle", radius = 1.2 }', "gas.toml:4:41: error: problem.container.radius: found particle 1 at"),
+                                 ('{ kind = "box", size = [1, 1] }', "gas.toml:4:36: error: problem.container.size: found x1 = -1 beyond the wall"),
+                                 ('{ kind = "periodic", size = [2, 2] }\ncutoff = 1',
+                                  "gas.toml:4:41: error: problem.container.size: found particles 1 and 3 at images")):
+            self.write("gas.toml", BOX.replace('{ kind = "box", size = [4, 4] }', container))
+            told = self.told("gas.toml")
+            self.assertIn(place, told)
+            self.assertEqual(told.count("error"), 1)
+        self.write("gas.toml", BOX.replace('{ kind = "box", size = [4, 4] }', "{ }"))
+        self.assertIn("gas.toml:4:13: error: problem.container.radius: found particle 1 at 1.73", self.told("gas.toml", "problem.dimension=3"))
+        self.assertIn("--set: error: problem.container.radius: found particle 1 at", self.told("gas.toml", "problem.container.radius=1.2"))
+        self.assertIn("--set: error: problem.walls: found x1 = -1 beyond the wall at 0", self.told("gas.toml", 'problem.walls=[{ coordinate = "x1", min = 0 }]'))
+
+    def test_what_came_from_set_stands_nowhere_in_the_file(self):
+        self.write("gas.toml", TWO.replace('{ kind = "none" }', "{ radius = 3 }"))
+        for change, key in (("run={ dt = 0.1 }", "run.steps: found nothing"), ("method={ }", "method.name: found nothing"),
+                            ('run.events=[{ name = "a" }]', "run.events[0].expression: found nothing"),
+                            ('problem.container={ kind = "box" }', "problem.container.size: found nothing"),
+                            ("problem.initial={ q = [1, 1] }", "problem.initial.p: found neither"),
+                            ("problem.initial.q[0]=5", "problem.initial: found particle 1 at 5"),
+                            ("problem.container.radius=0.5", "problem.container.radius: found particle 1 at 0.6")):
+            with self.subTest(change):
+                told = self.told("gas.toml", change)
+                self.assertTrue(told.startswith(f"--set: error: {key}"), told)
+        # What stands in the file is told there, beside something else that was set.
+        self.write("gas.toml", TWO.replace("-0.6, 0, 0.6, 0", "0.6, 0, 0.6, 0"))
+        self.assertIn("gas.toml:5:11: error: problem.initial: found particles 1 and 2 at one point", self.told("gas.toml", "run.dt=0.1"))
 
 
 if __name__ == "__main__":

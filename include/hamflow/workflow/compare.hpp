@@ -16,6 +16,7 @@ struct ComparisonReport {
   std::string csv;
   std::string text;  // for people
   std::string hint;  // of a failure: what can be tried
+  std::vector<std::string> warnings{};
 };
 
 /// @param progress told how far the comparison is; returns false to stop   @throws Error
