@@ -17,7 +17,7 @@ const LatticeKeys& lattice_keys() {
       .momentum = {.name = "momentum",
                    .meaning = "spacing of momenta, a power of two from 2^-1000 to 2^999",
                    .range = Range::positive,
-                   .unset = "as for positions",
+                   .unset = "as for positions; larger in a gas of more than 1023 particles",
                    .example = "2^-52"}};
   return keys;
 }

@@ -1,5 +1,6 @@
 // The units of the lattice: those given, or those that fit the start.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -13,6 +14,9 @@ namespace hamflow {
 /// 2^-52 of the largest number of the start, hence a range of 1024 times it. For most problems 2^-52 for numbers from
 /// 1/512 to 2 too, because a start near rest says little about what follows. Of bodies that attract each other the
 /// momenta to come are known: those with which the kinetic energy would be as large as the potential energy is now.
+/// What a pair gives to a momentum may be 2^62 units over their number (PairSums), of more than a thousand particles of
+/// a gas less than the largest momentum, which one encounter can turn round: their unit is larger, so that it may be
+/// four times that.
 void ScenarioReader::usual_units() {
   const auto largest = [](const std::vector<double>& values) {
     double most = 0;
@@ -39,6 +43,11 @@ void ScenarioReader::usual_units() {
   if (!pairwise) {
     request.position_unit = unit_for(largest(positions), -9);
     request.momentum_unit = unit_for(largest(scenario_.start_p), -9);
+    if (!gas) return;
+    const auto dimension = request.parameters.find(GasKeys::dimension);
+    const bool in_space = dimension != request.parameters.end() && number_value(dimension->second) == 3;
+    const auto bits = static_cast<int>(std::bit_width(scenario_.start_q.size() / (in_space ? 3 : 2)));
+    if (bits > 10) request.momentum_unit = std::ldexp(request.momentum_unit, bits - 8);
     return;
   }
   // The start's momenta, or equal ones, times as much as makes T = |V|.

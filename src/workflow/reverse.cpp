@@ -171,7 +171,8 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
     s["return_error"] = done ? return_error(r, bodies) : Json(nullptr);
     const Effort effort = simulation.effort();
     const std::int64_t forces = effort.force;
-    const bool by_forces_alone = forces > 0 && effort.gradient == 0 && effort.hessian == 0;
+    // A way that failed at once has taken none.
+    const bool by_forces_alone = (forces > 0 || !done) && effort.gradient == 0 && effort.hessian == 0;
     const bool ends = scenario.request.parameters.contains(GasKeys::cutoff);
     if (r.steps > 0 && !by_forces_alone) {
       s["pair_evaluations"] = nullptr;

@@ -586,6 +586,29 @@ class Gas(CommandCase):
                     for end in ends[1:]:
                         self.assertEqual((end["final"], end["energy"]), (ends[0]["final"], ends[0]["energy"]))
 
+    def test_many_on_the_lattice(self):
+        """An encounter gives a momentum as much as it has: the usual unit of a melt leaves room for that."""
+        edge = "(16^3/0.8442)^(1/3)"
+        self.write("melt.toml", f"""
+            [problem]
+            name = "gas"
+            particles_per_side = 16
+            dimension = 3
+            epsilon = 1
+            sigma = 1
+            scale = "{edge}*15/32"
+            masses = "({edge}*15/32)^2/(3*1.44)"
+            container = {{ kind = "periodic", size = ["32/15", "32/15", "32/15"] }}
+            cutoff = 2.5
+            [method]
+            name = "verlet"
+            [run]
+            dt = 0.0195
+            steps = 40
+            arithmetic = "lattice"
+            """)
+        self.assertTrue(self.reverse("melt.toml")["bit_exact"])
+
     def test_the_engine_and_more_digits(self):
         """Pairs all at once, against the loop over pairs in quad: rounding alone."""
         for keys in ("", "epsilon = 1", 'pair = "newton"\nsoftening = 0.1', "cutoff = 1.4",
