@@ -42,8 +42,8 @@ Json failures_of(const Sweep& sweep) {
   return all;
 }
 
-/// Of all members together. That dt is long for an oscillation, or an orbit falls into the centre, is said by a run of a
-/// single member.
+/// Of all members together. That dt is long for an oscillation, or an orbit falls into the centre, is said by a run of
+/// a single member.
 Json sweep_warnings(const Sweep& sweep) {
   const auto is_nonsense = [](const MemberRow& row) { return row.nonsense; };
   const auto first = std::find_if(sweep.rows().begin(), sweep.rows().end(), is_nonsense);

@@ -80,9 +80,9 @@ void add_passing(const Sweep& sweep, const SweepRequest& request, Json& warnings
     if (told.empty()) told = std::move(why);
   }
   if (count == 0) return;
-  warnings.push_back({{"kind", "long_step"},
-                      {"message", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(),
-                                              first, told)}});
+  warnings.push_back(
+      {{"kind", "long_step"},
+       {"message", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)}});
 }
 
 /// What is wrong with the request beside its scenario goes into `wrong`, a line each.

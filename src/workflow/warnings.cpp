@@ -202,9 +202,7 @@ bool has_core(const Request& request, const ProblemEntry& problem, const std::ve
     near[j] = q[i] + (q[j] - q[i]) / 1024;
     kinetic += p[i] * p[i] / (2 * mass(two.one)) + p[j] * p[j] / (2 * mass(two.other));
   }
-  const auto energy = [&](const std::vector<double>& at) {
-    return problem.energy(request.parameters, at, p);
-  };
+  const auto energy = [&](const std::vector<double>& at) { return problem.energy(request.parameters, at, p); };
   return !(std::abs(energy(near) - energy(q)) <= kinetic);
 }
 
@@ -219,17 +217,19 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
   const double move = speed * std::abs(dt);
   if (const double core = core_of(request); core != 0) {
     if (!(4 * move > core)) return {};
-    return fmt::format("a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
-                       "other: they may pass through each other unseen; try dt = {:.2g} or less",
-                       move, core, core / (20 * speed));
+    return fmt::format(
+        "a particle moves {:.3g} in a step, more than a quarter of {:.3g}, within which two repel each "
+        "other: they may pass through each other unseen; try dt = {:.2g} or less",
+        move, core, core / (20 * speed));
   }
   for (const Frame* at : {&start, &end}) {
     const auto two = nearest(request, at->q);
     if (!two || !(two->distance > 0 && move > two->distance / 2)) continue;
     if (!has_core(request, problem, at->q, at->p, *two)) continue;
-    return fmt::format("a particle moves {:.3g} in a step, and two stand {:.3g} apart: they may pass through "
-                       "each other unseen; try dt = {:.2g} or less",
-                       move, two->distance, two->distance / (20 * speed));
+    return fmt::format(
+        "a particle moves {:.3g} in a step, and two stand {:.3g} apart: they may pass through "
+        "each other unseen; try dt = {:.2g} or less",
+        move, two->distance, two->distance / (20 * speed));
   }
   return {};
 }
