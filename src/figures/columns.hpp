@@ -23,7 +23,8 @@ struct Column {
 std::string unit_of(const Figure& figure, Sort sort);
 /// Its label with its unit.
 std::string axis_label(const Figure& figure, const Column& column);
-/// All that can be drawn over each other: t, coordinates, momenta, energy, energy-error, observables, diagnostics.
+/// All that can be drawn over each other: t, coordinates, momenta, energy, energy-error, observables,
+/// invariants, diagnostics.
 std::vector<Column> columns_of(const FigureData& data);
 /// Their names.
 std::vector<std::string> column_names(const FigureData& data);

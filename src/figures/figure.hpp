@@ -62,6 +62,7 @@ struct FigureData : FigureSamples {
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;
   std::vector<std::pair<std::string, std::vector<double>>> observables{};  // expressions of the user, at each sample
+  std::vector<std::pair<std::string, std::vector<double>>> invariants{};   // that the problem declares, likewise
   /// The points of a Poincare section in the plane of another coordinate and its momentum, and their names.
   std::vector<double> section_q;
   std::vector<double> section_p;

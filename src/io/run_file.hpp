@@ -103,6 +103,8 @@ struct RunSamples {
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
   std::vector<std::pair<std::string, std::vector<double>>> observables;  // by name
+  std::vector<std::pair<std::string, std::vector<double>>>
+      invariants;  // NAME, or NAME_1, NAME_2, ... of several numbers
   std::vector<std::pair<std::string, std::vector<double>>> diagnostics;  // empty unless the run was asked for them
   std::vector<double> section_t;                                         // of the points of a section
   std::vector<std::vector<double>> section_q;

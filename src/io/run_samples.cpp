@@ -172,12 +172,22 @@ RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coor
     const std::string dataset = "observables/" + name + (particles ? "/value" : "");
     run.observables.emplace_back(name, read_column(file, dataset.c_str(), one));
   }
+  for (const std::string& name : names_in(file, "invariants")) {
+    std::size_t numbers = 0;
+    const std::vector<double> rows = read_column(file, ("invariants/" + name).c_str(), numbers);
+    numbers = std::max<std::size_t>(numbers, 1);
+    const auto columns = by_coordinate(rows, numbers, rows.size() / numbers);
+    for (std::size_t k = 0; k < numbers; ++k) {
+      run.invariants.emplace_back(numbers == 1 ? name : name + "_" + std::to_string(k + 1), columns[k]);
+    }
+  }
   // After a crash between two flushes the columns may differ in length: what all of them have is complete.
   std::size_t count = std::min({run.t.size(), run.energy.size(), q_rows, p_rows});
   if (with_states) count = std::min({count, q.size() / q_width, p.size() / p_width});
   for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
   for (const auto& column : run.observables) count = std::min(count, column.second.size());
-  for (auto* columns : {&run.diagnostics, &run.observables}) {
+  for (const auto& column : run.invariants) count = std::min(count, column.second.size());
+  for (auto* columns : {&run.diagnostics, &run.observables, &run.invariants}) {
     for (auto& column : *columns) column.second.resize(count);
   }
   run.t.resize(count);

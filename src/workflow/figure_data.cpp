@@ -195,6 +195,7 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   }
   data.diagnostics = std::move(samples.diagnostics);
   data.observables = std::move(samples.observables);
+  data.invariants = std::move(samples.invariants);
   // The level curve of H goes on behind walls, and is none of the motion where H changes with t.
   if (problem.dimension == 1 && !data.has_time && !has_hard_walls(scenario.request)) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
@@ -227,7 +228,7 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
     begin_with(data.p[i], run.start_p[i]);
   }
   for (auto* list : {&data.energy, &data.energy_difference}) begin_with(*list, unknown);
-  for (auto* columns : {&data.observables, &data.diagnostics}) {
+  for (auto* columns : {&data.observables, &data.invariants, &data.diagnostics}) {
     for (auto& column : *columns) begin_with(column.second, unknown);
   }
   data.particles.positions = [start = run.start_q, later = data.particles.positions](std::size_t sample) {

@@ -231,6 +231,23 @@ class Told(CommandCase):
         self.write("gas.toml", TWO.replace("-0.6, 0, 0.6, 0", "0.6, 0, 0.6, 0"))
         self.assertIn("gas.toml:5:11: error: problem.initial: found particles 1 and 2 at one point", self.told("gas.toml", "run.dt=0.1"))
 
+    def test_invariants_are_columns_of_figures(self):
+        """Of a run.h5 with its states in /particles, and of one with /q and /p."""
+        self.write("two.toml", TWO)
+        self.hamflow("run", "two.toml", "--out", "two.run", "--quiet")
+        self.write("kepler.toml", """[problem]
+name = "central-force"
+potential = "kepler"
+coordinates = "cartesian"
+initial = { q = [1, 0], p = [0, 1] }
+""" + TWO[TWO.index("[method]"):])
+        self.hamflow("run", "kepler.toml", "--out", "kepler.run", "--quiet")
+        for run, columns in (("two", "angular_momentum,linear_momentum_2,centre_of_mass_1"), ("kepler", "angular_momentum")):
+            self.hamflow("plot", f"{run}.run", "--kind", "time", "--y", columns, "-o", f"{run}.svg")
+            text = (self.folder / f"{run}.svg").read_text()
+            for column in columns.split(","):
+                self.assertIn(column.replace("_", "")[:8], re.sub("<[^>]*>|[_\\s]", "", text))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -110,7 +110,7 @@ steps = 2
         chosen = self.plot("k", "--y", "x,energy", "--x", "p_y", kind="time")
         self.assertTrue({"x", "py", "H"} <= set(chosen))
         self.assertNotIn("t", chosen)
-        self.assertIn('found column "p_z"; allowed t, x, y, p_x, p_y, energy, energy-error; did you mean p_x?',
+        self.assertIn('found column "p_z"; allowed t, x, y, p_x, p_y, energy, energy-error, angular_momentum; did you mean p_x?',
                       self.refused("k", "--kind", "time", "--y", "p_z"))
         self.assertIn("draws no columns; allowed for orbit, phase, time",
                       self.refused("k", "--kind", "energy-error", "--y", "x"))
