@@ -91,6 +91,8 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
 /// most, hence 0.29 units, and for q and p together four of them are 1.6 sqrt(n), for which stands 2 times two units.
 /// Reading it adds up as many terms as there are coordinates, at most its own size each time. Between that and the sum
 /// of sizes it is not known whether rounding or the method did it: stages and iterations round more often than once.
+/// Nor is it where n roundings to one side could do it, a unit each: a body that flies freely is moved by the same
+/// number in every step, and is rounded to the same side until its exponent changes.
 std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const ProblemEntry& problem,
                                        const std::vector<double>& magnitudes, const Request& request) {
   std::vector<MomentumMap> all;
@@ -99,6 +101,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
   const double roundings =
       std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
   const double walk = 16 * (1 + std::sqrt(roundings));
+  const double to_one_side = std::max(1.0, roundings / walk);
   const int digits = digits_beyond_double(request.arithmetic);
   // Bounds are made in units of rounding, which beyond double may be too small for one.
   const double unit = digits > 0 ? 1 : epsilon;
@@ -120,15 +123,17 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         size = std::max(size, magnitudes[3]);
         const double most = walk * (q_unit + p_unit) * size;
         map.rounding = in_arithmetic(std::min(most, walk / 8 * (q_unit + p_unit) * magnitudes[4] + reading));
-        map.doubtful = in_arithmetic(most);
+        map.doubtful = in_arithmetic(to_one_side * most);
         break;
       }
       case Terms::momentum:
         map.rounding = in_arithmetic(walk * p_unit * size);
+        map.doubtful = in_arithmetic(to_one_side * walk * p_unit * size);
         break;
       case Terms::momenta:
         size = std::max(size, magnitudes[2]);
         map.rounding = in_arithmetic(walk * p_unit * size);
+        map.doubtful = in_arithmetic(to_one_side * walk * p_unit * size);
         break;
       case Terms::centre_of_mass: {
         if (!problem.total_mass) break;
@@ -136,14 +141,15 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         size = std::max(size, magnitudes[0]);
         // Reading it adds up as many terms as there are bodies, each time rounding a sum of the whole size.
         const double reading = 4 * std::sqrt(static_cast<double>(end.q.size()));
-        map.rounding =
-            in_arithmetic((walk + reading) * q_unit * size + walk * p_unit * magnitudes[2] / mass * std::abs(end.time));
+        const double most =
+            (walk + reading) * q_unit * size + walk * p_unit * magnitudes[2] / mass * std::abs(end.time);
+        map.rounding = in_arithmetic(most);
+        map.doubtful = in_arithmetic(to_one_side * most);
         break;
       }
       case Terms::other:
         break;
     }
-    if (map.rounding && infos[i].terms != Terms::moments) map.doubtful = *map.rounding;
     map.relative = size > 0 ? quotient(map.max_error, size) : map.max_error;
     if (simulation.step() == 0) map.rounding.reset();  // nothing was done, which keeps nothing
     all.push_back(map);

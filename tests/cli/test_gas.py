@@ -586,6 +586,25 @@ class Gas(CommandCase):
                     for end in ends[1:]:
                         self.assertEqual((end["final"], end["energy"]), (ends[0]["final"], ends[0]["energy"]))
 
+    def test_free_flight_is_rounded_to_one_side(self):
+        """Then errors add up like the number of steps: it is not called a drift of the method."""
+        self.write("two.toml", """
+            [problem]
+            name = "gas"
+            container = { kind = "none" }
+            cutoff = 2
+            scale = 1
+            initial = { q = [0.704, -0.051, 4.547, 3.652], p = [-0.726, -0.711, 0.5, 0.674] }
+            [method]
+            name = "verlet"
+            [run]
+            dt = 0.01
+            steps = 1000000
+            """)
+        maps = self.summary("two.toml")["certificate"]["momentum_maps"]
+        self.assertGreater(maps["angular_momentum"]["max_error"], maps["angular_momentum"]["rounding"])
+        self.assertEqual([map["conserved"] for map in maps.values() if map["conserved"] == "not"], [])
+
     def test_many_on_the_lattice(self):
         """An encounter gives a momentum as much as it has: the usual unit of a melt leaves room for that."""
         edge = "(16^3/0.8442)^(1/3)"
