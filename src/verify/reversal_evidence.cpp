@@ -198,9 +198,8 @@ std::string out_of_proportion(const Request& request, const Reversal& reversal, 
     if (reversal.distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;  // no jump did that
     return fmt::format(
         "but what rounding becomes is not known: motions that begin {:.1e} apart part by {:.1e}, those that begin "
-        "{:.1e} "
-        "apart by {:.1e}, which is not in proportion; a force that jumps there is taken on one side or the other as a "
-        "rounding decides",
+        "{:.1e} apart by {:.1e}, which is not in proportion, as where a force jumps and a rounding decides on which "
+        "side it is taken",
         moved * std::max(way.q_size(), way.p_size()), apart.furthest, moved_less * std::max(way.q_size(), way.p_size()),
         nearer.furthest);
   }

@@ -155,6 +155,7 @@ class ScenarioRun {
                                  going_on(result.outcome == Outcome::stopped, result.steps_taken));
     const auto& reversal = report.certificate->reversal;
     certificate_stopped_ = reversal && reversal->was_stopped;
+    if (certificate_stopped_) result.outcome = Outcome::stopped;  // what is left of the run is its certificate
     Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
     if (summary["final"].contains("dataset") && !keeps_final_state()) {
       summary["final"]["dataset"] = nullptr;
