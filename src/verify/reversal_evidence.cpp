@@ -188,19 +188,28 @@ bool begins_on_a_wall(const Request& request, const Frame& start, double size) {
 /// Why what rounding becomes is not known; empty where small differences grow in proportion to themselves, as those of
 /// every motion do that depends on its start smoothly. Where a force jumps between two motions that are close, one of
 /// them takes a kick that the other does not, however close they are. A rounding then does as much as the move here.
+/// Bodies of unlike masses part by unlike factors in unlike directions: what is not in proportion to the first move is
+/// compared with a larger move in its own direction.
 std::string out_of_proportion(const Request& request, const Reversal& reversal, const Waypoints& way,
                               const Parting& apart, const GoOn& go_on) {
-  for (const double size : {moved_less, -moved_less}) {
-    const Parting nearer = parting(request, reversal, way, go_on, {size, 3, true});
-    if (!nearer.measured) return "how far rounding is carried could not be measured";
-    const double ratio = nearer.root_mean_square / apart.root_mean_square;
-    if (ratio <= in_proportion && ratio * in_proportion >= 1) continue;
+  const auto alike = [](const Parting& nearer, const Parting& wider) {
+    const double ratio = nearer.root_mean_square / wider.root_mean_square;
+    return ratio <= in_proportion && ratio * in_proportion >= 1;
+  };
+  const char* const unmeasured = "but how far rounding is carried could not be measured";
+  for (const double sign : {1.0, -1.0}) {
+    const Parting nearer = parting(request, reversal, way, go_on, {sign * moved_less, 3, true});
+    if (!nearer.measured) return unmeasured;
+    if (alike(nearer, apart)) continue;
     if (reversal.distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;  // no jump did that
+    const Parting wider = parting(request, reversal, way, go_on, {sign * moved, 3, true});
+    if (!wider.measured) return unmeasured;
+    if (alike(nearer, wider)) continue;
     return fmt::format(
         "but what rounding becomes is not known: motions that begin {:.1e} apart part by {:.1e}, those that begin "
-        "{:.1e} apart by {:.1e}, which is not in proportion, as where a force jumps and a rounding decides on which "
-        "side it is taken",
-        moved * std::max(way.q_size(), way.p_size()), apart.furthest, moved_less * std::max(way.q_size(), way.p_size()),
+        "{:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where a force jumps and a "
+        "rounding decides on which side it is taken",
+        moved * std::max(way.q_size(), way.p_size()), wider.furthest, moved_less * std::max(way.q_size(), way.p_size()),
         nearer.furthest);
   }
   return {};

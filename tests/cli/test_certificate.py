@@ -265,6 +265,24 @@ class Certificate(CommandCase):
         # Without a variant the problem is the one of a scenario, or the first that the method can run on.
         self.hamflow("verify", "stv4", "cg(1,5)", "--problem", "double-pendulum", "--json")
 
+    def test_unlike_masses_part_unlike_in_every_direction(self):
+        """Moves of one size but in two directions part by factors of 6 in the solar system: no force jumps there, and
+        a step of 50 days of rk4 is not reversible by far more than rounding becomes; verlet's is."""
+        self.write("planets.toml", """
+            [problem]
+            name = "solar-system"
+            [method]
+            name = "rk4"
+            [run]
+            dt = 50
+            steps = 20000
+            """)
+        found = self.summary("planets.toml")["certificate"]["reversal_distance"]
+        self.assertEqual(found["proves"], "not reversible", found["reason"])
+        self.assertGreater(found["distance"], 1e-3)
+        found = self.summary("planets.toml", "--set", "method.name=verlet")["certificate"]["reversal_distance"]
+        self.assertEqual(found["proves"], "reversible to rounding", found["reason"])
+
 
 if __name__ == "__main__":
     unittest.main()
