@@ -106,6 +106,10 @@ const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string&
                   ", which stands in the coordinates " + joined(problem.info.coordinates) +
                   " alone; allowed: " + allowed);
     }
+    if (charts == charted_problems().end() && !problem.structure) {
+      throw Error(problem.info.name +
+                  " stands in one set of coordinates, with nothing to convert to; allowed: " + allowed);
+    }
     throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
   }
   // Entries in charts under keys of their own may lack each other's choices.

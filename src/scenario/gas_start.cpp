@@ -100,7 +100,9 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
     const std::string found = "found the column '" + cell->text + "'";
     if (place_of(cell->text) != cell) throw Error(found + " twice" + at(1, cell->column) + allowed);
     if (cell->text == "mass" || std::find(names.begin(), names.end(), cell->text) != names.end()) continue;
-    throw Error(found + at(1, cell->column) + suggestion(cell->text, names) + allowed);
+    std::vector<std::string> known = names;
+    known.emplace_back("mass");
+    throw Error(found + at(1, cell->column) + suggestion(cell->text, known) + allowed);
   }
   std::vector<std::size_t> places;
   for (const std::string& name : names) {

@@ -106,6 +106,8 @@ constexpr const char* other_than_forces =
     "{} asks for more of the pairs than forces (second derivatives, series or differences of H): how many pairs that "
     "takes, no step counts";
 
+const char* const nothing_returned = "the reversal has not come to its end: nothing is said of what it returns";
+
 const char* const below_the_digits =
     "every digit of q and p came back; what is carried on below their last digit did not, or a zero has the other sign";
 
@@ -259,7 +261,9 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   report.note = note_of(
       info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic, timed, even,
       report.expected_bit_exact, [&] { return note_of_irreversible(scenario, r, info.name); }, exact_return(scenario));
-  if (rejects_steps(scenario)) {
+  if (r.outcome != Outcome::done) {
+    report.note = nothing_returned;  // what a method is said to return was not seen here
+  } else if (rejects_steps(scenario)) {
     report.note +=
         (report.note.empty() ? "" : "; ") +
         std::string("steps that leave the walls are rejected, which is not one-to-one: no return is promised");

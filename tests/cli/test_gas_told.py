@@ -7,6 +7,7 @@ import shutil
 import unittest
 
 from command import CommandCase, EXAMPLES
+from gas_case import GAS
 
 BOX = """[problem]
 name = "gas"
@@ -247,6 +248,31 @@ initial = { q = [1, 0], p = [0, 1] }
             text = (self.folder / f"{run}.svg").read_text()
             for column in columns.split(","):
                 self.assertIn(column.replace("_", "")[:8], re.sub("<[^>]*>|[_\\s]", "", text))
+
+    def test_a_reversal_that_did_not_come_back_promises_nothing(self):
+        self.write("gas.toml", GAS % "")
+        back = ("reverse", "gas.toml", "--set", "run.dt=0.1", "--set", "run.steps=100", "--json")
+        for arithmetic in ("lattice", "double"):
+            s = json.loads(self.hamflow(*back, "--set", f"run.arithmetic={arithmetic}", status=1).stdout)
+            self.assertEqual(s["status"], "failed")
+            self.assertEqual(s["note"], "the reversal has not come to its end: nothing is said of what it returns")
+
+    def test_a_reversal_draws_nothing_by_itself(self):
+        self.write("gas.toml", GAS % "")
+        figures = "output.figures is not used: a reversal draws nothing; hamflow plot draws what --out DIR keeps"
+        self.assertIn(figures, self.hamflow("reverse", "gas.toml", "--set", "output.figures=['particles']").stderr)
+        self.assertNotIn("not used", self.hamflow("reverse", "gas.toml").stderr)
+
+    def test_a_column_that_is_nearly_the_mass(self):
+        self.write("start.csv", "x,y,p_x,p_y,mess\n0,0,0,0,1\n1,0,0,0,1\n")
+        self.write("gas.toml", GAS.replace("particles_per_side = 4", "") % 'start = "file"\nfile = "start.csv"\nscale = 1')
+        self.assertIn("found the column 'mess' in line 1, column 13", self.told("gas.toml"))
+        self.assertIn("did you mean mass?", self.told("gas.toml"))
+
+    def test_a_gas_has_no_coordinates_to_convert_to(self):
+        self.write("gas.toml", GAS % "")
+        told = self.hamflow("convert", "gas.toml", "--to", "cartesian", "-o", "c.csv", status=2).stderr
+        self.assertIn("gas stands in one set of coordinates, with nothing to convert to; allowed: central-force", told)
 
 
 if __name__ == "__main__":
