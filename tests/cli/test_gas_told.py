@@ -271,7 +271,7 @@ initial = { q = [1, 0], p = [0, 1] }
 
     def test_a_gas_has_no_coordinates_to_convert_to(self):
         self.write("gas.toml", GAS % "")
-        told = self.hamflow("convert", "gas.toml", "--to", "cartesian", "-o", "c.csv", status=2).stderr
+        told = self.hamflow("convert", "gas.toml", "--to", "cartesian", "-o", "c.toml", status=2).stderr
         self.assertIn("gas stands in one set of coordinates, with nothing to convert to; allowed: central-force", told)
 
 
