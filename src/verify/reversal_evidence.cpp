@@ -189,9 +189,10 @@ bool begins_on_a_wall(const Request& request, const Frame& start, double size) {
 /// every motion do that depends on its start smoothly. Where a force jumps between two motions that are close, one of
 /// them takes a kick that the other does not, however close they are. A rounding then does as much as the move here.
 /// Bodies of unlike masses part by unlike factors in unlike directions: what is not in proportion to the first move is
-/// compared with a larger move in its own direction.
-std::string out_of_proportion(const Request& request, const Reversal& reversal, const Waypoints& way,
-                              const Parting& apart, const GoOn& go_on) {
+/// compared with a larger move in its own direction. The furthest that is seen is then what rounding may become.
+/// @param apart how the first move parts; becomes the furthest parting seen
+std::string out_of_proportion(const Request& request, const Reversal& reversal, const Waypoints& way, Parting& apart,
+                              const GoOn& go_on) {
   const auto alike = [](const Parting& nearer, const Parting& wider) {
     const double ratio = nearer.root_mean_square / wider.root_mean_square;
     return ratio <= in_proportion && ratio * in_proportion >= 1;
@@ -204,7 +205,11 @@ std::string out_of_proportion(const Request& request, const Reversal& reversal, 
     if (reversal.distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;  // no jump did that
     const Parting wider = parting(request, reversal, way, go_on, {sign * moved, 3, true});
     if (!wider.measured) return unmeasured;
-    if (alike(nearer, wider)) continue;
+    if (alike(nearer, wider)) {
+      apart.root_mean_square = std::max(apart.root_mean_square, wider.root_mean_square);
+      apart.furthest = std::max(apart.furthest, wider.furthest);
+      continue;
+    }
     return fmt::format(
         "but what rounding becomes is not known: motions that begin {:.1e} apart part by {:.1e}, those that begin "
         "{:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where a force jumps and a "
@@ -230,18 +235,16 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
     return {ReversalProof::nothing,
             "every bit came back, but " + method.name + " is not reversible: its defect is below rounding"};
   }
-  const Parting apart = parting(request, reversal, way, go_on);
+  Parting apart = parting(request, reversal, way, go_on);
   const double size = std::max(way.q_size(), way.p_size());
   if (!apart.measured) return {ReversalProof::nothing, "how far rounding is carried could not be measured"};
-  const LongNumber rounding = explained_by_rounding(request, reversal, apart, way, actions);
-  const std::string explained =
-      fmt::format("{} off, of which rounding explains {}", brief(reversal.distance), brief(rounding));
-  if (apart.furthest > parted * size) {
-    return {ReversalProof::nothing,
-            fmt::format("{} off, but motions that begin close to each other part by a factor of {:.0e}: what rounding "
-                        "becomes is not known",
-                        brief(reversal.distance), apart.furthest / (moved * size))};
-  }
+  const auto parts_too_far = [&] {
+    return fmt::format(
+        "{} off, but motions that begin close to each other part by a factor of {:.0e}: what rounding "
+        "becomes is not known",
+        brief(reversal.distance), apart.furthest / (moved * size));
+  };
+  if (apart.furthest > parted * size) return {ReversalProof::nothing, parts_too_far()};
   if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
     return {ReversalProof::to_rounding,
             "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
@@ -251,7 +254,11 @@ std::pair<ReversalProof, std::string> judged(const Request& request, const Probl
   if (!at_most(reversal.distance, explained_by_rounding(request, reversal, nothing_grows, way, actions))) {
     const std::string unknown = out_of_proportion(request, reversal, way, apart, go_on);
     if (!unknown.empty()) return {ReversalProof::nothing, brief(reversal.distance) + " off, " + unknown};
+    if (apart.furthest > parted * size) return {ReversalProof::nothing, parts_too_far()};
   }
+  const LongNumber rounding = explained_by_rounding(request, reversal, apart, way, actions);
+  const std::string explained =
+      fmt::format("{} off, of which rounding explains {}", brief(reversal.distance), brief(rounding));
   if (!at_most(reversal.distance, rounding)) {
     if (method.reversible &&
         at_most(reversal.distance, explained_by_rounding(request, reversal, apart, way, actions, beyond))) {

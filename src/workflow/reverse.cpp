@@ -64,7 +64,6 @@ std::string exact_return(const Scenario& scenario) {
 /// What the distance says about a method that is not reversible: where rounding explains it, nothing.
 std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, const std::string& method) {
   const std::string begun = method + " is not reversible";
-  if (r.outcome != Outcome::done) return begun;
   if (r.bit_exact) return begun + ", but every bit came back: its defect is below rounding here";
   const ReversalEvidence evidence = reversal_evidence(scenario.request, *scenario.problem, r.steps, std::nullopt);
   if (evidence.proves == ReversalProof::not_reversible) {
@@ -258,12 +257,15 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   const MethodSpec& method = scenario.request.method;
   const auto tolerance = method.options.find(tolerance_option);
   const MethodInfo info = describe(method);
-  report.note = note_of(
-      info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic, timed, even,
-      report.expected_bit_exact, [&] { return note_of_irreversible(scenario, r, info.name); }, exact_return(scenario));
   if (r.outcome != Outcome::done) {
     report.note = nothing_returned;  // what a method is said to return was not seen here
-  } else if (rejects_steps(scenario)) {
+  } else {
+    report.note = note_of(
+        info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic, timed, even,
+        report.expected_bit_exact, [&] { return note_of_irreversible(scenario, r, info.name); },
+        exact_return(scenario));
+  }
+  if (r.outcome == Outcome::done && rejects_steps(scenario)) {
     report.note +=
         (report.note.empty() ? "" : "; ") +
         std::string("steps that leave the walls are rejected, which is not one-to-one: no return is promised");
