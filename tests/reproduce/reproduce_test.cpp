@@ -102,6 +102,31 @@ void expect_page_alone(const ReproduceReport& report, const fs::path& folder) {
   }
 }
 
+/// Figures N.1 to N.last of a thesis.
+void expect_figures(const std::set<std::string>& ids, const std::string& chapter, int last) {
+  for (int k = 1; k <= last; ++k) EXPECT_TRUE(ids.contains(chapter + "." + std::to_string(k))) << chapter << "." << k;
+}
+
+/// 58 figures and 9 tables of Gross, 32 figures, some of them parts of one, and 3 tables of Sonnleitner.
+void expect_every_figure_and_table(const ReproduceReport& report, const fs::path& folder) {
+  std::set<std::string> ids;
+  for (const ExperimentReport& one : report.experiments) ids.insert(one.info.id);
+  expect_figures(ids, "G1", 2);
+  expect_figures(ids, "G2", 28);
+  expect_figures(ids, "G3", 28);
+  expect_figures(ids, "T2", 5);
+  expect_figures(ids, "T3", 4);
+  expect_figures(ids, "S1", 3);
+  expect_figures(ids, "S2", 7);
+  expect_figures(ids, "S3", 9);
+  for (const char* const table : {"S-T64", "S-T81", "S-T99"}) EXPECT_TRUE(ids.contains(table)) << table;
+  const std::string page = text_of(folder / "index.html");
+  for (const char* const part : {"3.2a", "3.2b", "3.2c", "3.3a", "3.3b", "3.3c", "3.4a", "3.4b", "3.4c", "3.4d", "3.4e",
+                                 "3.5a", "3.5b", "3.5c", "3.5d", "3.6a", "3.6b", "3.8a", "3.8b"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+}
+
 /// What is done is not done again, and the verdicts stay.
 void expect_nothing_to_resume(ReproduceRequest request) {
   const std::string verdicts = text_of(request.folder / "verdicts.json");
@@ -126,6 +151,7 @@ TEST(Experiments, AllOfThemQuickly) {  // one test: they are carried out once
   expect_rules_notice_violations(report);
   expect_no_more_than_shown(report);
   expect_page_alone(report, folder);
+  expect_every_figure_and_table(report, folder);
   expect_nothing_to_resume(request);
   if (left == nullptr) fs::remove_all(folder);
 }

@@ -103,7 +103,7 @@ void square(Study& study) {
                   fmt::format("positions {:.2g}, momenta {:.2g}", back.position, back.momentum)}});
     if (run.scale != "per-side") continue;
     study.draw(
-        "figure", "Places and momenta at the start (discs) and after the return (rings), dt = 0.0001",
+        "figure", "Places (3.2a) and momenta (3.2b) at the start (discs) and after the return (rings), dt = 0.0001",
         {study.info().title,
          {places("{/:Italic x}", "{/:Italic y}", {{"start", back.start.q, red}, {"return", back.end.q, green, 6}}),
           places("{/:Italic p_x}", "{/:Italic p_y}",
@@ -126,7 +126,7 @@ void square(Study& study) {
     tracks.push_back(std::move(track));
   }
   study.draw("tracks",
-             fmt::format("Tracks of five particles, dt = 0.0001, up to t = {:.4g}{}", path.t.back(),
+             fmt::format("Tracks of five particles (3.2c), dt = 0.0001, up to t = {:.4g}{}", path.t.back(),
                          path.report.status == "done" ? "" : ", where the run ends: " + path.report.message),
              {study.info().title, {places("{/:Italic x}", "{/:Italic y}", tracks)}});
 }
@@ -207,7 +207,8 @@ void corner(Study& study) {
                     {{static_cast<double>(elsewhere), 0, "of 121"}});
       if (run.scale != "per-side" || run.dt != "0.001") continue;
       study.draw(
-          "figure", "Start (red), after 2400 steps (blue) and after 2400 back (green rings), dt = 0.001",
+          "figure",
+          "Start (red, 3.3a), after 2400 steps (blue, 3.3b) and after 2400 back (green rings, 3.3c), dt = 0.001",
           {study.info().title,
            {places("{/:Italic x}", "{/:Italic y}",
                    {{"start", back.start.q, red}, {"turn", back.turn.q, blue, 4}, {"return", back.end.q, green, 6}})}});

@@ -99,8 +99,8 @@ void draw_beam(Study& study, const Beam& all, const std::string& name, const std
   figures::Panel panel =
       phase_plane("{/:Italic Q}_1 of the start", "angle of the slope after", all.q1, all.angle, {}, {});
   study.draw("beam_" + name,
-             fmt::format("Angle of the slope after the bounce over the start of a trajectory, {}; before: {:.4f}", what,
-                         all.angle_before),
+             fmt::format("Angle of the slope after the bounce over the start of a trajectory ({}), {}; before: {:.4f}",
+                         name.starts_with("repelled") ? "3.8a" : "3.8b", what, all.angle_before),
              {what, {panel}});
 }
 
@@ -135,7 +135,7 @@ void single(Study& study) {
         at_least(0, "the change of its angle in the direction told"),
         {{sign * (after - before), 1e-6,
           fmt::format("from Q1 = {} with v = ({}, -1): {:.4f} to {:.4f}", q1, v1, before, after)}});
-    study.draw(side, fmt::format("The trajectory, {}", side),
+    study.draw(side, fmt::format("The trajectory ({}), {}", eps < 0 ? "3.6a" : "3.6b", side),
                {study.info().title,
                 {phase_plane("{/:Italic Q}_1", "{/:Italic Q}_2", path.coordinate(0), path.coordinate(1), {}, {})}});
   };

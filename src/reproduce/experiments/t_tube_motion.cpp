@@ -136,7 +136,7 @@ void momenta(Study& study) {
     if (std::string(rule) == "reject") {
       study.keep(
           {"early", {{"t", thinned(path.t)}, {"P1", thinned(path.momentum(0))}, {"P2", thinned(path.momentum(1))}}});
-      study.draw("figure", "P1 and P2 during the first 600 time units, reject",
+      study.draw("figure", "P1 (3.4a) and P2 during the first 600 time units, reject",
                  {study.info().title,
                   {over_time("{/:Italic P}_1", thinned(path.t), thinned(path.momentum(0))),
                    over_time("{/:Italic P}_2", thinned(path.t), thinned(path.momentum(1)))}});
@@ -208,7 +208,7 @@ void claim_discrete(Study& study, const LateMotion& late) {
        "late positions are a discrete curve, run through periodically: a late motion of " + motion, "discrete", "92"},
       at_most(1.01, "no new cells in four times the time"), {growth});
   study.draw(
-      motion, fmt::format("Positions and momenta of a late motion of {}, reject", motion),
+      motion, fmt::format("Positions (3.5c) and momenta (3.5d) of a late motion of {}, reject", motion),
       {study.info().title,
        {positions(path), phase_plane("{/:Italic P}_1", "{/:Italic P}_2", path.momentum(0), path.momentum(1), {}, {})}});
 }
@@ -230,7 +230,7 @@ void curves(Study& study) {
                 at_least(0.99, "share of 30 x 30 cells that are visited in 600 time units"),
                 {{of_positions, 0, "cells"}});
     if (std::string(rule) == "reject") {
-      study.draw("figure", "Positions and momenta, first 600 time units, reject",
+      study.draw("figure", "Positions (3.5a) and momenta (3.5b), first 600 time units, reject",
                  {study.info().title,
                   {positions(path),
                    phase_plane("{/:Italic P}_1", "{/:Italic P}_2", path.momentum(0), path.momentum(1), {}, {})}});
