@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hamflow {
@@ -30,11 +31,17 @@ Place place_of(const Rule& rule, const Measured& measured) {
 }
 
 std::string told(const Measured& measured) {
-  std::string text = fmt::format("{:.6g}", measured.value);
+  std::string text = number_text(measured);
   if (measured.uncertainty > 0) text += fmt::format(" +- {:.2g}", measured.uncertainty);
   return measured.how.empty() ? text : text + " (" + measured.how + ")";
 }
 }  // namespace
+
+std::string number_text(const Measured& one) {
+  if (!(one.uncertainty > 0) || one.value == 0) return fmt::format("{:.8g}", one.value);
+  const double digits = std::ceil(std::log10(std::abs(one.value) / one.uncertainty)) + 1;
+  return fmt::format("{:.{}g}", one.value, static_cast<int>(std::clamp(digits, 2.0, 15.0)));
+}
 
 Rule as_printed(const std::string& number) {
   const double value = std::stod(number);

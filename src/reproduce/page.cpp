@@ -2,7 +2,6 @@
 // on a telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -167,13 +166,6 @@ const char* mark_of(ClaimVerdict verdict) {
 std::string verdict_html(ClaimVerdict verdict) {
   return fmt::format("<span class=\"verdict {}\"><span aria-hidden=\"true\">{} </span>{}</span>", class_of(verdict),
                      mark_of(verdict), name(verdict));
-}
-
-/// As many digits as the uncertainty leaves: two of it, and eight of a number that has none.
-std::string number_text(const Measured& one) {
-  if (!(one.uncertainty > 0) || one.value == 0) return fmt::format("{:.8g}", one.value);
-  const double digits = std::ceil(std::log10(std::abs(one.value) / one.uncertainty)) + 1;
-  return fmt::format("{:.{}g}", one.value, static_cast<int>(std::clamp(digits, 2.0, 15.0)));
 }
 
 std::string number_html(const Measured& one) {

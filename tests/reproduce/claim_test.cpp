@@ -43,6 +43,12 @@ TEST(Claim, WhatIsNoNumberIsUndecided) {
   }
 }
 
+TEST(Claim, ReasonsHaveTheDigitsThatDecide) {
+  const std::string reason =
+      judge(as_printed("-0.167875643"), std::vector<Measured>{{-0.16787564376854627, 7e-15}}, Grounds::program).reason;
+  EXPECT_NE(reason.find("-0.167875643768546 +- 7e-15"), std::string::npos) << reason;
+}
+
 /// The verdict of a count of twelve.
 ClaimVerdict verdict_of_majority(int with, int against) {
   const reproduction::Majority count{with, against};
