@@ -89,8 +89,8 @@ struct Starts {
   const char* told;
   double from, width;  // of Q1
 };
-constexpr Starts near{"near", "within 1e-9 of q1 = 0.01", 0.01 - 5e-10, 1e-9};
-constexpr Starts grid{"grid", "on a grid of 1 % around it", 0.0099, 2e-4};
+constexpr Starts beside_start{"near", "within 1e-9 of q1 = 0.01", 0.01 - 5e-10, 1e-9};
+constexpr Starts around_start{"grid", "on a grid of 1 % around it", 0.0099, 2e-4};
 
 Changes changes_of(Study& study, const TubeRun& run, const std::string& name, const Starts& around, int members) {
   constexpr std::size_t blocks = 10;
@@ -120,13 +120,13 @@ void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const std::o
   if (changes) {
     const Changes &own = changes->near, &wide = changes->grid;
     const auto off = [&](const char* printed, const Spread& spread, double moved) {
-      return Measured{
-          std::abs(std::stod(printed) - spread.mean), 3 * spread.deviation + 2 * moved,
-          fmt::format("{} starts {}, {:g} steps: {:+.4f} and {:+.4f}; {} {}, {:g} steps: {:+.4f} and "
-                      "{:+.4f}; H off by at most {:.2g} of its size",
-                      spread.members, near.told, static_cast<double>(run.steps), own.first.mean, own.second.mean,
-                      wide.first.members, grid.told, static_cast<double>(changes->steps_of_grid), wide.first.mean,
-                      wide.second.mean, std::max(own.energy_error, wide.energy_error))};
+      return Measured{std::abs(std::stod(printed) - spread.mean), 3 * spread.deviation + 2 * moved,
+                      fmt::format("{} starts {}, {:g} steps: {:+.4f} and {:+.4f}; {} {}, {:g} steps: {:+.4f} and "
+                                  "{:+.4f}; H off by at most {:.2g} of its size",
+                                  spread.members, beside_start.told, static_cast<double>(run.steps), own.first.mean,
+                                  own.second.mean, wide.first.members, around_start.told,
+                                  static_cast<double>(changes->steps_of_grid), wide.first.mean, wide.second.mean,
+                                  std::max(own.energy_error, wide.energy_error))};
     };
     const Measured one = off(pair.change1, own.first, own.moved1);
     const Measured two = off(pair.change2, own.second, own.moved2);
@@ -183,8 +183,8 @@ void compare_starts(Study& study) {
         const bool is_long = static_cast<double>(run.steps) * std::stod(run.dt) > 400;
         if (is_long || is_usual) {
           const std::string name = fmt::format("{}_{}_{}", pair.name, rule, dt);
-          changes = {changes_of(study, run, name, near, members), changes_of(study, shorter, name, grid, members),
-                     shorter.steps};
+          changes = {changes_of(study, run, name, beside_start, members),
+                     changes_of(study, shorter, name, around_start, members), shorter.steps};
         }
         claim_pair(study, pair, run, is_long ? changes : std::nullopt);
         if (!changes) continue;
