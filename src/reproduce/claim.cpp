@@ -32,13 +32,18 @@ Place place_of(const Rule& rule, const Measured& measured) {
 
 std::string told(const Measured& measured) {
   std::string text = number_text(measured);
-  if (measured.uncertainty > 0) text += fmt::format(" +- {:.2g}", measured.uncertainty);
+  if (measured.uncertainty > 0 && std::isfinite(measured.uncertainty)) {
+    text += fmt::format(" +- {:.2g}", measured.uncertainty);
+  }
   return measured.how.empty() ? text : text + " (" + measured.how + ")";
 }
+/// A number that something is subtracted from.
+std::string in_brackets(const std::string& number) { return number.starts_with('-') ? "(" + number + ")" : number; }
 }  // namespace
 
 std::string number_text(const Measured& one) {
-  if (!(one.uncertainty > 0) || one.value == 0) return fmt::format("{:.8g}", one.value);
+  if (!(one.uncertainty > 0) || !std::isfinite(one.uncertainty) || one.value == 0)
+    return fmt::format("{:.8g}", one.value);
   const double digits = std::ceil(std::log10(std::abs(one.value) / one.uncertainty)) + 1;
   return fmt::format("{:.{}g}", one.value, static_cast<int>(std::clamp(digits, 2.0, 15.0)));
 }
@@ -47,7 +52,8 @@ Rule as_printed(const std::string& number) {
   const double value = std::stod(number);
   // Half a unit, and what a decimal number loses as a double.
   const double half = last_place(number) / 2 * (1 + 1e-9);
-  return {"|measured - " + number + "| at most half a unit of the last digit printed", value - half, value + half};
+  return {"|measured - " + in_brackets(number) + "| at most half a unit of the last digit printed", value - half,
+          value + half};
 }
 
 Rule at_most(double limit, const std::string& why) {
@@ -63,7 +69,8 @@ Rule at_least(double limit, const std::string& why) {
 }
 
 Rule within(double expected, double tolerance, const std::string& why) {
-  return {fmt::format("|measured - {:.10g}| <= {:.3g}: {}", expected, tolerance, why), expected - tolerance,
+  const std::string number = in_brackets(fmt::format("{:.10g}", expected));
+  return {fmt::format("|measured - {}| <= {:.3g}: {}", number, tolerance, why), expected - tolerance,
           expected + tolerance};
 }
 
@@ -85,7 +92,9 @@ Judgement judge(const Rule& rule, std::span<const Measured> measured, Grounds gr
         any_outside = true;
         break;
       case Place::unclear:
-        return {ClaimVerdict::undecided, told(one) + " may lie on either side of the rule"};
+        return {ClaimVerdict::undecided,
+                told(one) + (std::isfinite(one.uncertainty) ? " may lie on either side of the rule"
+                                                            : ", from which nothing follows")};
     }
   }
   std::string numbers;

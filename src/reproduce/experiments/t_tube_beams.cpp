@@ -121,22 +121,29 @@ void beams(Study& study) {
   }
 }
 
+double last_angle(const Trajectory& path) {
+  return std::atan2(std::abs(path.p.back()[1] / 100), std::abs(path.p.back()[0]));
+}
+
 /// Figure 3.6: a single trajectory from near the middle.
 void single(Study& study) {
   const auto one = [&](double eps, const std::string& v1, double q1, const std::string& side, int sign) {
     TubeRun run = beam_run(eps, v1);
     run.record_every = 1;
     const Trajectory path = study.run(side, tube_scenario(run), {fmt::format("problem.initial.q[0]={}", q1)});
-    const double before = std::atan2(1, std::stod(v1));
-    const double after = std::atan2(std::abs(path.p.back()[1] / 100), std::abs(path.p.back()[0]));
+    const double before = std::atan2(1, std::stod(v1)), after = last_angle(path);
+    run.dt = "0.005", run.steps *= 2;
+    const double finer =
+        last_angle(study.run(side + "_finer", tube_scenario(run), {fmt::format("problem.initial.q[0]={}", q1)}));
     study.claim(
         {side, fmt::format("{}: the trajectory is {} after its reflection", side, sign < 0 ? "flatter" : "steeper"),
          sign < 0 ? "flatter" : "steeper"},
         at_least(0, "the change of its angle in the direction told"),
-        {{sign * (after - before), 1e-6,
-          fmt::format("from Q1 = {} with v = ({}, -1): {:.4f} to {:.4f}", q1, v1, before, after)}});
+        {{sign * (after - before), 2 * std::abs(after - finer),
+          fmt::format("from Q1 = {} with v = ({}, -1): {:.4f} to {:.4f}; +-: twice the difference to half of the step",
+                      q1, v1, before, after)}});
     study.draw(side, fmt::format("The trajectory ({}), {}", eps < 0 ? "3.6a" : "3.6b", side),
-               {study.info().title,
+               {fmt::format("T-tube: {}", side),
                 {phase_plane("{/:Italic Q}_1", "{/:Italic Q}_2", path.coordinate(0), path.coordinate(1), {}, {})}});
   };
   one(-0.6, "0.1", -0.05, "repelling", -1);
@@ -149,6 +156,28 @@ Measured share(const std::vector<double>& near, const std::vector<double>& all, 
   std::vector<double> off;
   for (std::size_t i = 0; i < near.size(); ++i) off.push_back(near[i] - ratio * all[i]);
   return {ratio, 3 * spread_of(off).standard_error() / spread_of(all).mean, how};
+}
+
+/// By which angle a trajectory turns in each step, and at which distance from the origin. A bounce turns no slope.
+struct Turning {
+  std::vector<double> at, by;
+
+  double between(double low, double high) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) sum += at[k] > low && at[k] <= high ? by[k] : 0;
+    return sum;
+  }
+};
+Turning turning(const Trajectory& path) {
+  Turning all;
+  double before = 0;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const double angle = std::atan2(std::abs(path.p[k][1] / 100), std::abs(path.p[k][0]));
+    all.at.push_back(std::hypot(path.q[k][0], path.q[k][1]));
+    all.by.push_back(k == 0 ? 0 : std::abs(angle - before));
+    before = angle;
+  }
+  return all;
 }
 
 /// How much of the turning of a trajectory happens within a distance of the origin.
@@ -164,34 +193,31 @@ void near_the_origin(Study& study) {
     std::vector<double> in_ring(distances.size());  // turning of all trajectories
     const std::string side = eps < 0 ? "repelling" : "attracting";
     std::vector<double> near, all;
-    double furthest = 0;
+    double furthest = 0, furthest_finer = 0;
     for (int i = 0; i < members; ++i) {
       TubeRun run = beam_run(eps, eps < 0 ? "0.1" : "5");
       run.record_every = 1;
-      const double q1 = -0.97 + 1.94 * i / (members - 1);
-      const Trajectory path =
-          study.run(fmt::format("{}_{}", side, i), tube_scenario(run), {fmt::format("problem.initial.q[0]={}", q1)});
-      double before = 0, turned_near = 0, turned = 0, turned_far = 0;
-      for (std::size_t k = 0; k < path.size(); ++k) {
-        const double angle = std::atan2(std::abs(path.p[k][1] / 100), std::abs(path.p[k][0]));
-        const double turn = k == 0 ? 0 : std::abs(angle - before);
-        const double r = std::hypot(path.q[k][0], path.q[k][1]);
-        turned += turn;
-        if (r < 0.5) turned_near += turn;
-        if (r > 1) turned_far += turn;
-        if (const auto ring = static_cast<std::size_t>(r / width); ring < in_ring.size()) in_ring[ring] += turn;
-        before = angle;
+      const std::string start = fmt::format("problem.initial.q[0]={}", -0.97 + 1.94 * i / (members - 1));
+      const Turning turned = turning(study.run(fmt::format("{}_{}", side, i), tube_scenario(run), {start}));
+      for (std::size_t k = 0; k < turned.by.size(); ++k) {
+        if (const auto ring = static_cast<std::size_t>(turned.at[k] / width); ring < in_ring.size()) {
+          in_ring[ring] += turned.by[k];
+        }
       }
-      near.push_back(turned_near);
-      all.push_back(turned);
-      furthest = std::max(furthest, turned_far);
+      near.push_back(turned.between(0, 0.5));
+      all.push_back(turned.between(0, 3));
+      furthest = std::max(furthest, turned.between(1, 3));
+      run.dt = "0.005", run.steps *= 2;
+      const Trajectory finer = study.run(fmt::format("{}_{}_finer", side, i), tube_scenario(run), {start});
+      furthest_finer = std::max(furthest_finer, turning(finer).between(1, 3));
     }
     study.claim({"near_" + side, side + ": slopes change only near the origin", "only there"},
                 at_least(0.9, "share of all turning, in angle, at distances below 0.5 of the origin"),
                 {share(near, all, fmt::format("{} trajectories", members))});
     study.claim({"straight_" + side, side + ": outside trajectories are straight", "straight"},
                 at_most(0.01, "largest turning at distances above 1, in radians: no eye sees it"),
-                {{furthest, 0, "largest of the beam"}});
+                {{furthest, 2 * std::abs(furthest - furthest_finer),
+                  "largest of the beam; +-: twice the difference to half of the step"}});
     study.keep({"turning_" + side, {{"near", near}, {"all", all}}});
     for (double& turn : in_ring) turn /= width * members;
     study.keep({"over_distance_" + side, {{"distance", distances}, {"turning_per_length", in_ring}}});
