@@ -45,7 +45,7 @@ std::string number_text(const Measured& one) {
   if (!(one.uncertainty > 0) || !std::isfinite(one.uncertainty) || one.value == 0)
     return fmt::format("{:.8g}", one.value);
   const double digits = std::ceil(std::log10(std::abs(one.value) / one.uncertainty)) + 1;
-  return fmt::format("{:.{}g}", one.value, static_cast<int>(std::clamp(digits, 2.0, 15.0)));
+  return fmt::format("{:.{}g}", one.value, static_cast<int>(std::clamp(digits, 3.0, 15.0)));
 }
 
 Rule as_printed(const std::string& number) {

@@ -17,7 +17,7 @@ struct Measured {
   std::string how{};       // e.g. "cg(1,5), dt = 0.1"; of a claim with several, each by another way
 };
 
-/// As many digits of it as the uncertainty leaves: two of it, and eight of a number that has none.
+/// As many digits of it as the uncertainty leaves: two of it, three at least, and eight of a number that has none.
 std::string number_text(const Measured& one);
 
 /// A claim holds where the number that was measured of it lies within [low, high].

@@ -154,7 +154,8 @@ void momenta(Study& study) {
         {fmt::format("heavy_{}", rule),
          fmt::format("P2 stays within its start value, up to a small deviation, {}", rule), "[-100, 100]", "85, 89"},
         at_most(101, "100 and a deviation of 1 %"),
-        {range_of_windows(longer.momentum(1), "eps = -0.6, first 600 time units")});
+        {range_of_windows(longer.momentum(1), "eps = -0.6, first 600 time units")}, Grounds::program,
+        "other starts: a longer run of mirror has another energy");
     if (std::string(rule) == "reject") {
       study.keep(
           {"early", {{"t", thinned(path.t)}, {"P1", thinned(path.momentum(0))}, {"P2", thinned(path.momentum(1))}}});
