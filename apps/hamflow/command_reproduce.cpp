@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -102,7 +103,10 @@ void show_claim(const Claim& claim) {
   line("rule", claim.rule.text);
   for (const Measured& one : claim.measured) {
     const std::string how = one.how.empty() ? "" : " (" + one.how + ")";
-    line("measured", fmt::format("{:.8g} +- {:.2g}{}", one.value, one.uncertainty, how));
+    const std::string off = !std::isfinite(one.uncertainty) ? ", not known how certain"
+                            : one.uncertainty > 0           ? fmt::format(" +- {:.2g}", one.uncertainty)
+                                                            : "";
+    line("measured", number_text(one) + off + how);
   }
   line("verdict", fmt::format("{}: {}", name(claim.judgement.verdict), claim.judgement.reason));
 }
