@@ -46,18 +46,18 @@ struct CentralPotential {
   }
 };
 
-struct Came {
+struct ProgramRun {
   double end = 0;           // the time that is reached: a step of more than 15 iterations ends the program
   int most = 0;             // iterations of a step
   double energy_error = 0;  // largest |H - H0|, of equations 2.98 to 2.102
 };
 
 /// Appendix A, with its sums in their order, its start of Newton's method and its end of it, |R| <= 1e-13.
-inline Came appendix_a(const CentralPotential& potential, std::array<double, 2> q, std::array<double, 2> p,
-                       long steps) {
+inline ProgramRun appendix_a(const CentralPotential& potential, std::array<double, 2> q, std::array<double, 2> p,
+                             long steps) {
   constexpr double factor = 2 * mass / dt;
   const auto& rule = gauss_rule<double>(5);
-  Came came;
+  ProgramRun run;
   for (long step = 0; step < steps; ++step) {
     std::array<double, 2> next = q, residual{};
     for (int iteration = 0;; ++iteration) {
@@ -76,10 +76,10 @@ inline Came appendix_a(const CentralPotential& potential, std::array<double, 2> 
       }
       for (std::size_t j = 0; j < 2; ++j) residual[j] = factor * (next[j] - q[j]) - 2 * p[j] + dt * sum[j];
       if (std::hypot(residual[0], residual[1]) <= tolerance) {
-        came.most = std::max(came.most, iteration);
+        run.most = std::max(run.most, iteration);
         break;
       }
-      if (iteration == most_iterations) return came;
+      if (iteration == most_iterations) return run;
       k11 = factor + dt * k11;
       k22 = factor + dt * k22;
       k12 *= dt;
@@ -89,21 +89,21 @@ inline Came appendix_a(const CentralPotential& potential, std::array<double, 2> 
     }
     for (std::size_t j = 0; j < 2; ++j) p[j] = factor * (next[j] - q[j]) - p[j];
     q = next;
-    came.end = dt * static_cast<double>(step + 1);
+    run.end = dt * static_cast<double>(step + 1);
   }
-  return came;
+  return run;
 }
 
 /// Equations 2.98 to 2.104 from a Cartesian start; the angle is left out, since nothing depends on it.
-inline Came in_polar_coordinates(const CentralPotential& potential, const std::array<double, 2>& q,
-                                 const std::array<double, 2>& p, long steps) {
+inline ProgramRun in_polar_coordinates(const CentralPotential& potential, const std::array<double, 2>& q,
+                                       const std::array<double, 2>& p, long steps) {
   constexpr double first = dt / mass, second = dt * dt / (2 * mass);
   const auto& rule = gauss_rule<double>(5);
   double r = std::hypot(q[0], q[1]), momentum = (q[0] * p[0] + q[1] * p[1]) / r;
   const double l = q[0] * p[1] - q[1] * p[0];
   const auto energy = [&] { return (momentum * momentum + l * l / (r * r)) / (2 * mass) + potential.V(r); };
   const double start = energy();
-  Came came;
+  ProgramRun run;
   for (long step = 0; step < steps; ++step) {
     double next = r;
     for (int iteration = 0;; ++iteration) {
@@ -116,18 +116,18 @@ inline Came in_polar_coordinates(const CentralPotential& potential, const std::a
       const double turn = first * l / (r * next);
       const double residual = next - r - first * momentum - (r + next) / 4 * turn * turn + second * mean;
       if (std::abs(residual) <= tolerance) {
-        came.most = std::max(came.most, iteration);
+        run.most = std::max(run.most, iteration);
         break;
       }
-      if (iteration == most_iterations) return came;
+      if (iteration == most_iterations) return run;
       next -= residual / (1 + turn * turn / 4 * (2 * r / next + 1) + second * slope);
     }
     momentum = 2 / first * (next - r) - momentum;
     r = next;
-    came.energy_error = std::max(came.energy_error, std::abs(energy() - start));
-    came.end = dt * static_cast<double>(step + 1);
+    run.energy_error = std::max(run.energy_error, std::abs(energy() - start));
+    run.end = dt * static_cast<double>(step + 1);
   }
-  return came;
+  return run;
 }
 
 }  // namespace hamflow::reproduction::two_body_programs

@@ -111,7 +111,7 @@ void carry_out(Study& study) {
       "The table is taken for k > 0: its section is about oscillations (\"weil die Bewegung eine Schwingung ist\"), "
       "and "
       "equation 2.215 has a root of mu/k. Then lambda > -|lambda_inf| follows. For k < 0, which table 2.4 counts in, "
-      "lambda may be less, and there is no zero: {} for k = -1, lambda = -2, |lambda_inf| = 1.",
+      "lambda may be less, and r never turns: {} zeros for k = -1, lambda = -2, |lambda_inf| = 1.",
       zeros({1, -1, -2, 1})));
 }
 

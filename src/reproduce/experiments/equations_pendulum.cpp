@@ -89,7 +89,7 @@ void of_inertia(Study& study) {
                        std::abs(((theta1 + coupling) * y1 * y1 + 2 * coupling * y1 * y2 + theta2 * y2 * y2) / 2 - T));
     }
     claim(study, absolute ? "remark_3.2_absolute" : "remark_3.2_relative", "79",
-          fmt::format("the mass matrix of the physical double pendulum is M + diag(theta1, theta2), in {} angles",
+          fmt::format("in {} angles the mass matrix of the physical double pendulum is M + diag(theta1, theta2)",
                       absolute ? "absolute" : "relative"),
           "M_p = M + diag(theta1, theta2)", off,
           absolute

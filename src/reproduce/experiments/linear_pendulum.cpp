@@ -323,7 +323,7 @@ void starts(Study& study, bool absolute) {
     if (motion.absolute == absolute) most = std::max(most, iterations_of_newton(motion));
   }
   study.claim({"newton_once",
-               fmt::format("Newton's method takes one iteration a step for the linear double pendulum, {} angles",
+               fmt::format("Newton's method takes one iteration a step for the linear double pendulum in {} angles",
                            absolute ? "absolute" : "relative"),
                "nur ein Iterationsschritt", "83"},
               at_most(1, "counted over every step of three figures"),

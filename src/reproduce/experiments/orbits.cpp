@@ -189,7 +189,7 @@ void carry_out(const Case& c, Study& study) {
   if (c.has_line) {
     claim_on_line(study, figure, line, size);
   } else {
-    study.note("The thesis draws dots alone here: it does not enter into the analytical solution (page 57).");
+    study.note("The thesis draws dots alone here: it gives no analytical solution for this potential (pages 24, 57).");
   }
   if (c.open) claim_open(study, c, figure);
   double lost = 0;

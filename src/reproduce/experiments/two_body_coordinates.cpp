@@ -104,7 +104,7 @@ constexpr std::array<Orbit, 12> orbits{
       200,
       {'b', 1}}}};
 
-two_body_programs::Came by_appendix_a(const Orbit& orbit, const Trajectory& start, long steps) {
+two_body_programs::ProgramRun by_appendix_a(const Orbit& orbit, const Trajectory& start, long steps) {
   const auto &q = start.q[0], &p = start.p[0];
   return two_body_programs::appendix_a(orbit.potential, {q[0], q[1]}, {p[0], p[1]}, steps);
 }
@@ -148,6 +148,7 @@ void compare(Study& study) {
   PolarEnergy polar_energy;
   Majority better, fewer;
   int aborted = 0, of_linear = 0;
+  double of_linear_here = 0;
   std::string which;
   Table table{
       "coordinates",
@@ -179,7 +180,10 @@ void compare(Study& study) {
       ++aborted;
       which += fmt::format("{}{} at t = {:.3g}", which.empty() ? "" : ", ", orbit.figure, program.end);
     }
-    if (orbit.potential.field == 'h') of_linear = std::max(of_linear, program.most);
+    if (orbit.potential.field == 'h') {
+      of_linear = std::max(of_linear, program.most);
+      of_linear_here = std::max(of_linear_here, cartesian.most);
+    }
     tell_aborts(study, orbit, reference, 1000, later);
     figure.push_back(std::stod(std::string(orbit.figure).substr(2)));  // 2.10 is not 2.1
     const std::array<double, 9> values{cartesian.iterations, polar.iterations, cartesian.error,
@@ -233,12 +237,14 @@ void compare(Study& study) {
               {{static_cast<double>(aborted), 0,
                 fmt::format("the program of appendix A, statement by statement, dt = 0.1; aborts: {}",
                             which.empty() ? "none" : which)}});
-  study.claim({"linear_once", "Newton's method solves a linear system of equations in a single iteration",
-               "nur ein Iterationsschritt", "83"},
-              at_most(1, "iterations of a step: a second one would have a residual above 1e-13 to correct"),
-              {{static_cast<double>(of_linear), 0,
-                "largest over all steps of figures 2.13, 2.15, 2.16 and 2.17, whose forces are linear: the program of "
-                "appendix A, dt = 0.1"}});
+  study.claim(
+      {"linear_once", "Newton's method solves a linear system of equations in a single iteration",
+       "nur ein Iterationsschritt", "83"},
+      at_most(1, "iterations of a step: a second one would have a residual above 1e-13 to correct"),
+      {{static_cast<double>(of_linear), 0,
+        fmt::format("largest over all steps of figures 2.13, 2.15, 2.16 and 2.17, whose forces are linear: the program "
+                    "of appendix A, dt = 0.1; hamflow, which goes on to the rounding level, takes up to {:g}",
+                    of_linear_here)}});
   study.note(
       fmt::format("To iterate in one variable (page 37) is less work in each iteration. Of the twelve orbits {} take "
                   "fewer iterations a step in polar coordinates and {} more; at most {:g}, in Cartesian ones {:g}.",
