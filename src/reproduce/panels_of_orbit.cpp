@@ -57,7 +57,8 @@ Page orbit_page(const std::string& title, const Trajectory& dots, const Trajecto
   below.y = fit_axis(up, padding, {6});
   below.x_label = "{/:Italic t}, {/:Italic r}";
   below.y_label = "{/:Italic E}, {/:Italic V}'";
-  below.series.push_back({Ink::line, "{/:Italic V}'({/:Italic r})", effective, {.colour = "#d55e00"}});
+  below.series.push_back({Ink::line, "{/:Italic V}'({/:Italic r})", effective, {.colour = "#d55e00", .dash = 2}});
+  below.series.push_back({Ink::exact, "exact", {{0, dots.t.back()}, {energy, energy}}});
   below.series.push_back({Ink::dots, "{/:Italic E}({/:Italic t})", thin_out({dots.t, dots.energy}, 200)});
   return {title, {orbit, below}};
 }

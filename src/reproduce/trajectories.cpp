@@ -42,9 +42,11 @@ void claim_second_order(Study& study, const Study::Statement& statement, const H
                 {{halving.coarse, 0, "largest distance"}});
     return;
   }
-  study.claim(statement, within(4, 0.3, "halving dt divides an error of order 2 by 4"),
-              {{halving.coarse / halving.fine, 4 * halving.rounding / halving.fine,
-                fmt::format("distances {:.3g} and {:.3g}", halving.coarse, halving.fine)}});
+  study.claim(
+      statement,
+      within(4, 0.3, "the distance for dt over that for dt/2: linear elements have order 2, an error like dt^2"),
+      {{halving.coarse / halving.fine, 4 * halving.rounding / halving.fine,
+        fmt::format("distances {:.3g} and {:.3g}", halving.coarse, halving.fine)}});
 }
 
 std::vector<double> roots(const std::function<double(double)>& f, const std::vector<double>& grid) {

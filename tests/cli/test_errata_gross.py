@@ -20,7 +20,7 @@ EXPECTED = {
     "T3.2/identical_1": "cannot hold",
     "T3.2/identical_2": "cannot hold",
     "T3.2/identical_3": "holds",
-    # Appendix B: arguments swapped: the same root, more iterations.
+    # Appendix B: arguments swapped: the same root, more iterations, larger energy errors.
     **{f"G-B/same_root_{figure}": "holds" for figure in ("2.26", "2.27", "2.28")},
     **{f"G-B/order_costs_no_iterations_{figure}": "differs" for figure in ("2.26", "2.27", "2.28")},
     **{f"G-B/order_costs_no_energy_{figure}": "differs" for figure in ("2.26", "2.27")},
@@ -33,39 +33,49 @@ EXPECTED = {
     "G-C/least_absolute": "cannot hold",
     "G-C/least_relative": "cannot hold",
     "G3.27/same_determinant": "holds",
-    # The tolerance of the programs is below rounding: within the figures it is reached, later it is not.
+    # Angles that differ by more than the amplitude; how near a touch of the torus is nobody says.
+    "G3.21/near": "differs",
+    "G3.25/near": "differs",
+    "G3.22/touches": "undecided",
+    # The tolerance of the programs is below rounding in long or stiff runs; within the figures it is reached.
     "C-polar/tolerance": "holds",
-    "C-polar/tolerance_later": "differs",
     "G-D/tolerance": "differs",
     "G-D/results": "nothing to test",
-    # The element keeps H, not the angular momentum.
+    # A linear system takes one iteration, with that tolerance as well.
+    "C-polar/linear_once": "holds",
+    "T3.1/newton_once": "holds",
+    # The element keeps H, in polar coordinates with the closed integrals of the thesis, not the angular momentum.
     "C-polar/energy_cartesian": "holds",
+    "C-polar/energy_polar": "holds",
     "C-polar/angular_cartesian": "differs",
     "C-polar/angular_polar": "holds",
-    # Twenty peaks of the condition, not two.
-    "G3.27/peaks": "differs",
-    "G3.28/peaks": "differs",
-    # In a window that nobody knows.
+    # Twenty peaks of the condition up to t = 26, two in a window that nobody knows.
     "G3.27/peaks_in_the_window": "undecided",
-    "G3.28/peaks_in_the_window": "undecided",
     # No hyperbolas for k < 0.
     "T2.3/hyperbola": "cannot hold",
     "T2.4/hyperbola": "cannot hold",
     "T2.4/bounded_inside": "cannot hold",
     "T2.4/finite_time": "cannot hold",
+    "T2.5/three": "holds",
+    # Energies to two decimals, where "0" and "1" are printed as well.
+    "G2.10/energy": "holds",
+    "G2.10/zero": "holds",
+    # The constant of V = -k/r is k.
+    "G2.5/circle": "holds",
     # A rod that turns over passes pi, not 2 pi.
     "G3.21/upright": "cannot hold",
     # Found beyond the errata.
     "G-E2/1.54": "cannot hold",
     "G-E2/2.36": "cannot hold",
-    "G-E2/2.42": "cannot hold",
     "G-E2/2.91": "cannot hold",
     "G-E2/2.109": "cannot hold",
     "G-E2/2.147": "cannot hold",
     "G-E2/2.37": "cannot hold",
     "G-E2/never_closed": "cannot hold",
+    "G-E2/remark_2.9": "cannot hold",
     "G-E3/3.82": "cannot hold",
-    "T2.5/two_negative": "cannot hold",
+    "G-E3/remark_3.2_absolute": "holds",
+    "G-E3/remark_3.2_relative": "cannot hold",
 }
 
 

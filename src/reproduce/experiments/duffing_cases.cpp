@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "../experiment.hpp"
 #include "../time_panels.hpp"
@@ -12,6 +13,7 @@
 #include "axis.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/problems/duffing.hpp"
+#include "panels.hpp"
 
 namespace hamflow::reproduction {
 
@@ -27,31 +29,46 @@ struct Case {
   double k;
   const char* lambda;  // as printed
   const char* energy;
+  const char* page_of_energy;
   double t_end;
-  std::vector<double> zeros;  // where the orbit turns, as told
+  const char* formula;        // of the zeros
+  std::vector<double> zeros;  // where the motion turns
 };
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all{
-      {"G2.26",
-       "70",
-       "Duffing oscillator, case 1: through the origin",
-       "case = 1\nk = 1\nr0 = 4\nspeed = 4",
-       1,
-       "7",
-       "40.5",
-       10,
-       {-4, 4}},
-      {"G2.27", "72", "Duffing oscillator, case 2: the separatrix", "case = 2\nk = 1\nr0 = 4", 1, "8", "32", 10, {}},
-      {"G2.28",
-       "75",
-       "Duffing oscillator, case 3: on one side",
-       "case = 3\nk = 2\nr0 = 4\nspeed = 4",
-       2,
-       "12",
-       "16",
-       10,
-       {std::sqrt(8.0), 4}}};
+  static const std::vector<Case> all{{"G2.26",
+                                      "70",
+                                      "Duffing oscillator, case 1: through the origin",
+                                      "case = 1\nk = 1\nr0 = 4\nspeed = 4",
+                                      1,
+                                      "7",
+                                      "40.5",
+                                      "71",
+                                      10,
+                                      "+-sqrt(lambda + |lambda_inf|)",
+                                      {-4, 4}},
+                                     {"G2.27",
+                                      "72",
+                                      "Duffing oscillator, case 2: the separatrix",
+                                      "case = 2\nk = 1\nr0 = 4",
+                                      1,
+                                      "8",
+                                      "32",
+                                      "73",
+                                      10,
+                                      "",
+                                      {}},
+                                     {"G2.28",
+                                      "75",
+                                      "Duffing oscillator, case 3: on one side",
+                                      "case = 3\nk = 2\nr0 = 4\nspeed = 4",
+                                      2,
+                                      "12",
+                                      "16",
+                                      "75",
+                                      10,
+                                      "sqrt(lambda +- |lambda_inf|)",
+                                      {std::sqrt(8.0), 4}}};
   return all;
 }
 
@@ -84,9 +101,10 @@ std::vector<double> turning_points(Study& study, const Case& c) {
   return once;
 }
 
-/// How long |x| stays below a bound, next to how long it takes to come there.
+/// How long |r| stays below a bound up to the end, next to the exact separatrix r = r0/cosh(sqrt(2 k lambda/mu) t),
+/// which comes to r = 0 in infinite time.
 void claim_dwelling(Study& study, const Trajectory& figure) {
-  constexpr double near = 0.1;
+  constexpr double near = 0.1, dt = 0.02;
   double arrival = 0, dwelling = 0;
   for (std::size_t i = 1; i < figure.size(); ++i) {
     const bool inside = std::abs(figure.q[i][0]) < near;
@@ -97,11 +115,14 @@ void claim_dwelling(Study& study, const Trajectory& figure) {
       break;
     }
   }
-  study.claim({"dwelling", "the motion stays near r = 0 for a relatively long time", "relatively long"},
-              at_least(1, "longer than the whole way from r0 took"),
-              {{dwelling / arrival, 0,
-                fmt::format("time with |r| < {}, as far as the run goes, over the time to come there", near)}});
-  // x = r0/cosh(sqrt(2 k lambda/mu) t): the exact separatrix, which comes to r = 0 in infinite time.
+  const double of_exact = figure.t.back() - std::acosh(4 / near) / std::sqrt(8.0);
+  study.claim(
+      {"dwelling", "the computed motion stays near r = 0 as long as the exact separatrix, which never leaves it",
+       "relativ lange Verweildauer", "73"},
+      within(1, 0.05, "the time with |r| < 0.1 over that of the exact separatrix, up to the same end"),
+      {{dwelling / of_exact, dt / of_exact,
+        fmt::format("{:.4g} over {:.4g}, up to t = {:g}; in case 1, figure 2.26, a passage of |r| < 0.1 takes {:g}",
+                    dwelling, of_exact, figure.t.back(), 2 * near / 4)}});
   double distance = 0;
   for (std::size_t i = 0; i < figure.size() && figure.t[i] <= 1; ++i) {
     distance = std::max(distance, std::abs(figure.q[i][0] - 4 / std::cosh(std::sqrt(8.0) * figure.t[i])));
@@ -157,36 +178,72 @@ figures::Panel iterations_panel(const Trajectory& run) {
   return panel;
 }
 
+/// The orbit on its straight line, and the phase plane of the angle, which stays what it was at the start.
+std::array<figures::Panel, 2> orbit_and_angle(const Trajectory& run) {
+  constexpr double phi = std::numbers::pi / 4;
+  figures::Panel orbit;
+  figures::Curve path;
+  for (const auto& q : run.q) path.add(q[0] * std::cos(phi), q[0] * std::sin(phi));
+  figures::Extent range;
+  for (const double x : {-4.0, 4.0}) range.include(x);
+  figures::fit_equal_axes(orbit, range, range);
+  orbit.x_label = "{/:Italic x}";
+  orbit.y_label = "{/:Italic y}";
+  orbit.series.push_back({figures::Ink::line, "", path});
+  figures::Panel angle;
+  figures::Extent across, up;
+  for (const double x : {0.0, 1.5}) across.include(x);
+  for (const double x : {-1.0, 1.0}) up.include(x);
+  angle.x = figures::fit_axis(across, 0, {7, 40});
+  angle.y = figures::fit_axis(up, 0, {6});
+  angle.x_label = "{/:Italic φ}";
+  angle.y_label = "d{/:Italic φ}/d{/:Italic t}";
+  angle.aspect = 0.7;
+  angle.series.push_back({figures::Ink::dots, "", {{phi}, {0}}});
+  return {orbit, angle};
+}
+
 void carry_out(const Case& c, Study& study) {
   const Trajectory figure = element(study, c, 1);
   const double scale = figure.report.energy_scale;
   const double energy = figure.report.energy.initial;
   const double rounding = 64 * 0x1p-53 * scale;
-  study.claim({"energy", "the energy", c.energy}, as_printed(c.energy), {{energy, rounding, "H of the start"}});
+  const std::string of = std::string(c.id).substr(1);
+  const std::string decimals = "half a unit of the second decimal; one without decimals allows anything near it";
+  study.claim(
+      {"energy", fmt::format("the motion of figure {} has the energy {}", of, c.energy), c.energy, c.page_of_energy},
+      within(std::stod(c.energy), 0.005, decimals), {{energy, rounding, "H of the start"}});
   double furthest = 0;
   for (const auto& q : figure.q) furthest = std::max(furthest, q[0]);
-  study.claim({"lambda", "the parameter lambda of the potential", c.lambda}, as_printed(c.lambda),
+  study.claim({"lambda", fmt::format("the potential of figure {} has lambda = {}", of, c.lambda), c.lambda},
+              within(std::stod(c.lambda), 0.005, decimals),
               {{furthest * furthest - std::sqrt(2 * energy / c.k), 1e-12, "r0^2 - sqrt(2 E/k) of the run"}});
-  study.claim({"kept", "the energy is constant", "constant"},
+  study.claim({"kept", "the energy of the computed motion is constant", "constant"},
               at_most(1e-11 * scale, "1e-11 of the scale of the energy"),
               {{energy_error(figure), rounding, "largest |H - H0| over every step of cg(1,5), dt = 0.02"}});
   const double most = *std::max_element(figure.iterations.begin() + 1, figure.iterations.end());
-  study.claim({"iterations", "Newton's method takes at most three iterations", "3"},
-              at_most(3, "counted over every step"), {{most, 0, "cg(1,5), dt = 0.02"}});
+  study.claim(
+      {"iterations",
+       "Newton's method takes at most three iterations a step: the axis of iterations in appendix B ends at 3.5",
+       "axis([-4.2 4.2 0 3.5])", "139"},
+      at_most(3, "counted over every step"), {{most, 0, "cg(1,5), dt = 0.02"}});
   if (!c.zeros.empty()) {
     const std::vector<double> found = turning_points(study, c);
     double gap = found.size() == c.zeros.size() ? 0 : std::nan("");
     for (std::size_t i = 0; i < std::min(found.size(), c.zeros.size()); ++i) {
       gap = std::max(gap, std::abs(found[i] - c.zeros[i]));
     }
-    study.claim({"zeros", "the orbit turns where the phase curve has its zeros",
-                 fmt::format("{:.4g} and {:.4g}", c.zeros[0], c.zeros[1])},
-                at_most(1e-9, "cubic pieces of samples at dt = 0.001"), {{gap, 0, "largest distance, rkn8-s19"}});
+    study.claim(
+        {"zeros",
+         fmt::format("the motion turns at the zeros of its phase curve, r = {:.4g} and {:.4g}", c.zeros[0], c.zeros[1]),
+         c.formula},
+        at_most(1e-9, "cubic pieces of samples at dt = 0.001"), {{gap, 0, "largest distance, rkn8-s19"}});
     const Trajectory exact = study.run(
         "reference", scenario(c, "name = \"taylor\"\ntolerance = 1e-15", "0.02", std::lround(c.t_end / 0.02), 1));
-    claim_second_order(study, {"order", "the dots approach the exact motion as dt becomes smaller", "dots"},
-                       {largest_distance(element(study, c, 4), exact), largest_distance(element(study, c, 8), exact),
-                        1e-11 * furthest});
+    claim_second_order(
+        study, {"order", "the computed motion comes to the exact one as dt becomes smaller", "phase curve, of one dt"},
+        {largest_distance(element(study, c, 4), exact), largest_distance(element(study, c, 8), exact),
+         1e-11 * furthest});
   } else {
     claim_dwelling(study, figure);
   }
@@ -201,15 +258,19 @@ void carry_out(const Case& c, Study& study) {
                {"exact_r", exact_r},
                {"exact_rate", exact_rate},
                {"iterations", {figure.iterations.begin() + 1, figure.iterations.end()}}}});
+  const auto [orbit, angle] = orbit_and_angle(figure);
   study.draw(
       "figure",
-      fmt::format("{}: r over t, energy over t with V over r (dashed), phase curve, iterations over r; steps of "
-                  "dt = 0.02 (dots) and exact (line)",
-                  c.title),
+      fmt::format(
+          "{}: r over t, energy over t with V over r (dashed), phase curves of r and of the angle, a point, the orbit, "
+          "iterations over r; steps of dt = 0.02 (dots) and exact (line)",
+          c.title),
       {c.title,
        {over_time("{/:Italic r}", figure.t, figure.coordinate(0), exact_r), energy_panel(c, figure),
         phase_plane("{/:Italic r}", "d{/:Italic r}/d{/:Italic t}", figure.coordinate(0), speed, exact_r, exact_rate),
-        iterations_panel(figure)}});
+        angle, orbit, iterations_panel(figure)},
+       2,
+       figures::two_columns});
 }
 
 }  // namespace duffing_cases

@@ -166,9 +166,12 @@ void claim_circle(const Circle& circle, Study& study) {
   const Trajectory run = orbit_from(study, "circle", circle.keys, circle.radius, 0, circle.l, 20);
   double off = 0;
   for (const auto& q : run.q) off = std::max(off, std::abs(std::hypot(q[0], q[1]) - circle.radius));
-  study.claim({"circle", "at the minimum of the effective potential the orbit is a circle of radius l^2/(mu k)",
-               "a circle, equation 2.42"},
-              at_most(1e-10, "the tolerance of the turning points"),
+  study.claim({"circle",
+               "with the energy of the minimum of the effective potential of Kepler the orbit is a circle of radius "
+               "l^2/(mu a), "
+               "where a is the constant of the potential, k of V = -k/r",
+               "a circle, r0 = l^2/(mu a)", "26"},
+              at_most(1e-10, "rounding over 20000 steps"),
               {{off, 0,
                 fmt::format("largest |r - {:.3g}| up to t = 20 (rkn8-s19), E = {:.6g}", circle.radius,
                             run.report.energy.initial)}});
@@ -178,20 +181,22 @@ void carry_out(const Case& c, Study& study) {
   for (std::size_t n = 0; n < c.levels.size(); ++n) {
     const Level& level = c.levels[n];
     const std::vector<double> crossings = crossings_of(level);
-    const std::string where = std::string(level.name) + ": ";
-    study.claim({"crossings_" + std::to_string(n + 1), where + "how often the energy meets the effective potential",
-                 std::to_string(level.crossings)},
-                as_printed(std::to_string(level.crossings)),
-                {{static_cast<double>(crossings.size()), 0, "changes of sign between r = 0.001 and 1000"}});
+    study.claim(
+        {"crossings_" + std::to_string(n + 1),
+         fmt::format("for {} the energy meets the {} {}", level.name, c.title, level.crossings == 1 ? "once" : "twice"),
+         std::to_string(level.crossings)},
+        as_printed(std::to_string(level.crossings)),
+        {{static_cast<double>(crossings.size()), 0, "changes of sign between r = 0.001 and 1000"}});
     const std::vector<double> radii = turning_radii(study, level, n + 1);
     double gap = crossings.size() == radii.size() ? 0 : std::nan("");
     for (std::size_t i = 0; i < std::min(crossings.size(), radii.size()); ++i) {
       gap = std::max(gap, std::abs(crossings[i] - radii[i]));
     }
-    study.claim({"turning_points_" + std::to_string(n + 1), where + "the crossings are the turning points of the orbit",
-                 "at the crossings"},
-                at_most(1e-10, "cubic pieces of samples at dt = 0.001"),
-                {{gap, 0, "largest distance of a crossing and a turning point of the orbit (rkn8-s19)"}});
+    study.claim(
+        {"turning_points_" + std::to_string(n + 1),
+         fmt::format("for {} the orbit turns where the energy meets the {}", level.name, c.title), "at the crossings"},
+        at_most(1e-10, "cubic pieces of samples at dt = 0.001"),
+        {{gap, 0, "largest distance of a crossing and a turning point of the orbit (rkn8-s19)"}});
   }
   if (c.circle) claim_circle(*c.circle, study);
   study.draw("figure", std::string(c.title) + " (lines), energies (dashed) and turning points (rings)",

@@ -22,6 +22,7 @@ constexpr double l = 0.5;
 
 struct Printed {
   const char* vectors;
+  const char* page_of_vectors;
   const char* amplitudes;
   const char* page_of_amplitudes;
   std::array<Pair, 2> forms;  // as printed
@@ -37,6 +38,7 @@ double largest(const Pair& x) { return std::max(std::abs(x[0]), std::abs(x[1]));
 
 Printed absolute_angles() {
   return {"3.67, 3.69",
+          "87",
           "3.73 to 3.76",
           "87",
           {Pair{(1 - root) / 6, 1}, Pair{(1 + root) / 6, 1}},
@@ -46,6 +48,7 @@ Printed absolute_angles() {
 }
 Printed relative_angles() {
   return {"3.101, 3.103",
+          "97",
           "3.107 to 3.110",
           "98",
           {Pair{1, -(3 + root) / 2}, Pair{1, -(3 - root) / 2}},
@@ -65,9 +68,11 @@ void carry_out(Study& study, const Square& mass, const Square& stiffness, const 
       off = std::max(off, std::abs(pull[j] - omega[i] * omega[i] * inertia[j]) / largest(pull));
     }
   }
-  study.claim({"eigenvectors", fmt::format("equations {} are the eigenvectors", printed.vectors), "eigenvectors"},
-              at_most(rounding, "rounding of C K = w^2 M K, relative to |C K|"),
-              {{off, 0, "largest component of (C - w^2 M) K over |C K|"}}, Grounds::identity);
+  study.claim(
+      {"eigenvectors", fmt::format("equations {} are the eigenvectors of the linear double pendulum", printed.vectors),
+       "Eigenvektoren", printed.page_of_vectors},
+      at_most(rounding, "rounding of C K = w^2 M K, relative to |C K|"),
+      {{off, 0, "largest component of (C - w^2 M) K over |C K|"}}, Grounds::identity);
   // An eigenform k has A_k = 1 at q0 = l_k and B_k = 1 at q'0 = w_k l_k, and all others 0: equation 3.34.
   double of_A = 0, of_B = 0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -78,8 +83,8 @@ void carry_out(Study& study, const Square& mass, const Square& stiffness, const 
       of_B = std::max(of_B, std::abs(omega[k] * (printed.B[i][0] * form[0] + printed.B[i][1] * form[1]) - expected));
     }
   }
-  study.claim({"amplitudes", fmt::format("equations {} solve equation 3.34", printed.amplitudes), "A1, A2, B1, B2",
-               printed.page_of_amplitudes},
+  study.claim({"amplitudes", fmt::format("equations {} are the solution of equation 3.34", printed.amplitudes),
+               "A1, A2, B1, B2", printed.page_of_amplitudes},
               at_most(rounding, "rounding of the amplitudes of the eigenforms, which are 1 and 0"),
               {{std::max(of_A, of_B), 0, fmt::format("largest error of A {:.2g}, of B {:.2g}", of_A, of_B)}},
               Grounds::identity);

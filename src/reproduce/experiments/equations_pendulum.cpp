@@ -64,15 +64,40 @@ void of_derivatives(Study& study) {
     compare(relative, q[1], false, first_relative, second_relative);
   }
   // Sums of terms of size 1000 over m l^2 = 18: their rounding is above that of one number.
-  const auto of = [&](const char* name, const char* page, const char* equation, double off) {
-    study.claim({name, fmt::format("equation {} is the derivative of T", equation), "as printed", page},
+  const auto of = [&](const char* name, const char* page, const char* equation, const char* order, double off) {
+    study.claim({name, fmt::format("equations {} are the {} of T", equation, order), "as printed", page},
                 at_most(1e-11, "rounding of sums of some twenty terms"),
                 {{off, 1e-13, "largest difference from the library's, at 40 states"}}, Grounds::identity);
   };
-  of("3.156", "113", "3.155 with 3.156", first_absolute);
-  of("3.164", "114", "3.163 to 3.165", second_absolute);
-  of("3.181", "119", "3.180 with 3.181", first_relative);
-  of("3.188", "120", "3.187 to 3.190", second_relative);
+  of("3.156", "113", "3.155 with 3.156", "first derivatives", first_absolute);
+  of("3.164", "114", "3.163 to 3.165", "second derivatives", second_absolute);
+  of("3.181", "119", "3.180 with 3.181", "first derivatives", first_relative);
+  of("3.188", "120", "3.187 to 3.190", "second derivatives", second_relative);
+}
+
+/// Remark 3.2: rods with inertia turn by their angles with the vertical, of which q2 is none in relative angles.
+void of_inertia(Study& study) {
+  constexpr double theta1 = 0.02, theta2 = 0.03;
+  for (const bool absolute : {true, false}) {
+    double off = 0, right = 0;
+    for (int n = 0; n < 40; ++n) {
+      const double y1 = std::sin(1.3 * n + 0.4), y2 = std::cos(0.9 * n), second = absolute ? y2 : y1 + y2;
+      const double T = (theta1 * y1 * y1 + theta2 * second * second) / 2;
+      const double coupling = absolute ? 0 : theta2;
+      off = std::max(off, std::abs((theta1 * y1 * y1 + theta2 * y2 * y2) / 2 - T));
+      right = std::max(right,
+                       std::abs(((theta1 + coupling) * y1 * y1 + 2 * coupling * y1 * y2 + theta2 * y2 * y2) / 2 - T));
+    }
+    claim(study, absolute ? "remark_3.2_absolute" : "remark_3.2_relative", "79",
+          fmt::format("in {} angles the mass matrix of the physical double pendulum is M + diag(theta1, theta2)",
+                      absolute ? "absolute" : "relative"),
+          "M_p = M + diag(theta1, theta2)", off,
+          absolute
+              ? std::string(": kinetic energy of rotation for theta = (0.02, 0.03)")
+              : fmt::format(": kinetic energy of rotation for theta = (0.02, 0.03); of M + [theta1 + theta2, theta2; "
+                            "theta2, theta2]: {:.2g}",
+                            right));
+  }
 }
 
 void of_phase_space(Study& study) {
@@ -86,14 +111,14 @@ void of_phase_space(Study& study) {
     off = std::max(off, std::abs(-q0[1] * omega * std::cos(omega * t) - rate));
     right = std::max(right, std::abs(-q0[1] * omega * std::sin(omega * t) - rate));
   }
-  claim(study, "after_3.81", "92", "the derivative of equation 3.77 is -q0 w1 cos(w1 t)", "cos", off,
+  claim(study, "after_3.81", "91", "the time derivative of equation 3.77 is -q0 w1 cos(w1 t)", "cos", off,
         fmt::format(", by dual numbers up to t = 1; of sin: {:.2g}", right));
   // E = q.C q/2 + y.M y/2 with M = [5, 2; 2, 1], C = [3, 0; 0, 1] g/l, in units of m l^2. On the q1-axis of this
   // surface 3.82 has to be 1 as well.
   const double g = 9.81 / 0.5;
   const double E = g / 2 * (3 * q0[0] * q0[0] + q0[1] * q0[1]);
   const double square = 2 * E / (3 * g);  // of q1, with q2 = y = 0
-  claim(study, "3.82", "92", "the ellipsoid 3.82 is the surface of all states of the energy of the first eigenform",
+  claim(study, "3.82", "91", "the ellipsoid 3.82 is the surface of all states of the energy of the first eigenform",
         "pi_0", std::abs(square / (q0[0] * q0[0] + q0[1] * q0[1]) - 1),
         ": left side of 3.82 less 1 at a state (q1, 0, 0, 0) of that energy; it holds on the eigenform alone");
   study.claim({"caption_3.18", "the caption of figure 3.18 names the start of table 3.2", "(0.1, -0.01)", "105"},
@@ -104,7 +129,8 @@ void of_phase_space(Study& study) {
 }  // namespace equations_pendulum
 
 std::vector<Experiment> equations_pendulum_experiments() {
-  return {{{"G-E3", gross, "92-120", "equations of chapter 3"}, [](Study& study) {
+  return {{{"G-E3", gross, "79-120", "equations of chapter 3"}, [](Study& study) {
+             equations_pendulum::of_inertia(study);
              equations_pendulum::of_phase_space(study);
              equations_pendulum::of_derivatives(study);
            }}};

@@ -9,6 +9,8 @@
 #include "../experiment.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
+#include "hamflow/problems/double_pendulum_linear_absolute.hpp"
+#include "hamflow/problems/double_pendulum_linear_relative.hpp"
 
 namespace hamflow::reproduction {
 
@@ -34,6 +36,41 @@ const std::array<Motion, 6> motions{{{"eigenform_1", true, "[\"1-sqrt(13)\", 6]"
                                      {"eigenform_1", false, "[-2, \"3+sqrt(13)\"]", {-2, 3 + root}, 1},
                                      {"eigenform_2", false, "[-2, \"3-sqrt(13)\"]", {-2, 3 - root}, 2},
                                      {"both", false, "[0.1, -0.11]", {0.1, -0.11}, 0}}};
+
+using Square = Matrix<double, 2>;
+/// M and C of equations 3.57, 3.59 and 3.92, 3.94.
+std::array<Square, 2> mass_and_stiffness(bool absolute) {
+  const Vector<double, 2> m{0.25, 0.25}, l{0.5, 0.5};
+  if (absolute) {
+    const DoublePendulumLinearAbsolute<> problem(m, l);
+    return {problem.mass_matrix(), problem.stiffness_matrix()};
+  }
+  const DoublePendulumLinearRelative<> problem(m, l);
+  return {problem.mass_matrix(), problem.stiffness_matrix()};
+}
+Square inverse(const Square& a) {
+  const double d = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+  Square b{};
+  b[0][0] = a[1][1] / d;
+  b[1][1] = a[0][0] / d;
+  b[0][1] = -a[0][1] / d;
+  b[1][0] = -a[1][0] / d;
+  return b;
+}
+Pair applied(const Square& a, const Pair& x) {
+  return {a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]};
+}
+
+/// y = q' = M^-1 p of every sample, equations 3.37 and 3.79.
+std::array<std::vector<double>, 2> rates(bool absolute, const Trajectory& run) {
+  const Square inverse_mass = inverse(mass_and_stiffness(absolute)[0]);
+  std::array<std::vector<double>, 2> all;
+  for (const auto& p : run.p) {
+    const Pair y = applied(inverse_mass, {p[0], p[1]});
+    for (std::size_t i = 0; i < 2; ++i) all[i].push_back(y[i]);
+  }
+  return all;
+}
 
 Pair eigenform(bool absolute, int mode) {
   const double sign = mode == 1 ? 1 : -1;
@@ -77,29 +114,29 @@ double distance(const Trajectory& run, const Motion& motion) {
   return largest;
 }
 
-/// How far the points (q_i, p_i) of an eigenform are from an ellipse with the half axes that they reach.
-double off_ellipse(const Trajectory& run) {
+/// How far the points (q_i, y_i) of an eigenform are from an ellipse with the half axes that they reach.
+double off_ellipse(const Trajectory& run, const std::array<std::vector<double>, 2>& y) {
   double largest = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    // q^2/a^2 + p^2/b^2 = 1 is linear in 1/a^2, 1/b^2: least squares over all points.
-    double qq = 0, qp = 0, pp = 0, q1 = 0, p1 = 0;
+    // q^2/a^2 + y^2/b^2 = 1 is linear in 1/a^2, 1/b^2: least squares over all points.
+    double qq = 0, qy = 0, yy = 0, q1 = 0, y1 = 0;
     double a = 0, b = 0;
     for (std::size_t k = 0; k < run.size(); ++k) {
       a = std::max(a, std::abs(run.q[k][i]));
-      b = std::max(b, std::abs(run.p[k][i]));
+      b = std::max(b, std::abs(y[i][k]));
     }
     for (std::size_t k = 0; k < run.size(); ++k) {
-      const double x = std::pow(run.q[k][i] / a, 2), y = std::pow(run.p[k][i] / b, 2);
-      qq += x * x;
-      qp += x * y;
-      pp += y * y;
-      q1 += x;
-      p1 += y;
+      const double u = std::pow(run.q[k][i] / a, 2), v = std::pow(y[i][k] / b, 2);
+      qq += u * u;
+      qy += u * v;
+      yy += v * v;
+      q1 += u;
+      y1 += v;
     }
-    const double determinant = qq * pp - qp * qp;
-    const double u = (q1 * pp - p1 * qp) / determinant, v = (qq * p1 - qp * q1) / determinant;
+    const double determinant = qq * yy - qy * qy;
+    const double u = (q1 * yy - y1 * qy) / determinant, v = (qq * y1 - qy * q1) / determinant;
     for (std::size_t k = 0; k < run.size(); ++k) {
-      largest = std::max(largest, std::abs(u * std::pow(run.q[k][i] / a, 2) + v * std::pow(run.p[k][i] / b, 2) - 1));
+      largest = std::max(largest, std::abs(u * std::pow(run.q[k][i] / a, 2) + v * std::pow(y[i][k] / b, 2) - 1));
     }
   }
   return largest;
@@ -137,14 +174,17 @@ double off_line(const Motion& motion, const Trajectory& dots) {
 void over_t(Study& study, const Motion& motion) {
   const Trajectory figure = run(study, motion, 1);
   const double size = std::max(std::abs(motion.q0[0]), std::abs(motion.q0[1]));
-  claim_second_order(study, {"order", "the numerical solution comes to the analytical one like dt^2", "dots and line"},
-                     {distance(run(study, motion, 2), motion), distance(run(study, motion, 4), motion), 1e-11 * size});
-  study.claim({"kept", "the energy is constant", "constant"},
+  claim_second_order(
+      study,
+      {"order", "the numerical solution comes to the analytical one as dt becomes smaller", "dots and line, of one dt"},
+      {distance(run(study, motion, 2), motion), distance(run(study, motion, 4), motion), 1e-11 * size});
+  study.claim({"kept", "the energy of the numerical solution is constant", "constant"},
               at_most(1e-11, "rounding over the run, relative to the scale of the energy"),
               {{energy_error(figure) / figure.report.energy_scale, 64 * 0x1p-53,
                 "largest |H - H0|/scale over every step of cg(1,5), dt = 0.01"}});
   const auto exact = modal(motion, figure.t);
-  study.claim({"on_line", "the numerical solution (dots) is the analytical one, dt = 0.01", "dots on the line"},
+  study.claim({"on_line", "with dt = 0.01 the dots of the numerical solution lie on the line of the analytical one",
+               "dots on the line"},
               at_most(0.005, "distance from the line over the width of the panel: a dot is drawn no smaller"),
               {{off_line(motion, figure), 1e-4, fmt::format("angles, up to t = {:.3g}", figure.t.back())}});
   study.keep({"motion",
@@ -173,19 +213,30 @@ double nearest_common_period(int turns) {
 
 void in_phase_planes(Study& study, const Motion& motion) {
   const Trajectory figure = run(study, motion, 1);
+  const auto y = rates(motion.absolute, figure);
   if (motion.mode == 0) {
-    study.claim({"open", "the phase curves are open", "open"},
-                at_least(1e-6, "w1/w2 = sqrt((29 + 8 sqrt(13))/3) is no ratio of whole numbers up to 1000"),
+    study.claim({"open", "the phase curves are open: they do not close within 1000 turns of the second mode", "offen"},
+                at_least(1e-6, "of a turn: w1/w2 = sqrt((29 + 8 sqrt(13))/3) is no ratio of whole numbers up to 1000"),
                 {{nearest_common_period(1000), 1e-12, "nearest k w1/w2 to a whole number, k up to 1000"}});
   } else {
-    study.claim({"ellipses", "the phase curves are closed: ellipses", "ellipses"},
-                at_most(1e-10, "rounding over 500 steps: an element keeps the energy of each mode of a linear problem"),
-                {{off_ellipse(figure), 0, "largest deviation of points (q, p) from an ellipse, cg(1,5), dt = 0.01"}});
+    study.claim(
+        {"ellipses",
+         fmt::format("the phase curves of the {} eigenform are closed: ellipses",
+                     motion.mode == 1 ? "first" : "second"),
+         "Ellipse"},
+        at_most(1e-10, "rounding over 500 steps: an element keeps the energy of each mode of a linear problem"),
+        {{off_ellipse(figure, y), 0, "largest deviation of points (q, dq/dt) from an ellipse, cg(1,5), dt = 0.01"}});
   }
-  study.draw("figure", study.info().title + ": the phase planes of both angles",
+  study.keep({"planes",
+              {{"t", figure.t},
+               {"q1", figure.coordinate(0)},
+               {"q2", figure.coordinate(1)},
+               {"rate1", y[0]},
+               {"rate2", y[1]}}});
+  study.draw("figure", study.info().title + ": the phase planes (q, dq/dt) of both angles",
              {study.info().title,
-              {phase_plane("{/:Italic q}_1", "{/:Italic p}_1", figure.coordinate(0), figure.momentum(0), {}, {}),
-               phase_plane("{/:Italic q}_2", "{/:Italic p}_2", figure.coordinate(1), figure.momentum(1), {}, {})}});
+              {phase_plane("{/:Italic q}_1", "d{/:Italic q}_1/d{/:Italic t}", figure.coordinate(0), y[0], {}, {}),
+               phase_plane("{/:Italic q}_2", "d{/:Italic q}_2/d{/:Italic t}", figure.coordinate(1), y[1], {}, {})}});
 }
 
 /// Both amplitudes of equation 3.85 or 3.115 against q0 = l1 A1 + l2 A2.
@@ -198,7 +249,8 @@ void claim_amplitudes(Study& study, const Motion& motion, const Pair& printed, c
     off = std::max(off, std::abs(a[i] * printed[0] + b[i] * printed[1] - motion.q0[i]));
   }
   study.claim(
-      {"amplitudes", fmt::format("the amplitudes of equation {}", equation), texts, page},
+      {"amplitudes", fmt::format("the amplitudes A1 and A2 of equation {} are those of its start", equation), texts,
+       page},
       at_most(1e-9, "they have to give the start q0 = l1 A1 + l2 A2, to the digits printed"),
       {{off, 1e-10,
         fmt::format("largest component of l1 A1 + l2 A2 - q0; right are {:.12g}, {:.12g}", right[0], right[1])}},
@@ -210,26 +262,72 @@ void claim_identical(Study& study, std::size_t row) {
   const Pair absolute = motions[row].q0, relative = motions[row + 3].q0;
   const Pair converted{absolute[0], absolute[1] - absolute[0]};
   const double off = std::max(std::abs(converted[0] - relative[0]), std::abs(converted[1] - relative[1]));
-  study.claim(
-      {"identical_" + std::to_string(row + 1),
-       fmt::format("row {} of tables 3.1 and 3.2 is the same motion in both coordinates", row + 1), "identical"},
-      at_most(1e-12, "relative angles are q1, q2 - q1 of the absolute ones"),
-      {{off, 1e-14,
-        fmt::format("largest difference; the start of table 3.1 is ({:.6g}, {:.6g}) in relative angles", converted[0],
-                    converted[1])}},
-      Grounds::identity);
+  study.claim({"identical_" + std::to_string(row + 1),
+               fmt::format("row {} of table 3.1 and that of table 3.2 are the same motion", row + 1),
+               "identische Pendelbewegungen"},
+              at_most(1e-12, "relative angles are q1, q2 - q1 of the absolute ones"),
+              {{off, 1e-14,
+                fmt::format("largest difference; the start of table 3.1 is ({:.6g}, {:.6g}) in relative angles",
+                            converted[0], converted[1])}},
+              Grounds::identity);
+}
+
+/// Equation 3.47 and its tangent 3.50, |R| <= 1e-13: the most iterations that a step of the figures takes.
+int iterations_of_newton(const Motion& motion) {
+  constexpr double h = 0.01, tolerance = 1e-13;
+  const auto [mass, stiffness] = mass_and_stiffness(motion.absolute);
+  const Square inverse_mass = inverse(mass);
+  Square tangent{};
+  const auto product = [&, &stiffness = stiffness](const Pair& p) {
+    return applied(stiffness, applied(inverse_mass, p));
+  };
+  for (std::size_t j = 0; j < 2; ++j) {
+    const Pair column = product({j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0});
+    for (std::size_t i = 0; i < 2; ++i) tangent[i][j] = (i == j ? 1 : 0) + h * h / 4 * column[i];
+  }
+  const Square solved = inverse(tangent);
+  Pair q = motion.q0, p{0, 0};
+  int most = 0;
+  for (long step = 0; step < std::lround(t_end / h); ++step) {
+    Pair next = p;
+    for (int iteration = 0; iteration < 15; ++iteration) {
+      const Pair pull = applied(stiffness, q), both = product({p[0] + next[0], p[1] + next[1]});
+      Pair residual{};
+      for (std::size_t i = 0; i < 2; ++i) residual[i] = next[i] - p[i] + h * pull[i] + h * h / 4 * both[i];
+      if (std::hypot(residual[0], residual[1]) <= tolerance) break;
+      const Pair correction = applied(solved, residual);
+      for (std::size_t i = 0; i < 2; ++i) next[i] -= correction[i];
+      most = std::max(most, iteration + 1);
+    }
+    const Pair mean = applied(inverse_mass, {(p[0] + next[0]) / 2, (p[1] + next[1]) / 2});
+    for (std::size_t i = 0; i < 2; ++i) q[i] += h * mean[i];
+    p = next;
+  }
+  return most;
 }
 
 void starts(Study& study, bool absolute) {
   for (std::size_t row = 0; row < 2; ++row) {
     const Motion& motion = motions[row + (absolute ? 0 : 3)];
     const Pair A = amplitudes(absolute, motion.q0);
-    study.claim({"eigenform_" + std::to_string(row + 1), fmt::format("row {} is an eigenform of its own", row + 1),
-                 "eigenform"},
+    study.claim({"eigenform_" + std::to_string(row + 1),
+                 fmt::format("row {} of table {} is the {} eigenform alone", row + 1, absolute ? "3.1" : "3.2",
+                             row == 0 ? "first" : "second"),
+                 "Eigenform"},
                 at_most(1e-13, "rounding of the amplitudes"),
                 {{std::abs(A[motion.mode == 1 ? 1 : 0] / A[motion.mode == 1 ? 0 : 1]), 0,
                   "amplitude of the other eigenform over its own"}});
   }
+  int most = 0;
+  for (const Motion& motion : motions) {
+    if (motion.absolute == absolute) most = std::max(most, iterations_of_newton(motion));
+  }
+  study.claim({"newton_once",
+               fmt::format("Newton's method takes one iteration a step for the linear double pendulum in {} angles",
+                           absolute ? "absolute" : "relative"),
+               "nur ein Iterationsschritt", "83"},
+              at_most(1, "counted over every step of three figures"),
+              {{static_cast<double>(most), 0, "equations 3.47 and 3.50, |R| <= 1e-13, dt = 0.01, up to t = 5"}});
   if (absolute) return;
   for (std::size_t row = 0; row < 3; ++row) claim_identical(study, row);
 }
@@ -271,7 +369,7 @@ std::vector<Experiment> linear_pendulum_experiments() {
                        claim_amplitudes(study, motion, {0.03890599608, 0.06109400392}, "0.03890599608, 0.06109400392",
                                         "104", "3.115");
                        study.claim(
-                           {"caption", "the caption of the figure names the start of table 3.2", "(0.1, -0.01)"},
+                           {"caption", "the caption of figure 3.17 names the start of table 3.2", "(0.1, -0.01)"},
                            at_most(5e-3, "two printed numbers, each to two decimals"),
                            {{std::abs(-0.01 - (-0.11)), 0, "the caption says -0.01, the table -0.11"}},
                            Grounds::identity);

@@ -101,6 +101,24 @@ Outermost outermost(bool absolute, const Trajectory& run) {
   return most;
 }
 
+/// How often the curve comes as near to the torus from inside, after the start: samples that follow each other are one
+/// touch.
+int touches(bool absolute, const Trajectory& run, double nearness) {
+  const LinearPendulum linear = linear_pendulum_of_start(absolute);
+  const std::array<Torus, 2> torus{Torus(linear, 0), Torus(linear, 1)};
+  const auto rates = pendulum_rates(absolute, run);
+  int count = 0;
+  std::array<bool, 2> was_near{true, true};
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const bool is_near = torus[i].excess(run.q[k][i], rates[i][k]) > -nearness;
+      if (is_near && !was_near[i]) ++count;
+      was_near[i] = is_near;
+    }
+  }
+  return count;
+}
+
 /// The torus, by elements of length 0.01 and by another method. The uncertainty is what both differ by and what lies
 /// between samples: the faster mode turns by less than 5 radians a second, so that the largest of a cosine is missed by
 /// less than (5 * 0.005)^2/2.
@@ -113,7 +131,7 @@ void claim_torus(Study& study, bool absolute, const char* name, const std::strin
                     fmt::format("{}: q{} at t = {:.6g}; {:.3g} of the samples are outside", how, most.coordinate + 1,
                                 most.t, most.share)};
   };
-  study.claim({name, statement, "inside at every time"},
+  study.claim({name, statement, "zu jedem Zeitpunkt innerhalb"},
               at_most(1e-3,
                       "share of the distance from the centre by which the curve is outside; it may touch, and "
                       "1e-3 is less than a line of the figure"),
@@ -121,15 +139,36 @@ void claim_torus(Study& study, bool absolute, const char* name, const std::strin
               Grounds::ways, "samples at shorter distances");
 }
 
+/// What a touch is the text does not say: from the width of a line to that of a dot.
+void claim_touches(Study& study, bool absolute, const Trajectory& figure) {
+  constexpr double line = 1e-3, dot = 0.01;
+  const double fewest = touches(absolute, figure, line), most = touches(absolute, figure, dot);
+  study.claim(
+      {"touches",
+       absolute ? "from time to time the nonlinear phase curves touch the torus of the linear solution from inside"
+                : "the nonlinear phase curves touch the torus of the linear solution from inside",
+       absolute ? "von Zeit zu Zeit" : "Berührung an der Innenseite"},
+      at_least(absolute ? 2 : 1, "touches up to t = 26, after the start, which lies on the torus"),
+      {{(fewest + most) / 2, (most - fewest) / 2,
+        fmt::format("{:g} within {:g} of the distance from the centre, a line of the figure; {:g} within {:g}, a "
+                    "dot; cg(1,5), dt = 0.01",
+                    fewest, line, most, dot)}},
+      Grounds::program, "how near it is that the text calls a touch");
+}
+
 void in_phase_planes(Study& study, bool absolute) {
   const Trajectory figure = pendulum_run(study, "figure", absolute, pendulum_element, "0.01", 2600, 1);
-  claim_torus(study, absolute, "torus",
-              "the nonlinear phase curves stay inside the torus of the linear solution, up to t = 26", figure,
+  const std::string inside = fmt::format(
+      "in {} angles the nonlinear phase curves stay inside the torus of the linear "
+      "solution up to t = ",
+      absolute ? "absolute" : "relative");
+  claim_torus(study, absolute, "torus", inside + "26", figure,
               pendulum_run(study, "reference", absolute, reference, "0.01", 2600, 1), "Taylor series, tolerance 1e-15");
-  claim_torus(study, absolute, "torus_longer", "the same up to t = 2600",
+  claim_torus(study, absolute, "torus_longer", inside + "2600",
               pendulum_run(study, "longer", absolute, pendulum_element, "0.01", 260000, 1),
               pendulum_run(study, "longer_other", absolute, "name = \"gauss\"\nstages = 3", "0.01", 260000, 1),
               "gauss(3), dt = 0.01");
+  claim_touches(study, absolute, figure);
   const LinearPendulum linear = linear_pendulum_of_start(absolute);
   const auto rates = pendulum_rates(absolute, figure);
   figures::Page page{study.info().title, {}};
@@ -165,7 +204,7 @@ double largest_angle(bool absolute, const Trajectory& run) {
 
 void claim_turn_over(Study& study, bool absolute, const Trajectory& figure) {
   // V <= E gives 3 (1 - cos q1) + (1 - cos q2) <= 1, whatever the motion: |q2| <= pi/2, cos q1 >= 2/3.
-  study.claim({"no_turn_over", "no rod turns over: a pure pendulum motion", "pure pendulum motion"},
+  study.claim({"no_turn_over", "no rod turns over: the motion is a pure pendulum motion", "reine Pendelbewegung"},
               at_most(pi, "a rod that turns over passes the angle pi"),
               {{largest_angle(absolute, figure), 1e-3, "largest angle of a rod up to t = 26, cg(1,5), dt = 0.01"},
                {pi / 2, 0, "bound by the energy at all times, 1 - cos q2 <= E/(m g l) = 1"}},
@@ -177,7 +216,7 @@ void claim_turn_over(Study& study, bool absolute, const Trajectory& figure) {
     return dq[1];
   };
   if (absolute) {
-    study.claim({"upright", "a turn-over would show in an angle beyond 2 pi", "2 pi"},
+    study.claim({"upright", "a rod that turns over would show in an angle beyond 2 pi", "2 pi"},
                 within(2 * pi, 1e-9, "the angle at which the rod stands upright"),
                 {{bracketed_root(torque, 1, 5, torque(1), torque(5)), 1e-14,
                   "the first angle beyond 0 without torque: the largest V"}},
@@ -185,28 +224,56 @@ void claim_turn_over(Study& study, bool absolute, const Trajectory& figure) {
   }
 }
 
+/// q'.M q'/2 + q.C q/2 of the linear solution, as appendix C has it: in units of m l^2 and m g l.
+std::vector<double> linear_energy(bool absolute, const LinearPendulum& linear, const std::vector<double>& times) {
+  std::vector<double> all;
+  for (const double t : times) {
+    const double q1 = linear.q(0, t), q2 = linear.q(1, t), y1 = linear.rate(0, t), y2 = linear.rate(1, t);
+    const double kinetic = absolute ? 5 * y1 * y1 + 4 * y1 * y2 + y2 * y2 : 10 * y1 * y1 + 6 * y1 * y2 + y2 * y2;
+    const double potential = absolute ? 3 * q1 * q1 + q2 * q2 : 4 * q1 * q1 + 2 * q1 * q2 + q2 * q2;
+    all.push_back(18 * kinetic / 2 + pendulum_energy_unit * potential / 2);
+  }
+  return all;
+}
+
 void over_t(Study& study, bool absolute) {
   const Trajectory figure = pendulum_run(study, "figure", absolute, pendulum_element, "0.01", 2600, 1);
   const double rest = -4 * pendulum_energy_unit;
   const double rounding = 64 * 0x1p-53 * figure.report.energy_scale;
   const double above = figure.report.energy.initial - rest;
-  study.claim({"energy", "the energy above rest is E = m g l", "m g l"}, within(1, 1e-12, "E/(m g l), to rounding"),
+  study.claim({"energy", "the energy of the motion above rest is E = m g l", "m g l", "116"},
+              within(1, 1e-12, "E/(m g l), to rounding"),
               {{above / pendulum_energy_unit, rounding / pendulum_energy_unit, "H of the start less H at rest"}});
-  study.claim({"kept", "the energy is constant", "constant"},
+  study.claim({"kept", "the energy of the computed motion is constant", "constant"},
               at_most(1e-11 * figure.report.energy_scale, "rounding over the run"),
               {{energy_error(figure), rounding, "largest |H - H0| over every step of cg(1,5), dt = 0.01"}});
   claim_turn_over(study, absolute, figure);
-  study.claim({"linear_energy", "the energy of the linear solution is larger", "larger"},
-              at_least(1, "E of the linear solution over m g l; that of the motion is 1"),
-              {{pi * pi / 8, 1e-15, "C22 q2^2/2 = m g l pi^2/8 at the start"}}, Grounds::identity);
+  if (absolute) {
+    study.claim(
+        {"linear_energy", "the energy of the linear solution is larger than that of the motion", "größer", "117"},
+        at_least(1, "E of the linear solution over m g l; that of the motion is 1"),
+        {{pi * pi / 8, 1e-15, "C22 q2^2/2 = m g l pi^2/8 at the start"}}, Grounds::identity);
+  }
   const LinearPendulum linear = linear_pendulum_of_start(absolute);
-  std::array<std::vector<double>, 2> line;
-  double apart = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t k = 0; k < figure.size(); ++k) {
-      line[i].push_back(linear.q(i, figure.t[k]));
-      apart = std::max(apart, std::abs(line[i].back() - figure.q[k][i]));
+  const auto apart_from_linear = [&](const Trajectory& run) {
+    double apart = 0;
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      for (std::size_t i = 0; i < 2; ++i) apart = std::max(apart, std::abs(linear.q(i, run.t[k]) - run.q[k][i]));
     }
+    return apart;
+  };
+  const Trajectory series = pendulum_run(study, "reference", absolute, reference, "0.01", 2600, 1);
+  // A difference changes by less than 10 a second: the rates of both are below 5.
+  study.claim(
+      {"near", "the angles always stay near those of the linear solution", "immer in der Nähe"},
+      at_most(pi / 2,
+              "largest difference of an angle up to t = 26, against the amplitude pi/2 of the start: what is as "
+              "large is not near"),
+      {{apart_from_linear(figure), 0.05, "cg(1,5), dt = 0.01"},
+       {apart_from_linear(series), 0.05, "Taylor series, tolerance 1e-15"}});
+  std::array<std::vector<double>, 2> line;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const double t : figure.t) line[i].push_back(linear.q(i, t));
   }
   if (!absolute) {
     const Trajectory other = pendulum_run(study, "absolute", true, pendulum_element, "0.01", 2600, 1);
@@ -215,21 +282,21 @@ void over_t(Study& study, bool absolute) {
       gap = std::max(
           {gap, std::abs(figure.q[k][0] - other.q[k][0]), std::abs(figure.q[k][0] + figure.q[k][1] - other.q[k][1])});
     }
-    study.claim({"same_motion", "the results in absolute angles are confirmed", "confirmed"},
+    study.claim({"same_motion", "in relative angles the motion is that in absolute ones", "bestätigt"},
                 at_most(1e-9,
                         "the element commutes with linear changes of coordinates: rounding, 1e-13 a step, "
                         "over 2600 steps that separate neighbours by less than 1e4"),
                 {{gap, 0, "largest difference of an angle after conversion, at every step"}});
   }
-  study.note(
-      fmt::format("\"Near the linear solution\" has no number: the angles differ by up to {:.3g} from it.", apart));
+  const std::vector<double> of_linear = linear_energy(absolute, linear, figure.t);
   study.keep({"motion",
               {{"t", figure.t},
                {"q1", figure.coordinate(0)},
                {"q2", figure.coordinate(1)},
                {"linear_q1", line[0]},
                {"linear_q2", line[1]},
-               {"energy", figure.energy}}});
+               {"energy", figure.energy},
+               {"linear_energy", of_linear}}});
   figures::Page page{study.info().title, {}};
   for (std::size_t i = 0; i < 2; ++i) {
     page.panels.push_back(over_time(fmt::format("{{/:Italic q}}_{}", i + 1), figure.t, figure.coordinate(i), line[i]));
@@ -237,10 +304,14 @@ void over_t(Study& study, bool absolute) {
   }
   std::vector<double> energy;
   for (const double H : figure.energy) energy.push_back(H - rest);
+  page.panels.push_back(over_time("{/:Italic E} (linear)", figure.t, of_linear));
+  page.panels.back().series.front().mark.colour = page.panels.front().series.front().mark.colour;
   page.panels.push_back(over_time("{/:Italic E}", figure.t, energy));
-  study.draw("figure",
-             study.info().title + ": angles with dt = 0.01 (dots), linear solution (lines), energy above rest",
-             std::move(page));
+  study.draw(
+      "figure",
+      study.info().title +
+          ": angles with dt = 0.01 (dots), linear solution (lines), energy of the linear solution, energy above rest",
+      std::move(page));
 }
 
 void start(Study& study, bool absolute) {
@@ -250,13 +321,17 @@ void start(Study& study, bool absolute) {
   const DoublePendulumNonlinearRelative<> in_relative(pendulum_masses, pendulum_lengths);
   const double E = absolute ? in_absolute.energy(q, none) - in_absolute.energy(rest, none)
                             : in_relative.energy(q, none) - in_relative.energy(rest, none);
-  study.claim({"energy", "the start has the energy E = m g l above rest", "m g l", "116"},
-              within(1, 1e-14, "rounding of E/(m g l)"),
-              {{E / pendulum_energy_unit, 4 * 0x1p-53, "H of the start less H at rest"}});
+  study.claim(
+      {"energy", fmt::format("the start of table {} has the energy E = m g l above rest", absolute ? "3.3" : "3.4"),
+       "m g l", "116"},
+      within(1, 1e-14, "rounding of E/(m g l)"),
+      {{E / pendulum_energy_unit, 4 * 0x1p-53, "H of the start less H at rest"}});
   if (absolute) return;
-  study.claim({"same_start", "the relative angle is the absolute one, since the upper rod is at rest", "identical"},
-              at_most(0, "q2 - q1 of table 3.3 less q2 of table 3.4"),
-              {{(of_table_3_3[1] - of_table_3_3[0]) - of_table_3_4[1], 0, "of the tables"}}, Grounds::identity);
+  study.claim(
+      {"same_start", "the relative angle of table 3.4 is the absolute one of table 3.3, since the upper rod hangs down",
+       "identisch"},
+      at_most(0, "q2 - q1 of table 3.3 less q2 of table 3.4"),
+      {{(of_table_3_3[1] - of_table_3_3[0]) - of_table_3_4[1], 0, "of the tables"}}, Grounds::identity);
 }
 
 }  // namespace nonlinear_pendulum

@@ -131,7 +131,9 @@ void claim_place(Study& study, const Place& place) {
   const double with_fourth = V + kinetic_part(place.absolute, place.a, place.b, {});
   const auto off = [](double x, double right) { return std::abs(x - right) / std::abs(right); };
   study.claim(
-      {place.name, fmt::format("the tangent has c^3 in {}", place.where), "c^3", place.absolute ? "153" : "162"},
+      {place.name,
+       fmt::format("the tangent of appendix C is the derivative of its residual with c^3 in {}", place.where), "c^3",
+       place.absolute ? "151" : "161, 162"},
       at_most(1e-8, "relative error of that entry of the tangent, to rounding of the derivative"),
       {{off(as_printed_there, by_dual), 1e-11, fmt::format("dual numbers; with c^4 {:.2g}", off(with_fourth, by_dual))},
        {off(as_printed_there, by_difference), 1e-9,
@@ -210,15 +212,18 @@ void claim_iterations(Study& study, bool absolute) {
   const auto most = [](const Counts& c) { return *std::max_element(c.iterations.begin(), c.iterations.end()); };
   const auto least = [](const Counts& c) { return *std::min_element(c.iterations.begin(), c.iterations.end()); };
   study.claim(
-      {"most_" + angles, "Newton's method converges in at most three iterations, " + angles + " angles", "3", "124"},
+      {"most_" + angles, "Newton's method converges in at most three iterations in " + angles + " angles", "3", "124"},
       at_most(3, "counted over every step up to t = 26"),
       {{static_cast<double>(most(right)), 0, "with the exact tangent"}});
-  study.claim({"most_printed_" + angles, "the same with the tangent as it is printed", "3", "124"},
+  study.claim({"most_printed_" + angles,
+               "with the tangent as it is printed Newton's method converges in at most three iterations in " + angles +
+                   " angles",
+               "3", "124"},
               at_most(3, "counted over every step up to t = 26"),
               {{static_cast<double>(most(printed)), 0,
                 fmt::format("with c^3; {} after {} steps", printed.converged ? "converged" : "no convergence",
                             printed.iterations.size())}});
-  study.claim({"least_" + angles, "a step takes one iteration at the least, " + angles + " angles", "1", "124"},
+  study.claim({"least_" + angles, "a step takes one iteration at the least in " + angles + " angles", "1", "124"},
               as_printed("1"),
               {{static_cast<double>(least(right)), 0,
                 fmt::format("least over every step, exact tangent; |R| after one correction is {:.2g} at the least",
