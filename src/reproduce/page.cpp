@@ -415,7 +415,8 @@ std::string page_of(const ReproduceReport& report, const fs::path& folder) {
       "does, <em>cannot hold</em> where it is wrong whatever the program: by an identity, or in two independent "
       "ways. It is <em>undecided</em> where the number is too uncertain, and <em>nothing to test</em> where the thesis "
       "shows no number; neither counts as agreement. Each experiment has three sizes, quick, default and full, and "
-      "says on which its verdicts rest. <a href=\"#words\">Words</a> that claims are told in stand below.</p>\n"
+      "says on which its verdicts rest. Scenarios, curves (CSV, HDF5) and figures (SVG, PDF, PNG) of each stand in a "
+      "folder of its own, reproduction/ID. <a href=\"#words\">Words</a> that claims are told in stand below.</p>\n"
       "</header>\n<main>\n<h2>Verdicts</h2>\n<table><caption "
       "class=\"heard\">How many claims have which verdict</caption>\n<thead><tr><th scope=\"col\">verdict</th><th "
       "scope=\"col\">claims</th></tr></thead>\n<tbody>\n";

@@ -50,7 +50,7 @@ class Page(html.parser.HTMLParser):
             self.faults.append("no language")
         if tag == "img":
             # Axes, and what is to be seen between them.
-            if not re.search("x from .* y from .*(reaches from|stays at)", given.get("alt", "")):
+            if not re.search("x from .* y from .*(reach(es)? from|stays? at)", given.get("alt", "")):
                 self.faults.append("a figure without words")
             if not given["src"].startswith("data:image/svg+xml"):
                 self.faults.append("a figure that is elsewhere")
