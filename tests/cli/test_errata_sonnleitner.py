@@ -42,8 +42,8 @@ EXPECTED = {
     "S3.2/lattice": "holds",
     # The listings: a mean that is none, N^2 for N, a second test that undoes the first.
     "S-C72/mean": "cannot hold",
-    **{f"S-C75/listing_{n}": "cannot hold" for n in (121, 441)},
-    **{f"S-C75/per-side_{n}": "holds" for n in (121, 441)},
+    **{f"S-C75/force_{n}": "cannot hold" for n in (121, 441)},
+    **{f"S-C75/factor_{n}": "cannot hold" for n in (121, 441)},
     "S-C103/both": "cannot hold",
     # Late motions of the T-tube are curves, but not all: one of these three winds about a torus and goes on filling it.
     "S3.5/discrete_+0.6I": "holds",

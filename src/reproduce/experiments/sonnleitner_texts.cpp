@@ -34,10 +34,12 @@ void reversible(Study& study) {
   study.claim({"flow", "the motion is q0 + p0 T + T^2/2, p0 + T", "q0 + p0 T + T^2/2, p0 + T", "17"},
               at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
               {{std::max(std::abs(q - (q0 + p0 * T + T * T / 2)), std::abs(p - (p0 + T))), 0, "verlet"}});
-  study.draw("figure", "There (first) and back: both run through the same places",
-             {study.info().title,
-              {phase_plane("{/:Italic q}", "{/:Italic p}", there.coordinate(0), there.momentum(0), back.coordinate(0),
-                           back.momentum(0))}});
+  figures::Panel panel = phase_plane("{/:Italic q}", "{/:Italic p}", there.coordinate(0), there.momentum(0),
+                                     back.coordinate(0), back.momentum(0));
+  panel.series.front().name = "back";
+  panel.series.back().name = "there";
+  study.draw("figure", "There (dots) and back (line): both run through the same places, with opposite momenta",
+             {study.info().title, {panel}});
 }
 
 /// "In which state must the motion have been at -T to reach (q0, p0) after T?" The thesis answers Phi(T; q0, p0).
@@ -152,7 +154,7 @@ void soft_force(Study& study) {
       Grounds::identity);
 }
 
-/// Page 102: "eps > 0: abstoszend" against page 104 and the force.
+/// Page 102: "eps > 0: abstoszend" against page 26 and the force of page 105.
 void sign_of_eps(Study& study) {
   const Trajectory run =
       study.run("attracting",
@@ -164,9 +166,9 @@ void sign_of_eps(Study& study) {
   const double change = (0.5 * F / 1 + 0.5 * F / 100) / before * 0.05 * 0.05 / 2;
   study.claim(
       {"sign", "eps > 0 repels (comment of the listing, page 102)", "eps > 0: repelling"},
-      at_least(0, "change of the distance from rest; the listing of page 104 and page 26 say that eps > 0 attracts"),
+      at_least(0, "change of the distance from rest; the force of page 105 and page 26 say that eps > 0 attracts"),
       {{after - before, 1e-12, "eps = 0.6, from rest, five steps"},
-       {change, 1e-6, "r''t^2/2 of the printed force, page 104, masses 1 and 100, t = 0.05; without terms of t^4"}},
+       {change, 1e-6, "r''t^2/2 of the printed force, page 105, masses 1 and 100, t = 0.05; without terms of t^4"}},
       Grounds::ways);
 }
 
