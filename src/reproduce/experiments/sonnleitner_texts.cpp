@@ -198,6 +198,28 @@ void order_of_momenta(Study& study) {
               {{static_cast<double>(counter_examples), 0, fmt::format("of {} tried", tried)}});
 }
 
+/// Page 85: the force of the pair changes P2 only a little, "by the conservation of momentum". The tubes take momentum.
+void momentum_of_pair(Study& study) {
+  const Trajectory run =
+      study.run("pair",
+                "[problem]\nname = \"t-tube\"\neps = -0.6\nmasses = [1, 100]\ninitial = { q = [0.3, 0.5], p "
+                "= [0, 0] }\n\n[method]\nname = \"stv4\"\n\n[run]\ndt = \"0.001\"\nsteps = 200\n"
+                "record_every = 1\n");
+  double impulse = 0;  // of both forces as printed on page 105, by the trapezoidal rule
+  const auto forces = [&](std::size_t i) {
+    return 0.6 * (run.q[i][0] + run.q[i][1]) / std::pow(std::hypot(run.q[i][0], run.q[i][1]), 3);
+  };
+  for (std::size_t i = 1; i < run.size(); ++i) impulse += (forces(i - 1) + forces(i)) / 2 * (run.t[i] - run.t[i - 1]);
+  const double change1 = run.p.back()[0], change2 = run.p.back()[1];
+  study.claim({"pair", "the force between the bodies keeps P1 + P2", "conservation of momentum"},
+              at_most(1e-6, "|change of P1 + P2| from rest, over 0.2, no wall in reach"),
+              {{std::abs(change1 + change2), 1e-10,
+                fmt::format("eps = -0.6: P1 changes by {:.3g}, P2 by {:.3g}: each tube takes the other component",
+                            change1, change2)},
+               {std::abs(impulse), 1e-5, "integral of the printed forces"}},
+              Grounds::ways);
+}
+
 /// Page 84: what the negated momentum keeps, and what the kept position loses.
 void bounce_keeps_energy(Study& study) {
   TubeRun run{.eps = -0.6, .v1 = "6"};
@@ -226,7 +248,11 @@ std::vector<Experiment> sonnleitner_texts_experiments() {
           {{"S-C27", sonnleitner, "27", "force of the soft wall"}, soft_force},
           {{"S-C55", sonnleitner, "55", "the third derivative of the flow"}, third_derivative},
           {{"S-C83", sonnleitner, "83", "energy at a wall"}, bounce_keeps_energy},
-          {{"S-C85", sonnleitner, "85", "order of the momenta"}, order_of_momenta},
+          {{"S-C85", sonnleitner, "85", "order of the momenta, and their sum"},
+           [](Study& study) {
+             order_of_momenta(study);
+             momentum_of_pair(study);
+           }},
           {{"S-C102", sonnleitner, "102", "sign of eps in the listing"}, sign_of_eps},
           {{"S-C107", sonnleitner, "107", "kinetic energy in the listing"}, kinetic_energy_of_listing}};
 }
