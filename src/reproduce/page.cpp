@@ -114,7 +114,7 @@ const char* const head = R"(<!DOCTYPE html>
   .claims th:nth-child(2), .claims td:nth-child(2) { min-width: 3.5em; }
   .claims th:nth-child(4), .claims td:nth-child(4) { min-width: 10em; }
   thead th { font-weight: 600; }
-  .numbers th, .numbers td { overflow-wrap: normal; min-width: 4rem; }
+  .numbers th, .numbers td { overflow-wrap: normal; min-width: 5.5rem; }
   .verdict { white-space: nowrap; font-weight: 600; padding: 0.05rem 0.4rem; border-radius: 3px; border: 2px solid; }
   .holds { color: #00705a; border-style: solid; }
   .differs { color: #b04a00; border-style: dashed; }
@@ -161,6 +161,7 @@ const char* const head = R"(<!DOCTYPE html>
     img { width: auto; max-width: 100%; max-height: 11cm; }
     .wide { overflow: visible; }
     .verdict, .quiet { color: #000; }
+    .verdict { display: inline-block; margin-bottom: 0.1rem; }
     .skip { display: none; }
     nav ul { columns: 2; font-size: 8pt; margin: 0.2rem 0; }
     .found li { margin: 0; font-size: 8pt; }

@@ -57,12 +57,14 @@ inline constexpr Word glossary[] = {
      "an implicit step ends as in the thesis' programs, at a residual below an absolute "
      "tolerance of 1e-13; elsewhere where rounding lets it become no smaller"},
     {"-0.6I, +0.6III, ...",
-     "starts of the T-tube in the table of Sonnleitner's pages 99 and 100: the strength eps of the "
-     "force, which attracts where it is positive, and the velocities, v = (0, 1) for I, (6, 1) "
-     "for III, (10, 1) for IV"},
+     "starts of the T-tube, as the table of Sonnleitner's pages 99 and 100 names them: the strength eps of the force, "
+     "which attracts where it is positive, and a number for the velocities (light body, heavy body): repelling (0, 1) "
+     "for "
+     "I, (6, 1) for III, (10, 1) for IV; attracting (0, 1) for I, (1, 1) for III, (6, 1) for IV"},
     {"late -0.6I-2",
-     "a motion near such a start, behind 12 million steps, that the rule reject has caught in a periodic "
-     "one; the last number tells a second such motion from the first"},
-    {"digits lost", "after a motion there and back: log10 of the error in positions over a unit of rounding"}};
+     "the motion from a start within 1e-8 of that one, behind 12 million steps in which the rule reject "
+     "has made "
+     "it regular; -2 is the second such motion that was found"},
+    {"digits lost", "there and back: log10 of the relative distance from the start over a unit of rounding"}};
 
 }  // namespace hamflow::reproduction

@@ -294,6 +294,8 @@ class Reproduce(CommandCase):
         for experiment in ("G3.6", "S1.2", "S2.4"):
             folder = pathlib.Path(self.folder) / "reproduce" / "reproduction" / experiment
             self.assertTrue((folder / "curves.h5").is_file(), experiment)
+            for begin, form in ((b"<?xml", "svg"), (b"%PDF", "pdf"), (b"\x89PNG", "png")):
+                self.assertTrue((folder / f"figure.{form}").read_bytes().startswith(begin), (experiment, form))
             tables = [file.read_text().splitlines() for file in folder.glob("*.csv")]
             self.assertGreater(len(tables), 0, experiment)
             for table in tables:
