@@ -144,7 +144,8 @@ const char* const head = R"(<!DOCTYPE html>
     table { font-size: 8pt; line-height: 1.25; }
     th, td { padding: 0.15rem 0.4rem 0.15rem 0; }
     .quiet, figcaption, dl { font-size: 8pt; }
-    th, td, .claims th:nth-child(n), .claims td:nth-child(n) { min-width: 0; }
+    .numbers th, .numbers td, .claims th:nth-child(n), .claims td:nth-child(n) { min-width: 0; }
+    .numbers th, .numbers td { overflow-wrap: anywhere; }
     .claims { table-layout: fixed; }
     .claims th:nth-child(1) { width: 20%; }
     .claims th:nth-child(2) { width: 6%; }
