@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "figure_seen.hpp"
-#include "figure_text.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/hash.hpp"
 #include "hamflow/core/text.hpp"
@@ -220,7 +219,11 @@ std::string name_of(WorkExtent extent) {
 std::string fingerprint_of(const std::string& id, WorkExtent extent) { return fingerprint(experiment_of(id), extent); }
 
 void keep(const fs::path& folder, const Study& study, const std::string& print, double seconds,
-          const std::vector<std::string>& formats) {
+          const std::vector<std::string>& more_formats) {
+  std::vector<std::string> formats{"svg", "pdf", "png"};
+  for (const std::string& format : more_formats) {
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) formats.push_back(format);
+  }
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
@@ -240,7 +243,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
     for (const std::string& format : formats) {
       figures::draw(drawn.page, folder / files.emplace_back(drawn.name + "." + format));
     }
-    all["figures"].push_back({drawn.name, drawn.caption, in_words(drawn.page) + " " + seen_in(drawn.page)});
+    all["figures"].push_back({drawn.name, drawn.caption, words_of(drawn.page)});
   }
   for (const Table& table : study.tables()) {
     write_table(folder / files.emplace_back(table.name + ".csv"), table);

@@ -28,7 +28,7 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.faults, self.headings, self.ids, self.targets, self.commands = [], [], [], [], []
-        self.landmarks = []
+        self.landmarks, self.words = [], []
         self.style = text[text.index("<style>"):text.index("</style>")]
         self.inside = None
         without_names = re.sub("http://www.w3.org/(2000/svg|1999/xlink)%22", "", text)  # of the figures' language
@@ -50,7 +50,7 @@ class Page(html.parser.HTMLParser):
             self.faults.append("no language")
         if tag == "img":
             # Axes, and what is to be seen between them.
-            if not re.search("x from .* y from .*(reaches from|stays at)", given.get("alt", "")):
+            if not re.search("x from .* y from .*(reach(es)? from|stays? at)", given.get("alt", "")):
                 self.faults.append("a figure without words")
             if not given["src"].startswith("data:image/svg+xml"):
                 self.faults.append("a figure that is elsewhere")
@@ -68,6 +68,7 @@ class Page(html.parser.HTMLParser):
             self.landmarks.pop()
 
     def handle_data(self, data):
+        self.words.append(data)
         if self.inside == "pre":
             self.commands.append(data)
             self.inside = None
@@ -129,17 +130,45 @@ class Reproduce(CommandCase):
         claim = next(c for c in self.verdicts("r")["claims"] if c["id"] == "G2.9/kept")
         self.assertEqual(done["energy"]["max_error"], claim["measured"])
 
+    def shell_commands(self, folder, block):
+        """What a shell makes of a block of the page: (command, scenario)."""
+        done = subprocess.run(["sh", "-c", 'hamflow() { printf "%s\\n" "$1|$2"; }\n' + block], cwd=self.folder / folder,
+                              capture_output=True, text=True, check=True)
+        return [tuple(line.split("|")) for line in done.stdout.splitlines() if not line.startswith("reproduce|")]
+
     def test_commands_of_the_page_remake_what_was_measured(self):
-        """Reversals by `reverse`, runs by `run`."""
-        self.reproduce("S3.3", "--quick", "--out", "r")
+        """Reversals by `reverse`, runs by `run`; where there are many a loop does them all."""
+        self.reproduce("S3.3", "S-C80", "S2.7", "G2.8", "--quick", "--out", "r")
         page = Page((self.folder / "r/index.html").read_text())
-        commands = [line for text in page.commands for line in text.splitlines()]
-        back = [line for line in commands if "121_corner_per-side_0.001_" in line and "2400_double" in line]
-        self.assertEqual([line.split()[:2] for line in back], [["hamflow", "reverse"]])
-        done = subprocess.run([HAMFLOW, *shlex.split(back[0])[1:], "--json", "--quiet"], cwd=self.folder / "r",
+        for block in page.commands:
+            experiment = shlex.split(block.splitlines()[0])[2]
+            kept = json.loads((self.folder / "r/reproduction" / experiment / "result.json").read_text())["scenarios"]
+            expected = {(one["command"], f"reproduction/{experiment}/{one['name']}.toml") for one in kept}
+            self.assertEqual(set(self.shell_commands("r", block)), expected, experiment)
+            self.assertLess(len(block.splitlines()), 20, experiment)
+        commands = self.shell_commands("r", next(block for block in page.commands if "S3.3" in block))
+        back = [one for one in commands if "121_corner_per-side_0.001_" in one[1] and "2400_double" in one[1]]
+        self.assertEqual({command for command, _ in back}, {"reverse"})
+        done = subprocess.run([HAMFLOW, *back[0], "--json", "--quiet"], cwd=self.folder / "r",
                               capture_output=True, text=True, check=True)
         claim = next(c for c in self.verdicts("r")["claims"] if c["id"] == "S3.3/returns_0.001_per-side")
         self.assertIn(f"{json.loads(done.stdout)['digits_lost']:.3g} digits lost", claim["reason"])
+
+    def test_page_says_of_what_it_is_and_what_to_look_at(self):
+        self.reproduce("G3.9", "S2.7", "--quick", "--out", "r")
+        text = (self.folder / "r/index.html").read_text()
+        page = Page(text)
+        for words in ("Michael Gro", "Petrov-Galerkin", "Universit\u00e4t Kaiserslautern", "July 1999", "Klaus Sonnleitner",
+                      "Eberhard Karls Universit\u00e4t T\u00fcbingen", "2010", "Words", "wall rules"):
+            self.assertIn(words, "".join(page.words))
+        claims = self.verdicts("r")["claims"]
+        lists = text[:text.index('id="words"')]
+        for claim in claims:
+            is_listed = f'<a href="#{claim["id"]}">' in lists
+            self.assertEqual(is_listed, claim["verdict"] in ("cannot hold", "differs"), claim["id"])
+        # A reason says nothing twice: the number stands in a cell of its own.
+        self.assertNotIn("+-", text)
+        self.assertNotIn("inf,", text)
 
     def test_two_ways_to_the_sign_of_eps_are_one_number(self):
         self.reproduce("S-C102", "S-C24", "--quick", "--out", "r")
@@ -265,6 +294,8 @@ class Reproduce(CommandCase):
         for experiment in ("G3.6", "S1.2", "S2.4"):
             folder = pathlib.Path(self.folder) / "reproduce" / "reproduction" / experiment
             self.assertTrue((folder / "curves.h5").is_file(), experiment)
+            for begin, form in ((b"<?xml", "svg"), (b"%PDF", "pdf"), (b"\x89PNG", "png")):
+                self.assertTrue((folder / f"figure.{form}").read_bytes().startswith(begin), (experiment, form))
             tables = [file.read_text().splitlines() for file in folder.glob("*.csv")]
             self.assertGreater(len(tables), 0, experiment)
             for table in tables:
@@ -290,7 +321,8 @@ class Reproduce(CommandCase):
         words = [word.replace(" ", "-") for word in VERDICTS]
         for word in words:
             self.assertIn(f".{word} {{", page.style)
-        runs = [shlex.split(line) for block in page.commands for line in block.splitlines() if " run " in line]
+        runs = [shlex.split(line) for block in page.commands for line in block.splitlines()
+                if line.startswith("hamflow run ")]
         self.assertGreater(len(runs), 20)
         for _, _, scenario in runs:
             self.assertTrue((folder / scenario).is_file(), scenario)

@@ -47,5 +47,26 @@ TEST(FigureSeen, IsSilentOnLevelsAndOnTooManyCurves) {
   EXPECT_EQ(text.find("E "), std::string::npos) << text;
 }
 
+TEST(FigureSeen, SpeaksInSentences) {
+  Page page = page_with({{-1, 1}, {0, 1}});
+  page.panels[0].series[0].name = "";
+  EXPECT_EQ(seen_in(page), "The curve reaches from 0 to 1 in y, from (-1, 0) to (1, 1).");
+  page.panels[0].series.push_back({Ink::line, "", {{-1, 1}, {1, 1}}});
+  page.panels[0].series.push_back({Ink::marks, "turning points", {{-1, 1}, {1, 1}}, {.shape = 6}});
+  const std::string text = words_of(page);
+  EXPECT_NE(text.find("turning points: rings."), std::string::npos) << text;
+  EXPECT_NE(text.find("Curve 2 stays at y = 1, from (-1, 1) to (1, 1)."), std::string::npos) << text;
+  EXPECT_NE(text.find("Turning points stay at y = 1, from"), std::string::npos) << text;
+}
+
+TEST(FigureSeen, SaysNumbersOfLogarithmicAxes) {
+  Page page = page_with({{8, 50}, {0, 1}});
+  page.panels[0].x = {.low = 0.845098040014, .high = 2, .logarithmic = true};
+  page.panels[0].y_label = "{/:Italic V}'({/:Italic r})";
+  EXPECT_NE(words_of(page).find("effective potential V'(r), x from 7 to 100, logarithmic, y from -2 to 2;"),
+            std::string::npos)
+      << words_of(page);
+}
+
 }  // namespace
 }  // namespace hamflow::reproduction

@@ -27,22 +27,39 @@ void mean_error(Study& study) {
               Grounds::identity);
 }
 
-/// The listing's factor counts the particles where it should count those of a side.
+/// What the listing of the force, page 74, has beside the Hamiltonian of page 67: a scale, of which no text speaks.
 void factor_of_scale(Study& study) {
+  std::string lengths;
   for (const int side : {11, 21}) {
-    const double spacing = 2.0 / (side - 1);
-    const auto apart = [&](const char* scale) { return spacing * GasRun{.side = side, .scale = scale}.scale_number(); };
-    const auto claim = [&](const char* scale, const std::string& what) {
-      study.claim(
-          {fmt::format("{}_{}", scale, side * side),
-           fmt::format("{} particles, {}: neighbours start one length of the potential apart", side * side, what),
-           "SkalierFaktor", "72 to 75"},
-          within(1, 1e-12, "spacing of the lattice in lengths of the potential, in which its least lies at 1"),
-          {{apart(scale), 1e-14, fmt::format("{} to a side, {:g} apart", side, spacing)}}, Grounds::identity);
-    };
-    claim("listing", "(number of particles - 1)/2, as listed");
-    claim("per-side", "(number of a side - 1)/2");
+    const double spacing = 2.0 / (side - 1);  // "Abst", page 72
+    const double listed = GasRun{.side = side, .scale = "listing"}.scale_number();
+    // LJKraft(:,i,j) = dij*12*(d2ij^-7 - d2ij^-4), d2ij = |dij|^2 SkalierFaktor^2
+    const auto factor = [](double squared) { return 12 * (std::pow(squared, -7) - std::pow(squared, -4)); };
+    const double of_listing = factor(spacing * spacing * listed * listed), of_text = factor(spacing * spacing);
+    study.claim({fmt::format("force_{}", side * side),
+                 fmt::format("{} particles: the listed force is that of the printed Hamiltonian", side * side),
+                 "d2ij*SkalierFaktor^2 (74); |qi - qj|^-12 - 2 |qi - qj|^-6 (67)", "67, 74"},
+                within(1, 1e-9, "listed force between neighbours at the start over that of the Hamiltonian"),
+                {{of_listing / of_text, 1e-15,
+                  fmt::format("{:.3g} over {:.3g}, of neighbours {:g} apart", spacing * of_listing, spacing * of_text,
+                              spacing)}},
+                Grounds::identity);
+    study.claim(
+        {fmt::format("factor_{}", side * side),
+         fmt::format("{} particles: the factor (AnzahlTeile - 1)/2 of page 74 is the reciprocal of the distance "
+                     "of neighbours, 2/(N - 1) of page 72, as its form suggests; the text does not say",
+                     side * side),
+         "SkalierFaktor=(AnzahlTeile-1)/2; Abst=2/(N-1)", "72, 74"},
+        within(1, 1e-12, "their product"),
+        {{listed * spacing, 1e-14, fmt::format("{:g} times {:g}: N^2 stands in it for N", listed, spacing)}},
+        Grounds::identity);
+    lengths += fmt::format("{}{:g} with {} particles", lengths.empty() ? "" : ", ", spacing * listed, side * side);
   }
+  study.note(
+      "The text does not say what SkalierFaktor is for. With N of page 72, the number of a side, in place of that of "
+      "the particles it would be 1/Abst, and neighbours would start one length of the potential apart. As listed "
+      "they start N + 1 lengths apart, " +
+      lengths + ": almost an ideal gas. hamflow has both, as scale \"per-side\" and \"listing\".");
 }
 
 /// The listed tests behind a step that leads to `next`, in their order: each negates one of the momenta p of before.

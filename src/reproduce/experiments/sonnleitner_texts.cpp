@@ -34,10 +34,12 @@ void reversible(Study& study) {
   study.claim({"flow", "the motion is q0 + p0 T + T^2/2, p0 + T", "q0 + p0 T + T^2/2, p0 + T", "17"},
               at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
               {{std::max(std::abs(q - (q0 + p0 * T + T * T / 2)), std::abs(p - (p0 + T))), 0, "verlet"}});
-  study.draw("figure", "There (first) and back: both run through the same places",
-             {study.info().title,
-              {phase_plane("{/:Italic q}", "{/:Italic p}", there.coordinate(0), there.momentum(0), back.coordinate(0),
-                           back.momentum(0))}});
+  figures::Panel panel = phase_plane("{/:Italic q}", "{/:Italic p}", there.coordinate(0), there.momentum(0),
+                                     back.coordinate(0), back.momentum(0));
+  panel.series.front().name = "back";
+  panel.series.back().name = "there";
+  study.draw("figure", "There (dots) and back (line): both run through the same places, with opposite momenta",
+             {study.info().title, {panel}});
 }
 
 /// "In which state must the motion have been at -T to reach (q0, p0) after T?" The thesis answers Phi(T; q0, p0).
@@ -152,7 +154,7 @@ void soft_force(Study& study) {
       Grounds::identity);
 }
 
-/// Page 102: "eps > 0: abstoszend" against page 104 and the force.
+/// Page 102: "eps > 0: abstoszend" against page 26 and the force of page 105.
 void sign_of_eps(Study& study) {
   const Trajectory run =
       study.run("attracting",
@@ -164,9 +166,9 @@ void sign_of_eps(Study& study) {
   const double change = (0.5 * F / 1 + 0.5 * F / 100) / before * 0.05 * 0.05 / 2;
   study.claim(
       {"sign", "eps > 0 repels (comment of the listing, page 102)", "eps > 0: repelling"},
-      at_least(0, "change of the distance from rest; the listing of page 104 and page 26 say that eps > 0 attracts"),
+      at_least(0, "change of the distance from rest; the force of page 105 and page 26 say that eps > 0 attracts"),
       {{after - before, 1e-12, "eps = 0.6, from rest, five steps"},
-       {change, 1e-6, "r''t^2/2 of the printed force, page 104, masses 1 and 100, t = 0.05; without terms of t^4"}},
+       {change, 1e-6, "r''t^2/2 of the printed force, page 105, masses 1 and 100, t = 0.05; without terms of t^4"}},
       Grounds::ways);
 }
 
@@ -194,6 +196,28 @@ void order_of_momenta(Study& study) {
   study.claim({"momenta", "m1 < m2 and kinEnKx < kinEnKy imply |P1| < |P2| at the start", "|P1(0)| < |P2(0)|"},
               none_of("counter-examples"),
               {{static_cast<double>(counter_examples), 0, fmt::format("of {} tried", tried)}});
+}
+
+/// Page 85: the force of the pair changes P2 only a little, "by the conservation of momentum". The tubes take momentum.
+void momentum_of_pair(Study& study) {
+  const Trajectory run =
+      study.run("pair",
+                "[problem]\nname = \"t-tube\"\neps = -0.6\nmasses = [1, 100]\ninitial = { q = [0.3, 0.5], p "
+                "= [0, 0] }\n\n[method]\nname = \"stv4\"\n\n[run]\ndt = \"0.001\"\nsteps = 200\n"
+                "record_every = 1\n");
+  double impulse = 0;  // of both forces as printed on page 105, by the trapezoidal rule
+  const auto forces = [&](std::size_t i) {
+    return 0.6 * (run.q[i][0] + run.q[i][1]) / std::pow(std::hypot(run.q[i][0], run.q[i][1]), 3);
+  };
+  for (std::size_t i = 1; i < run.size(); ++i) impulse += (forces(i - 1) + forces(i)) / 2 * (run.t[i] - run.t[i - 1]);
+  const double change1 = run.p.back()[0], change2 = run.p.back()[1];
+  study.claim({"pair", "the force between the bodies keeps P1 + P2", "conservation of momentum"},
+              at_most(1e-6, "|change of P1 + P2| from rest, over 0.2, no wall in reach"),
+              {{std::abs(change1 + change2), 1e-10,
+                fmt::format("eps = -0.6: P1 changes by {:.3g}, P2 by {:.3g}: each tube takes the other component",
+                            change1, change2)},
+               {std::abs(impulse), 1e-5, "integral of the printed forces"}},
+              Grounds::ways);
 }
 
 /// Page 84: what the negated momentum keeps, and what the kept position loses.
@@ -224,7 +248,11 @@ std::vector<Experiment> sonnleitner_texts_experiments() {
           {{"S-C27", sonnleitner, "27", "force of the soft wall"}, soft_force},
           {{"S-C55", sonnleitner, "55", "the third derivative of the flow"}, third_derivative},
           {{"S-C83", sonnleitner, "83", "energy at a wall"}, bounce_keeps_energy},
-          {{"S-C85", sonnleitner, "85", "order of the momenta"}, order_of_momenta},
+          {{"S-C85", sonnleitner, "85", "order of the momenta, and their sum"},
+           [](Study& study) {
+             order_of_momenta(study);
+             momentum_of_pair(study);
+           }},
           {{"S-C102", sonnleitner, "102", "sign of eps in the listing"}, sign_of_eps},
           {{"S-C107", sonnleitner, "107", "kinetic energy in the listing"}, kinetic_energy_of_listing}};
 }
