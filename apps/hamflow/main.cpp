@@ -172,7 +172,7 @@ int main(int argc, char** argv) {
       ->add_option("experiment", reproduce.what, "IDs of hamflow list experiments; gross, sonnleitner, all")
       ->required()
       ->type_name("ID...");
-  reproduce_command->add_flag("--quick", reproduce.quick, "about a minute for all; figures as SVG only");
+  reproduce_command->add_flag("--quick", reproduce.quick, "about a minute for all");
   reproduce_command->add_flag("--full", reproduce.full, "about ten hours for all");
   reproduce_command->add_option("--out", reproduce.out, "folder for the page and its data [reproduce]")
       ->type_name("DIR");

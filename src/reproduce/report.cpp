@@ -57,7 +57,8 @@ std::string verdicts_text(const ReproduceReport& report) {
     }
   }
   const auto counts = counts_of(report);
-  text += fmt::format("{:<16}{} of {} experiments\n", "claims", claims, report.experiments.size());
+  text += fmt::format("{:<16}{} of {} experiment{}\n", "claims", claims, report.experiments.size(),
+                      report.experiments.size() == 1 ? "" : "s");
   for (const ClaimVerdict verdict : all_claim_verdicts) {
     const auto found = counts.find(verdict);
     text += fmt::format("{:<16}{}\n", name(verdict), found == counts.end() ? 0 : found->second);

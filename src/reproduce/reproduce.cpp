@@ -198,9 +198,7 @@ class Run {
     try {
       experiment.carry_out(study);
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      const bool quick = request_.extent == WorkExtent::quick;
-      keep(place, study, print, report.seconds,
-           quick ? std::vector<std::string>{"svg"} : std::vector<std::string>{"svg", "pdf", "png"});
+      keep(place, study, print, report.seconds);
       if (keeps_smaller) {
         clear(folder);
         move(beside, folder);

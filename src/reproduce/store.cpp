@@ -218,12 +218,7 @@ std::string name_of(WorkExtent extent) {
 
 std::string fingerprint_of(const std::string& id, WorkExtent extent) { return fingerprint(experiment_of(id), extent); }
 
-void keep(const fs::path& folder, const Study& study, const std::string& print, double seconds,
-          const std::vector<std::string>& more_formats) {
-  std::vector<std::string> formats{"svg", "pdf", "png"};
-  for (const std::string& format : more_formats) {
-    if (std::find(formats.begin(), formats.end(), format) == formats.end()) formats.push_back(format);
-  }
+void keep(const fs::path& folder, const Study& study, const std::string& print, double seconds) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
@@ -240,7 +235,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   for (const Curves& each : curves) write_csv(folder / files.emplace_back(each.name + ".csv"), each);
   if (!curves.empty()) write_h5(folder / files.emplace_back("curves.h5"), study, curves);
   for (const Drawn& drawn : study.drawn()) {
-    for (const std::string& format : formats) {
+    for (const char* const format : {"svg", "pdf", "png"}) {
       figures::draw(drawn.page, folder / files.emplace_back(drawn.name + "." + format));
     }
     all["figures"].push_back({drawn.name, drawn.caption, words_of(drawn.page)});

@@ -40,10 +40,9 @@ struct KeptOf {
 };
 std::optional<KeptOf> kept_of(const Experiment& experiment, const std::filesystem::path& folder);
 
-/// Writes everything; result.json is the last, so that what a kill interrupts is not taken for done.
-/// @param more_formats of figures, beside SVG, PDF and PNG: these cost a tenth of a second each   @throws FileError
-void keep(const std::filesystem::path& folder, const Study& study, const std::string& fingerprint, double seconds,
-          const std::vector<std::string>& more_formats);
+/// Writes everything, figures as SVG, PDF and PNG; result.json is the last, so that what a kill interrupts is not taken
+/// for done.   @throws FileError
+void keep(const std::filesystem::path& folder, const Study& study, const std::string& fingerprint, double seconds);
 /// Nothing where the folder holds no such result, one of another fingerprint, one whose verdicts do not follow from its
 /// numbers, or one of whose files is missing or not as it was written.
 std::optional<Kept> kept_in(const std::filesystem::path& folder, const std::string& fingerprint);
