@@ -11,7 +11,7 @@ inline std::string source_of(const std::string& thesis) {
     return "Michael Gro&szlig;, <cite lang=\"de\">Numerische Untersuchungen diskreter dynamischer Systeme im Rahmen "
            "der "
            "PETROV-GALERKIN-Methode</cite>, Studienarbeit S02/99, <span lang=\"de\">Lehrstuhl f&uuml;r Technische "
-           "Mechanik, Universit&auml;t Kaiserslautern</span>, July 1999. Finite elements in time that keep the energy, "
+           "Mechanik, Universit&auml;t Kaiserslautern</span>, 1999. Finite elements in time that keep the energy, "
            "for bodies under a central force and for the double pendulum.";
   }
   return "Klaus Sonnleitner, <cite lang=\"de\">StV4: Ein symplektisches zeitreversibles St&ouml;rmer-Verlet-Verfahren "
@@ -31,7 +31,7 @@ inline constexpr Word glossary[] = {
     {"cg(k, m)",
      "the element of Gro&szlig;: Petrov-Galerkin in time, of degree k and order 2k, its integrals by Gauss' "
      "quadrature with m points, &ldquo;auto&rdquo; as many as keep H to rounding; implicit"},
-    {"eg(k)", "an element of Gro&szlig;, Betsch and Steinmann (2005), which keeps the angular momentum, too"},
+    {"eg(k)", "an element of Gro&szlig;, Betsch and Steinmann, of 2005, which keeps the angular momentum, too"},
     {"euler-a",
      "EulerA of Sonnleitner, page 34: the symplectic Euler method that moves first and kicks afterwards; "
      "order 1"},
