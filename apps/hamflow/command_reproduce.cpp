@@ -136,10 +136,10 @@ bool show_experiment(const std::string& id, const std::string& folder) {
     if (info.id != id) continue;
     if (!folder.empty()) kept_experiment(folder, id);  // which refuses what is no reproduction
     std::cout << fmt::format(
-        "{}\n  {}\n  {}, page {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n"
+        "{}\n  {}\n  {}, {}\n  hamflow reproduce {} [--quick|--full] [--out DIR]\n"
         "  sizes: --quick, default, --full; all experiments together take a minute, 20 minutes, 10 hours on 2 "
         "processors\n",
-        info.id, info.title, info.thesis, info.page, info.id);
+        info.id, info.title, info.thesis, pages_text(info.page), info.id);
     show_claims(id, folder.empty() ? "reproduce" : folder);
     return true;
   }

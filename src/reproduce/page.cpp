@@ -346,9 +346,9 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
   const std::string time = report.status != "done" ? std::string()
                            : report.seconds < 0.05 ? "; computed in less than 0.1 s"
                                                    : fmt::format("; computed in {:.1f} s", report.seconds);
-  std::string text = fmt::format("<h3 id=\"{0}\">{0}: {1}</h3>\n<p class=\"quiet\">{2}, page {3}; size {4}{5}</p>\n",
+  std::string text = fmt::format("<h3 id=\"{0}\">{0}: {1}</h3>\n<p class=\"quiet\">{2}, {3}; size {4}{5}</p>\n",
                                  escaped_html(info.id), escaped_html(info.title), escaped_html(info.thesis),
-                                 escaped_html(info.page), name_of(report.extent), time);
+                                 escaped_html(pages_text(info.page)), name_of(report.extent), time);
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
   if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
   const fs::path folder = top / "reproduction" / info.id;
@@ -372,9 +372,9 @@ std::string list_of(const ReproduceReport& report, ClaimVerdict verdict) {
     for (const Claim& claim : experiment.claims) {
       if (claim.judgement.verdict != verdict) continue;
       ++count;
-      items +=
-          fmt::format("<li><a href=\"#{0}\">{0}</a> {1}{2}</li>\n", escaped_html(claim.id),
-                      escaped_html(claim.statement), claim.page.empty() ? "" : ", page " + escaped_html(claim.page));
+      items += fmt::format("<li><a href=\"#{0}\">{0}</a> {1}{2}</li>\n", escaped_html(claim.id),
+                           escaped_html(claim.statement),
+                           claim.page.empty() ? "" : ", " + escaped_html(pages_text(claim.page)));
     }
   }
   if (count == 0) return {};

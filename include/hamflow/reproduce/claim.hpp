@@ -20,6 +20,11 @@ struct Measured {
 /// As many digits of it as the uncertainty leaves: two of it, three at least, and eight of a number that has none.
 std::string number_text(const Measured& one);
 
+/// "page 42", "pages 99, 100", "pages 86 to 89".
+inline std::string pages_text(const std::string& page) {
+  return (page.find_first_not_of("0123456789") == std::string::npos ? "page " : "pages ") + page;
+}
+
 /// A claim holds where the number that was measured of it lies within [low, high].
 struct Rule {
   std::string text;
