@@ -39,12 +39,18 @@ struct Exponents {
   }
 };
 
-/// Over so many steps, and four times as many.
+/// Over so many steps, and four times as many: infinite where the motion ends, which a soft wall may do. In double,
+/// since tangents of the lattice are none.
 Exponents exponents_from(Study& study, const TubeSet& set, const TubeWatch& seen, const std::string& name,
                          std::int64_t steps) {
+  std::vector<std::string> sets{"run.lyapunov=1"};
+  for (const std::string& one : set.sets) {
+    if (!one.starts_with("run.arithmetic")) sets.push_back(one);
+  }
   const auto over = [&](std::int64_t length, const char* which) {
-    const Trajectory run = study.run(fmt::format("{}_{}", name, which),
-                                     scenario_of_start(set, seen.start, length, seen.q, seen.p), {"run.lyapunov=1"});
+    const Trajectory run = study.try_run(fmt::format("{}_{}", name, which),
+                                         scenario_of_start(set, seen.start, length, seen.q, seen.p), sets);
+    if (run.report.status != "done") return unknown;
     return read_json(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
   };
   return {over(steps, "shorter"), over(4 * steps, "longer"), static_cast<double>(steps) * std::stod(set.run.dt)};
