@@ -477,7 +477,8 @@ void carry_out(Study& study) {
   const auto set_of = [](const std::string& rule, const std::string& method, const std::string& dt, std::size_t blocks,
                          std::vector<std::string> sets = {}) {
     TubeSet set{.run = {.rule = rule, .method = method, .dt = dt}, .sets = std::move(sets), .blocks = blocks};
-    if (rule == "mirror") set.most_energy_error = 0.01;
+    // Another energy is another system; that of reject stays within 1 % by itself.
+    set.most_energy_error = rule == "mirror" ? 0.01 : 0.1;
     return set;
   };
   Counts reject =
@@ -486,8 +487,9 @@ void carry_out(Study& study) {
   claim_true_flow(study, reject);
   if (!reject.captured.empty()) draw_blocks(study, reject);
   tell_captures(study, reject);
+  // With dt = 0.01 the energy of event walks off by a multiple of itself in that time.
   const Counts event =
-      all_of(study, "event", set_of("event", "stv4", "0.01", study.sized<std::size_t>(1, 100, 100)), of_event);
+      all_of(study, "event", set_of("event", "stv4", "0.0025", study.sized<std::size_t>(1, 400, 400)), of_event);
   Counts soft =
       all_of(study, "soft",
              set_of("soft", "stv4", "0.005", study.sized<std::size_t>(1, 240, 100), {"problem.exponent=6"}), of_soft);
