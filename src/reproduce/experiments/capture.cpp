@@ -45,7 +45,7 @@ Exponents exponents_from(Study& study, const TubeSet& set, const TubeWatch& seen
                          std::int64_t steps) {
   std::vector<std::string> sets{"run.lyapunov=1"};
   for (const std::string& one : set.sets) {
-    if (!one.starts_with("run.arithmetic")) sets.push_back(one);
+    if (!one.starts_with("run.arithmetic=")) sets.push_back(one);
   }
   const auto over = [&](std::int64_t length, const char* which) {
     const Trajectory run = study.try_run(fmt::format("{}_{}", name, which),
