@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Kills `hamflow reproduce` again and again at random moments (kill -9), resumes it each time, and compares what it leaves
 in the end with a reproduction that was never interrupted: verdicts.json and every CSV file of a curve, byte for byte.
 
@@ -48,6 +49,10 @@ def main():
     parser.add_argument("--seconds", type=float, help="that the reproduction takes, where --wanted is given")
     parser.add_argument("--out", type=pathlib.Path, help="of the killed one; a temporary folder")
     given, words = parser.parse_known_args()
+    if not words or words[0].startswith("-"):
+        parser.error("found no experiment; allowed all, gross, sonnleitner, or IDs, behind the program")
+    if (given.wanted is None) != (given.seconds is None):
+        parser.error("--wanted and --seconds go together: how long the one that is there took")
     rng = random.Random(given.seed)
     with tempfile.TemporaryDirectory() as temporary:
         wanted = given.wanted or pathlib.Path(temporary) / "wanted"
