@@ -67,6 +67,10 @@ void claim_two_to_one(Study& study) {
   study.keep({"two_to_one", {{"dt", {steps.begin(), steps.end()}}, {"share", means}, {"error", errors}}});
 }
 
+/// As long as 20 blocks of the listing's step length. A motion of the true flow sticks to islands for a while, too:
+/// runs of shorter steps have to stay for the same time, which is more blocks.
+constexpr double least_stay = 200000;  // time units
+
 struct Captured {
   TubeWatch seen;
   std::size_t from = 0;  // block
@@ -83,6 +87,7 @@ struct Counts {
   int stopped = 0;
   double energy_error = 0;  // the largest, of the start's
   std::vector<Captured> captured;
+  std::vector<Captured> brief;  // as regular, but for less than least_stay
   int regular_blocks_only = 0;  // whose exponents are those of chaos
   TubeWatch free;               // a run that was not captured, for comparison
 };
@@ -102,10 +107,11 @@ Counts all_of(Study& study, const std::string& name, const TubeSet& set, int sta
     }
     const std::string run = fmt::format("{}_captured_{}", name, counts.captured.size() + 1);
     const Exponents exponents = exponents_from(study, set, seen, run, study.sized<std::int64_t>(10000, 200000, 200000));
-    if (exponents.regular()) {
-      counts.captured.push_back({std::move(seen), from, exponents});
-    } else {
+    const double stayed = static_cast<double>(seen.blocks.size() - from) * tube_block * std::stod(set.run.dt);
+    if (!exponents.regular()) {
       ++counts.regular_blocks_only;
+    } else {
+      (stayed < least_stay ? counts.brief : counts.captured).push_back({std::move(seen), from, exponents});
     }
   }
   if (!set.run.rule.empty() && counts.runs > 0) {
@@ -226,10 +232,12 @@ void claim_of_others(Study& study, const Counts& reject, const Counts& others, c
   if (first > 0 && others.runs > 0) {
     const std::string stopped =
         others.stopped > 0 ? fmt::format(" ({} of them stopped early)", others.stopped) : std::string();
+    const std::string brief =
+        others.brief.empty() ? std::string() : fmt::format(" ({} more for less time)", others.brief.size());
     measured.push_back(
         {ratio, expected >= 10 ? highest_ratio(second, first, share) - ratio : unknown,
-         fmt::format("{} capture{} in {:.3g} bounces of {} runs{}; at reject's rate {:.3g} would be expected", second,
-                     second == 1 ? "" : "s", others.bounces, others.runs, stopped, expected)});
+         fmt::format("{} capture{}{} in {:.3g} bounces of {} runs{}; at reject's rate {:.3g} would be expected", second,
+                     second == 1 ? "" : "s", brief, others.bounces, others.runs, stopped, expected)});
   }
   study.claim(
       {"captures_" + others.name,
@@ -240,19 +248,56 @@ void claim_of_others(Study& study, const Counts& reject, const Counts& others, c
 
 void tell_counts(Study& study, const std::vector<const Counts*>& all) {
   Table table{"rules",
-              "Captures by wall rule: block means that stay, and exponents of at most 3 log T/T",
-              {"rule", "dt", "runs", "steps", "bounces", "captures", "expected at reject's rate", "stopped early",
-               "largest energy error"},
+              fmt::format("Captures by wall rule: block means that stay for {:g} time units and more, and exponents of "
+                          "at most 3 log T/T",
+                          least_stay),
+              {"rule", "dt", "runs", "steps", "bounces", "captures", "as regular, for less time",
+               "expected at reject's rate", "stopped early", "largest energy error"},
               {}};
   for (const Counts* one : all) {
     const double expected =
         static_cast<double>(all[0]->captured.size()) * one->bounces / std::max(all[0]->bounces, 1.0);
     table.rows.push_back({one->name, one->set.run.dt, fmt::format("{}", one->runs), fmt::format("{:.3g}", one->steps),
                           fmt::format("{:.3g}", one->bounces), fmt::format("{}", one->captured.size()),
-                          fmt::format("{:.3g}", expected), fmt::format("{}", one->stopped),
-                          fmt::format("{:.2g}", one->energy_error)});
+                          fmt::format("{}", one->brief.size()), fmt::format("{:.3g}", expected),
+                          fmt::format("{}", one->stopped), fmt::format("{:.2g}", one->energy_error)});
   }
   study.table(std::move(table));
+}
+
+/// Whether a run leaves the motion that it ends with, within another least_stay: then a block's mean, of a thousand
+/// samples, is another one.
+bool leaves(Study& study, const Counts& counts, const Captured& one, const std::string& name) {
+  constexpr std::int64_t samples = 1000;
+  const auto& x = one.seen.blocks;
+  const auto at = x.begin() + static_cast<std::ptrdiff_t>(one.from);
+  const double late = spread_of({at, x.end()}).mean, before = spread_of({x.begin(), at}).deviation;
+  const auto steps = std::llround(least_stay / std::stod(counts.set.run.dt));
+  std::vector<std::string> sets = counts.set.sets;
+  sets.push_back(fmt::format("run.record_every={}", tube_block / samples));
+  const Trajectory run =
+      study.try_run(name, scenario_of_start(counts.set, one.seen.start, steps, one.seen.q, one.seen.p), sets);
+  for (std::size_t k = 1; k + samples <= run.size(); k += samples) {
+    double mean = 0;
+    for (std::size_t i = k; i < k + samples; ++i) mean += run.p[i][0] * run.p[i][0] / 2 / samples;
+    if (std::abs(mean - late) > 0.05 * before) return true;
+  }
+  return false;
+}
+
+/// What became of runs that ended as regular as captured ones, but had not been so for as long.
+void tell_brief(Study& study, const Counts& counts) {
+  const auto looked_at = std::min<std::size_t>(counts.brief.size(), 8);
+  if (looked_at == 0) return;
+  int left = 0;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    if (leaves(study, counts, counts.brief[k], fmt::format("{}_brief_{}", counts.name, k + 1))) ++left;
+  }
+  study.note(fmt::format(
+      "With {} {} of {} runs ended as regular as captured ones, but had been so for less than {:g} time "
+      "units, which no capture is: motions of the true flow stick to its islands for such times. Of {} that "
+      "were continued for another {:g} {} left again.",
+      counts.name, counts.brief.size(), counts.runs, least_stay, looked_at, least_stay, left));
 }
 
 /// Bounces of soft walls are not counted: they are those of hard ones in the same time.
@@ -362,6 +407,8 @@ void carry_out(Study& study) {
   claim_of_others(study, reject, lattice, "the mirror on the lattice, a permutation", walk);
   claim_of_others(study, reject, element, "cg(2) with events, which keeps the energy",
                   "10^10 steps of cg(2), some 40 hours on a processor");
+  tell_brief(study, event);
+  tell_brief(study, soft);
   tell_counts(study, {&reject, &event, &soft, &mirror, &lattice, &element});
   study.note(
       "A one-to-one map that preserves volume enters a set R of finite volume with Psi(R) in R from a null set only: "
