@@ -4,6 +4,8 @@
 
 #include "catalog_lists.hpp"  // generated from the folder of problems
 #include "constrained_problems.hpp"
+#include "hamflow/formula/problem_texts.hpp"
+#include "typed_problem.hpp"
 
 namespace hamflow {
 
@@ -23,7 +25,10 @@ namespace {
 DigitCharts charts_of(const ProblemEntry& problem, const Texts& parameters) {
   static const std::vector<ErasedEntry> all = generated_erased();
   const auto number = static_cast<std::size_t>(&problem - problems().data());
-  if (number >= all.size()) return constrained_digit_charts(problem, parameters);
+  if (number >= all.size()) {
+    if (problem.info.name != CentralKeys::problem) return constrained_digit_charts(problem, parameters);
+    return problem.to_reference ? polar_digit_charts() : DigitCharts();
+  }
   return {all[number].to_reference, all[number].from_reference};
 }
 }  // namespace

@@ -196,6 +196,26 @@ bool depend_on_each_other(const Gradients<double, dynamic>& rows) {
 
 }  // namespace
 
+DigitCharts polar_digit_charts() {
+  const auto changed = [](const auto& change) {
+    return [change](const std::string& arithmetic, const DigitState& state) {
+      return in_arithmetic(arithmetic, [&]<class R>() {
+        const auto read = [](const std::vector<std::string>& x) {
+          return Vector<R, 2>{evaluate_number<R>(x.at(0)), evaluate_number<R>(x.at(1))};
+        };
+        const auto written = [](const Vector<R, 2>& x) {
+          return std::vector<std::string>{written_digits(x[0]), written_digits(x[1])};
+        };
+        const Start<R, 2> s = change(Start<R, 2>{read(state.q), read(state.p)});
+        return DigitState{written(s.q), written(s.p)};
+      });
+    };
+  };
+  return {
+      changed([]<class R>(const Start<R, 2>& s) { return PolarCentralForce<R, TypedPotential>::to_reference(s); }),
+      changed([]<class R>(const Start<R, 2>& s) { return PolarCentralForce<R, TypedPotential>::from_reference(s); })};
+}
+
 ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field) {
   const Typed typed{model, field};
   const auto face = [model](const Texts& parameters) {

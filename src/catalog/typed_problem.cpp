@@ -6,6 +6,7 @@
 
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/problems/support/potential.hpp"
+#include "typed_potential.hpp"
 
 namespace hamflow {
 
@@ -78,8 +79,9 @@ ProblemEntry central_entry(const Choices& choices) {
         return frame;
       };
     };
-    entry.to_reference = changed([](const Start<double, 2>& s) { return to_cartesian(s); });
-    entry.from_reference = changed([](const Start<double, 2>& s) { return to_polar(s); });
+    using Polar = PolarCentralForce<double, TypedPotential>;
+    entry.to_reference = changed([](const Start<double, 2>& s) { return Polar::to_reference(s); });
+    entry.from_reference = changed([](const Start<double, 2>& s) { return Polar::from_reference(s); });
   }
   return entry;
 }

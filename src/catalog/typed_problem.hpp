@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 
+#include "constrained_problems.hpp"
 #include "hamflow/formula/model.hpp"
 #include "hamflow/run/catalog.hpp"
 
@@ -44,6 +45,8 @@ struct TypedField {
   std::shared_ptr<const formula::Model> radial;  // p_r^2/2 + V(r)
   bool polar = false;
 };
+/// Both ways between typed polar states and the plane, in digits.
+DigitCharts polar_digit_charts();
 /// The entry of a model, without info: everything that its functions give. Defined in formula_entry.cpp.
 /// @param field of a central force that does not depend on t: starts by energy and angular momentum, facts of the orbit
 ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field = {});

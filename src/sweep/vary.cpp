@@ -57,6 +57,14 @@ std::optional<double> number_in(std::string text) {
   return std::nullopt;
 }
 
+/// An end of a range as --set takes it: a number that a double cannot hold, 1/3 or one of more digits, as it was typed,
+/// so that every arithmetic reads its own digits.
+std::string exact_end(const std::string& text, double x) {
+  constexpr std::size_t held_by_double = 16;  // characters of a decimal of 15 digits
+  const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  return plain && text.size() <= held_by_double ? shortest(x) : text;
+}
+
 double range_end(const std::string& text, const std::string& whole) {
   const auto x = number_in(text);
   if (!x) throw Error("found \"" + text + "\" in " + whole + ", which is not a finite number; " + forms);
@@ -145,7 +153,9 @@ Vary parse_vary(const std::string& text) {
     const double x = i + 1 == n && n > 1 ? b : between;
     if (!std::isfinite(x)) throw Error("found a range too wide for double in \"" + text + "\"");
     vary.numbers.push_back(x);
-    vary.texts.push_back(shortest(x));
+    vary.texts.push_back(i == 0       ? exact_end(trimmed(range[0]), a)
+                         : i + 1 == n ? exact_end(trimmed(range[1]), b)
+                                      : shortest(x));
   }
   return vary;
 }

@@ -334,6 +334,9 @@ RunDrift classify_run(const EnergySeries& series) {
   }
   if (!found.periods) {
     conclusion = undecided("nothing has turned back: no oscillation was seen");
+  } else if (*found.periods <= 0.5) {  // of a single turn nothing is known but that
+    conclusion = undecided(fmt::format("the slowest oscillation has turned once; a drift class needs {} periods",
+                                       RunDrift::fewest_periods));
   } else if (*found.periods < RunDrift::fewest_periods) {
     conclusion = undecided(fmt::format("{:.3g} periods of the slowest oscillation are too few; a drift class needs {}",
                                        rounded_down(*found.periods, 0.01), RunDrift::fewest_periods));

@@ -360,7 +360,9 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     found.reason += fmt::format("; the other {} steps of the run were left out", steps_taken - found.steps);
   }
   if (period && static_cast<double>(found.steps) < *period) {
-    found.reason += "; shorter than one period of the slowest oscillation";
+    const bool turned_once = *period >= 2 * static_cast<double>(steps_taken);
+    found.reason += turned_once ? "; no whole period of the slowest oscillation was seen"
+                                : "; shorter than one period of the slowest oscillation";
   }
   return found;
 }

@@ -17,6 +17,10 @@ nlohmann::ordered_json json_of(const LongNumber& x) {
   return x.text.empty() ? nlohmann::ordered_json(x.value) : nlohmann::ordered_json(x.text);
 }
 
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 std::string number_text(const nlohmann::ordered_json& x, const char* form) {
   if (x.is_string()) return x.get<std::string>();
   // A live summary holds what JSON writes as null: both have to read alike.

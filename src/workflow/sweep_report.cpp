@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "number_text.hpp"
 #include "run_keys.hpp"
 #include "summary.hpp"
 #include "sweep_table.hpp"
@@ -185,19 +186,23 @@ std::string readable_sweep(const Json& s) {
        fmt::format("{} ({} done, {} failed, {} unfinished)", s["members"].get<std::size_t>(),
                    s["done"].get<std::size_t>(), s["failed"].get<std::size_t>(), s["unfinished"].get<std::size_t>()));
   if (s.contains("no_start")) {
-    line("no start", fmt::format("{} of the failed: the energy, or what a formula asks for, is out of their reach",
+    line("no start", fmt::format("{} of the failed: the energy, or what a formula asks for, is out of reach",
                                  s["no_start"].get<std::size_t>()));
   }
   for (const auto& [path, entry] : s["varied"].items()) {
-    line("varied", entry.contains("first")
-                       ? fmt::format("{}: {} values, {:g} .. {:g}", path, entry["count"].get<std::size_t>(),
-                                     entry["first"].get<double>(), entry["last"].get<double>())
-                       : fmt::format("{}: {} values", path, entry["count"].get<std::size_t>()));
+    const auto count = entry["count"].get<std::size_t>();
+    std::string values = counted(count, "value");
+    if (entry.contains("first")) {
+      values += count == 1
+                    ? fmt::format(", {:g}", entry["first"].get<double>())
+                    : fmt::format(", first {:g}, last {:g}", entry["first"].get<double>(), entry["last"].get<double>());
+    }
+    line("varied", path + ": " + values);
   }
-  if (s.contains("section")) line("section", fmt::format("{} points", s["section"]["points"].get<std::size_t>()));
-  line("lanes", fmt::format("{} ({}), {} members in lanes, threads {}", s["lanes"].get<std::size_t>(),
-                            s["instruction_set"].get<std::string>(), s["members_in_lanes"].get<std::size_t>(),
-                            s["threads"].get<int>()));
+  if (s.contains("section")) line("section", counted(s["section"]["points"].get<std::size_t>(), "point"));
+  line("lanes", fmt::format("{} ({}), {} in lanes, threads {}", s["lanes"].get<std::size_t>(),
+                            s["instruction_set"].get<std::string>(),
+                            counted(s["members_in_lanes"].get<std::size_t>(), "member"), s["threads"].get<int>()));
   if (s.contains("note")) line("note", s["note"].get<std::string>());
   line("wall time", fmt::format("{:.3g} s, {:.4g} member steps/s, {:.4g} members/s", s["wall_seconds"].get<double>(),
                                 s["member_steps_per_second"].get<double>(), s["members_per_second"].get<double>()));
