@@ -139,7 +139,10 @@ int main(int argc, char** argv) {
           "  hamflow verify stv4 'cg(1,5)'\n  hamflow verify --all\n  hamflow verify rk4 --problem pendulum\n");
   verify_command->add_option("method", verify.methods, "e.g. stv4, 'cg(1,5)'")->type_name("METHOD");
   verify_command->add_flag("--all", verify.all, "every method of the catalogue");
-  verify_command->add_option("--problem", verify.problem, "measure on this problem alone")->type_name("PROBLEM");
+  verify_command
+      ->add_option("--problem", verify.problem,
+                   "measure on this problem; momentum maps on a Kepler ellipse and three bodies, too")
+      ->type_name("PROBLEM");
   verify_command->add_flag("--json", verify.json, "print JSON");
   verify_command->callback([&] { status = hamflow::app::verify_command(verify); });
 

@@ -13,7 +13,8 @@ struct Curve {
   std::vector<const ComparisonPoint*> points;
 };
 
-/// log10(work) at which a method first reaches log10(error) = level, by the segments between its points.
+/// The least log10(work) with which a method reaches log10(error) = level: that of a point that is there or below, or
+/// where a segment between points comes down to it. A method whose coarsest step is below the level counts with that.
 std::optional<double> work_for(const Curve& method, double level, bool by_time, double floor) {
   std::vector<std::pair<double, double>> curve;  // work, error
   for (const ComparisonPoint* p : method.points) {
@@ -21,10 +22,12 @@ std::optional<double> work_for(const Curve& method, double level, bool by_time, 
     if (work > 0) curve.emplace_back(std::log10(work), std::max(p->error.log10, floor));
   }
   std::sort(curve.begin(), curve.end());
-  for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-    const auto [w0, e0] = curve[i];
-    const auto [w1, e1] = curve[i + 1];
-    if (e0 >= level && e1 <= level) return e0 == e1 ? w0 : w0 + (w1 - w0) * (e0 - level) / (e0 - e1);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const auto [w1, e1] = curve[i];
+    if (e1 > level) continue;
+    if (i == 0) return w1;
+    const auto [w0, e0] = curve[i - 1];  // above the level, or this were not the first
+    return w0 + (w1 - w0) * (e0 - level) / (e0 - e1);
   }
   return std::nullopt;
 }

@@ -149,6 +149,8 @@ PropertyRow measure_method(const MethodSpec& method, std::span<const Region> reg
   MethodCertificate certificate = certificate_of(method, regions, on);
   PropertyRow row = judge(claims, std::move(on));
   row.certificate = std::move(certificate);
+  const std::string as = describe(measurable(method)).name;
+  if (as != describe(method).name) row.measured_as = as;
   return row;
 }
 

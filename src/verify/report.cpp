@@ -237,8 +237,15 @@ std::string property_table(std::span<const PropertyRow> rows) {
                         number(FMT_STRING("{:.4g}"), m.cost.linear_solves)});
     }
   }
-  return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + "\norder and structure: defects\n" +
-         aligned(structure) + "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy) +
+  std::string notes;
+  for (const PropertyRow& row : rows) {
+    if (row.measured_as.empty()) continue;
+    notes +=
+        row.claims.name + " was measured as " + row.measured_as + ": with sub-steps of its own a step has no order\n";
+  }
+  return "claimed / measured   (!! differs, ?? unclear)\n" + aligned(table) + notes +
+         "\norder and structure: defects\n" + aligned(structure) +
+         "\nenergy, largest |H - H0|/scale, and evaluations per step\n" + aligned(energy) +
          "\ncertificates: what was kept over long runs\n" + certificates(rows) + not_measured(rows);
 }
 
@@ -259,6 +266,7 @@ std::string property_json(std::span<const PropertyRow> rows) {
                    {"properties", properties},
                    {"certificate", has_runs(row) ? json_of(row.certificate) : nlohmann::json(nullptr)},
                    {"measurements", on}});
+    if (!row.measured_as.empty()) all.back()["measured_as"] = row.measured_as;
   }
   return nlohmann::json{{"methods", all}}.dump(2) + "\n";
 }

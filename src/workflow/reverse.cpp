@@ -306,6 +306,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
   std::optional<Checkpoint> from;
   if (settings.existing == Existing::resume && std::filesystem::exists(settings.folder)) {
     from = kept_reversal(scenario, settings.folder);
+    if (!from) refuse_other_kind(settings.folder, FolderOf::reversal);
     if (const std::string left = left_in(settings.folder, FolderOf::reversal); !from && !left.empty()) {
       throw FileError("there is no checkpoint in " + settings.folder.string() + " to go on from, but " + left +
                       "; give --out another folder, or --force to replace what is there");

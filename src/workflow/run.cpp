@@ -12,7 +12,9 @@
 #include "json_text.hpp"
 #include "resume.hpp"
 #include "run_folder.hpp"
+#include "run_keys.hpp"
 #include "run_mark.hpp"
+#include "scenario_edit.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
 
@@ -32,6 +34,7 @@ std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
   const fs::path& folder = settings.folder;
   if (folder.empty() || settings.existing != Existing::resume || !fs::exists(folder)) return std::nullopt;
   if (fs::exists(folder / "checkpoint.bin")) return read_checkpoint(folder / "checkpoint.bin");
+  refuse_other_kind(folder, FolderOf::run);
   if (const std::string left = left_in(folder, FolderOf::run); !left.empty()) {
     throw FileError("there is no checkpoint in " + folder.string() + " to go on from, but " + left +
                     "; give --out another folder, or --force to replace what is there");
@@ -44,6 +47,8 @@ std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
 Scenario with_spacing_of(const Checkpoint& checkpoint, Scenario scenario, const RunSettings& settings) {
   if (scenario.record_every != checkpoint.record_every && scenario.record.empty()) {
     scenario.record_every = checkpoint.record_every;
+    scenario.text =
+        edited_scenario(scenario.text, {{run_path(run_keys().record_every), std::to_string(checkpoint.record_every)}});
     note(settings, fmt::format("samples stay {} {} apart, as when the run began", checkpoint.record_every,
                                checkpoint.record_every == 1 ? "step" : "steps"));
   }

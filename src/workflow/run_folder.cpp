@@ -106,13 +106,20 @@ void remove_file(const fs::path& file) {
   if (error) throw FileError("cannot remove " + file.string() + ": " + error.message());
 }
 
-void clear(const fs::path& folder, FolderOf what) {
+/// The name of another kind whose folder it is; empty: none.
+std::string other_kind_in(const fs::path& folder, FolderOf what) {
   for (const KindOfFolder& other : kinds_of_folders()) {
     const bool is_other =
         std::any_of(other.signs.begin(), other.signs.end(), [&](const char* sign) { return is_there(folder / sign); });
-    if (other.what == what || !is_other) continue;
-    throw FileError(std::string("found a ") + other.name + " in " + folder.string() +
-                    ", which is not replaced; allowed a folder of a " + kind_of(what).name + ", or --out another");
+    if (other.what != what && is_other) return other.name;
+  }
+  return {};
+}
+
+void clear(const fs::path& folder, FolderOf what) {
+  if (const std::string other = other_kind_in(folder, what); !other.empty()) {
+    throw FileError("found a " + other + " in " + folder.string() + ", which is not replaced; allowed a folder of a " +
+                    kind_of(what).name + ", or --out another");
   }
   const FolderLock lock(folder);
   for (const fs::path& name : found_in(folder, what)) remove_file(folder / name);
@@ -151,6 +158,14 @@ void refuse_own_input(const Scenario& scenario, const fs::path& folder, FolderOf
                         "; allowed another --out, or a copy of the file elsewhere"}});
 }
 
+void refuse_other_kind(const fs::path& folder, FolderOf what) {
+  const std::string other = other_kind_in(folder, what);
+  if (other.empty()) return;
+  const std::string own = kind_of(what).name;
+  throw FileError("found a " + other + " in " + folder.string() + ", from which no " + own +
+                  " goes on; allowed a folder of a " + own + ", or --out another");
+}
+
 std::string left_in(const fs::path& folder, FolderOf what) {
   Names found = found_in(folder, what);
   std::erase_if(found, [](const fs::path& name) { return name.extension() == ".new"; });  // nothing that was finished
@@ -162,6 +177,9 @@ void make_folder(const fs::path& folder, FolderOf what, bool force) {
   if (is_there(folder)) {
     if (!fs::is_directory(folder, error)) throw FileError(folder.string() + " exists and is no folder");
     if (!force) {
+      if (const std::string other = other_kind_in(folder, what); !other.empty()) {
+        throw FileError("the folder " + folder.string() + " exists, with a " + other + " in it; give --out another");
+      }
       throw FileError("the folder " + folder.string() + " exists; give " +
                       (what == FolderOf::comparison
                            ? std::string()

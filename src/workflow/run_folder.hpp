@@ -25,6 +25,9 @@ void make_folder(const std::filesystem::path& folder, FolderOf what, bool force)
 /// @throws Rejection when the file from which particles start is among what make_folder would remove with `force`
 void refuse_own_input(const Scenario& scenario, const std::filesystem::path& folder, FolderOf what);
 
+/// @throws FileError when the folder is that of another kind, which would be spoilt by what goes on in it
+void refuse_other_kind(const std::filesystem::path& folder, FolderOf what);
+
 /// The names of what a run left in an existing folder, e.g. "run.h5, figures/orbit.svg"; empty if it left nothing.
 std::string left_in(const std::filesystem::path& folder, FolderOf what);
 

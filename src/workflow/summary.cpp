@@ -137,17 +137,50 @@ Json start_of(const Scenario& scenario) {
   return {{"q", frame.digits.q}, {"p", frame.digits.p}};
 }
 
-/// How far the closed form, in double, may be off in a run of more digits: what the roundings of the start, of the time
-/// and of what it returns become.
+/// phi is known up to whole turns: the one next to another value is meant.
+double next_to(double other, const Scenario& scenario, std::size_t i, double x) {
+  constexpr double turn = 2 * pi_value<double>();
+  const auto& coordinates = scenario.problem->info.coordinates;
+  return i < coordinates.size() && coordinates[i] == "phi" ? x + turn * std::round((other - x) / turn) : x;
+}
+
+/// Each number of the parameters moved by one unit, one at a time.
+std::vector<Texts> moved_parameters(const Texts& parameters) {
+  std::vector<Texts> all;
+  for (const auto& [name, text] : parameters) {
+    const bool is_list = text.starts_with("[");
+    std::vector<std::string> parts = is_list ? list_parts(text) : std::vector<std::string>{text};
+    for (std::string& part : parts) {
+      const std::string kept = part;
+      try {
+        part = shortest(std::nextafter(evaluate_number<double>(part), std::numeric_limits<double>::infinity()));
+      } catch (const Error&) {
+        continue;  // a word
+      }
+      all.push_back(parameters);
+      all.back()[name] = is_list ? "[" + joined(parts) + "]" : part;
+      part = kept;
+    }
+  }
+  return all;
+}
+
+/// How far the closed form, in double, may be off in a run of more digits: what the roundings of parameters, start and
+/// time, and of what it returns, become. Those of the parameters stand for what is made of them on the way.
 double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto difference = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
-    const auto moved = scenario.problem->exact(scenario.request.parameters, q, p, time);
+  const auto between = [&](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p,
+                           double time) {
+    const auto moved = scenario.problem->exact(parameters, q, p, time);
     double most = 0;
     for (std::size_t k = 0; moved && k < exact.q.size(); ++k) {
-      most = std::max({most, std::abs(moved->q[k] - exact.q[k]), std::abs(moved->p[k] - exact.p[k])});
+      const double at = next_to(exact.q[k], scenario, k, moved->q[k]);
+      most = std::max({most, std::abs(at - exact.q[k]), std::abs(moved->p[k] - exact.p[k])});
     }
     return most;
+  };
+  const auto difference = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
+    return between(scenario.request.parameters, q, p, time);
   };
   double sum = difference(scenario.start_q, scenario.start_p, std::nextafter(t, infinity));
   for (std::size_t i = 0; i < exact.q.size(); ++i) {
@@ -158,6 +191,9 @@ double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exa
     sum += difference(q, scenario.start_p, t) + difference(scenario.start_q, p, t);
     sum += std::numeric_limits<double>::epsilon() * (std::abs(exact.q[i]) + std::abs(exact.p[i]));
   }
+  for (const Texts& parameters : moved_parameters(complete(scenario.problem->info, scenario.request.parameters))) {
+    sum += between(parameters, scenario.start_q, scenario.start_p, t);
+  }
   return sum;
 }
 
@@ -166,12 +202,9 @@ double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exa
 std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   auto exact = scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, frame.time);
   if (!exact) return std::nullopt;
-  const auto& coordinates = scenario.problem->info.coordinates;
   double distance = 0;
   for (std::size_t i = 0; i < frame.q.size(); ++i) {
-    if (i < coordinates.size() && coordinates[i] == "phi") {  // known up to whole turns: the nearest is meant
-      exact->q[i] += 2 * pi_value<double>() * std::round((frame.q[i] - exact->q[i]) / (2 * pi_value<double>()));
-    }
+    exact->q[i] = next_to(frame.q[i], scenario, i, exact->q[i]);
     distance = std::max({distance, std::abs(frame.q[i] - exact->q[i]), std::abs(frame.p[i] - exact->p[i])});
   }
   Json found{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};

@@ -74,6 +74,7 @@ SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path fol
     restore(past);
     fs::remove(folder_ / "summary.json");  // of the part before
   } else {
+    if (goes_on) refuse_other_kind(folder_, FolderOf::sweep);
     if (existing == Existing::resume) {
       if (const std::string left = left_in(folder_, FolderOf::sweep); !left.empty()) {
         throw FileError(

@@ -1,5 +1,6 @@
 """Arithmetic beyond double: digits, texts, refusals."""
 import json
+import math
 import unittest
 from decimal import Decimal, getcontext
 
@@ -102,6 +103,26 @@ class Arithmetic(CommandCase):
         coarse = self.run_with("method.name=stv4", "run.dt=0.1", "run.steps=2000", "run.arithmetic=quad")["exact"]
         self.assertGreater(coarse["max_difference"], coarse["uncertainty"])
         self.assertNotIn("uncertainty", self.run_with("method.name=stv4")["exact"])
+
+    def test_the_closed_form_is_known_beyond_half_a_turn_too(self):
+        (self.folder / "polar.toml").write_text(
+            '[problem]\nname = "central-force"\npotential = "kepler"\nmass = 2\ncoordinates = "polar"\n'
+            'orbit = { kind = "ellipse", r_per = 1, r_aph = 3 }\n[method]\nname = "cg"\ndegree = 4\n'
+            '[run]\ndt = 0.1\nsteps = 300\narithmetic = "quad"\n')
+        s = json.loads(self.hamflow("run", "polar.toml", "--out", "none", "--json").stdout)
+        self.assertGreater(float(s["final"]["q"][1]), math.pi)
+        self.assertLess(s["exact"]["uncertainty"], 1e-13)
+        self.assertLessEqual(s["exact"]["max_difference"], s["exact"]["uncertainty"] + 1e-14)
+
+    def test_numbers_of_parameters_are_rounded_too(self):
+        # The closed form of the linear double pendulum solves with a mass matrix of condition 250.
+        (self.folder / "linear.toml").write_text(
+            '[problem]\nname = "double-pendulum"\nmodel = "linear"\nangles = "relative"\nmasses = [1, 3]\n'
+            'half_lengths = [0.5, 2]\ninertias = [0.1, 0.7]\ninitial = { q = [0.1, -0.11], p = [0, 0] }\n'
+            '[method]\nname = "taylor"\n[run]\ndt = 0.1\nsteps = 23\narithmetic = "mp(30)"\n')
+        exact = json.loads(self.hamflow("run", "linear.toml", "--out", "none", "--json").stdout)["exact"]
+        self.assertLessEqual(exact["max_difference"], exact["uncertainty"])
+        self.assertLess(exact["uncertainty"], 1e-12)
 
     def test_unknown_arithmetic(self):
         for name in ("quadd", "mp(x)", "mp(0)", "mp", "mp()", "mp(-3)", "mp(1e9)"):

@@ -247,6 +247,24 @@ steps = 40
             if "second" in w:
                 self.assertLessEqual(w["work"], w["second_work"])
 
+    def test_no_row_undercuts_a_winner(self):
+        # dop853 and cg(4, 6) are better than most levels with their cheapest row already.
+        c = self.compare("henon.toml", "--methods", "verlet,stv4,cg(4,6),dop853", "--dt", "0.2,0.1,0.05,0.025")
+        work = {"evaluations": lambda r: r["evaluations"]["force"] + r["evaluations"]["gradient"], "seconds": lambda r: r["seconds"]}
+        firsts = set()
+        for w in c["winners"]:
+            reached = {}
+            for r in c["rows"]:
+                if r["error"] <= w["error"]:
+                    reached.setdefault(r["method"], []).append(work[w["by"]](r))
+            least = sorted((min(all_of), method) for method, all_of in reached.items())
+            self.assertLessEqual(w["work"], least[0][0] * (1 + 1e-12), w)
+            if len(least) > 1:
+                self.assertLessEqual(w["second_work"], least[1][0] * (1 + 1e-12), w)
+            if w["by"] == "evaluations":
+                firsts.add(w["method"])
+        self.assertIn("dop853", firsts)
+
     def test_steps_are_moved_to_divide_the_time(self):
         done = self.hamflow("compare", "henon.toml", "--methods", "verlet", "--dt", "0.3,1/8", "--json")
         c = json.loads(done.stdout)

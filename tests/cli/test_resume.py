@@ -51,6 +51,28 @@ class Resume(CommandCase):
         out, _ = process.communicate(timeout=20)
         return process.returncode, json.loads(out)
 
+    def test_nothing_goes_on_in_the_folder_of_another_kind(self):
+        self.scenario(run="dt = 0.01\nsteps = 100")
+        self.run_to("a")
+        self.hamflow("reverse", "s.toml", "--out", "b", "--json")
+        before = sorted(os.listdir(self.folder / "a"))
+        for arguments, kind, other in ((("reverse", "s.toml", "--out", "a"), "run", "reversal"),
+                                       (("sweep", "s.toml", "--vary", "run.dt=0.01,0.02", "--out", "a"), "run", "sweep"),
+                                       (("run", "s.toml", "--out", "b"), "reversal", "run")):
+            said = self.hamflow(*arguments, "--resume", status=3).stderr
+            self.assertIn(f"found a {kind} in", said)
+            self.assertIn(f"from which no {other} goes on", said)
+            said = self.hamflow(*arguments, status=3).stderr
+            self.assertIn(f"exists, with a {kind} in it; give --out another", said)
+        self.assertEqual(sorted(os.listdir(self.folder / "a")), before)
+
+    def test_the_scenario_of_a_longer_run_has_its_spacing_of_samples(self):
+        self.scenario(run="dt = 0.01\nsteps = 100")
+        self.run_to("a")
+        self.run_to("a", "--resume", "--set", "run.steps=30000")
+        self.assertRegex((self.folder / "a/run.h5").read_bytes(), rb"steps = 30000\s[^\0]*record_every = 1\b|"
+                                                                  rb"record_every = 1\s[^\0]*steps = 30000\b")
+
     def test_a_complete_run_says_the_same_again(self):
         """Also where its summary holds what JSON writes as null: an unbounded orbit, overflowed derivatives."""
         hooke = 'name = "central-force"\npotential = "hooke"\ninitial = { q = [1, 0], p = [0, "0.7"] }'

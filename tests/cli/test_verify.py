@@ -29,6 +29,11 @@ class Verify(CommandCase):
         for method in answer["methods"]:
             self.assertIn(method["method"].split("(")[0], names)
 
+    def test_what_is_measured_of_an_adaptive_method_is_named(self):
+        answer = json.loads(self.hamflow("verify", "taylor", "--problem", "henon-heiles", "--json").stdout)
+        self.assertEqual(answer["methods"][0]["measured_as"], "taylor(order=8,step_control=fixed)")
+        self.assertNotIn("measured_as", json.loads(self.hamflow("verify", "verlet", "--json").stdout)["methods"][0])
+
     def test_ctrl_c_where_nothing_can_be_written(self):
         with open("/dev/full", "w") as full:
             process = subprocess.Popen([HAMFLOW, "verify", "--all", "--json"], cwd=self.folder, stdout=full,

@@ -45,7 +45,8 @@ struct ComparisonPoint {
   bool done() const { return outcome == Outcome::done; }
 };
 
-/// The cheapest way to an error, by interpolation of log(work) over log(error) between the steps of a method.
+/// The cheapest way to an error, or a smaller one, by interpolation of log(work) over log(error) between the steps of a
+/// method.
 struct ComparisonWinner {
   Magnitude error;
   std::string by;  // "evaluations", "seconds"

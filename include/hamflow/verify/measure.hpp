@@ -133,6 +133,7 @@ struct PropertyRow {
   std::vector<Measurement> on;  // one for each problem
   std::vector<PropertyCell> cells;
   MethodCertificate certificate{};
+  std::string measured_as{};  // with the options that make its steps maps of one order; empty: as it was asked for
   /// yes: every property agrees. no: one differs. Else one is unclear.
   Finding verdict() const;
   bool agrees() const { return verdict() == Finding::yes; }
