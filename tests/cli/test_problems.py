@@ -172,6 +172,13 @@ class Problems(CommandCase):
         self.assertLess(s["final"]["q"][0], 0)  # through the centre
         self.assertLess(s["exact"]["max_difference"], 1e-4)
 
+    def test_a_charge_without_a_field_has_the_momenta_of_free_flight(self):
+        for key in ("charge=0", "field=[0,0,0]"):
+            s = self.run_text(f'name="magnetic"\n{key}\ninitial={{q=[1,2,0],v=[0.3,1,0.1]}}', dt=0.1)
+            for name, value in (("angular_momentum", 1 - 2 * 0.3), ("parallel_momentum", 0.1)):
+                self.assertAlmostEqual(s["invariants"][name]["initial"], value, places=14)
+                self.assertLess(s["invariants"][name]["max_error"], 1e-12)
+
     def test_newton_stops_where_rounding_is_all_that_is_left(self):
         linear = 'name="double-pendulum"\nmodel="linear"\nangles="{}"\nmasses={}\nhalf_lengths={}\ninitial={{q=[0.1,0.1],p=[0,0]}}'
         for angles, masses, lengths in (

@@ -31,21 +31,22 @@ class Magnetic {
                                  given["charge"] * given.list("field")[2]}) {}
 
   static ProblemInfo info() {
-    return {.name = "magnetic",
-            .formula = "H = |p - e A(x)|^2/(2 m), A = B x x/2",
-            .reference = "Sonnleitner2010, footnote 21",
-            .coordinates = {"x", "y", "z"},
-            .parameters = {{"mass", "1", "m", Range::positive},
-                           {"charge", "1", "e"},
-                           {.name = "field",
-                            .default_value = "[0, 0, 1]",
-                            .meaning = "B, uniform",
-                            .type = OptionType::list,
-                            .length = 3}},
-            .invariants = {{"angular_momentum", "e B.(x x p)/(e |B|): the component along the field", Components::one,
-                            Terms::moments},
-                           {"parallel_momentum", "e B.p/(e |B|)", Components::one, Terms::momenta}},
-            .region = {.centre = {0.4, -0.3, 0.2, 0.5, 0.3, 0.4}}};
+    return {
+        .name = "magnetic",
+        .formula = "H = |p - e A(x)|^2/(2 m), A = B x x/2",
+        .reference = "Sonnleitner2010, footnote 21",
+        .coordinates = {"x", "y", "z"},
+        .parameters = {{"mass", "1", "m", Range::positive},
+                       {"charge", "1", "e"},
+                       {.name = "field",
+                        .default_value = "[0, 0, 1]",
+                        .meaning = "B, uniform",
+                        .type = OptionType::list,
+                        .length = 3}},
+        .invariants = {{"angular_momentum", "e B.(x x p)/(e |B|): the component along the field; without one, along z",
+                        Components::one, Terms::moments},
+                       {"parallel_momentum", "e B.p/(e |B|)", Components::one, Terms::momenta}},
+        .region = {.centre = {0.4, -0.3, 0.2, 0.5, 0.3, 0.4}}};
   }
 
   template <class S>
@@ -79,9 +80,9 @@ class Magnetic {
   template <class S>
   Vector<S, 2> invariants(const Vector<S, 3>& q, const Vector<S, 3>& p, const S& /*t*/) const {
     const R size = sqrt(strength_[0] * strength_[0] + strength_[1] * strength_[1] + strength_[2] * strength_[2]);
-    if (!(size > R(0))) return {S(0), S(0)};
-    const Vector<R, 3> b{strength_[0] / size, strength_[1] / size, strength_[2] / size};
     const Vector<S, 3> l = cross(q, p);
+    if (!(size > R(0))) return {l[2], p[2]};
+    const Vector<R, 3> b{strength_[0] / size, strength_[1] / size, strength_[2] / size};
     return {l[0] * b[0] + l[1] * b[1] + l[2] * b[2], p[0] * b[0] + p[1] * b[1] + p[2] * b[2]};
   }
 
