@@ -208,6 +208,7 @@ constexpr double walk_above = 0.35;
 constexpr double walk_below = 0.65;
 constexpr double roughest_walk = 0.2;
 constexpr double steady_means = 3;  // of F(7, B - 8), which is above once in 150 to 250
+constexpr double rare_means = 6;    // above once in 10^5: asked of an error that does not grow
 constexpr double white = 0.25;      // correlation of a walk's increments: three standard deviations for 128
 
 /// The trend in units of what a walk, with or without noise on top, has by chance: a walk of variance w beneath noise
@@ -261,7 +262,8 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
                      fmt::format(", like a random walk, but is {:.1e} times what rounding explains", largest / walk));
   }
   const bool rounding_alone = largest <= walk && t.correlation < white;
-  if (rounding_alone && t.wandering > steady_means && e < walk_below && trend_of_walks(t) < usual_in_walks) {
+  const double wanders = e < bounded_below ? rare_means : steady_means;
+  if (rounding_alone && t.wandering > wanders && e < walk_below && trend_of_walks(t) < usual_in_walks) {
     return {DriftClass::random_walk, "errors of the size of rounding wander from part to part of the run; " + grows};
   }
   if (t.size >= no_trend || t.rank >= no_rank) {
