@@ -139,7 +139,7 @@ Json start_of(const Scenario& scenario) {
 
 /// phi is known up to whole turns: the one next to another value is meant.
 double next_to(double other, const Scenario& scenario, std::size_t i, double x) {
-  constexpr double turn = 2 * pi_value<double>();
+  const double turn = 2 * pi_value<double>();
   const auto& coordinates = scenario.problem->info.coordinates;
   return i < coordinates.size() && coordinates[i] == "phi" ? x + turn * std::round((other - x) / turn) : x;
 }
