@@ -68,6 +68,16 @@ TEST(RunDrift, AWalkIsOne) {
   EXPECT_GE(called_walks, 388);  // 1 % lie beyond a walk's trend, 12 are twice three deviations
 }
 
+TEST(RunDrift, TwoLevelsInTurnAreNoWalkOverAFewPeriods) {
+  // The parts that are compared are a period each: what differs between them is where they stand in it.
+  for (std::uint64_t s = 0; s < 20; ++s) {
+    EnergySeries two =
+        rounded([&](int b, double) { return (b / (blocks / 8)) % 2 + 0.3 * noise(s, static_cast<std::uint64_t>(b)); });
+    two.periods = 8;
+    EXPECT_NE(classify_run(two).drift, DriftClass::random_walk) << s;
+  }
+}
+
 TEST(RunDrift, AWalkLargerThanRoundingHasNoClass) {
   for (std::uint64_t s = 0; s < 50; ++s) {
     EnergySeries walk = rounded([&](int b, double before) { return before + noise(s, static_cast<std::uint64_t>(b)); });
