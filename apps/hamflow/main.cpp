@@ -24,6 +24,22 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
   return sub;
 }
 
+/// The keys that choose between problems of one name, each with the names of those problems.
+std::vector<std::pair<std::string, std::vector<std::string>>> problems_by_choice() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
+    if (entry.structure) continue;  // its choices are what was typed
+    for (const auto& choice : entry.info.variant) {
+      const auto same = [&](const auto& one) { return one.first == choice.first; };
+      auto place = std::find_if(all.begin(), all.end(), same);
+      if (place == all.end()) place = all.insert(place, {choice.first, {}});
+      std::vector<std::string>& owners = place->second;
+      if (std::find(owners.begin(), owners.end(), entry.info.name) == owners.end()) owners.push_back(entry.info.name);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -229,11 +245,8 @@ int main(int argc, char** argv) {
                               "  hamflow new central-force > my.toml && hamflow run my.toml\n"
                               "  hamflow new central-force --potential hooke --coordinates polar > hooke.toml\n");
   new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
-  for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
-    for (const auto& [key, value] : entry.info.variant) {
-      if (!entry.structure && !fresh.variant.contains(key))
-        new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
-    }
+  for (const auto& [key, owners] : problems_by_choice()) {
+    new_command->add_option("--" + key, fresh.variant[key], "of " + hamflow::joined(owners));
   }
   new_command->callback([&] { status = hamflow::app::new_command(fresh); });
 
