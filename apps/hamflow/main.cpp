@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <sstream>
 
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -307,7 +308,10 @@ int main(int argc, char** argv) {
     status = wrong ? exit_rejected : exit_done;
     const std::vector<std::string> words(argv, argv + argc);
     if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
-      std::cout << hamflow::rejection_json(std::vector<std::string>{message});
+      std::vector<std::string> lines;  // one for each option
+      std::istringstream text(message);
+      for (std::string line; std::getline(text, line);) lines.push_back(line);
+      std::cout << hamflow::rejection_json(lines);
     }
   }
   return written_out(status);
