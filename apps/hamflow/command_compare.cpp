@@ -44,6 +44,8 @@ class RequestReader {
     } else {
       read_steps(options.dts);
     }
+    const std::vector<std::string> unused = shared.notes(request.steps.size() == 1);
+    notes.insert(notes.begin(), unused.begin(), unused.end());
     if (!options.figure.empty()) complain_if("--figure", refused_comparison_figure(options.figure));
   }
 
@@ -100,8 +102,6 @@ class RequestReader {
         complain("--methods", what.starts_with("found") ? what : "found '" + name + "'; " + what);
       }
     }
-    const std::vector<std::string> unused = shared.notes();
-    notes.insert(notes.begin(), unused.begin(), unused.end());
     if (complaints.empty()) refuse_the_same(all);
   }
 

@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "guarded.hpp"
 #include "hamflow/core/number.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/workflow/convert.hpp"
 
 namespace hamflow::app {
@@ -48,8 +49,8 @@ void convert_given_state(const ConvertOptions& options) {
   print(options.json ? state_json(options.to, state) : state_text(state), options.output);
 }
 
-void note_left_out(const std::string& keys) {
-  if (!keys.empty()) print_notes({keys + " of the other coordinates: not in what was converted"}, false);
+void note_left_out(const std::string& keys, const std::string& of_what) {
+  if (!keys.empty()) print_notes({keys + " of the other coordinates: not in " + of_what}, false);
 }
 
 void convert_scenario(const ConvertOptions& options) {
@@ -75,7 +76,7 @@ void convert_scenario(const ConvertOptions& options) {
   if (scenario.text.find('#') != std::string::npos) {
     print_notes({"comments of " + options.input + " are not in the converted text"}, false);
   }
-  note_left_out(left_out_of_converted(scenario, options.to));
+  note_left_out(left_out_of_converted(scenario, options.to), "what was converted");
 }
 
 void convert_run(const ConvertOptions& options) {
@@ -98,9 +99,12 @@ void convert_run(const ConvertOptions& options) {
   if (extension == ".h5") {
     const std::string note = run.write_h5(options.output);
     if (!note.empty()) print_notes({note}, false);
-    note_left_out(run.left_out());
+    note_left_out(run.left_out(), "the scenario that " + options.output + " holds");
   } else {
     print(options.json ? run.json() : run.csv(), options.output);
+    print_notes(
+        {"the converted states stand without " + joined(run.columns_left_out()) + " of the run; a file .h5 has them"},
+        false);
   }
 }
 

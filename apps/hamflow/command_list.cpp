@@ -200,6 +200,15 @@ void show_walls(const ProblemEntry& entry) {
   for (const auto& [name, text] : info.observables) std::cout << fmt::format("  observable: {} = {}\n", name, text);
 }
 
+/// Those of a typed problem; others have them in their formulas.
+void show_constraints(const ProblemEntry& entry) {
+  const FormulaTexts texts = formula_texts({entry.info.variant.begin(), entry.info.variant.end()});
+  for (const std::string& text : texts.constraints) std::cout << fmt::format("  constraint: {} = 0\n", text);
+  if (!texts.constraints.empty()) {
+    std::cout << fmt::format("  {}: {}\n", constraint_form_option().name, texts.constraint_form);
+  }
+}
+
 void show_problem(const ProblemEntry& entry) {
   const ProblemInfo& info = entry.info;
   std::cout << fmt::format("{}{}\n  {}\n  degrees of freedom: {}; source: {}\n", info.name,
@@ -215,7 +224,11 @@ void show_problem(const ProblemEntry& entry) {
   show_walls(entry);
   std::cout << fmt::format("  momenta: {}\n",
                            entry.momenta.empty() ? joined(info.coordinates, declared_momentum) : joined(entry.momenta));
-  for (const InvariantInfo& i : info.invariants) std::cout << fmt::format("  conserved: {} = {}\n", i.name, i.meaning);
+  const bool typed = entry.structure && info.name == FormulaKeys::problem;
+  if (typed) show_constraints(entry);
+  for (const InvariantInfo& i : info.invariants) {
+    std::cout << fmt::format("  {}: {} = {}\n", typed ? "watched" : "conserved", i.name, i.meaning);
+  }
 }
 
 void show_typed_central_force() {

@@ -31,9 +31,23 @@ void check_together(const ReproduceCommandOptions& options) {
   if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
 }
 
+/// All that is wrong with them is told at once.
+std::vector<std::string> ids_of(const std::vector<std::string>& words) {
+  RejectedOption unknown{"ID", {}};
+  for (const std::string& word : words) {
+    try {
+      (void)named_experiments({word});
+    } catch (const Error& error) {
+      unknown.messages.emplace_back(error.what());
+    }
+  }
+  if (!unknown.messages.empty()) throw unknown;
+  return named_experiments(words);
+}
+
 ReproduceRequest request_of(const ReproduceCommandOptions& options) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return {.ids = named_experiments(options.what),
+  return {.ids = ids_of(options.what),
           .extent = options.quick  ? WorkExtent::quick
                     : options.full ? WorkExtent::full
                                    : WorkExtent::usual,

@@ -21,7 +21,15 @@ namespace hamflow::app {
 namespace {
 std::vector<MethodSpec> methods_of(const VerifyOptions& options) {
   std::vector<MethodSpec> specs;
-  for (const std::string& text : options.methods) specs.push_back(parse_method(text));
+  RejectedOption unknown{"METHOD", {}};
+  for (const std::string& text : options.methods) {
+    try {
+      specs.push_back(parse_method(text));
+    } catch (const Error& error) {
+      unknown.messages.emplace_back(error.what());
+    }
+  }
+  if (!unknown.messages.empty()) throw unknown;
   if (!options.all) return specs;
   for (const MethodEntry& entry : methods()) {
     if (entry.family->representatives.empty()) specs.push_back(parse_method(entry.name));
@@ -129,7 +137,11 @@ int verify_command(const VerifyOptions& options) {
     const std::vector<MethodSpec> specs = methods_of(options);
     if (specs.empty()) throw Error("verify needs at least one METHOD, or --all");
     std::vector<Region> regions;
-    if (!options.problem.empty()) regions = {region_for(options.problem, specs)};
+    try {
+      if (!options.problem.empty()) regions = {region_for(options.problem, specs)};
+    } catch (const Error& error) {
+      throw RejectedOption{"--problem", {error.what()}};
+    }
     for (const Region& region : regions) {
       for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused
     }

@@ -36,6 +36,17 @@ std::string joined(const std::vector<std::string>& lines) {
   return all;
 }
 
+int rejected_option(bool json, const RejectedOption& rejection) {
+  const bool is_option = rejection.option.starts_with("-");
+  std::vector<std::string> lines;
+  std::vector<Complaint> complaints;
+  for (const std::string& message : rejection.messages) {
+    lines.push_back((is_option ? rejection.option + ": " : "") + "error: " + message);
+    complaints.push_back({"", 0, 0, rejection.option, message});
+  }
+  return rejected(json, joined(lines), rejection_json(complaints));
+}
+
 /// Libraries that read and write crash where a small allocation fails. A command begins only with so much at hand that
 /// it is the large ones that fail, which are ours.
 void require_memory() {
@@ -56,6 +67,8 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     return rejected(json, rejection.what(), rejection_json(rejection.complaints));
   } catch (const RejectedLines& rejection) {
     return rejected(json, joined(rejection.lines), rejection_json(rejection.lines));
+  } catch (const RejectedOption& rejection) {
+    return rejected_option(json, rejection);
   } catch (const figures::DrawingStopped& error) {
     return failed(json, "interrupted", error.what(), exit_interrupted);
   } catch (const FileError& error) {

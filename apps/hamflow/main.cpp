@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <sstream>
 
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -22,6 +23,22 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
   CLI::App* sub = app.add_subcommand(name, what);
   sub->footer(std::string("Examples:\n") + examples);
   return sub;
+}
+
+/// The keys that choose between problems of one name, each with the names of those problems.
+std::vector<std::pair<std::string, std::vector<std::string>>> problems_by_choice() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
+    if (entry.structure) continue;  // its choices are what was typed
+    for (const auto& choice : entry.info.variant) {
+      const auto same = [&](const auto& one) { return one.first == choice.first; };
+      auto place = std::find_if(all.begin(), all.end(), same);
+      if (place == all.end()) place = all.insert(place, {choice.first, {}});
+      std::vector<std::string>& owners = place->second;
+      if (std::find(owners.begin(), owners.end(), entry.info.name) == owners.end()) owners.push_back(entry.info.name);
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -232,11 +249,8 @@ int main(int argc, char** argv) {
                               "  hamflow new central-force > my.toml && hamflow run my.toml\n"
                               "  hamflow new central-force --potential hooke --coordinates polar > hooke.toml\n");
   new_command->add_option("problem", fresh.problem, "see hamflow list problems")->required()->type_name("PROBLEM");
-  for (const hamflow::ProblemEntry& entry : hamflow::problems()) {
-    for (const auto& [key, value] : entry.info.variant) {
-      if (!entry.structure && !fresh.variant.contains(key))
-        new_command->add_option("--" + key, fresh.variant[key], "of " + entry.info.name);
-    }
+  for (const auto& [key, owners] : problems_by_choice()) {
+    new_command->add_option("--" + key, fresh.variant[key], "of " + hamflow::joined(owners));
   }
   new_command->callback([&] { status = hamflow::app::new_command(fresh); });
 
@@ -297,7 +311,10 @@ int main(int argc, char** argv) {
     status = wrong ? exit_rejected : exit_done;
     const std::vector<std::string> words(argv, argv + argc);
     if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
-      std::cout << hamflow::rejection_json(std::vector<std::string>{message});
+      std::vector<std::string> lines;  // one for each option
+      std::istringstream text(message);
+      for (std::string line; std::getline(text, line);) lines.push_back(line);
+      std::cout << hamflow::rejection_json(lines);
     }
   }
   return written_out(status);

@@ -155,7 +155,8 @@ std::string page() {
       "Where H oscillates, as cos(p), the\nstart is refused.\n\n";
   for (const ProblemEntry& entry : problems()) text += problem(entry);
   text += fmt::format(
-      "### {}, {} = \"{}\"\n\nH = |p|^2/(2 mu) + V(r), in both coordinates, with `mass`, `initial` and `bodies`.\n\n",
+      "### {}, {} = \"{}\"\n\nH = |p|^2/(2 mu) + V(r), in both coordinates, with `mass`, `initial`, `bodies` "
+      "and, where V\nis without t, `orbit` by energy and angular momentum.\n\n",
       CentralKeys::problem, CentralKeys::key, FormulaKeys::problem);
   text += table(central_formula_options());
   const WallKeys& walls = wall_keys();

@@ -260,6 +260,12 @@ class Meaning {
     const auto known = symbols_.known.find(name);
     return known == symbols_.known.end() ? node : checked(part, node, static_cast<long double>(known->second));
   }
+  /// Of p, p_x: the momentum of a coordinate x.
+  std::string begun_by(const std::string& name) const {
+    const auto first = std::find_if(symbols_.names.begin(), symbols_.names.end(),
+                                    [&](const std::string& other) { return other.starts_with(name + "_"); });
+    return first == symbols_.names.end() ? std::string() : *first;
+  }
   [[noreturn]] void refuse_name(const Part& part, const std::string& name) const {
     // A list without its index, or an index beyond it.
     const std::string word(part.word);
@@ -286,9 +292,10 @@ class Meaning {
     listed.push_back("numbers, pi, functions such as sqrt(2)");
     candidates.emplace_back("pi");
     for (const FunctionName& f : functions()) candidates.emplace_back(f.name);
-    std::string near = nearest(name, candidates);
+    std::string near = begun_by(name);
+    if (near.empty()) near = nearest(name, candidates);
     // Short words are near everything: at least a letter has to be the same.
-    if (near.find_first_of(lower(name) + name) == std::string::npos) near = written_here(name);
+    if (lower(near).find_first_of(lower(name)) == std::string::npos) near = written_here(name);
     refuse(part.at, name == "t" ? "the time t, which has no meaning here" : "the unknown symbol " + name,
            joined(listed), near);
   }

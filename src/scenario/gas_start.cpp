@@ -7,6 +7,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/option_info.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/gas.hpp"
 
 namespace hamflow {
 
@@ -102,7 +103,10 @@ GasStart gas_from_file(const std::filesystem::path& file, std::size_t space) {
     if (cell->text == "mass" || std::find(names.begin(), names.end(), cell->text) != names.end()) continue;
     std::vector<std::string> known = names;
     known.emplace_back("mass");
-    throw Error(found + at(1, cell->column) + suggestion(cell->text, known) + allowed);
+    const bool of_space = cell->text == "z" || cell->text == "p_z";
+    const std::string place = found + at(1, cell->column);
+    if (of_space) throw Error(place + allowed + "; z and p_z with problem." + GasKeys::dimension + " = 3");
+    throw Error(place + suggestion(cell->text, known) + allowed);
   }
   std::vector<std::size_t> places;
   for (const std::string& name : names) {

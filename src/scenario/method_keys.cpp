@@ -104,6 +104,21 @@ std::vector<std::string> replaced_method_keys(const toml::table& method, const s
   return replaced;
 }
 
+namespace {
+constexpr const char* in_its_name = "its name says it";
+constexpr const char* in_its_rows = "its rows differ in it, unless its name says one";
+
+/// Why so many methods do not use a key.
+std::string why_unused(const std::string& why, std::size_t methods, bool one_row_each) {
+  const bool several = methods > 1;
+  if (why == in_its_name) return several ? "their names say it" : why;
+  if (why != in_its_rows) return why;
+  const std::string unless = several ? ", unless their names say one" : ", unless its name says one";
+  if (one_row_each) return (several ? "their rows have the default" : "its row has the default") + unless;
+  return (several ? "their rows differ in it" : "its rows differ in it") + unless;
+}
+}  // namespace
+
 struct SharedMethodKeys::Impl {
   std::optional<Document> document;
   std::map<std::string, Setting> settings;
@@ -129,11 +144,11 @@ void SharedMethodKeys::add_to(MethodSpec& method, const std::string& spelled) {
   const MethodSpec own = method;
   const std::vector<OptionInfo>& options = find_method(own.name).family->options;
   const auto why_not = [&](const std::string& key) -> std::string {
-    if (own.options.contains(key)) return "its name says it";
+    if (own.options.contains(key)) return in_its_name;
     const OptionInfo* const option = find_option(options, key);
     if (option == nullptr) return "no such option";
     if (key == diagnostics_option) return "a comparison shows nothing of it, and it takes time";
-    if (key == tolerance_option && describe(own).own_substeps) return "its rows differ in it, unless its name says one";
+    if (key == tolerance_option && describe(own).own_substeps) return in_its_rows;
     if (!contains(replaced, key)) return "";
     return key == monitor_option ? "steps of equal length follow no monitor" : "it means something else there";
   };
@@ -164,11 +179,12 @@ std::vector<std::string> SharedMethodKeys::unknown() const {
   return all;
 }
 
-std::vector<std::string> SharedMethodKeys::notes() const {
+std::vector<std::string> SharedMethodKeys::notes(bool one_row_each) const {
   std::vector<std::pair<std::string, std::string>> parts;  // keys, and by whom and why not
   for (const auto& entry : impl_->unused) {
     const auto& [key, why] = entry;
-    const std::string rest = " not used by " + joined(impl_->methods.at(entry)) + ": " + why;
+    const std::vector<std::string>& methods = impl_->methods.at(entry);
+    const std::string rest = " not used by " + joined(methods) + ": " + why_unused(why, methods.size(), one_row_each);
     const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.second == rest; });
     if (same == parts.end()) {
       parts.emplace_back(key, rest);

@@ -42,7 +42,8 @@ class SharedMethodKeys {
   /// Keys that no method has: misspelt ones, with which every method is refused.
   std::vector<std::string> unknown() const;
   /// The keys that some method was read without, and why, a sentence each.
-  std::vector<std::string> notes() const;
+  /// @param one_row_each of a comparison with one dt
+  std::vector<std::string> notes(bool one_row_each) const;
 
  private:
   struct Impl;

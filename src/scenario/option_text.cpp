@@ -6,7 +6,8 @@ namespace hamflow {
 
 std::string explained(const OptionInfo& option) {
   std::string text = option.meaning;
-  if (const std::string allowed = allowed_text(option); !allowed.empty()) text += "; " + allowed;
+  const std::string allowed = allowed_text(option);
+  if (!allowed.empty() && allowed != text) text += "; " + allowed;
   if (!option.condition.empty()) text += "; " + option.condition;
   if (!option.unit.empty()) text += "; in units of " + option.unit;
   return text;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "column_names.hpp"
 #include "formula_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -216,6 +217,17 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
   }
 }
 
+/// Each is a column of every run, beside those that there are without it.
+void ScenarioReader::check_invariant_names(TomlTable& table, const FormulaTexts& texts) {
+  if (texts.invariants.empty()) return;
+  TomlTable names = table.table(FormulaKeys::invariants);
+  const std::vector<std::string> taken =
+      columns_of_every_run(*scenario_.problem, texts.parameters, scenario_.problem->dimension);
+  for (const auto& [name, text] : texts.invariants) {
+    if (const std::string why_not = refused_column(name, taken); !why_not.empty()) names.complain(name, why_not);
+  }
+}
+
 /// The keys of `formula`; nothing where they are incomplete, which is complained about.
 std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table) {
   using Keys = FormulaKeys;
@@ -262,6 +274,38 @@ std::optional<FormulaTexts> ScenarioReader::read_formula_texts(TomlTable& table)
   return texts;
 }
 
+namespace {
+/// The formula that a key names, "kinetic", "invariants.L"; null where it names none.
+std::string* formula_at(FormulaTexts& texts, const std::string& key) {
+  using Keys = FormulaKeys;
+  if (key == Keys::hamiltonian) return &texts.hamiltonian;
+  if (key == Keys::kinetic) return &texts.kinetic;
+  if (key == Keys::potential) return &texts.potential;
+  for (auto& [name, text] : texts.invariants) {
+    if (key == std::string(Keys::invariants) + "." + name) return &text;
+  }
+  return nullptr;
+}
+}  // namespace
+
+/// In the place of a formula that is wrong stands one that is not, until no other is wrong.
+void ScenarioReader::tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong) {
+  const std::string right = "0";
+  for (;;) {
+    std::string* const formula = formula_at(texts, wrong);
+    if (formula == nullptr || *formula == right) return;
+    *formula = right;
+    try {
+      (void)formula_choices(texts);
+      return;
+    } catch (const FormulaError& next) {
+      wrong = next.key;
+      const std::string* const other = formula_at(texts, wrong);
+      if (other != nullptr && *other != right) table.complain_in(wrong, next.what());
+    }
+  }
+}
+
 /// The entry of what was typed.
 void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& name) {
   Request& request = scenario_.request;
@@ -281,11 +325,17 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
           {.name = FormulaKeys::coordinates, .default_value = "cartesian", .type = OptionType::word, .words = words});
       if (!potential || (table.has(FormulaKeys::coordinates) && !chart)) return;
       request.variant = central_formula_choices(*potential, request.parameters, chart.value_or("cartesian"));
+      FormulaTexts typed;
+      typed.potential = *potential;
+      typed.parameters = request.parameters;
+      texts = typed;
     }
     scenario_.problem = &find_problem(name, request.variant);
+    if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
   } catch (const FormulaError& error) {
     table.complain_in(error.key, error.what());
+    if (texts) tell_other_formulas(table, *texts, error.key);
   } catch (const Error& error) {
     table.complain("name", error.what());
   }

@@ -105,7 +105,7 @@ void ScenarioReader::read_events(TomlTable& table) {
     if (again) entry.complain(keys.name.name, "found the name " + event.name + " a second time; allowed another");
     if (const auto direction = entry.whole(keys.direction)) event.zero.direction = static_cast<int>(*direction);
     event.stops = entry.text(keys.action).value_or("") == keys.action.words.back();
-    event.zero.expression = read_expression(entry, keys.expression);
+    event.zero.expression = read_changing_expression(entry, keys.expression);
     entry.finish();
     scenario_.events.push_back(std::move(event));
   }
@@ -158,19 +158,32 @@ void ScenarioReader::read_section_coordinate(TomlTable& section, Section wanted)
   scenario_.section = wanted;
 }
 
+namespace {
+/// The first number of the state, of q and then of p, that an expression names; `all` where it names none.
+std::size_t first_used(const StateExpression& expression, std::size_t all) {
+  std::size_t first = 0;
+  while (first < all && !expression.uses(first)) ++first;
+  return first;
+}
+}  // namespace
+
+/// One of which a zero is sought: it is none that is the same for every state.
+std::optional<StateExpression> ScenarioReader::read_changing_expression(TomlTable& table, const OptionInfo& key) {
+  auto expression = read_expression(table, key);
+  const std::size_t all = 2 * scenario_.start_q.size();
+  if (!expression || expression->uses_time() || first_used(*expression, all) < all) return expression;
+  table.complain(key.name, table.found(key.name) + ", which is the same for every state; allowed an expression " +
+                               "with a coordinate, a momentum or t");
+  return std::nullopt;
+}
+
 void ScenarioReader::read_section_expression(TomlTable& section, Section wanted) {
   const OptionInfo& key = section_keys().expression;
-  const auto expression = read_expression(section, key);
+  const auto expression = read_changing_expression(section, key);
   if (!expression) return;
   const std::size_t dimension = scenario_.start_q.size();
-  std::size_t first = 0;
-  while (first < 2 * dimension && !expression->uses(first)) ++first;
+  const std::size_t first = first_used(*expression, 2 * dimension);
   wanted.by_time_alone = first == 2 * dimension;
-  if (wanted.by_time_alone && !expression->uses_time()) {
-    section.complain(key.name, section.found(key.name) + ", which is the same for every state; allowed an expression " +
-                                   "with a coordinate, a momentum or t");
-    return;
-  }
   if (!wanted.by_time_alone) {
     wanted.coordinate = first % dimension;
     wanted.momentum = first >= dimension;

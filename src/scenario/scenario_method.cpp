@@ -45,11 +45,21 @@ void ScenarioReader::read_method(TomlTable& table) {
     table.complain(table.has(refused->name) ? refused->name : method_name_key().name, refused->message);
   }
   if (scenario_.problem != nullptr) {
-    const std::string& key = method_name_key().name;
     const std::string why_not = refusal(spec, *scenario_.problem);
-    if (!why_not.empty()) table.complain(key, table.found(key) + "; " + why_not);
+    if (!why_not.empty() && !complain_of_soft_walls()) complain_of_method(table, why_not);
   }
   table.finish(scenario_.problem, spec.name);
+}
+
+/// At the option that is told of, "monitor: found ...", where [method] has it; else at the name.
+void ScenarioReader::complain_of_method(TomlTable& table, const std::string& why_not) {
+  for (const OptionInfo& option : find_method(scenario_.request.method.name).family->options) {
+    const std::string head = option.name + ": ";
+    if (!why_not.starts_with(head) || !table.has(option.name)) continue;
+    return table.complain(option.name, why_not.substr(head.size()));
+  }
+  const std::string& key = method_name_key().name;
+  table.complain(key, table.found(key) + "; " + why_not);
 }
 
 /// What a step of so many unknowns does not allow, and what it takes in place of what was asked for.

@@ -1,9 +1,9 @@
 // [output]: where results go, in which formats, with which figures.
 #include <algorithm>
 
+#include "column_names.hpp"
 #include "figure_kinds.hpp"
 #include "hamflow/run/gas.hpp"
-#include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
 
@@ -47,37 +47,26 @@ void ScenarioReader::read_output(TomlTable& table) {
 /// A name that may stand in files and figures beside those of the state.
 void ScenarioReader::read_observables(TomlTable& output) {
   const std::string& key = output_keys().observables.name;
-  std::vector<std::string> taken{"t", "step", "energy", "energy-error"};
-  if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {
+  // Without a start there are no parameters either.
+  const bool known = scenario_.problem != nullptr && !scenario_.start_q.empty();
+  std::vector<std::string> taken;
+  if (known) {
+    const std::size_t size = scenario_.start_q.size();
+    taken = columns_of_every_run(*scenario_.problem, scenario_.request.parameters, size);
     for (const auto& [name, text] : scenario_.problem->info.observables) {
       taken.push_back(name);
       scenario_.observables.push_back(
-          {name, StateExpression(text, *scenario_.problem, scenario_.request.parameters, scenario_.start_q.size())});
+          {name, StateExpression(text, *scenario_.problem, scenario_.request.parameters, size)});
     }
+    for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
   }
   if (!output.has(key)) {
     output.know(key);
     return;
   }
   TomlTable table = output.table(key);
-  if (scenario_.problem != nullptr && !scenario_.start_q.empty()) {  // without a start there are no parameters either
-    const StateNames names = state_names(*scenario_.problem, scenario_.request.parameters, scenario_.start_q.size());
-    taken.insert(taken.end(), names.q.begin(), names.q.end());
-    taken.insert(taken.end(), names.p.begin(), names.p.end());
-    for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
-    for (std::size_t i = 1; i <= scenario_.start_q.size(); ++i) {  // of trajectory.csv
-      taken.push_back("q" + std::to_string(i));
-      taken.push_back("p" + std::to_string(i));
-    }
-  }
   for (const std::string& name : table.keys()) {
-    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789";
-    const bool is_word = name.find_first_not_of(letters) == std::string::npos && !(name[0] >= '0' && name[0] <= '9');
-    if (!is_word || name.empty()) {
-      table.complain(name, "found the name \"" + name + "\"; allowed letters, digits and _");
-    } else if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
-      table.complain(name, "found the name " + name + ", which a column of every run has; allowed another");
-    }
+    if (const std::string why_not = refused_column(name, taken); !why_not.empty()) table.complain(name, why_not);
     if (auto expression = read_expression(table, {.name = name, .type = OptionType::text})) {
       scenario_.observables.push_back({name, *std::move(expression)});
     }

@@ -128,6 +128,10 @@ void ScenarioReader::read_problem(TomlTable& table) {
     read_numbered_start(table);
   } else if (!info.starts.empty()) {
     read_orbit(table);
+  } else if (typed && table.has("orbit") && scenario_.problem->structure->time) {
+    table.complain("orbit", table.found("orbit") + "; allowed with a " + FormulaKeys::central_potential +
+                                " without t: in a field that changes no orbit keeps its energy");
+    table.know("orbit");
   }
   if (info.two_bodies) read_bodies(table);
   read_initial(table);

@@ -62,7 +62,9 @@ class ScenarioReader {
   static std::vector<std::string> choices_of_key(const std::string& name, const std::string& key);
   void read_typed_problem(TomlTable& table, const std::string& name);
   std::optional<FormulaTexts> read_formula_texts(TomlTable& table);
+  static void tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong);
   Texts read_typed_parameters(TomlTable& table);
+  void check_invariant_names(TomlTable& table, const FormulaTexts& texts);
   void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
   void read_gas(TomlTable& table);
   void read_typed_pair(TomlTable& table, Texts& parameters);
@@ -86,12 +88,14 @@ class ScenarioReader {
   void read_frame(TomlTable& table);
   void read_walls(TomlTable& table);
   void check_walls();
+  bool complain_of_soft_walls();
   void check_start(TomlTable& table);
   void complain_of_start(TomlTable& table, const std::string& usual, const std::string& why);
   bool check_constraints(TomlTable& table, const Frame& start);
   void read_method(TomlTable& table);
   bool has_method() const { return !scenario_.request.method.name.empty(); }
   bool read_method_name(TomlTable& table);
+  void complain_of_method(TomlTable& table, const std::string& why_not);
   void check_method_for_size(TomlTable& table);
   void read_arithmetic(TomlTable& table);
   void read_run(TomlTable& table);
@@ -105,6 +109,7 @@ class ScenarioReader {
   void read_section_coordinate(TomlTable& section, Section wanted);
   void read_section_expression(TomlTable& section, Section wanted);
   std::optional<StateExpression> read_expression(TomlTable& table, const OptionInfo& key);
+  std::optional<StateExpression> read_changing_expression(TomlTable& table, const OptionInfo& key);
   void read_observables(TomlTable& table);
   void read_samples(TomlTable& table);
   void usual_units();

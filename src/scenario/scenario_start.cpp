@@ -319,6 +319,13 @@ void ScenarioReader::check_start(TomlTable& table) {
     complain_of_start(table, table.has(FormulaKeys::constraints) ? FormulaKeys::constraints : "initial", why_not);
     return;
   }
+  const bool unsolved = std::any_of(start.p.begin(), start.p.end(), [](double p) { return !std::isfinite(p); });
+  if (!request.start.v.empty() && unsolved) {
+    table.complain("initial",
+                   "velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
+                   "is singular there; give p");
+    return;
+  }
   if (!problem.regular(request.parameters, start.q, start.p)) {
     complain_of_start(
         table, geometric ? "orbit" : "initial",

@@ -1,6 +1,8 @@
 #include "scenario_template.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "figure_kinds.hpp"
@@ -195,10 +197,11 @@ class TemplateWriter {
       std::vector<std::string> all;
       for (const ProblemEntry& entry : problems()) {
         for (const auto& [other_key, other] : entry.info.variant) {
-          const bool is_new = std::find(all.begin(), all.end(), other) == all.end();
+          const bool is_new = std::find(all.begin(), all.end(), other) == all.end() && !entry.structure;
           if (entry.info.name == info_.name && other_key == key && is_new) all.push_back(other);
         }
       }
+      if (info_.name == CentralKeys::problem && key == CentralKeys::key) all.emplace_back(FormulaKeys::problem);
       std::string code = key;
       const bool is_number = !value.empty() && std::all_of(value.begin(), value.end(), is_digit);  // dimension = 3
       const char* const mark = is_number ? "" : "\"";
@@ -323,8 +326,11 @@ class TemplateWriter {
     const bool fixed = !info_.walls.empty();
     if (!fixed && !problem_.constraint_form.empty()) return;  // a wall would throw the motion off its constraints
     if (!fixed) {
+      const double start = first_of_start();
+      const double min = start > -1 ? -1 : std::floor(start) - 1;
+      const double max = start < 1 ? 1 : std::ceil(start) + 1;
       page_.off(keys.walls.name + " = [{ " + keys.coordinate.name + " = \"" + first_coordinate() + "\", " +
-                    keys.min.name + " = -1, " + keys.max.name + " = 1 }]",
+                    keys.min.name + " = " + shortest(min) + ", " + keys.max.name + " = " + shortest(max) + " }]",
                 "hard walls, or soft ones; either end of a hard one may be left out");
     }
     write_option(keys.wall_rule, fixed);
@@ -407,6 +413,8 @@ class TemplateWriter {
         }
         page_.off(key.name + " = [" + example_text(key) + "]", explained_with_default(key));
         continue;
+      } else if (key.name == keys.lyapunov.name || key.name == keys.eigenvalues.name) {
+        if (!problem_.constraint_form.empty()) continue;  // steps on a manifold are not differentiated
       } else if (key.name == keys.kernel.name) {
         if (!find_method(method_.name).family->not_fast.empty()) continue;
         set = true;
@@ -429,6 +437,24 @@ class TemplateWriter {
       }
       write_option(key, key.name == output_keys().formats.name);
     }
+  }
+
+  /// The first coordinate of the start; of a gas, which begins on both sides of it, 0.
+  double first_of_start() const {
+    if (info_.name == GasKeys::problem) return 0;
+    Request request{.problem = info_.name};
+    request.variant = {info_.variant.begin(), info_.variant.end()};
+    request.parameters = parameters_;
+    if (active_ != nullptr) {
+      request.start.kind = active_->info->kind;
+      request.start.orbit = active_->orbit;
+      request.parameters = problem_.derived(active_->parameters, request.start);
+    } else if (!example_.q.empty()) {
+      return std::strtod(rounded(example_.q.front()).c_str(), nullptr);
+    } else {
+      return info_.default_q.empty() ? 0 : number_value(info_.default_q.front());
+    }
+    return problem_.start(request).q.front();
   }
 
   std::string first_coordinate() const { return problem_.dimension > 0 ? info_.coordinates[0] : "q1"; }

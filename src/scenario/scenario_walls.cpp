@@ -207,6 +207,21 @@ std::string rule_of_walls(const Request& request) {
   return walls ? wall_rules()[static_cast<std::size_t>(walls->rule)] : std::string();
 }
 
+/// Whether it is the potential of soft walls that keeps the method from this problem, which is then complained about.
+bool ScenarioReader::complain_of_soft_walls() {
+  const Request& request = scenario_.request;
+  const auto walls = walls_among(request.variant);
+  if (!walls || walls->hard()) return false;
+  if (!refusal(request.method, find_problem(request.problem, without_walls(request.variant))).empty()) return false;
+  std::vector<WallRule> hard{WallRule::event, WallRule::reject};
+  if (find_method(request.method.name).family->not_on_lattice.empty()) hard.push_back(WallRule::mirror);
+  root_.table("problem").complain(wall_keys().wall_rule.name,
+                                  "found \"" + rule_of_walls(request) + "\" with " + request.method.name +
+                                      ", which takes no potential of a wall; allowed " +
+                                      rules_taken(request, *walls, hard) + "or another method, e.g. cg");
+  return true;
+}
+
 /// What only shows beside method and arithmetic.
 void ScenarioReader::check_walls() {
   const Request& request = scenario_.request;

@@ -129,7 +129,8 @@ std::optional<std::vector<std::string>> TomlTable::texts(const std::string& key)
   if (node == nullptr) return std::nullopt;
   const auto* array = node->as_array();
   if (array == nullptr || array->empty()) {
-    complain(key, "found " + shown(*node) + "; allowed an array of texts");
+    complain(key, "found " + (array == nullptr ? shown(*node) : "an empty array") +
+                      "; allowed an array of texts, at least one");
     return std::nullopt;
   }
   std::vector<std::string> all;

@@ -10,6 +10,7 @@
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "run_copy.hpp"
+#include "run_description.hpp"
 #include "run_file.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
@@ -142,6 +143,11 @@ class ConvertedRun::Impl {
   double turn() const { return turn_; }
   const std::string& turning() const { return turning_; }
   std::string left_out() const { return left_out_of_converted(scenario(), to_); }
+  std::vector<std::string> columns_left_out() const {
+    std::vector<std::string> all{"step"};
+    for (const InvariantColumn& column : csv_columns(scenario())) all.push_back(column.name);
+    return all;
+  }
 
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
@@ -210,5 +216,6 @@ std::string ConvertedRun::write_h5(const fs::path& target) const { return impl_-
 double ConvertedRun::largest_turn() const { return impl_->turn(); }
 const std::string& ConvertedRun::turning() const { return impl_->turning(); }
 std::string ConvertedRun::left_out() const { return impl_->left_out(); }
+std::vector<std::string> ConvertedRun::columns_left_out() const { return impl_->columns_left_out(); }
 
 }  // namespace hamflow

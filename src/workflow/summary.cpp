@@ -388,9 +388,13 @@ Json invariant_json(const InvariantInfo& info, const InvariantExcursion& seen) {
     if (digits.empty()) return one ? Json(numbers[0]) : Json(numbers);
     return one ? Json(digits[0]) : Json(digits);  // more digits than a JSON number may be read with: texts
   };
+  // The largest deviation is one of those that are numbers: of what was none it says nothing.
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  const bool known = std::all_of(seen.initial.begin(), seen.initial.end(), is_number) &&
+                     std::all_of(seen.final.begin(), seen.final.end(), is_number);
   return {{"initial", entry(seen.initial, seen.initial_digits)},
           {"final", entry(seen.final, seen.final_digits)},
-          {"max_error", json_of(largest_error(seen))}};
+          {"max_error", known ? json_of(largest_error(seen)) : Json(nullptr)}};
 }
 
 std::string json_text(const Json& json) { return written_json(json, 2) + "\n"; }

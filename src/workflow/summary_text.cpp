@@ -51,8 +51,9 @@ std::string readable(const Json& s) {
   const auto list = [&](const Json& xs) { return joined(xs, number); };
   const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
   const auto watched = [&](const Json& x) {
-    return fmt::format("{} -> {}, at most {} off", shown(x["initial"]), shown(x["final"]),
-                       number_text(x["max_error"], "{:.3g}"));
+    const std::string ends = fmt::format("{} -> {}, ", shown(x["initial"]), shown(x["final"]));
+    if (x["max_error"].is_null()) return ends + "how far off is not known";
+    return ends + "at most " + number_text(x["max_error"], "{:.3g}") + " off";
   };
   std::string text = row("status", s["status"].get<std::string>());
   text += row("problem", s["problem"].get<std::string>());

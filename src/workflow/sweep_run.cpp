@@ -111,9 +111,11 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std
                       "=..., a sweep for each value");
     }
     if (!belongs_to_single_runs(vary.path)) continue;
-    wrong.push_back(
-        "--vary: error: found " + vary.path +
-        ", on which no number of a sweep depends; allowed keys of [problem], [method] and the others of [run]");
+    wrong.push_back("--vary: error: found " + vary.path +
+                    (is_part_of_other(output_path(output_keys().observables), vary.path)
+                         ? ", which all members of a sweep have in common; allowed --set " + vary.path + "=..., "
+                         : ", on which no number of a sweep depends; allowed ") +
+                    "keys of [problem], [method] and the others of [run]");
   }
   for (std::size_t i = 0; i < varied.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hamflow/core/inverse_cube.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
@@ -124,6 +125,18 @@ void add_long_search(const Scenario& scenario, const Simulation& simulation, Jso
                                        "section and events within a step are those of the method, and may "
                                        "be fewer or more than those of the motion; try a smaller dt",
                                        scenario.dt)));
+}
+
+/// What is watched and was no number at the start or at the end may be kept or not.
+void add_no_numbers(const Json& summary, Json& all) {
+  if (!summary.contains("invariants") || summary.value("status", "") == "failed") return;  // which says why itself
+  std::vector<std::string> names;
+  for (const auto& [name, seen] : summary["invariants"].items()) {
+    if (seen["max_error"].is_null()) names.push_back(name);
+  }
+  if (names.empty()) return;
+  all.push_back(warning("no_number", joined(names) + (names.size() == 1 ? " was" : " were") +
+                                         " not finite at the start or at the end: nothing is said of how far off"));
 }
 
 /// The distance within which two particles of a gas repel each other, in the lengths of the positions: that of the
@@ -294,6 +307,7 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation
   Json all = warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns,
                          simulation.wall_counts(), end.step);
   add_long_search(scenario, simulation, all);
+  add_no_numbers(summary, all);
   return all;
 }
 

@@ -15,7 +15,8 @@ namespace hamflow {
 /// [{kind, message}, ...] of
 /// - energy_error: the largest energy error is above the scale of the energy;
 /// - long_step: dt is above a tenth of the shortest period seen, or known of the orbit where none was seen;
-/// - falls_into_centre: the orbit ends in a singular centre before the run does.
+/// - falls_into_centre: the orbit ends in a singular centre before the run does;
+/// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary its energy, orbit, exact and final   @param turns null where nobody has watched
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
                                    const Simulation& simulation, const TurnWatch* turns);

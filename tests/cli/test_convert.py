@@ -111,6 +111,10 @@ observables = { d = "sqrt(x^2 + y^2)" }
         self.hamflow("run", "named.toml", "--out", "named.run", "--set", "run.steps=60")
         done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.h5")
         self.assertIn("note: run.events, run.section, output.observables", done.stderr)
+        self.assertIn("of the other coordinates: not in the scenario that polar.h5 holds", done.stderr)
+        done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.csv")
+        self.assertIn("note: the converted states stand without step, angular_momentum, d of the run", done.stderr)
+        done = self.hamflow("convert", "named.run", "--to", "polar", "-o", "polar.h5")
         self.assertIn("note: not in polar.h5: /events/user, /section, states of the run in cartesian coordinates", done.stderr)
         self.hamflow("plot", "polar.h5", "-o", "polar.svg")
         # In the same coordinates all of it is meant as before.

@@ -49,7 +49,8 @@ record_every = true
         self.assertTrue(lines[5].endswith("; did you mean verlet?"))
         rejection = json.loads(done.stdout)
         self.assertEqual(rejection["status"], "rejected")
-        self.assertEqual([e["message"] for e in rejection["errors"]], lines)
+        self.assertEqual([f"{e['file']}:{e['line']}:{e['column']}: error: {e['key']}: {e['message']}"
+                          for e in rejection["errors"]], lines)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["bad.toml", "kepler.toml"])
 
     def test_numbers(self):
@@ -191,7 +192,7 @@ record_every = true
             done = self.hamflow(*words, status=2)
             (error,) = json.loads(done.stdout)["errors"]
             self.assertTrue(words[2].startswith(error["key"]), error)
-            self.assertIn(": found ", error["message"])
+            self.assertTrue(error["message"].startswith("found "), error)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["kepler.toml"])
         # A negative number is none of them.
         self.hamflow("convert", "--from", "cartesian", "--to", "polar", "--q", "-1,0", "--p", "-1,0")
@@ -257,6 +258,33 @@ record_every = true
             said = self.hamflow(command[0], "nb.toml", *command[1:], status=2).stderr
             self.assertIn("problem.masses: found nothing", said)
             self.assertIn("problem.initial: found nothing", said)
+
+
+    def test_messages_of_json_begin_with_what_was_found(self):
+        """In every command alike: the key is the option or the key, the message has neither."""
+        for words, key in (
+            (["verify", "stv5"], "METHOD"),
+            (["verify", "stv4", "--problem", "foo"], "--problem"),
+            (["reproduce", "foo"], "ID"),
+            (["reproduce", "G2.8", "--quick", "--full"], "--quick"),
+            (["compare", "kepler.toml", "--methods", "verlte"], "--methods"),
+            (["compare", "kepler.toml", "--methods", "stv4", "--set", "run.steps=0"], "run.steps"),
+            (["compare", "kepler.toml", "--methods", "stv4", "--dt", "0"], "--dt"),
+            (["run", "kepler.toml", "--set", "run.dt=0"], "run.dt"),
+            (["run", "kepler.toml", "--bla"], "--bla"),
+            (["list", "foo"], "what"),
+            (["sweep", "kepler.toml", "--vary", "run.dz=1,2"], "run.dz"),
+            (["sweep", "kepler.toml", "--vary", "run.dt=0.1,0.2", "--mean"], "--mean"),
+            (["convert", "--from", "cartesian", "--to", "polar", "--q", "1", "--p", "1,x"], "--p"),
+        ):
+            done = self.hamflow(*words, "--json", status=2)
+            (error,) = json.loads(done.stdout)["errors"]
+            self.assertEqual(error["key"], key, words)
+            self.assertTrue(error["message"].startswith("found "), error)
+            self.assertIn(error["message"], done.stderr)
+        done = self.hamflow("reproduce", "foo", "G2.8", "bar", "--json", status=2)
+        self.assertEqual([e["message"].split(";")[0] for e in json.loads(done.stdout)["errors"]],
+                         ["found experiment foo", "found experiment bar"])
 
 
 if __name__ == "__main__":

@@ -80,6 +80,11 @@ section = { coordinate = "p_x", direction = 0 }
             text = self.hamflow("run", "b.toml", "--set", f"run.section={section}", "--out", "none", status=2).stderr
             self.assertIn(words, text, section)
 
+    def test_an_event_that_never_changes(self):
+        done = self.hamflow("run", "b.toml", "--set", "run.events=[{ expression = '2*3' }]", "--out", "none", status=2)
+        self.assertIn("run.events[0].expression: found", done.stderr)
+        self.assertIn("which is the same for every state", done.stderr)
+
     OBSERVE = ["--set", "output.observables={ theta = 'atan2(q2, q1)', l = 'lambda*t' }"]
 
     def test_observables(self):

@@ -269,6 +269,17 @@ initial = { q = [1, 0], p = [0, 1] }
         self.assertIn("found the column 'mess' in line 1, column 13", self.told("gas.toml"))
         self.assertIn("did you mean mass?", self.told("gas.toml"))
 
+    def test_a_file_of_particles_in_space(self):
+        self.write("start.csv", "x,y,z,p_x,p_y,p_z\n0,0,0,0,0,0\n1,0,0,0,0,1\n")
+        text = GAS.replace("particles_per_side = 4", "") % 'start = "file"\nfile = "start.csv"\nscale = 1'
+        self.write("gas.toml", text)
+        self.assertIn("z and p_z with problem.dimension = 3", self.told("gas.toml"))
+
+    def test_a_wrong_number_of_particles_is_one_fault(self):
+        self.write("gas.toml", GAS % 'scale = "per-side"')
+        (line,) = self.told("gas.toml", "problem.particles_per_side=1").splitlines()
+        self.assertIn("problem.particles_per_side: found 1", line)
+
     def test_a_gas_has_no_coordinates_to_convert_to(self):
         self.write("gas.toml", GAS % "")
         told = self.hamflow("convert", "gas.toml", "--to", "cartesian", "-o", "c.toml", status=2).stderr

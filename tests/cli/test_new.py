@@ -145,5 +145,34 @@ class New(CommandCase):
         self.assertIn("Examples:", self.hamflow("new", "--help").stdout)
 
 
+    def test_walls_that_are_proposed_enclose_the_start(self):
+        for name, _, options in self.variants():
+            lines = self.hamflow("new", name, *options).stdout.splitlines()
+            for i, line in enumerate(lines):
+                if name == "gas" or not line.startswith("# walls = "):
+                    continue
+                self.write("walls.toml", "\n".join([*lines[:i], line[2:], *lines[i + 1 :]]) + "\n")
+                with self.subTest(problem=name, options=options, line=line):
+                    self.hamflow("run", "walls.toml", "--set", "run.steps=1", "--out", "none", "--quiet")
+
+    def test_only_what_the_problem_takes_is_proposed(self):
+        for name in ("t-tube", "double-pendulum", "pendulum"):
+            text = self.hamflow("new", name, "--coordinates", "cartesian").stdout
+            self.assertNotIn("lyapunov = ", text)
+            self.assertNotIn("eigenvalues = ", text)
+        self.assertIn("lyapunov = ", self.hamflow("new", "pendulum").stdout)
+
+    def test_choices_of_several_problems(self):
+        told = self.hamflow("new", "--help").stdout
+        options = " ".join(told.split())
+        for problem in ("central-force", "double-pendulum", "pendulum", "t-tube"):
+            self.assertIn(problem, options.split("--coordinates TEXT")[1].split("--")[0])
+        for options in ([], ["--potential", "kepler"], ["--potential", "formula"]):
+            text = self.hamflow("new", "central-force", *options).stdout
+            (line,) = [line for line in text.splitlines() if line.startswith("potential = ")]
+            self.assertEqual(sorted(line.split("# ")[1].split(", ")),
+                             ["binomial", "formula", "hooke", "kepler", "linear", "power"])
+
+
 if __name__ == "__main__":
     unittest.main()

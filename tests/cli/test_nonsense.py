@@ -55,6 +55,9 @@ class Nonsense(CommandCase):
             self.assertIn("on which no number of a sweep depends",
                           self.refused("sweep", "kepler.toml", "--out", "none", "--vary", vary))
 
+        self.assertIn("which all members of a sweep have in common; allowed --set output.observables",
+                      self.refused("sweep", "kepler.toml", "--out", "none", "--vary", "output.observables=1,2"))
+
     def test_an_unknown_method_is_not_answered_by_a_wall(self):
         text = self.refused("run", "kepler.toml", "--out", "none", "--set", "method.name=verlt")
         self.assertRegex(text, r"found .verlt.; allowed verlet, stv4, kahan-li8, rkn8-s19, cg, taylor and \d+ others")

@@ -8,7 +8,7 @@ import pathlib
 import sys
 import unittest
 
-from command import CommandCase
+from command import EXAMPLES, CommandCase
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 from kill_and_resume import differences, kill_and_resume  # noqa: E402
@@ -165,6 +165,12 @@ class StepControl(CommandCase):
             name = method.split("(")[0]
             s = self.summary("kepler.toml", "--set", f"method={{name='{name}', step_control='fixed'}}", "--set", "run.steps=3")
             self.assertAlmostEqual(s["final"]["t"], 0.3)
+
+    def test_a_monitor_that_the_problem_has_not_is_told_at_its_key(self):
+        done = self.hamflow("run", str(EXAMPLES / "t_tube.toml"), "--out", "none", "--set", "method.step_control=reversible",
+                            "--set", "method.monitor=distance", "--set", "problem.wall_rule=soft", status=2)
+        self.assertIn('--set: error: method.monitor: found "distance" for t-tube', done.stderr)
+        self.assertNotIn("method.name", done.stderr)
 
     def test_a_monitor_that_nothing_follows(self):
         for arguments in (("--set", "method={name='stv4', monitor='distance'}"), ("--set", "method.name='stv4(monitor=distance)'"),

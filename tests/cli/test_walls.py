@@ -8,7 +8,7 @@ import pathlib
 import subprocess
 import unittest
 
-from command import CommandCase
+from command import EXAMPLES, CommandCase
 from test_files_document import PYTHON
 
 COMPARE = os.environ["COMPARE_RUNS"]
@@ -286,6 +286,13 @@ class Walls(CommandCase):
         self.assertIn("events = []", text)
         done = json.loads((self.folder / "r/summary.json").read_text())
         self.assertEqual(self.summary(self.write("again.toml", text))["final"], done["final"])
+
+    def test_a_soft_wall_that_a_method_does_not_take(self):
+        said = self.refused(str(EXAMPLES / "magnetic.toml"), "--set", "problem.wall_rule=soft", "--set",
+                            'problem.walls=[{coordinate="x",min=-5,max=5}]')
+        self.assertIn('problem.wall_rule: found "soft" with boris', said)
+        self.assertIn('allowed "event", "reject", or another method', said)
+        self.assertNotIn("method.name", said)
 
     def test_refusals(self):
         one = '[{ coordinate = "q1", min = -1, max = 1 }]'

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "hamflow/scenario/coordinates.hpp"
 #include "hamflow/scenario/rejection.hpp"
@@ -51,6 +52,8 @@ class ConvertedRun {
   const std::string& turning() const;
   /// Keys of its scenario that the converted one has not.
   std::string left_out() const;
+  /// Columns of the run that csv() and json() have not.
+  std::vector<std::string> columns_left_out() const;
 
  private:
   class Impl;

@@ -8,7 +8,8 @@
 
 namespace hamflow {
 
-/// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}; the message is the whole line.
+/// {"status": "rejected", "errors": [{file, line, column, key, message}, ...]}; key: a path, or an option; message:
+/// what stands on stderr behind place and key.
 std::string rejection_json(const std::vector<Complaint>& complaints);
 /// The same of lines, whose parts are read from them.
 std::string rejection_json(const std::vector<std::string>& lines);
