@@ -314,7 +314,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   std::erase(done, 0U);  // where nothing is drawn
   if (!done.empty()) {
     const auto [fewest, most] = std::minmax_element(done.begin(), done.end());
-    figure.notes.push_back("bars: the standard error of the mean over " +
+    figure.notes.push_back("bars: standard error of the mean over " +
                            (*fewest == *most ? "" : std::to_string(*fewest) + " to ") + std::to_string(*most) +
                            " members");
   }

@@ -355,7 +355,7 @@ steps = 2
         self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "run.dt=0.1,6", "--vary",
                      "problem.orbit.r_per=0.2:1.5:6", "--mean", "--out", "none", "--quiet", "--figure", "f.svg", status=None)
         labels = texts((self.folder / "f.svg").read_text())
-        self.assertTrue(any(re.fullmatch("bars: the standard error of the mean over [1-5] to 6 members", label) for label in labels), labels)
+        self.assertTrue(any(re.fullmatch("bars: standard error of the mean over [1-5] to 6 members", label) for label in labels), labels)
 
 
 if __name__ == "__main__":
