@@ -10,7 +10,7 @@
 namespace hamflow::figures {
 
 namespace {
-constexpr double resolvable = 1e-5;  // a shorter range, relative to the numbers, has unreadable labels
+constexpr std::size_t most_words = 48;  // upright beside each other, on a wide page
 
 int decimals_of(double step) {
   // The small shift keeps a step of 0.1 from counting as 0.0999...
@@ -53,7 +53,10 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
 /// Words at 0, 1, 2, ...
 std::vector<Tick> word_ticks(const Axis& axis) {
   std::vector<Tick> result;
-  for (std::size_t k = 0; k < axis.words.size(); ++k) result.push_back({static_cast<double>(k), axis.words[k]});
+  const std::size_t every = (axis.words.size() + most_words - 1) / most_words;
+  for (std::size_t k = 0; k < axis.words.size(); ++k) {
+    result.push_back({static_cast<double>(k), k % every == 0 ? axis.words[k] : ""});
+  }
   return result;
 }
 

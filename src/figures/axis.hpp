@@ -23,6 +23,8 @@ struct Extent {
   double largest() const;
 };
 
+constexpr double resolvable = 1e-5;  // a shorter range, relative to the numbers, has unreadable labels
+
 /// The power of ten to take out of numbers up to `largest`: 0 where they read well as they are.
 int common_exponent(double largest);
 /// x / 10^exponent, without overflow on the way.

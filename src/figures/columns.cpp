@@ -28,11 +28,11 @@ std::vector<Column> columns_of(const FigureData& data) {
     all.push_back({"energy-error", energy_error_label(data), Sort::energy_error,
                    [&data] { return relative_energy_error(data); }});
   }
-  for (const auto& [name, list] : data.observables) all.push_back({name, symbol(name), Sort::other, values(list)});
+  for (const auto& [name, list] : data.observables) all.push_back({name, quantity(name), Sort::other, values(list)});
   for (const auto& [name, list] : data.invariants) {
     const bool taken =  // by a momentum that is conserved
         std::any_of(all.begin(), all.end(), [&name = name](const Column& other) { return other.name == name; });
-    if (!taken) all.push_back({name, escaped(name), Sort::other, values(list)});
+    if (!taken) all.push_back({name, quantity(name), Sort::other, values(list)});
   }
   for (const auto& [name, list] : data.diagnostics) all.push_back({name, escaped(name), Sort::other, values(list)});
   return all;

@@ -45,13 +45,17 @@ std::string obstacle(const FigureData& data, const figures::FigureKind& kind) {
 std::string why_not_alone(const FigureData& data, const FigureOptions& options, const std::string& kind) {
   FigureFacts facts = facts_of(data);
   facts.columns_chosen = !options.y.empty();
-  const std::string refused = refused_figure(kind, facts);
-  if (!refused.empty()) return refused;
-  const std::string reason = obstacle(data, *figures::find_kind(kind));
-  if (reason.empty()) return "";
+  const figures::FigureKind* const known = figures::find_kind(kind);
+  if (known == nullptr) return unknown_figure(kind);
+  std::string why = known->refused(facts);
+  if (why.empty()) {
+    const std::string reason = obstacle(data, *known);
+    if (reason.empty()) return "";
+    why = ", but " + reason;
+  }
   std::vector<std::string> others = drawable_figures(facts);
   std::erase_if(others, [&](const std::string& name) { return !obstacle(data, *figures::find_kind(name)).empty(); });
-  return "found \"" + kind + "\", but " + reason +
+  return "found \"" + kind + "\"" + why +
          (others.empty() ? "; no other figure can be drawn of these samples either" : "; allowed " + joined(others));
 }
 
@@ -132,7 +136,8 @@ FigureFacts facts_of(const FigureData& data) {
           .section = !data.section_coordinate.empty(),
           .stroboscopic = data.q.size() == 1 && !data.section_coordinate.empty(),
           .particles = data.particles.count > 0,
-          .gas = data.particles.gas};
+          .gas = data.particles.gas,
+          .energies = !data.energy.empty() || data.t.empty()};
 }
 
 std::string why_not(const Figure& figure, const std::string& kind) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,8 @@ struct FigureData : FigureSamples {
   FigureParticles particles{};
   /// The first steps of the run, every one of them: what is drawn as a line where samples lie too far apart for one.
   FigureSamples opening{};
+  double end = std::numeric_limits<double>::quiet_NaN();  // time at which the run ends; NaN: at its last sample
+  bool every_step = false;                                // is a sample: nothing is known between them
   /// t and q of the samples with the located bounces between them, where a line has its corners; empty without any.
   FigureSamples path{};
   /// Of the steps of an implicit method, names and values at each sample; empty unless the run recorded them.

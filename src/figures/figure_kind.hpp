@@ -36,6 +36,8 @@ const FigureKind* find_kind(const std::string& name);
 
 /// `refused` of kinds that can be drawn of every run.
 std::string never(const FigureFacts& facts);
+/// `refused` of kinds that draw energies.
+std::string without_energies(const FigureFacts& facts);
 /// `apart` of kinds that any runs share.
 std::string any_runs(const Figure& figure);
 /// `apart` of kinds that runs share whose coordinates have the same names.

@@ -27,6 +27,10 @@ const FigureKind* find_kind(const std::string& name) {
 
 std::string never(const FigureFacts&) { return {}; }
 
+std::string without_energies(const FigureFacts& facts) {
+  return facts.energies ? "" : ", but a reversal stores no energies";
+}
+
 std::string any_runs(const Figure&) { return {}; }
 
 std::string same_coordinates(const Figure& figure) {

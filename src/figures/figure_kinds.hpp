@@ -19,6 +19,7 @@ struct FigureFacts {
   bool columns_chosen = false;         // --y, of kinds that draw columns
   bool particles = false;              // of a gas, or several bodies in space
   bool gas = false;
+  bool energies = true;  // stored, as a run does and a reversal does not
 };
 
 struct FigureKindInfo {

@@ -20,13 +20,14 @@ constexpr double edge = 1.5;        // free border of the page
 constexpr double title_line = 3.8;  // from line to line
 constexpr double note_line = 3.4;
 constexpr double power_line = 4.2;  // a power of ten above a box
-constexpr double below_box = 9.0;   // tick labels and label of the x-axis
+constexpr double below_box = 9.0;   // tick labels in a line and label of the x-axis
 constexpr double digit = 1.6;       // width of a character of a tick label
 constexpr double colours_gap = 2;   // between the box of a map and its colours
 constexpr double colours_wide = 3;
 constexpr double smallest_box = 15;  // either side, where a size is asked for
 constexpr double label_size = 8;     // points
 constexpr double tick_size = 7;
+constexpr double tick_line = 2.6;  // of text of this size
 
 double letters(std::size_t count) { return digit * static_cast<double>(count); }
 
@@ -40,10 +41,14 @@ class PageWriter {
     if (page_.title.empty()) title_.clear();
     for (const Panel& panel : page_.panels) {
       left_of_box_ = std::max(left_of_box_, edge + 6.2 + letters(panel.y.widest_label()));
-      right_of_box_ = std::max(right_of_box_, 0.8 + 0.5 * letters(panel.x.widest_label()));
+      // Words stay below their part of the axis.
+      if (panel.x.words.empty()) right_of_box_ = std::max(right_of_box_, 0.8 + 0.5 * letters(panel.x.widest_label()));
       if (panel.is_map()) right_of_box_ = std::max(right_of_box_, colours(panel) + 6.2);
     }
     width_ = cell() - left_of_box_ - right_of_box_;
+    for (const Panel& panel : page_.panels) {
+      if (are_upright(panel.x)) below_ = std::max(below_, below_box - tick_line + letters(panel.x.widest_label()));
+    }
     if (page_.height > 0 || width_ < smallest_box) fill_height();
     for (Panel& panel : page_.panels) {
       if (panel.equal_axes) fill_box(panel);
@@ -71,6 +76,10 @@ class PageWriter {
   }
 
  private:
+  /// Words that are wider than their part of the axis.
+  bool are_upright(const Axis& axis) const {
+    return letters(axis.widest_label() + 1) * static_cast<double>(axis.words.size()) > width_ && !axis.words.empty();
+  }
   double cell() const { return page_.width / static_cast<double>(columns_); }
   double top_of_panels() const { return edge + title_line * static_cast<double>(title_.size()); }
   double height_of_notes() const {
@@ -92,7 +101,7 @@ class PageWriter {
   double row(std::size_t first) const {
     double aspect = 0;
     for (const Panel& panel : panels_of_row(first)) aspect = std::max(aspect, panel.aspect);
-    return header_of_row(first) + width_ * aspect + below_box;
+    return header_of_row(first) + width_ * aspect + below_;
   }
   double bottom_of_panels() const {
     double height = top_of_panels();
@@ -120,7 +129,7 @@ class PageWriter {
   void fill_height() {
     double fixed = top_of_panels() + height_of_notes();
     std::size_t rows = 0;
-    for (std::size_t k = 0; k < page_.panels.size(); k += columns_, ++rows) fixed += header_of_row(k) + below_box;
+    for (std::size_t k = 0; k < page_.panels.size(); k += columns_, ++rows) fixed += header_of_row(k) + below_;
     const double box = (page_.height - fixed) / static_cast<double>(rows);
     const double needed = fixed + smallest_box * static_cast<double>(rows);
     if (page_.height > 0) {
@@ -187,11 +196,12 @@ class PageWriter {
     script_.box(left, right, top, bottom);
     script_.line("set tics {} nomirror scale 0.5", panel.is_map() ? "out" : "in");
     script_.line("{}", panel.has_grid() ? "set grid xtics ytics linewidth 0.3 linecolor rgb '#cccccc'" : "unset grid");
-    axis("x", panel.x, "offset 0,0.35");
+    axis("x", panel.x, are_upright(panel.x) ? "rotate by 90 right" : "norotate center offset 0,0.35");
     axis("y", panel.y, "offset 0,0");
-    const double below = bottom + below_box - edge - 1.4;
+    const double below = bottom + below_ - edge - 1.4;
     script_.label(panel.x_label, 0.5 * (left + right), below, "center", label_size);
-    script_.label(panel.y_label, left - left_of_box_ + edge + 1.5, middle, "center rotate by 90", label_size);
+    script_.label(panel.y_label, left - left_of_box_ + edge + 1.5, middle, "center rotate by 90",
+                  fitting(panel.y_label, bottom - top + below_));
     exponent(panel.y, left, top - 2.0, "left");
     exponent(panel.x, right, below, "right");
     if (panel.is_map()) palette(panel);
@@ -199,6 +209,14 @@ class PageWriter {
     key(panel, right, top);
     plot(k);
     if (panel.is_map()) colour_bar(panel, right, top, bottom);
+  }
+
+  /// Points of a label that has this much room.
+  static double fitting(const std::string& label, double room) {
+    constexpr double character = 1.55;  // mm, of text of label_size
+    constexpr double smallest = 5;
+    const double needed = character * static_cast<double>(printed_length(label));
+    return needed > room ? std::max(smallest, label_size * room / needed) : label_size;
   }
 
   void exponent(const Axis& axis, double x, double y, const char* how) {
@@ -270,6 +288,7 @@ class PageWriter {
   std::size_t columns_;
   double left_of_box_ = 0;
   double right_of_box_ = 2.5;
+  double below_ = below_box;
   double width_ = 0;  // of a box
 };
 

@@ -31,6 +31,19 @@ Curve beginning(const Curve& path) {
   }
   return part;
 }
+/// Whether no axis could show a path to be more than a point: what moves by rounding alone is at rest.
+bool is_point(const Curve& curve) {
+  constexpr double rounding = 1e-14;
+  Extent x;
+  Extent y;
+  x.include(curve.x);
+  y.include(curve.y);
+  const double largest = std::max(x.largest(), y.largest());
+  const auto is_short = [&](const Extent& range) {
+    return !(range.high - range.low > std::max(resolvable * range.largest(), rounding * largest));
+  };
+  return !curve.x.empty() && is_short(x) && is_short(y);
+}
 /// Whether a line over the samples would fill the paper: whether it turns several times in each column.
 bool is_field(const Curve& curve) {
   std::size_t turns = 0;
@@ -69,7 +82,17 @@ Series series_of(const Figure& figure, std::size_t run) {
   return {.name = escaped(figure.runs[run].label), .mark = mark_of(run)};
 }
 
+namespace {
+/// A line without length would leave no ink.
+Series point_of(const Curve& track, Series how) {
+  how.ink = Ink::place;
+  how.curve = {{track.x.front()}, {track.y.front()}};
+  return how;
+}
+}  // namespace
+
 Series track_of(const Curve& track, Series how) {
+  if (is_point(track)) return point_of(track, std::move(how));
   const Curve path = thin_out(track, most_path_points);
   if (track.x.size() > 2 && follows_path(path)) {
     how.ink = Ink::path;
@@ -89,13 +112,20 @@ std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vecto
     openings_alone = openings_alone && how[k].ink != Ink::path;
   }
   std::vector<Curve> starts;
+  bool moves = false;
   for (std::size_t k = 0; openings_alone && k < tracks.size(); ++k) {
     starts.push_back(beginning(openings[k]));
-    openings_alone = follows_path(starts.back());
+    const bool rests = is_point(starts.back());
+    openings_alone = rests || follows_path(starts.back());
+    moves = moves || !rests;
   }
-  if (!openings_alone) return how;
+  if (!openings_alone || !moves) return how;
   opened = true;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
+    if (is_point(starts[k])) {
+      how[k] = point_of(starts[k], std::move(how[k]));
+      continue;
+    }
     how[k].ink = Ink::path;
     how[k].curve = std::move(starts[k]);
   }
@@ -103,11 +133,37 @@ std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vecto
 }
 
 void note_opening(Page& page, const FigureData& data) {
-  if (!data.opening.t.empty() && !data.t.empty() && data.opening.t.back() == data.t.back()) return;  // all of the run
-  const auto text = [](double t) { return short_value(t); };
-  page.notes.push_back(
-      "the first steps alone, to {/:Italic t} = " + text(data.opening.t.empty() ? 0 : data.opening.t.back()) + " of " +
-      text(data.t.empty() ? 0 : data.t.back()));
+  if (data.opening.t.empty() || data.t.empty()) return;
+  const double reached = data.opening.t.back();
+  const double end = std::isfinite(data.end) ? data.end : data.t.back();
+  constexpr double rounding = 1e-9;                                 // of a time that is a sum of steps
+  if (std::abs(reached) >= (1 - rounding) * std::abs(end)) return;  // all of the run
+  page.notes.push_back("the first steps alone, to {/:Italic t} = " + short_value(reached) + " of " + short_value(end));
+}
+
+void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y) {
+  for (const Series& series : drawn) {
+    x.include(series.curve.x);
+    y.include(series.curve.y);
+  }
+}
+
+std::string joined_note(std::size_t samples) { return std::to_string(samples) + " samples are joined"; }
+
+bool is_sparse(const std::vector<double>& y) {
+  constexpr std::size_t few = 8;
+  Extent range;
+  range.include(y);
+  if (y.size() < 2 || range.empty() || range.high - range.low <= resolvable * range.largest()) return false;
+  if (y.size() < few) return true;
+  const double step = 0.1 * (range.high - range.low);
+  std::size_t turns = 0;
+  for (std::size_t k = 2; k < y.size(); ++k) {
+    const double before = y[k - 1] - y[k - 2];
+    const double after = y[k] - y[k - 1];
+    if (before * after < 0 && std::abs(before) > step && std::abs(after) > step) ++turns;
+  }
+  return 3 * turns > y.size();
 }
 
 Curve dots_on_line(const Curve& track, const Panel& panel) {
@@ -182,7 +238,7 @@ void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y) {
   const double size = std::max({std::abs(x_low), std::abs(x_high), std::abs(y_low), std::abs(y_high)});
   const double longest = std::max(x_high - x_low, y_high - y_low);
   double margin = padding * longest;
-  if (longest <= 1e-5 * size) margin = 0.1 * size;
+  if (longest <= resolvable * size) margin = 0.1 * size;
   if (!(size > 0)) margin = 1;
   double width = x_high - x_low + 2 * margin;
   double height = y_high - y_low + 2 * margin;

@@ -29,8 +29,15 @@ Series track_of(const Curve& track, Series how);
 /// @param how one for each track   @param openings one for each track, empty where unknown
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
                               std::vector<Series> how, bool& opened);
+/// What is drawn in place of samples may reach further than they do.
+void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y);
 /// "the first steps alone, to t = 12 of 300", of figures with an opening; nothing where that is all of the run.
 void note_opening(Page& page, const FigureData& data);
+/// "3 samples are joined": of lines over samples between which the motion is another one than their chords.
+std::string joined_note(std::size_t samples);
+/// Whether a curve over time turns back from sample to sample, or has a few samples alone. Turns of a tenth of its
+/// range count: rounding is none.
+bool is_sparse(const std::vector<double>& y);
 /// Dots about a millimetre apart in print, so that the exact line shows between them.
 Curve dots_on_line(const Curve& track, const Panel& panel);
 

@@ -152,6 +152,8 @@ void write_parameter_map(const ParameterMap& map, const std::filesystem::path& f
   page.panels[0].x_label = map.x_label;
   page.notes = map.notes;
   if (!map.y.empty()) page.width = 120;
+  constexpr std::size_t words_of_column = 24;  // upright, beside each other
+  if (map.x_words.size() > words_of_column) page.width = two_columns;
   draw(page, file);
 }
 

@@ -66,6 +66,9 @@ Name cut(const std::string& name) {
   while (end < name.size() && std::isalpha(static_cast<unsigned char>(name[end]))) ++end;
   Name result{name.substr(0, end), name.substr(end)};
   if (result.index.size() > 1 && result.index[0] == '_') result.index.erase(0, 1);
+  // The momentum of theta_1 is p_theta_1: in an index its own index stands without underscore.
+  const std::size_t digits = result.index.find_last_not_of("0123456789") + 1;
+  if (digits > 1 && digits < result.index.size() && result.index[digits - 1] == '_') result.index.erase(digits - 1, 1);
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0; };
   if (!std::all_of(result.index.begin(), result.index.end(), plain)) return {};  // not a name but a text
   return result;
@@ -108,6 +111,15 @@ std::string escaped(const std::string& text) {
     result += c;
   }
   return result;
+}
+
+std::string quantity(const std::string& name) {
+  const Name parts = cut(name);
+  const bool one_letter = letter(parts.base) != parts.base || parts.base.size() == 1;
+  if (!parts.base.empty() && (one_letter || parts.index.size() < 4)) return symbol(name);
+  std::string words = name;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return escaped(words);
 }
 
 std::string without_brackets(const std::string& name) {
@@ -164,6 +176,41 @@ std::size_t printed_length(const std::string& enhanced) {
     if (!continues) ++count;
   }
   return count;
+}
+
+std::vector<std::string> shortened(const std::vector<std::string>& texts, std::size_t most) {
+  std::vector<std::vector<std::string>> all;
+  for (const std::string& text : texts) all.push_back(characters(text));
+  const auto is_long = [&](const auto& text) { return text.size() > most; };
+  const auto first = std::find_if(all.begin(), all.end(), is_long);
+  if (first == all.end()) return texts;
+  std::size_t common = first->size();  // characters with which the long ones begin
+  for (const auto& text : all) {
+    if (!is_long(text) || text == *first) continue;
+    const auto differ = std::mismatch(first->begin(), first->end(), text.begin(), text.end()).first;
+    common = std::min(common, static_cast<std::size_t>(differ - first->begin()));
+  }
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& text = all[i];
+    std::size_t begin = 0;
+    std::size_t end = text.size();
+    if (is_long(text)) {
+      if (common < text.size() && common > most / 2) begin = std::min(common - most / 4, text.size() - most + 1);
+      end = std::min(text.size(), begin + most - (begin > 0 ? 1 : 0));
+      if (end < text.size()) --end;
+    }
+    std::string part = begin > 0 ? "…" : "";
+    for (std::size_t k = begin; k < end; ++k) part += text[k];
+    result.push_back(part + (end < text.size() ? "…" : ""));
+  }
+  const auto count = [](std::vector<std::string> list) {
+    std::sort(list.begin(), list.end());
+    return std::unique(list.begin(), list.end()) - list.begin();
+  };
+  if (count(result) == count(texts)) return result;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::to_string(i + 1) + ": " + result[i];
+  return result;
 }
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t most) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -15,6 +16,7 @@
 #include "hamflow/scenario/scenario.hpp"
 #include "run_description.hpp"
 #include "run_file.hpp"
+#include "run_keys.hpp"
 #include "section_text.hpp"
 #include "text.hpp"
 
@@ -24,11 +26,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path file_of(const fs::path& run) {
-  if (!fs::is_directory(run)) return run;
+constexpr const char* drawn_by_sweep = "of a sweep: hamflow sweep --figure draws it";
+
+/// What a folder is that has no samples to draw; empty where nothing tells.
+std::string what_is(const fs::path& folder) {
   std::error_code none;
-  return !fs::exists(run / "run.h5", none) && fs::exists(run / "reverse.h5", none) ? run / "reverse.h5"
-                                                                                   : run / "run.h5";
+  const auto has = [&](const char* name) { return fs::exists(folder / name, none); };
+  if (has("sweep.h5") || has("members.bin")) return std::string("the folder ") + drawn_by_sweep;
+  if (has("compare.json")) {
+    const fs::path figure = folder / "figures" / "work-precision.svg";
+    return "the folder of a comparison" +
+           (fs::exists(figure, none) ? ", whose figures are " + figure.string() + ", .pdf and .png" : std::string());
+  }
+  if (has("reversal.bin")) {
+    return "a reversal that was cut short: hamflow reverse FILE --out " + folder.string() + " --resume goes on with it";
+  }
+  if (has("trajectory.csv") || has("summary.json")) {
+    return "a run without the format h5, from which figures are drawn; " + output_path(output_keys().formats) +
+           " = [\"h5\", ...] keeps it";
+  }
+  return {};
+}
+
+/// @throws FileError where what is named is known to be something else than a run or a reversal
+fs::path file_of(const fs::path& run) {
+  std::error_code none;
+  if (run.filename() == "sweep.h5" && fs::exists(run, none)) {
+    throw FileError(run.string() + " cannot be read: it is the table " + drawn_by_sweep);
+  }
+  if (!fs::is_directory(run, none)) return run;
+  if (fs::exists(run / "run.h5", none)) return run / "run.h5";
+  if (fs::exists(run / "reverse.h5", none)) return run / "reverse.h5";
+  const std::string other = what_is(run);
+  if (!other.empty())
+    throw FileError((run / "run.h5").string() + " cannot be read: there is no such file; this is " + other);
+  return run / "run.h5";
 }
 
 /// The scenario that a run.h5 carries.
@@ -186,6 +218,10 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   data.p = std::move(samples.p);
   data.energy = std::move(samples.energy);
   data.energy_difference = energy_differences(source, data.t.size());
+  const bool reversal = data.energy.empty();
+  data.every_step = !reversal && static_cast<std::int64_t>(data.t.size()) > scenario.steps;
+  // Samples at given times need not reach the end.
+  if (!scenario.record.empty() && !reversal) data.end = static_cast<double>(scenario.steps) * scenario.dt;
   if (shows_energy(kind) || !data.particles.gas) {
     data.energy_scale = make_simulation(scenario.request)->energy_scale();
   }
@@ -247,6 +283,12 @@ FigureSamples opening_of(const fs::path& run) {
   FigureSamples opening;
   opening.q.resize(n);
   opening.p.resize(n);
+  // A run that was cut short, or ended by an event, has its end at the last sample; samples at given times need not
+  // reach it, and a reversal's first half is over before its turn.
+  const bool open = !scenario.record.empty() && std::none_of(scenario.events.begin(), scenario.events.end(),
+                                                             [](const UserEvent& event) { return event.stops; });
+  const double last =
+      open || samples.energy.empty() ? std::numeric_limits<double>::infinity() : std::abs(samples.t.back());
   std::size_t sample = 0;
   Frame frame;
   const auto walls = walls_among(scenario.request.variant);
@@ -262,6 +304,7 @@ FigureSamples opening_of(const fs::path& run) {
   for (std::int64_t k = 0; k <= steps; ++k) {
     if (k > 0 && simulation->advance(1) != Outcome::done) break;
     simulation->look(frame);
+    if (std::abs(frame.time) > last) break;
     while (sample < samples.t.size() && samples.t[sample] < frame.time) ++sample;
     const bool is_sample = sample < samples.t.size() && samples.t[sample] == frame.time;
     for (std::size_t i = 0; i < n; ++i) {

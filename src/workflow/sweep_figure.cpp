@@ -75,6 +75,20 @@ std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
   return all;
 }
 
+/// The values of a key of words, as they stand on an axis or in a legend.
+std::vector<std::string> words_of(const Vary& vary, std::size_t longest = 28) {
+  std::vector<std::string> words;
+  for (const std::string& text : vary.texts) words.push_back(without_quotes(text));
+  words = figures::shortened(words, longest);
+  for (std::string& word : words) word = figures::escaped(word);
+  return words;
+}
+
+/// Two have room beside each other, more stand upright.
+std::vector<std::string> axis_words(const Vary& vary) {
+  return vary.texts.size() > 2 ? words_of(vary) : words_of(vary, 18);
+}
+
 /// The last part of a key, and the coordinate that an entry of a start belongs to.
 std::string key_label(const Sweep& sweep, const std::string& path) {
   const StateNames& names = sweep.names().state();
@@ -88,15 +102,28 @@ std::string key_label(const Sweep& sweep, const std::string& path) {
   return last == "dt" ? "d{/:Italic t}" : figures::symbol(last);
 }
 
-/// "angular momentum at the end".
+/// "angular momentum at the end", of NAME/final; of NAME/final2 that of its second number, NAME_2 of a run.
 std::string invariant_label(const std::string& name) {
   const std::size_t slash = name.rfind('/');
-  std::string words = name.substr(0, slash);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  const std::string what = slash == std::string::npos ? "" : name.substr(slash + 1);
-  if (what == "initial") return figures::escaped(words) + " at the start";
-  if (what == "final") return figures::escaped(words) + " at the end";
-  return what == "max_error" ? "largest error of " + figures::escaped(words) : figures::escaped(name);
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  if (slash == std::string::npos || digits <= slash) return figures::quantity(name);
+  const std::string what = name.substr(slash + 1, digits - slash - 1);
+  const std::string label =
+      figures::quantity(name.substr(0, slash) + (digits < name.size() ? "_" + name.substr(digits) : ""));
+  if (what == "initial") return label + " at the start";
+  if (what == "final") return label + " at the end";
+  return what == "max_error" ? "largest error of " + label : figures::escaped(name);
+}
+
+/// "kin_1 at the end", of kin_1_final; empty for what is no observable of the user.
+std::string observable_label(const Sweep& sweep, const std::string& name) {
+  for (const NamedExpression& observable : sweep.common().observables) {
+    for (const auto& [end, words] :
+         {std::pair{"_initial", " at the start"}, {"_mean", ", mean over time"}, {"_final", " at the end"}}) {
+      if (name == observable.name + end) return figures::quantity(observable.name) + words;
+    }
+  }
+  return {};
 }
 
 /// "x" of final/q1, final/q of one coordinate too; empty for other columns.
@@ -123,6 +150,7 @@ std::string value_label(const Sweep& sweep, const std::string& column) {
   const std::string name = slash == std::string::npos ? column : column.substr(slash + 1);
   if (column.starts_with("invariants/")) return invariant_label(name);
   if (name.starts_with("lyapunov")) return "Lyapunov exponent " + figures::symbol("lambda" + name.substr(8));
+  if (const std::string label = observable_label(sweep, name); !label.empty()) return label;
   std::string words = name;
   std::replace(words.begin(), words.end(), '/', ' ');
   return figures::escaped(words);
@@ -260,8 +288,10 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   figure.title = title_of(sweep);
   figure.x_label = key_label(sweep, key.path);
   figure.value_label = names.size() == 1 ? "mean of " + value_label(sweep, names[0]) : "mean";
-  if (!key.is_number()) {
-    for (const std::string& text : key.texts) figure.x_words.push_back(figures::escaped(without_quotes(text)));
+  if (!key.is_number()) figure.x_words = axis_words(key);
+  std::vector<std::size_t> done(key.texts.size());  // members that have come to their end, at each place
+  for (std::size_t member = 0; member < sweep.members(); ++member) {
+    if (sweep.rows()[member].status == Outcome::done) ++done[varied.place(member, over)];
   }
   for (const std::string& name : names) {
     const auto column = std::find_if(all.begin(), all.end(), [&](const DrawnColumn& one) { return one.name == name; });
@@ -281,8 +311,13 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
       if (names.size() > 1) figure.line.push_back(value_label(sweep, name));
     }
   }
-  const std::size_t each = sweep.members() / key.texts.size();
-  figure.notes.push_back("bars: the standard error of the mean over " + std::to_string(each) + " members");
+  std::erase(done, 0U);  // where nothing is drawn
+  if (!done.empty()) {
+    const auto [fewest, most] = std::minmax_element(done.begin(), done.end());
+    figure.notes.push_back("bars: standard error of the mean over " +
+                           (*fewest == *most ? "" : std::to_string(*fewest) + " to ") + std::to_string(*most) +
+                           " members");
+  }
   const std::string note = note_of(sweep, false);
   if (!note.empty()) figure.notes.push_back(note);
   write_parameter_map(figure, file);
@@ -334,16 +369,16 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
     if (one.name == colour) figure.value = std::move(one.numbers);
   }
   const Vary& x = varied.keys()[keys.over];
-  if (!x.is_number()) {
-    for (const std::string& text : x.texts) figure.x_words.push_back(figures::escaped(without_quotes(text)));
-  }
+  if (!x.is_number()) figure.x_words = axis_words(x);
+  const std::vector<std::string> lines =
+      keys.has_lines ? words_of(varied.keys()[keys.lines]) : std::vector<std::string>();
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     figure.x.push_back(x.is_number() ? varied.number(member, keys.over)
                                      : static_cast<double>(varied.place(member, keys.over)));
     if (keys.map) figure.y.push_back(varied.number(member, keys.above));
     if (keys.has_lines) {
       const Vary& line = varied.keys()[keys.lines];
-      const std::string text = figures::escaped(without_quotes(varied.text(member, keys.lines)));
+      const std::string& text = lines.at(varied.place(member, keys.lines));
       figure.line.push_back(line.is_number() ? key_label(sweep, line.path) + " = " + text : text);
     }
     // What a member that broke off reached belongs to another time than the others.

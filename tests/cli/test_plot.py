@@ -9,6 +9,34 @@ from command import EXAMPLES, HAMFLOW, CommandCase
 
 KINDS = ("orbit", "phase", "time", "energy", "energy-error", "section", "condition", "particles", "tracks", "radial")
 
+BODIES = """
+[problem]
+name = "n-body"
+masses = [1, 0.5]
+initial = { q = [0,0, 1,0], p = [0,-0.5, 0,0.5] }
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 1000
+"""
+
+FORMULA = """
+[problem]
+name = "formula"
+coordinates = ["theta_1", "phi_2"]
+hamiltonian = "(p_theta_1^2+p_phi_2^2)/2 - cos(theta_1) + phi_2^2/2"
+invariants = { L_z = "p_phi_2^2+phi_2^2" }
+initial = { q = [0.5, 0.2], p = [0, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 60
+[output]
+observables = { kin_1 = "p_theta_1^2/2" }
+"""
+
 
 def texts(svg):
     """What is written in the figure, without the markup inside a text; a subscript is part of its symbol."""
@@ -236,6 +264,98 @@ steps = 2
         self.hamflow("run", "g.toml", "--out", "g")
         for chosen in (("--kind", "orbit"), ("--kind", "phase", "--x", "x1", "--y", "p_x1")):
             self.assertFalse([label for label in self.plot("g", *chosen) if "first steps" in label], chosen)
+
+    def test_axes_cover_the_curve_that_stands_for_sparse_samples(self):
+        """The circle of the charge reaches from x = 1 to x = 3, whatever samples are stored."""
+        for every, out in (("1", "all"), ("500", "few")):
+            self.run_some(str(EXAMPLES / "magnetic.toml"), f"run.record_every={every}", out=out)
+        for kind in ("orbit", "phase"):
+            chosen = ("--x", "x", "--y", "y")
+            self.assertEqual(self.plot("all", *chosen, kind=kind), self.plot("few", *chosen, kind=kind))
+        self.write("n2.toml", BODIES)
+        self.hamflow("reverse", "n2.toml", "--out", "n2.rev", "--quiet")
+        self.assertIn("\u22121.5", self.plot("n2.rev", kind="orbit"))
+
+    def test_samples_at_given_times_need_not_reach_the_end(self):
+        self.run_some(str(EXAMPLES / "henon_heiles.toml"), "run.steps=4000", "run.record=[100,200,300]", out="h")
+        self.assertFalse([label for label in self.plot("h", kind="orbit") if "first steps" in label])
+        self.run_some(str(EXAMPLES / "henon_heiles.toml"), "run.steps=40000", "run.record=[100,200,300]", out="long")
+        self.assertIn("the first steps alone, to t = 2000 of 4000", self.plot("long", kind="orbit"))
+
+    def test_pairs_need_something_that_holds_them(self):
+        self.write("n2.toml", BODIES)
+        self.run_some("n2.toml", out="n2")
+        self.assertIn('found "radial", but nothing holds the 2 bodies', self.refused("n2", "--kind", "radial"))
+        self.run_some(str(EXAMPLES / "gas_121.toml"), "problem.particles_per_side=2", "problem.dimension=3",
+                      "problem.container={kind='box',size=[3,3,3]}", "run.steps=20", "run.dt=0.01", out="box")
+        labels = self.plot("box", kind="radial")
+        self.assertIn("3.0", labels)  # neighbours are 2 apart
+
+    def test_a_reversal_has_one_list_of_kinds(self):
+        self.write("n2.toml", BODIES)
+        self.hamflow("reverse", "n2.toml", "--out", "n2.rev", "--quiet")
+        for kind in ("energy", "energy-error"):
+            self.assertIn(f'found "{kind}", but a reversal stores no energies; allowed orbit, phase, time, particles, tracks\n',
+                          self.refused("n2.rev", "--kind", kind))
+        self.assertTrue(self.refused("n2.rev", "--kind", "section").endswith("; allowed orbit, phase, time, particles, tracks\n"))
+
+    def test_lines_between_few_samples_are_called_so(self):
+        self.write("n2.toml", BODIES)
+        self.hamflow("reverse", "n2.toml", "--out", "n2.rev", "--quiet")
+        self.run_some("n2.toml", "run.record_every=1000", out="few")
+        self.run_some("n2.toml", out="all")
+        for kind in ("tracks", "time"):
+            self.assertIn("3 samples are joined", self.plot("n2.rev", kind=kind))
+            self.assertIn("2 samples are joined", self.plot("few", kind=kind))
+        self.assertFalse([label for label in self.plot("all", kind="time") if "joined" in label])
+
+    def test_what_other_folders_are(self):
+        self.hamflow("compare", "kepler.toml", "--methods", "stv4", "--out", "c.cmp", "--quiet")
+        self.run_some("kepler.toml", "output.formats=['csv']", out="c.run")
+        self.hamflow("sweep", "kepler.toml", "--vary", "run.dt=0.1,0.05", "--out", "many", "--quiet")
+        self.hamflow("reverse", "kepler.toml", "--out", "r.rev", "--quiet")
+        (self.folder / "r.rev" / "reverse.h5").unlink()
+        for name, told in {"c.cmp": "the folder of a comparison, whose figures are c.cmp/figures/work-precision.svg",
+                           "c.run": "a run without the format h5",
+                           "many/sweep.h5": "it is the table of a sweep: hamflow sweep --figure draws it",
+                           "r.rev": "hamflow reverse FILE --out r.rev --resume"}.items():
+            self.assertIn(told, self.hamflow("plot", name, "-o", "x.svg", status=3).stderr)
+
+    def test_a_body_at_rest_is_a_point(self):
+        self.run_some(str(EXAMPLES / "magnetic.toml"), "problem.initial={q=[1,0,0],v=[0,0,0]}", out="m")
+        self.plot("m", kind="orbit")
+        drawn = (self.folder / "f.svg").read_text().split("</defs>")[1]
+        self.assertIn("gpPt6'", drawn)
+
+    def test_long_words_of_a_sweep(self):
+        """Two formulas that differ at their ends; nine methods, upright."""
+        self.write("f.toml", FORMULA)
+        long = "(p_theta_1^2+p_phi_2^2)/2 - cos(theta_1) + 1/2*phi_2^2 + 1/10*theta_1*phi_2"
+        sweep = ("sweep", "f.toml", "--out", "none", "--quiet", "--figure", "f.svg")
+        self.hamflow(*sweep, "--vary", f'problem.hamiltonian="{long}+theta_1^4","{long}+theta_1^6"')
+        labels = texts((self.folder / "f.svg").read_text())
+        self.assertEqual(len([label for label in labels if label.startswith("\u2026")]), 2, labels)
+        self.assertTrue(any(label.endswith("theta_1^4") for label in labels), labels)
+        methods = "verlet,stv4,kahan-li8,rkn8-s19,suzuki4,cg(2),cg(3)"
+        self.hamflow(*sweep, "--vary", f"method.name={methods}")
+        svg = (self.folder / "f.svg").read_text()
+        self.assertEqual(len(re.findall(r"rotate\([^)]*\)[^<]*(?:<[^>]*>[^<]*){0,3}(?:kahan-li8|rkn8-s19)", svg)), 2, svg[:3000])
+
+    def test_one_name_has_one_label(self):
+        self.write("f.toml", FORMULA)
+        self.run_some("f.toml", out="f")
+        self.assertTrue({"Lz", "kin1"} <= set(self.plot("f", "--y", "L_z,kin_1", kind="time")))
+        self.assertIn("p\u03b81, p\u03c62", self.plot("f", kind="time"))
+        for column, label in (("invariants/L_z/final", "Lz at the end"), ("observables/kin_1_mean", "kin1, mean over time")):
+            self.hamflow("sweep", "f.toml", "--vary", "run.dt=0.1,0.05", "--out", "none", "--quiet", "--figure", "f.svg", "--colour", column)
+            self.assertIn(label, texts((self.folder / "f.svg").read_text()))
+
+    def test_a_mean_counts_the_members_that_it_is_of(self):
+        """Steps of 6 are too long for most of the ellipses."""
+        self.hamflow("sweep", "kepler.toml", "--set", "run.steps=20", "--vary", "run.dt=0.1,6", "--vary",
+                     "problem.orbit.r_per=0.2:1.5:6", "--mean", "--out", "none", "--quiet", "--figure", "f.svg", status=None)
+        labels = texts((self.folder / "f.svg").read_text())
+        self.assertTrue(any(re.fullmatch("bars: standard error of the mean over [1-5] to 6 members", label) for label in labels), labels)
 
 
 if __name__ == "__main__":

@@ -228,7 +228,21 @@ TEST(Text, Symbols) {
   EXPECT_EQ(symbol("x[1]"), "{/:Italic x}_{1}");
   EXPECT_EQ(symbol("p_x[12]"), "{/:Italic p}_{x12}");
   EXPECT_EQ(symbol("x[n]"), "x[n]");
+  EXPECT_EQ(symbol("p_theta_1"), "{/:Italic p}_{θ1}");
+  EXPECT_EQ(symbol("Z_long_name"), "Z\\_long\\_name");
+  EXPECT_EQ(quantity("L_z"), "{/:Italic L}_{z}");
+  EXPECT_EQ(quantity("kin_1"), "kin_{1}");
+  EXPECT_EQ(quantity("angular_momentum"), "angular momentum");
   EXPECT_EQ(short_number(2.2e-16), "2.2·10^{\u221216}");
+}
+
+TEST(Text, LongTextsAreCutWhereTheyDiffer) {
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(shortened({"verlet", "stv4"}, 8), (Texts{"verlet", "stv4"}));
+  EXPECT_EQ(shortened({"abcdefghijkl", "xbcdefghijkl", "short"}, 8), (Texts{"abcdefg…", "xbcdefg…", "short"}));
+  EXPECT_EQ(shortened({"aaaaaaaaaaaaab", "aaaaaaaaaaaaac"}, 8), (Texts{"…aaaaaab", "…aaaaaac"}));
+  EXPECT_EQ(shortened({"aaaa1aaaaaaaaaaaa2", "aaaa1aaaaaaaaaaaa3", "aaaa2aaaaaaaaaaaa3"}, 8),
+            (Texts{"1: aaaa1aa…", "2: aaaa1aa…", "3: aaaa2aa…"}));
 }
 
 TEST(Text, LengthsAreThoseOfPrint) {

@@ -83,6 +83,11 @@ TEST(FigureKinds, ParticlesAreThoseOfAGasOrOfBodies) {
   }
 }
 
+TEST(FigureKinds, OfAReversalThereAreNoEnergies) {
+  EXPECT_EQ(refused_figure("energy", {.degrees_of_freedom = 2, .energies = false}),
+            "found \"energy\", but a reversal stores no energies; allowed orbit, phase, time");
+}
+
 TEST(FigureKinds, ChosenColumnsNeedNoRoomForAll) {
   for (const char* kind : {"phase", "time"}) {
     EXPECT_NE(refused_figure(kind, {.degrees_of_freedom = 500}), "");

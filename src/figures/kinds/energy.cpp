@@ -58,7 +58,7 @@ Page page(const Figure& figure) {
 extern const FigureKind energy_figure{"energy",
                                       "the energy H over time, of H(q, p, t) less the integral of dH/dt",
                                       5,
-                                      never,
+                                      without_energies,
                                       energy::obstacle,
                                       any_runs,
                                       no_columns,

@@ -126,7 +126,7 @@ extern const FigureKind energy_error_figure{
     "energy-error",
     "the relative error of the energy over time, (H - H0)/max(|H0|, |T0| + |V0|)",
     4,
-    never,
+    without_energies,
     energy_error::obstacle,
     any_runs,
     no_columns,

@@ -119,6 +119,7 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
     for (const Curve& path : paths) tracks.push_back({Ink::dots, "numeric", path});
   } else {
     tracks = tracks_of(paths, openings, std::move(hows), opened);
+    include_drawn(tracks, x, y);
   }
   if (exact) {
     x.include(one.curve_x);

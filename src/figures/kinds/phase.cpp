@@ -77,29 +77,36 @@ Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns,
   Extent x;
   Extent y;
   std::vector<Curve> tracks;
+  std::vector<Curve> openings;
   for (const FigureData& run : figure.runs) {
     tracks.push_back(in_plane(run, plane));
+    openings.push_back(opening_in_plane(run, plane));
     x.include(tracks.back().x);
     y.include(tracks.back().y);
   }
-  panel.x = fit_axis(x, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 18});
-  panel.y = fit_axis(y, padding, {columns == 1 ? 7U : 5U});
+  const auto fit = [&] {
+    panel.x = fit_axis(x, padding, columns == 1 ? TickRoom{7, 40} : TickRoom{5, 18});
+    panel.y = fit_axis(y, padding, {columns == 1 ? 7U : 5U});
+  };
   panel.x_label = axis_label(figure, column_of(one, plane.first));
   panel.y_label = axis_label(figure, column_of(one, plane.second));
   panel.aspect = columns == 1 ? 0.7 : 1;
   const bool whole = one.coordinates.size() == 1 && plane == Plane{one.coordinates[0], one.momenta[0]};
   if (figure.runs.size() == 1 && whole && one.hamiltonian_1d && std::isfinite(start_of(one.energy))) {
+    x.include(openings[0].x);  // few samples may miss most of the level curve
+    y.include(openings[0].y);
+    fit();
     add_exact(panel, one, tracks[0]);
     return panel;
   }
-  std::vector<Curve> openings;
   std::vector<Series> how;
   for (std::size_t run = 0; run < figure.runs.size(); ++run) {
     how.push_back(series_of(figure, run));
     if (!with_names) how.back().name.clear();
-    openings.push_back(opening_in_plane(figure.runs[run], plane));
   }
   panel.series = tracks_of(tracks, openings, std::move(how), opened);
+  include_drawn(panel.series, x, y);
+  fit();
   return panel;
 }
 

@@ -13,10 +13,18 @@ namespace hamflow::figures {
 
 namespace radial {
 constexpr std::size_t bins = 150;
+constexpr std::size_t fewest_free = 16;     // of fewer that nothing holds, those at its border make the volume
 constexpr std::size_t most_taken = 200000;  // of the particles: pairs of a random part are as far apart as those of all
 
 bool are_finite(const std::vector<double>& q) {
   return std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool is_held(const FigureParticles& of) { return of.radius > 0 || !of.edges.empty(); }
+
+/// The distance between neighbours, were they spread evenly.
+double neighbours(const FigureData& data, const Region& region) {
+  return std::pow(region.volume() / static_cast<double>(data.particles.count), 1.0 / static_cast<double>(region.space));
 }
 
 std::string obstacle(const FigureData& data) {
@@ -24,15 +32,33 @@ std::string obstacle(const FigureData& data) {
   if (data.particles.count < 2) return "there is one particle, and no pair";
   const std::vector<double> q = data.particles.positions(data.t.size() - 1);
   if (!are_finite(q)) return "the last sample has positions that are not finite";
-  return std::isnormal(region_of(data.particles, q).volume()) ? "" : "the particles fill no volume";
+  if (!is_held(data.particles) && data.particles.count < fewest_free) {
+    return "nothing holds the " + std::to_string(data.particles.count) + " bodies, and g(r) of fewer than " +
+           std::to_string(fewest_free) + " compares with no volume that they would fill";
+  }
+  const Region region = region_of(data.particles, q);
+  if (!std::isnormal(region.volume())) return "the particles fill no volume";
+  return region.shortest() < neighbours(data, region) ? "the particles lie closer to a plane or line than to each other"
+                                                      : "";
 }
 
 /// Some distances between neighbours: further away there is little to see, and pairs become many. In a periodic box no
-/// further than nearest images are unique, elsewhere no further than half across.
+/// further than nearest images are unique, elsewhere no further than the shares of pairs are known.
 double range(const FigureData& data, const Region& region) {
-  const double neighbours =
-      std::pow(region.volume() / static_cast<double>(data.particles.count), 1.0 / static_cast<double>(region.space));
-  return std::min(region.shortest() / 2, 5 * neighbours);
+  const double most = region.periodic ? region.shortest() / 2 : region.shortest();
+  return std::min(most, 5 * neighbours(data, region));
+}
+
+/// The same for several samples: what nothing holds may grow.
+double range(const FigureData& data, const std::vector<std::size_t>& samples) {
+  double r_max = range(data, region_of(data.particles, data.particles.positions(samples.back())));
+  for (std::size_t k = 0; !is_held(data.particles) && k + 1 < samples.size(); ++k) {
+    const std::vector<double> q = data.particles.positions(samples[k]);
+    if (!are_finite(q)) continue;
+    const Region region = region_of(data.particles, q);
+    if (std::isnormal(region.volume())) r_max = std::min(r_max, range(data, region));
+  }
+  return r_max;
 }
 
 std::vector<double> those(const std::vector<std::size_t>& taken, const std::vector<double>& q, std::size_t space) {
@@ -93,8 +119,7 @@ Page page(const Figure& figure) {
   g.include(1);
   std::vector<Series> curves;
   const auto add = [&](Series how, const FigureData& data, const std::vector<std::size_t>& samples) {
-    const Region region = region_of(data.particles, data.particles.positions(samples.back()));
-    const double r_max = range(data, region);
+    const double r_max = range(data, samples);
     how.ink = Ink::line;
     how.curve = distribution(data, samples, r_max);
     r.include(r_max);

@@ -67,12 +67,29 @@ std::string label_of(const std::vector<Column>& group) {
   const bool numbered =
       std::all_of(group.begin(), group.end(), [&](const Column& column) { return family(column.name) == first; });
   if (group.size() > 3 && numbered) return symbol(first);
-  return joined(group, [](const Column& column) { return column.label; });
+  constexpr std::size_t longest = 24;  // characters beside a panel; the legend has all names
+  std::string all = joined(group, [](const Column& column) { return column.label; });
+  if (printed_length(all) <= longest || group.size() < 3) return all;
+  all = group.front().label + ", …, " + group.back().label;
+  return printed_length(all) <= longest ? all : group.front().label + ", …";
 }
 
 void add(Panel& panel, const std::vector<double>& x, const std::vector<double>& y, bool over_time, Series how) {
   if (over_time) return add_over_time(panel, x, y, std::move(how));
   panel.series.push_back(track_of(finite_points(x, y), std::move(how)));
+}
+
+/// Part of the state, which no noise makes turn from sample to sample.
+bool moves(const Column& column) {
+  return column.sort == Sort::position || column.sort == Sort::angle || column.sort == Sort::momentum ||
+         column.sort == Sort::angular_momentum;
+}
+
+std::string samples_note(const Figure& figure) {
+  const std::size_t first = figure.runs.front().t.size();
+  const bool alike =
+      std::all_of(figure.runs.begin(), figure.runs.end(), [&](const FigureData& run) { return run.t.size() == first; });
+  return alike ? joined_note(first) : "samples far apart are joined";
 }
 
 Page page(const Figure& figure) {
@@ -84,6 +101,7 @@ Page page(const Figure& figure) {
     xs.push_back(column_of(run, x_name).values());
     range.include(xs.back());
   }
+  bool sparse = false;
   Page all{figure.runs.front().title, {}};
   for (const std::vector<Column>& group : shared_axes(figure)) {
     Panel panel = panel_over(range, axis_label(figure, column_of(figure.runs.front(), x_name)));
@@ -93,6 +111,7 @@ Page page(const Figure& figure) {
       for (std::size_t k = 0; k < group.size(); ++k) {
         const std::vector<double> y = column_of(figure.runs[run], group[k].name).values();
         values.include(y);
+        sparse = sparse || (over_time && moves(group[k]) && !figure.runs[run].every_step && is_sparse(y));
         Series how = series_of(figure, run);
         if (group.size() > 1) how = {.name = group.size() > most_named ? "" : group[k].label, .mark = mark_of(k)};
         if (!all.panels.empty() && figure.runs.size() > 1) how.name.clear();
@@ -104,6 +123,7 @@ Page page(const Figure& figure) {
     panel.aspect = over_time ? 0.42 : 0.7;
     all.panels.push_back(std::move(panel));
   }
+  if (sparse) all.notes.push_back(samples_note(figure));
   return all;
 }
 }  // namespace time

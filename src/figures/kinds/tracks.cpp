@@ -16,8 +16,8 @@ namespace tracks {
 constexpr std::size_t most_tracks = 500;
 constexpr std::size_t most_samples = 400;  // of a path: as many as the size of a page can show
 
-/// @param paths of those that are drawn, coordinate by coordinate
-Panel panel_of(const FigureData& data, const std::vector<std::vector<double>>& paths, Plane plane) {
+/// @param paths of those that are drawn, coordinate by coordinate   @param sparse becomes true where chords lose one
+Panel panel_of(const FigureData& data, const std::vector<std::vector<double>>& paths, Plane plane, bool& sparse) {
   const FigureParticles& of = data.particles;
   const std::vector<std::string> names = axes_of_space(of.space);
   Panel panel;
@@ -36,6 +36,7 @@ Panel panel_of(const FigureData& data, const std::vector<std::vector<double>>& p
                 mark_of(drawn == of.count ? i : static_cast<std::size_t>(counter_bits(2, i) % 8))};
     path.mark.dash = 1;
     if (path.curve.x.empty()) continue;
+    sparse = sparse || (path.curve.x.size() > 1 && !follows_path(path.curve));
     x.include(path.curve.x);
     y.include(path.curve.y);
     ends.push_back({Ink::dots, "", {{path.curve.x.back()}, {path.curve.y.back()}}, path.mark});
@@ -59,9 +60,10 @@ Page page(const Figure& figure) {
       paths[i].push_back(q[drawn[i / of.space] * of.space + i % of.space]);
     }
   }
+  bool sparse = false;
   Page all{data.title, {}};
   for (const Plane& plane : chosen_planes(figure.options, axes_of_space(of.space), of.space == 2)) {
-    all.panels.push_back(panel_of(data, paths, plane));
+    all.panels.push_back(panel_of(data, paths, plane, sparse));
   }
   if (all.panels.size() > 1) {
     all.columns = 2;
@@ -70,6 +72,8 @@ Page page(const Figure& figure) {
   if (const std::string note = part_note(drawn.size(), of.count); !note.empty()) all.notes.push_back(note);
   if (samples < data.t.size()) {
     all.notes.push_back(std::to_string(samples) + " of " + std::to_string(data.t.size()) + " samples are joined");
+  } else if (sparse && !data.every_step) {
+    all.notes.push_back(joined_note(samples));
   }
   if (of.container == "periodic") all.notes.push_back("paths are not folded into the periodic box");
   return all;
