@@ -86,6 +86,7 @@ struct Counts {
   int runs = 0;
   int stopped = 0;
   double energy_error = 0;  // the largest, of the start's
+  int settled = 0;          // their means stay: of these some are captured, by their exponents
   std::vector<Captured> captured;
   std::vector<Captured> brief;  // as regular, but for less than least_stay
   int regular_blocks_only = 0;  // whose exponents are those of chaos
@@ -105,7 +106,8 @@ Counts all_of(Study& study, const std::string& name, const TubeSet& set, int sta
       if (counts.free.blocks.empty() && seen.start.v1 == 0 && !seen.stopped) counts.free = std::move(seen);
       continue;
     }
-    const std::string run = fmt::format("{}_captured_{}", name, counts.captured.size() + 1);
+    ++counts.settled;
+    const std::string run = fmt::format("{}_captured_{}", name, counts.settled);
     const Exponents exponents = exponents_from(study, set, seen, run, study.sized<std::int64_t>(10000, 200000, 200000));
     const double stayed = static_cast<double>(seen.blocks.size() - from) * tube_block * std::stod(set.run.dt);
     if (!exponents.regular()) {
