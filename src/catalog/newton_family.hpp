@@ -19,7 +19,7 @@ template <class Options>
 BoundOption<Options> quadrature_option(int position) {
   return bind_number({.name = "quadrature",
                       .default_value = "auto",
-                      .meaning = "Gauss points, at least the degree; auto: as few as keep H at its rounding",
+                      .meaning = "Gauss points, of cg at least its degree; auto: as few as keep H at its rounding",
                       .range = Range::whole_from(1, 64),
                       .position = position},
                      &Options::quadrature, {{"auto", 0}});

@@ -52,7 +52,7 @@ class CentralForce {
                     .reference = "Gross1999, (2.45)-(2.60); " + of_potential.reference,
                     .coordinates = {"x", "y"},
                     .parameters = {{"mass", "1", "reduced mass mu", Range::positive}},
-                    .invariants = {{"angular_momentum", "q1 p2 - q2 p1", Components::one, Terms::moments}},
+                    .invariants = {{"angular_momentum", "x p_y - y p_x", Components::one, Terms::moments}},
                     .starts = of_potential.starts,
                     .two_bodies = true,
                     .region = of_potential.region,
