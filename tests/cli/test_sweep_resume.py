@@ -170,7 +170,7 @@ class SweepResume(CommandCase):
         (self.folder / "s" / "members.bin").rename(self.folder / "kept.bin")
         self.assertIn("but sweep.h5", self.hamflow(*words, *vary, "--resume", status=3).stderr)
         self.hamflow("run", "m.toml", "--set", "run.steps=100", "--out", "r")
-        self.assertIn("summary.json", self.hamflow("sweep", "m.toml", *vary, "--out", "r", "--resume", status=3).stderr)
+        self.assertIn("found a run in r", self.hamflow("sweep", "m.toml", *vary, "--out", "r", "--resume", status=3).stderr)
         (self.folder / "b").mkdir()
         (self.folder / "kept.bin").rename(self.folder / "b" / "members.bin")
         self.assertIn("found a sweep", self.hamflow("run", "m.toml", "--out", "b", "--force", status=3).stderr)
