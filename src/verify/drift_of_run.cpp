@@ -262,11 +262,13 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
                      fmt::format(", like a random walk, but is {:.1e} times what rounding explains", largest / walk));
   }
   const bool rounding_alone = largest <= walk && t.correlation < white;
-  // Of an error that does not grow more is asked: parts of the run as long as a few periods differ by themselves.
-  const bool wanders = e < bounded_below ? t.wandering > rare_means && *found.periods >= RunDrift::periods_to_be_bounded
-                                         : t.wandering > steady_means;
-  if (rounding_alone && wanders && e < walk_below && trend_of_walks(t) < usual_in_walks) {
-    return {DriftClass::random_walk, "errors of the size of rounding wander from part to part of the run; " + grows};
+  if (rounding_alone && t.wandering > steady_means && e < walk_below && trend_of_walks(t) < usual_in_walks) {
+    const std::string wander = "errors of the size of rounding wander from part to part of the run";
+    // Of an error that does not grow more is asked: parts of the run as long as a few periods differ by themselves.
+    if (e < bounded_below && !(t.wandering > rare_means && *found.periods >= RunDrift::periods_to_be_bounded)) {
+      return undecided(wander + ", but do not grow: a longer run would tell");
+    }
+    return {DriftClass::random_walk, wander + "; " + grows};
   }
   if (t.size >= no_trend || t.rank >= no_rank) {
     return undecided(fmt::format(
