@@ -49,20 +49,22 @@ void ScenarioReader::read_observables(TomlTable& output) {
   const std::string& key = output_keys().observables.name;
   // Without a start there are no parameters either.
   const bool known = scenario_.problem != nullptr && !scenario_.start_q.empty();
-  std::vector<std::string> taken;
+  const std::size_t size = scenario_.start_q.size();
   if (known) {
-    const std::size_t size = scenario_.start_q.size();
-    taken = columns_of_every_run(*scenario_.problem, scenario_.request.parameters, size);
     for (const auto& [name, text] : scenario_.problem->info.observables) {
-      taken.push_back(name);
       scenario_.observables.push_back(
           {name, StateExpression(text, *scenario_.problem, scenario_.request.parameters, size)});
     }
-    for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
   }
   if (!output.has(key)) {
     output.know(key);
     return;
+  }
+  std::vector<std::string> taken;  // of many particles they are many
+  if (known) {
+    taken = columns_of_every_run(*scenario_.problem, scenario_.request.parameters, size);
+    for (const NamedExpression& own : scenario_.observables) taken.push_back(own.name);
+    for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
   }
   TomlTable table = output.table(key);
   for (const std::string& name : table.keys()) {
