@@ -71,17 +71,22 @@ Scenario Study::read(const std::string& name, const std::string& toml, const std
 
 ReversalReport Study::reverse(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
   const Scenario scenario = read(name, toml, sets);
+  has_scenario(name, scenario.text, "reverse");
   ReversalReport report = reverse_scenario(scenario, [this](std::int64_t) { return goes_on(); });
   if (report.status == "interrupted") throw Stopped{};
   keep_scenario(name, scenario.text, "reverse");
   return report;
 }
 
+bool Study::has_scenario(const std::string& name, const std::string& text, const std::string& command) const {
+  const auto kept = std::ranges::find(scenarios_, name, &KeptScenario::name);
+  if (kept == scenarios_.end()) return false;
+  if (kept->text == text && kept->command == command) return true;
+  throw Error("two scenarios of " + info_.id + " have the name " + name + ": each is kept by its own");
+}
+
 void Study::keep_scenario(std::string name, std::string text, std::string command) {
-  const auto is_same = [&](const KeptScenario& kept) {
-    return kept.name == name && kept.text == text && kept.command == command;
-  };
-  if (std::any_of(scenarios_.begin(), scenarios_.end(), is_same)) return;
+  if (has_scenario(name, text, command)) return;
   scenarios_.push_back({std::move(name), std::move(text), std::move(command)});
 }
 
@@ -93,6 +98,7 @@ Trajectory Study::run(const std::string& name, const std::string& toml, const st
 
 Trajectory Study::try_run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) {
   const Scenario scenario = read(name, toml, sets);
+  has_scenario(name, scenario.text, "run");
   Trajectory trajectory;
   Sampler sampler(trajectory, scenario.record_every, scenario.steps);
   RunSettings settings;

@@ -84,7 +84,7 @@ class Study {
 
   /// Runs a scenario and keeps its text under that name. Its samples are those that `run.record_every` asks for. A run
   /// of millions of steps has a folder of its own, NAME.run, from which it goes on after a kill.
-  /// @param sets PATH=VALUE   @throws Error where the scenario is refused or the run fails
+  /// @param sets PATH=VALUE   @throws Error where the scenario is refused, another one has that name, or the run fails
   Trajectory run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
   /// The same for an experiment that asks how far a run comes: one that fails says so in its report.
   Trajectory try_run(const std::string& name, const std::string& toml, const std::vector<std::string>& sets = {});
@@ -109,6 +109,7 @@ class Study {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
   /// A scenario that was carried out by other means than run(); once, where it is by that name and text already.
+  /// @throws Error where another one has that name
   void keep_scenario(std::string name, std::string text, std::string command = "run");
   void note(std::string text) { notes_.push_back(std::move(text)); }
   /// Of work of the experiment's own, for what asks rather than being told.
@@ -130,6 +131,8 @@ class Study {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  /// @throws Error where another scenario has that name
+  bool has_scenario(const std::string& name, const std::string& text, const std::string& command) const;
   /// @throws Error where it is refused
   Scenario read(const std::string& name, const std::string& toml, const std::vector<std::string>& sets) const;
 

@@ -13,6 +13,9 @@
 #include <set>
 #include <sstream>
 
+#include "shared_work.hpp"
+#include "study.hpp"
+
 namespace hamflow {
 namespace {
 
@@ -154,6 +157,22 @@ TEST(Experiments, AllOfThemQuickly) {  // one test: they are carried out once
   expect_every_figure_and_table(report, folder);
   expect_nothing_to_resume(request);
   if (left == nullptr) fs::remove_all(folder);
+}
+
+TEST(Study, RefusesASecondScenarioOfAName) {
+  reproduction::SharedWork others(1);
+  reproduction::Study study({.id = "S-one"}, WorkExtent::quick, {}, fs::temp_directory_path(), others);
+  const std::string swing =
+      "[problem]\nname = \"pendulum\"\ninitial = { q = [1.0], p = [0.0] }\n[method]\nname = \"verlet\"\n[run]\ndt = "
+      "0.1\nsteps = 3\n";
+  study.run("swing", swing);
+  study.run("swing", swing);  // the same one again
+  EXPECT_EQ(study.scenarios().size(), 1U);
+  EXPECT_THROW(study.run("swing", swing, {"run.steps=4"}), Error);
+  EXPECT_THROW(study.reverse("swing", swing), Error);  // another command's
+  EXPECT_THROW(study.keep_scenario("swing", "something else"), Error);
+  study.keep_scenario("another", "something else");
+  EXPECT_EQ(study.scenarios().size(), 2U);
 }
 
 TEST(Experiments, AreNamedByIdOrThesis) {

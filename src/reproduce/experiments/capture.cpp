@@ -312,7 +312,10 @@ void claim_captures(Study& study, Counts& reject) {
   const std::size_t blocks = reject.set.blocks;
   study.claim(
       {"captured", "after long transients the motion becomes regular for good", "symmetric time"},
-      at_least(0.5, "runs that became regular: block means, and exponents of at most 3 log T/T"),
+      at_least(0.5,
+               fmt::format("runs that became regular for {:g} time units and more: block means, and exponents of at "
+                           "most 3 log T/T",
+                           least_stay)),
       blocks < 2 * tube_least_blocks
           ? std::vector<Measured>{}
           : std::vector<Measured>{{static_cast<double>(reject.captured.size()), 0,
