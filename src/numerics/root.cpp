@@ -19,6 +19,9 @@ R found_between(const std::function<R(R)>& f, R a, R b, R at_a, R at_b) {
   }
   if (at_a == 0) return a;
   if (at_b == 0) return b;
+  if (std::isfinite(at_a) && std::isfinite(at_b) && (at_a > 0) == (at_b > 0)) {
+    return std::numeric_limits<R>::quiet_NaN();  // what should lie between is lost in rounding
+  }
   R best = a + (b - a) / 2;
   R least = std::numeric_limits<R>::infinity();
   const auto watched = [&](R x) {

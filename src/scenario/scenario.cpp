@@ -67,9 +67,8 @@ std::int64_t default_record_every(std::int64_t steps, std::size_t coordinates) {
   constexpr std::int64_t most_numbers = (std::int64_t{1} << 30) / sizeof(double);  // 1 GiB
   const auto numbers = static_cast<std::int64_t>(std::max<std::size_t>(1, 2 * coordinates));
   const std::int64_t most_samples = std::clamp<std::int64_t>(most_numbers / numbers, 3, 10000);
-  std::int64_t every = std::max<std::int64_t>(1, steps / most_samples);
-  while (sample_count(steps, every) > most_samples) ++every;
-  return every;
+  const std::int64_t intervals = most_samples - 1;  // the start is a sample, too
+  return std::max<std::int64_t>(1, steps / intervals + (steps % intervals != 0 ? 1 : 0));
 }
 
 std::optional<Document> parsed_document(const std::string& text, const std::string& name,

@@ -1,7 +1,9 @@
 #include "toml_table.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,6 +21,13 @@ std::string shown(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     constexpr std::size_t most = 60;
     const std::string& value = text->get();
+    // TOML has no such whole number, and --set takes it for a text.
+    std::int64_t whole = 0;
+    const char* const end = value.data() + value.size();
+    const auto [behind, error] = std::from_chars(value.data(), end, whole);
+    if (error == std::errc::result_out_of_range && behind == end && value.size() <= most) {
+      return value + " (beyond 64 bits)";
+    }
     out << '"' << value.substr(0, most) << (value.size() > most ? "..." : "") << "\" (a string)";
   } else if (const auto* integer = node.as_integer()) {
     out << integer->get();

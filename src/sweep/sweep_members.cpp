@@ -12,6 +12,13 @@
 
 namespace hamflow {
 
+namespace {
+/// Whether a key is another, or a part of it: problem.initial and problem.initial.q[0].
+bool leads_to(const std::string& key, const std::string& part) {
+  return part.starts_with(key) && (part.size() == key.size() || part[key.size()] == '.' || part[key.size()] == '[');
+}
+}  // namespace
+
 Sweep::Sweep(const std::string& text, const std::string& name, const std::vector<std::string>& sets, Varied varied,
              SweepOptions options)
     : varied_(std::move(varied)), options_(std::move(options)), raw_text_(text), name_(name), sets_(sets) {
@@ -91,7 +98,7 @@ void Sweep::add_complaints(std::size_t member, const Reading& reading, const std
   for (const Complaint& complaint : reading.complaints) {
     std::string text = varied_.as_typed(complaint.text(), member);
     const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
-      return path.starts_with(complaint.key) || complaint.key.starts_with(path);
+      return leads_to(path, complaint.key) || leads_to(complaint.key, path);
     });
     if (complaint.line == 0 && of_vary) text = "--vary" + text.substr(std::string("--set").size());
     found_[text].push_back(member);

@@ -12,8 +12,11 @@ using Json = nlohmann::ordered_json;
 
 std::string rejected(const Json& errors) { return json_text({{"status", "rejected"}, {"errors", errors}}); }
 
+/// What an option gave stands in no file.
 Json entry(const Complaint& c) {
-  return {{"file", c.file}, {"line", c.line}, {"column", c.column}, {"key", c.key}, {"message", c.message}};
+  const std::string option = c.key.starts_with("--") ? c.key : "--set";
+  const std::string& file = c.line > 0 || c.file.empty() || c.file.starts_with("--") ? c.file : option;
+  return {{"file", file}, {"line", c.line}, {"column", c.column}, {"key", c.key}, {"message", c.message}};
 }
 
 /// "--p: found ..." has the key --p, "found the option --bla; ..." the key --bla; other sentences have none.
@@ -49,6 +52,7 @@ Complaint parts_of(const std::string& line) {
     all.message = all.message.substr(colon + 2);
   }
   if (head.starts_with("--")) {
+    all.file = head;
     if (!has_key) all.key = head;
     return all;
   }

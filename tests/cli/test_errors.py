@@ -3,9 +3,12 @@ allowed and the nearest name; exit 2 for a wrong request, 3 for files."""
 
 import json
 import pathlib
+import signal
+import subprocess
+import time
 import unittest
 
-from command import ELLIPSE, CommandCase
+from command import ELLIPSE, HAMFLOW, CommandCase
 
 
 class Errors(CommandCase):
@@ -205,9 +208,34 @@ record_every = true
             (error,) = json.loads(done.stdout)["errors"]
             self.assertEqual((error["file"], error["line"], error["column"], error["key"]), ("bad.toml", 6, 1, "problem.mas"), words)
             self.assertIn(error["message"], done.stderr)
+        self.write("good.toml", ELLIPSE)
+        for words in (["run"], ["reverse"], ["compare", "--methods", "stv4"], ["sweep", "--vary", "run.dt=0.1,0.2"]):
+            done = self.hamflow(words[0], "good.toml", "--json", "--set", "run.dtt=1", *words[1:], status=2)
+            (error,) = json.loads(done.stdout)["errors"]
+            self.assertEqual((error["file"], error["line"], error["key"]), ("--set", 0, "run.dtt"), words)
         for vary, key in (("run.dz=1,2", "run.dz"), ("run.dt=1:2", "--vary"), ("run.dt=0.1,0", "run.dt")):
             done = self.hamflow("sweep", "kepler.toml", "--vary", vary, "--json", "--out", "none", status=2)
             self.assertEqual({e["key"] for e in json.loads(done.stdout)["errors"]}, {key}, done.stdout)
+
+    def test_numbers_beyond_those_that_count(self):
+        for key in ("run.steps", "run.threads", "run.lyapunov"):
+            found = self.complaint(f"{key}=9223372036854775808")
+            self.assertIn("found 9223372036854775808 (beyond 64 bits); allowed", found)
+        # As many steps as a double counts: set up at once, and stopped in the midst of it.
+        done = subprocess.Popen([HAMFLOW, "run", "kepler.toml", "--json", "--out", "many", "--set", "run.steps=9007199254740000"],
+                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        time.sleep(1)
+        done.send_signal(signal.SIGINT)
+        self.assertEqual(json.loads(done.communicate(timeout=60)[0])["status"], "interrupted")
+
+    def test_a_closed_form_that_rounding_hides_is_no_failure(self):
+        """In 0.1 of time the orbit goes round 1e148 times."""
+        self.write("strong.toml", ELLIPSE)
+        done = self.hamflow("run", "strong.toml", "--json", "--out", "none", "--set", "problem.k=1e300", "--set", "run.steps=5",
+                            status=1)
+        error = json.loads(done.stdout)["error"]
+        self.assertIn("step", error)
+        self.assertNotIn("boost", done.stdout + done.stderr)
 
     def test_verify_takes_methods_or_all_of_them(self):
         self.assertIn("allowed one of them", self.hamflow("verify", "stv4", "--all", status=2).stderr)
