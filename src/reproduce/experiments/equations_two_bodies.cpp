@@ -172,17 +172,19 @@ void of_closed_orbit(Study& study) {
   const auto returned = [](const Trajectory& t) {
     return std::hypot(t.q.back()[0] - t.q.front()[0], t.q.back()[1] - t.q.front()[1]);
   };
-  study.claim({"never_closed", "no bounded orbit of the linear potential is closed",
+  study.claim({"not_all_closed", "the bounded orbits of the linear potential are not all closed",
                "gesamten begrenzten Bahnen nicht geschlossen", "56"},
-              at_least(1e-6, "the distance at which the orbit of r from 1 to b returns after nine radial periods"),
+              at_least(0.01,
+                       "radians by which the angle of a radial period changes from one orbit to another: where it "
+                       "changes, all are open but those of special pairs (E, l)"),
+              {{std::abs(radial_period(1.5)[0] - radial_period(8)[0]), 1e-9, "r from 1 to 1.5 and from 1 to 8"}});
+  study.claim({"closed_exceptions", "there are special pairs (E, l) with a closed orbit, in the linear potential, too",
+               "mit Ausnahme spezieller Paare (E,l)", "26"},
+              at_most(1e-6, "the distance at which the orbit of r from 1 to b returns after nine radial periods"),
               {{returned(series), 1e-9,
                 fmt::format("b = {:.15g}, Taylor series; the angle of a radial period is 2 pi 5/9 to {:.1g}", b,
                             std::abs(angle - 10 * pi / 9))},
-               {returned(other), 1e-9, "rkn8-s19"}},
-              Grounds::ways);
-  study.note(
-      "Page 56 is read as page 59 reads it: an orbit has to be open there. That not all of them are closed, as page 26 "
-      "has it, with exceptions for special pairs (E, l), is right.");
+               {returned(other), 1e-9, "rkn8-s19"}});
   const auto after_a_turn = [](const Trajectory& t) {
     double turned = 0;
     for (std::size_t i = 1; i < t.size(); ++i) {

@@ -80,8 +80,8 @@ void selected_volume(Study& study) {
               {{determinant_of(tangents), 1e-12, "determinant of the tangent map of stv4"}});
 }
 
-/// Page 15: weakly reversible and symmetric <=> reversible. The exact flow over t of p^2/2 + (1 + t) q^2/2 is
-/// reversible for each t, as the flow of any H that is even in p is.
+/// Page 15: weakly reversible and symmetric <=> reversible. Psi(t), the exact flow over t of p^2/2 + k q^2/2 with
+/// k = 1 + t fixed, is reversible for each t, as the flow of any H that is even in p is.
 void equivalence(Study& study) {
   const auto psi = [](double t) {
     const double w = std::sqrt(1 + t), c = std::cos(w * t), s = std::sin(w * t);
@@ -97,7 +97,8 @@ void equivalence(Study& study) {
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 2; ++k) weakly = std::max(weakly, std::abs(back[i][k] - psi(t)[i][k]));
   }
-  const std::string example = "the flow over t = 0.5 of p^2/2 + (1 + t) q^2/2";
+  const std::string example =
+      "Psi(t), the flow over a time t of p^2/2 + k q^2/2, another fixed k = 1 + t for each t; t = 0.5";
   study.claim(
       {"reversible", "a map that is time-reversible is symmetric and weakly reversible", "<="},
       at_most(1e-12, "|Psi(-t) Psi(t) - id| of a map with S Psi(t) S Psi(t) = id"),
