@@ -164,7 +164,8 @@ void write_figure(const Figure& figure, const std::string& kind, const std::vect
   for (const std::filesystem::path& file : files) {
     if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Error(wrong);
   }
-  const figures::Page page = figures::find_kind(kind)->page(figure).with(figure.options.page);
+  figures::Page page = figures::find_kind(kind)->page(figure).with(figure.options.page);
+  page.notes.insert(page.notes.end(), figure.notes.begin(), figure.notes.end());
   for (const std::filesystem::path& file : files) figures::draw(page, file);
 }
 

@@ -88,6 +88,7 @@ struct FigureOptions {
 struct Figure {
   std::vector<FigureData> runs;  // at least one
   FigureOptions options{};
+  std::vector<std::string> notes{};  // lines below the kind's own, enhanced text
 };
 
 /// Fills curve_x, curve_y from the exact r(phi) over the angles and radii that the data cover. A closed orbit is drawn

@@ -55,11 +55,34 @@ struct Quantity {
   Column column;
 };
 
-Panel panel_of(const std::vector<Entry>& entries, const Quantity& work, const Quantity& error) {
+/// Each error of a curve that a logarithmic axis can show.
+template <class Use>
+void for_each_error(const WorkCurve& curve, Column column, const Use& use) {
+  for (const double x : curve.*column) {
+    if (std::isfinite(x) && x > 0) use(x);
+  }
+}
+
+/// Beyond some hundred times the motion itself nothing is computed at all. The best that a method comes to is shown all
+/// the same, unless it has left the motion so far behind that nothing could be read of the others.
+double top_of_errors(const std::vector<Entry>& entries, Column column, double size) {
+  constexpr double hundreds = 2.5;
+  constexpr double farthest = 16;
+  const double motion = std::log10(size);
+  double top = motion + hundreds;
+  for (const Entry& entry : entries) {
+    double least = std::numeric_limits<double>::infinity();
+    for_each_error(*entry.curve, column, [&](double x) { least = std::min(least, std::log10(x)); });
+    if (least < motion + farthest) top = std::max(top, least + 0.1);
+  }
+  return top;
+}
+
+Panel panel_of(const std::vector<Entry>& entries, const Quantity& work, const Quantity& error, double size) {
   Panel panel;
   panel.x = axis_over(entries, work.column);
   panel.y = axis_over(entries, error.column);
-  panel.y.high = std::min(panel.y.high, 2.5);  // beyond, nothing is computed at all
+  panel.y.high = std::min(panel.y.high, std::max(top_of_errors(entries, error.column, size), panel.y.low + 1));
   panel.x_label = work.label;
   panel.y_label = error.label;
   panel.aspect = 0.84;
@@ -97,6 +120,35 @@ std::vector<LegendLine> legend_of(const std::vector<Entry>& entries) {
 bool drawable(const WorkCurve& curve) {
   return std::any_of(curve.error.begin(), curve.error.end(), [](double x) { return std::isfinite(x) && x > 0; });
 }
+
+/// "failed: rk4 2 of 6", of the methods that have numbers of a kind; nothing where none has.
+template <class Is>
+void note_numbers(Page& page, const std::string& kind, const std::vector<WorkCurve>& curves, Column column,
+                  const Is& is) {
+  constexpr std::size_t width = 110;  // characters
+  std::string all;
+  for (const WorkCurve& curve : curves) {
+    const std::vector<double>& numbers = curve.*column;
+    const auto count = std::count_if(numbers.begin(), numbers.end(), is);
+    if (count == 0) continue;
+    all +=
+        (all.empty() ? "" : ", ") + curve.name + " " + std::to_string(count) + " of " + std::to_string(numbers.size());
+  }
+  if (all.empty()) return;
+  for (const std::string& line : wrapped(kind + ": " + all, width, 3)) page.notes.push_back(escaped(line));
+}
+
+/// What the panels leave out.
+void note_what_is_missing(Page& page, const WorkPrecision& data) {
+  const auto beyond = [](const Panel& panel) {
+    return [top = panel.y.high](double x) { return std::isfinite(x) && x > 0 && std::log10(x) > top; };
+  };
+  note_numbers(page, "failed", data.curves, &WorkCurve::error, [](double x) { return !std::isfinite(x); });
+  note_numbers(page, "without error", data.curves, &WorkCurve::error, [](double x) { return x == 0; });
+  note_numbers(page, "errors above the axis", data.curves, &WorkCurve::error, beyond(page.panels.front()));
+  note_numbers(page, "errors of energy above the axis", data.curves, &WorkCurve::energy_error,
+               beyond(page.panels.back()));
+}
 }  // namespace
 
 void write_work_precision(const WorkPrecision& data, const std::filesystem::path& file) {
@@ -113,11 +165,12 @@ void write_work_precision(const WorkPrecision& data, const std::filesystem::path
   Page page{data.title, {}, 2, two_columns, legend_of(entries)};
   bool floor_shown = false;
   for (const Quantity& work : {evaluations, seconds}) {
-    page.panels.push_back(panel_of(entries, work, error));
+    page.panels.push_back(panel_of(entries, work, error, data.size));
     floor_shown = add_floor(page.panels.back(), data.floor) || floor_shown;
   }
-  page.panels.push_back(panel_of(entries, evaluations, energy_error));
+  page.panels.push_back(panel_of(entries, evaluations, energy_error, 1));
   if (floor_shown) page.notes.push_back("dashed grey: uncertainty of the reference, " + short_number(data.floor));
+  note_what_is_missing(page, data);
   draw(page, file);
 }
 

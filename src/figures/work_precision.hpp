@@ -22,6 +22,7 @@ struct WorkPrecision {
   std::string title;
   std::vector<WorkCurve> curves;
   double floor = 0;  // the uncertainty of the reference: errors below it mean nothing
+  double size = 1;   // of the motion, its largest coordinate or momentum
 };
 
 /// Writes svg, pdf or png by the extension of `file`.

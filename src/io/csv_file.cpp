@@ -45,6 +45,7 @@ void CsvFile::put(std::string_view text) {
 void CsvFile::append(const Frame& frame, std::span<const double> observables) {
   fmt::memory_buffer line;
   const auto to = std::back_inserter(line);
+  const auto add = [&](double x) { fmt::format_to(to, ",{:.17g}", without_sign_of_nan(x)); };
   if (const FrameDigits& digits = frame.digits; !digits.q.empty()) {
     fmt::format_to(to, "{},{}", frame.step, digits.time);
     for (const std::string& x : digits.q) fmt::format_to(to, ",{}", x);
@@ -52,12 +53,12 @@ void CsvFile::append(const Frame& frame, std::span<const double> observables) {
     fmt::format_to(to, ",{}", digits.energy);
   } else {
     fmt::format_to(to, "{},{:.17g}", frame.step, frame.time);
-    for (const double x : frame.q) fmt::format_to(to, ",{:.17g}", x);
-    for (const double x : frame.p) fmt::format_to(to, ",{:.17g}", x);
-    fmt::format_to(to, ",{:.17g}", frame.energy);
+    for (const double x : frame.q) add(x);
+    for (const double x : frame.p) add(x);
+    add(frame.energy);
   }
-  for (const double x : frame.invariants) fmt::format_to(to, ",{:.17g}", x);
-  for (const double x : observables) fmt::format_to(to, ",{:.17g}", x);
+  for (const double x : frame.invariants) add(x);
+  for (const double x : observables) add(x);
   line.push_back('\n');
   put({line.data(), line.size()});
 }

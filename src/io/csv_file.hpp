@@ -1,9 +1,11 @@
 // trajectory.csv: the samples as text, 17 digits, a header line, one line a sample.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +17,9 @@
 #include "run_file.hpp"
 
 namespace hamflow {
+
+/// What stands in a column: that of a nan has no sign, which nobody has given it.
+inline double without_sign_of_nan(double x) { return std::isnan(x) ? std::numeric_limits<double>::quiet_NaN() : x; }
 
 class CsvFile {
  public:

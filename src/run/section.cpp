@@ -27,6 +27,10 @@ std::int64_t bounces_of(const Simulation& simulation) {
   return all;
 }
 
+/// Whether a step enters or leaves where the expression has values, as sqrt(q1) has none below 0. That is no change of
+/// sign, but there may be one in the part of the step that has them.
+bool passes_an_edge(double before, double now) { return std::isnan(before) != std::isnan(now); }
+
 }  // namespace
 
 double SectionSearch::distance(const Frame& frame) const {
@@ -39,7 +43,27 @@ void SectionSearch::locate(const Simulation& before_step, double before, double 
 }
 
 /// At theta = 1 the run's own next state is meant, which has the other sign.
-void SectionSearch::locate(const Simulation& before_step, const Change& change) {
+void SectionSearch::locate(const Simulation& before_step, const Change& given) {
+  Change change = given;
+  if (passes_an_edge(given.before, given.now)) {
+    const bool enters = std::isnan(given.before);
+    double outside = enters ? given.from : given.to;
+    double& inside = enters ? change.from : change.to;
+    double& x = enters ? change.before : change.now;
+    inside = enters ? given.to : given.from;
+    x = enters ? given.now : given.before;
+    for (int i = 0; i < 60 && !failed_; ++i) {  // as near to the edge as theta has digits
+      const double middle = (outside + inside) / 2;
+      const double there = sample(before_step, middle).x;
+      if (std::isnan(there)) {
+        outside = middle;
+      } else {
+        inside = middle;
+        x = there;
+      }
+    }
+    if (failed_ || !crosses(change.before, change.now)) return;
+  }
   SectionPoint best;
   best.residual = std::numeric_limits<double>::infinity();
   const auto look = [&](double theta) {
@@ -147,7 +171,8 @@ bool SectionSearch::is_long(const Simulation& before_step) {
 }
 
 void SectionSearch::note_change(double from, double to, double before, double now) {
-  if (before != 0 && (now == 0 || (now > 0) != (before > 0))) changes_.push_back({from, to, before, now});
+  const bool is_change = before != 0 && (now == 0 || (now > 0) != (before > 0));
+  if (is_change || passes_an_edge(before, now)) changes_.push_back({from, to, before, now});
 }
 
 /// Looks for two crossings between two samples of the same sign, where a polynomial through all five comes near 0.
@@ -255,7 +280,8 @@ void SectionSearch::locate_all(const Simulation& before_step, double before, con
   const bool is_alone = changes_.size() == 1 && before != 0 && (now == 0 || (now > 0) != (before > 0));
   if (is_alone) changes_.front() = {0, 1, before, now};
   for (const Change& change : changes_) {
-    if (!failed_ && crosses(change.before, change.now)) locate(before_step, change);
+    if (failed_) break;
+    if (crosses(change.before, change.now) || passes_an_edge(change.before, change.now)) locate(before_step, change);
   }
 }
 
@@ -277,7 +303,7 @@ Verdict SectionFinder::observe(const Frame& frame) {
   const bool bounced = bounces != bounces_;
   const bool is_long = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
   const bool looks_into = is_long || bounced;
-  if (stepped && (looks_into || search_.crosses(before_, now))) {
+  if (stepped && (looks_into || search_.crosses(before_, now) || passes_an_edge(before_, now))) {
     if (copy_->advance(frame.step - 1 - copy_->step()) != Outcome::done) {
       search_.give_up();
     } else if (looks_into) {

@@ -1,6 +1,7 @@
 #include "lane_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hamflow {
 
@@ -125,7 +126,7 @@ void LaneRun::look_for_sections() {
     if (search.is_long()) {
       block_.show(lane, frame_);
       search.locate_all(block_.before_step(lane), before, frame_, now);
-    } else if (search.crosses(before, now)) {
+    } else if (search.crosses(before, now) || std::isnan(before) != std::isnan(now)) {  // as SectionFinder has it
       search.locate(block_.before_step(lane), before, now);
     }
   }

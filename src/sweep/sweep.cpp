@@ -174,6 +174,7 @@ class Sweep::Worker {
     if (finder) row.section_residual = finder->max_residual();
     Frame frame;
     simulation->look(frame);
+    if (watch) carry_to_the_end(watch->tangents(), frame);
     row.status = outcome;
     row.steps = frame.step;
     row.t = frame.time;

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,13 @@ class MemberWatch {
   virtual std::vector<std::int64_t> events() const { return {}; }
   virtual std::optional<MemberStop> stopped_by() const { return {}; }
 };
+
+/// Carries tangent vectors to where a run has ended: an event or a failure comes before they are due.
+inline void carry_to_the_end(std::span<TangentWatch* const> watches, const Frame& end) {
+  for (TangentWatch* watch : watches) {
+    if (watch->followed() && watch->step() < end.step) (void)watch->observe(end);
+  }
+}
 
 /// Further columns, e.g. an exponent: what is seen beside the run of a member.
 struct MemberObservables {

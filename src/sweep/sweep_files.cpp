@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "csv_file.hpp"
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
 #include "hdf5_alone.hpp"
@@ -94,7 +95,7 @@ std::string quoted(const std::string& text) {
 std::string cell(const SweepColumn& column, std::size_t at) {
   if (!column.texts.empty()) return quoted(column.texts[at]);
   if (!column.counts.empty()) return std::to_string(column.counts[at]);
-  return fmt::format("{:.17g}", column.numbers[at]);
+  return fmt::format("{:.17g}", without_sign_of_nan(column.numbers[at]));
 }
 
 /// @throws FileError

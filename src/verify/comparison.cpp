@@ -151,7 +151,8 @@ void judge(ComparisonJob& job, const ProblemInfo& info, const ReferenceSolution&
   // Twice the digits of the reference: a difference of 45-digit decimals of doubles is formed without a rounding.
   const int digits = std::max(100, 2 * digits_of(job.request.arithmetic));
   job.point.error = largest_difference(job.end, reference.digits, digits);
-  job.point.below_uncertainty = !(reference.uncertainty < job.point.error);
+  // A closed form that is known to the last digit is uncertain by 0: an error of 0 is then what it says.
+  job.point.below_uncertainty = Magnitude() < reference.uncertainty && !(reference.uncertainty < job.point.error);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ std::string number(const Magnitude& x) { return x.text.empty() ? number(x.value)
 
 /// An error that is not above what the reference is uncertain by may be twice that, or nothing.
 std::string error_text(const ComparisonPoint& p, const Magnitude& uncertainty) {
+  if (p.error.value == 0 && p.error.text.empty() && !p.below_uncertainty) return "0";
   if (!p.below_uncertainty) return readable(p.error, 2);
   return "< " + readable(Magnitude(2 * uncertainty.value));
 }

@@ -25,8 +25,8 @@ std::optional<double> work_for(const Curve& method, double level, bool by_time, 
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const auto [w1, e1] = curve[i];
     if (e1 > level) continue;
-    if (i == 0) return w1;
-    const auto [w0, e0] = curve[i - 1];  // above the level, or this were not the first
+    if (i == 0 || std::isinf(e1)) return w1;  // there is no way down to 0
+    const auto [w0, e0] = curve[i - 1];       // above the level, or this were not the first
     return w0 + (w1 - w0) * (e0 - level) / (e0 - e1);
   }
   return std::nullopt;
@@ -43,13 +43,15 @@ std::vector<ComparisonWinner> winners(const Comparison& comparison) {
   const double told = floor + std::log10(4.0);
   std::vector<Curve> methods;
   // Powers of ten, within what mp(100000) can hold: an error of exactly 0 is none of them.
-  int highest = -100000;
+  constexpr int least = -100000;
+  int highest = least;
   int lowest = 400;
   for (const ComparisonPoint& p : comparison.points) {
     if (methods.empty() || methods.back().method != p.method) methods.push_back({p.method, {}});
     if (!p.done() || !(p.error.log10 < 400)) continue;
     methods.back().points.push_back(&p);
-    const double error = std::max({p.error.log10, floor, -100000.0});
+    const double error = std::max(p.error.log10, floor);
+    if (!(error >= least)) continue;
     highest = std::max(highest, static_cast<int>(std::floor(error)));
     lowest = std::min(lowest, static_cast<int>(std::ceil(std::max(error, told))));
   }

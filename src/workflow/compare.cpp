@@ -160,6 +160,9 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
   WorkPrecision data;
   data.title = fmt::format("{}, t = {}, {} arithmetic", c.problem, shortest(c.t_end), c.arithmetic);
   data.floor = c.reference.uncertainty.value;
+  double size = 0;
+  for (const double x : c.reference.end) size = std::max(size, std::abs(x));
+  if (size > 0) data.size = size;
   std::string last;
   for (const ComparisonPoint& p : c.points) {
     if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});
@@ -184,7 +187,10 @@ std::shared_ptr<const void> make_comparison_folder(const fs::path& folder, bool 
 void write_comparison(const ComparisonReport& report, const fs::path& folder) {
   write_text(folder / "compare.json", report.json);
   write_text(folder / "compare.csv", report.csv);
-  if (report.status != "done") return;
+  const std::vector<ComparisonPoint>& points = report.comparison.points;
+  const bool any_error =
+      std::any_of(points.begin(), points.end(), [](const ComparisonPoint& p) { return p.done() && p.error.value > 0; });
+  if (report.status != "done" || !any_error) return;
   const fs::path figures = folder / "figures";
   std::error_code error;
   fs::create_directories(figures, error);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "converted_text.hpp"
+#include "csv_file.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
@@ -71,9 +72,9 @@ class ConvertedRun::Impl {
       }
       const CanonicalState s = state_at(k);
       text += fmt::format("{:.17g}", samples_.t[k]);
-      for (const double x : s.q) text += fmt::format(",{:.17g}", x);
-      for (const double x : s.p) text += fmt::format(",{:.17g}", x);
-      text += fmt::format(",{:.17g}\n", samples_.energy[k]);
+      for (const double x : s.q) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
+      for (const double x : s.p) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
+      text += fmt::format(",{:.17g}\n", without_sign_of_nan(samples_.energy[k]));
     }
     return text;
   }

@@ -1,4 +1,4 @@
-// A number of a summary, as JSON and for people; null, as JSON writes what is not finite, is "nan".
+// A number of a summary, as JSON and for people; null, as JSON writes inf and nan alike, is "nan" or another word.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,12 @@ namespace hamflow {
 /// A number too small or too large for a double is a text.
 nlohmann::ordered_json json_of(const LongNumber& x);
 /// A text stays as it is.
-/// @param form of fmt, e.g. "{:.6g}"
-std::string number_text(const nlohmann::ordered_json& x, const char* form);
+/// @param form of fmt, e.g. "{:.6g}"   @param none in place of what is not finite
+std::string number_text(const nlohmann::ordered_json& x, const char* form, const char* none = "nan");
+/// Of a quantity of the motion, which may well be infinite.
+inline std::string value_text(const nlohmann::ordered_json& x, const char* form) {
+  return number_text(x, form, "not finite");
+}
 
 /// "1 point", "2 points".
 std::string counted(std::size_t count, const std::string& what);

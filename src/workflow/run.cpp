@@ -155,6 +155,10 @@ class ScenarioRun {
     result.wall_seconds =
         seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.steps_taken = simulation_->step();
+    // Behind the last checkpoint: a run that goes on does not stop here.
+    Frame end;
+    simulation_->look(end);
+    measures_->reach_the_end(end);
     RunReport report;
     report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
                                  going_on(result.outcome == Outcome::stopped, result.steps_taken));

@@ -21,10 +21,10 @@ std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string number_text(const nlohmann::ordered_json& x, const char* form) {
+std::string number_text(const nlohmann::ordered_json& x, const char* form, const char* none) {
   if (x.is_string()) return x.get<std::string>();
   // A live summary holds what JSON writes as null: both have to read alike.
-  if (x.is_null() || !std::isfinite(x.get<double>())) return "nan";
+  if (x.is_null() || !std::isfinite(x.get<double>())) return none;
   return fmt::format(fmt::runtime(form), x.get<double>());
 }
 
@@ -47,13 +47,15 @@ std::string readable(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {
     return fmt::format("{:<20}{}\n", label, text);
   };
-  const auto number = [](const Json& x) { return number_text(x, "{:.17g}"); };
+  const auto number = [](const Json& x) { return value_text(x, "{:.17g}"); };
   const auto list = [&](const Json& xs) { return joined(xs, number); };
   const auto shown = [&](const Json& x) { return x.is_array() ? "[" + list(x) + "]" : number(x); };
   const auto watched = [&](const Json& x) {
     const std::string ends = fmt::format("{} -> {}, ", shown(x["initial"]), shown(x["final"]));
-    if (x["max_error"].is_null()) return ends + "how far off is not known";
-    return ends + "at most " + number_text(x["max_error"], "{:.3g}") + " off";
+    const Json& off = x["max_error"];
+    if (off.is_null() || (off.is_number() && !std::isfinite(off.get<double>())))
+      return ends + "how far off is not known";
+    return ends + "at most " + number_text(off, "{:.3g}") + " off";
   };
   std::string text = row("status", s["status"].get<std::string>());
   text += row("problem", s["problem"].get<std::string>());

@@ -169,23 +169,30 @@ std::string title_of(const Sweep& sweep) {
   return title;
 }
 
+bool is_done(const MemberRow& row) { return row.status == Outcome::done; }
+/// Points of a section belong to no time: those of a member that was interrupted are as good as others. One that blew
+/// up may have left some that are farther away than anything else.
+bool has_a_section(const MemberRow& row) { return !row.no_start && !is_failure(row.status); }
+
 /// What the paper shows where there is no colour, or no point.
-std::string note_of(const Sweep& sweep, bool map) {
+/// @param drawn whether a member is   @param without_value members that are, but for their value, inf or nan
+std::string note_of(const Sweep& sweep, bool map, bool (*drawn)(const MemberRow&), std::size_t without_value = 0) {
   std::map<std::string, std::size_t> failed;
-  std::size_t count = 0;
+  std::size_t count = without_value;
   for (const MemberRow& row : sweep.rows()) {
-    if (row.status == Outcome::done) continue;
+    if (drawn(row)) continue;
     ++failed[row.status_name()];
     ++count;
   }
   if (count == 0) return {};
   std::vector<std::string> parts;
   for (const auto& [status, members] : failed) parts.push_back(fmt::format("{} {}", members, status));
+  if (without_value > 0) parts.push_back(fmt::format("{} without a finite value", without_value));
   return figures::escaped(
       fmt::format("{}: {} of {} members ({})", map ? "white" : "not drawn", count, sweep.members(), joined(parts)));
 }
 
-/// The points of all members, each in a colour of its own as long as there are colours.
+/// The points of all members that have not failed, each in a colour of its own as long as there are colours.
 Figure section_figure_of(const Sweep& sweep) {
   const Scenario& common = sweep.common();
   const std::size_t n = common.start_q.size();
@@ -193,7 +200,7 @@ Figure section_figure_of(const Sweep& sweep) {
   const std::size_t shown = coordinate_shown(*common.section, n);
   Figure figure;
   for (const MemberRow& row : sweep.rows()) {
-    if (row.section.empty()) continue;
+    if (row.section.empty() || !has_a_section(row)) continue;
     FigureData data;
     data.title = title_of(sweep);
     data.coordinates = names.q;
@@ -209,6 +216,7 @@ Figure section_figure_of(const Sweep& sweep) {
     }
     figure.runs.push_back(std::move(data));
   }
+  if (const std::string note = note_of(sweep, false, has_a_section); !note.empty()) figure.notes.push_back(note);
   return figure;
 }
 
@@ -293,6 +301,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     if (sweep.rows()[member].status == Outcome::done) ++done[varied.place(member, over)];
   }
+  std::size_t without_value = 0;
   for (const std::string& name : names) {
     const auto column = std::find_if(all.begin(), all.end(), [&](const DrawnColumn& one) { return one.name == name; });
     std::vector<MeanOfMembers> means(key.texts.size());
@@ -308,6 +317,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
       figure.x.push_back(x[k]);
       figure.value.push_back(known ? means[k].mean : std::numeric_limits<double>::quiet_NaN());
       figure.error.push_back(known ? means[k].standard_error() : 0);
+      if (known && !std::isfinite(means[k].mean)) ++without_value;
       if (names.size() > 1) figure.line.push_back(value_label(sweep, name));
     }
   }
@@ -318,7 +328,11 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
                            (*fewest == *most ? "" : std::to_string(*fewest) + " to ") + std::to_string(*most) +
                            " members");
   }
-  const std::string note = note_of(sweep, false);
+  if (without_value > 0) {
+    figure.notes.push_back(fmt::format("not drawn: {} of {} means, of members without a finite value", without_value,
+                                       figure.value.size()));
+  }
+  const std::string note = note_of(sweep, false, is_done);
   if (!note.empty()) figure.notes.push_back(note);
   write_parameter_map(figure, file);
 }
@@ -352,7 +366,10 @@ std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path
 void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& column) {
   if (draws_section(sweep, column)) {
     const Figure figure = section_figure_of(sweep);
-    if (figure.runs.empty()) throw FileError("cannot draw " + file.string() + ": no member has a point of the section");
+    if (figure.runs.empty()) {
+      throw FileError("cannot draw " + file.string() + ": no member has a point of the section" +
+                      (figure.notes.empty() ? "" : ", but for those that failed"));
+    }
     write_figure(figure, "section", file);
     return;
   }
@@ -372,6 +389,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
   if (!x.is_number()) figure.x_words = axis_words(x);
   const std::vector<std::string> lines =
       keys.has_lines ? words_of(varied.keys()[keys.lines]) : std::vector<std::string>();
+  std::size_t without_value = 0;
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     figure.x.push_back(x.is_number() ? varied.number(member, keys.over)
                                      : static_cast<double>(varied.place(member, keys.over)));
@@ -382,11 +400,13 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
       figure.line.push_back(line.is_number() ? key_label(sweep, line.path) + " = " + text : text);
     }
     // What a member that broke off reached belongs to another time than the others.
-    if (sweep.rows()[member].status != Outcome::done) {
+    if (!is_done(sweep.rows()[member])) {
       figure.value[member] = std::numeric_limits<double>::quiet_NaN();
+    } else if (!std::isfinite(figure.value[member])) {
+      ++without_value;
     }
   }
-  const std::string note = note_of(sweep, keys.map);
+  const std::string note = note_of(sweep, keys.map, is_done, without_value);
   if (!note.empty()) figure.notes.push_back(note);
   write_parameter_map(figure, file);
 }

@@ -27,18 +27,19 @@ std::size_t count_without_start(const Sweep& sweep) {
       std::count_if(sweep.rows().begin(), sweep.rows().end(), [](const MemberRow& row) { return row.no_start; }));
 }
 
-/// The first members that failed. That there is no start at an energy is seldom worth a line each.
+/// The first members that failed; behind those that broke off the ones without a start, of which there may be many.
 Json failures_of(const Sweep& sweep) {
   Json all = Json::array();
-  const bool nothing_else = count_without_start(sweep) == sweep.members();
-  for (std::size_t member = 0; member < sweep.members() && all.size() < most_failures; ++member) {
-    const MemberRow& row = sweep.rows()[member];
-    if (row.message.empty() || (row.no_start && !nothing_else)) continue;
-    all.push_back({{"member", member},
-                   {"kind", row.status_name()},
-                   {"step", row.no_start ? 0 : row.steps + 1},
-                   {"t", row.t},
-                   {"message", row.message}});
+  for (const bool no_start : {false, true}) {
+    for (std::size_t member = 0; member < sweep.members() && all.size() < most_failures; ++member) {
+      const MemberRow& row = sweep.rows()[member];
+      if (row.message.empty() || row.no_start != no_start) continue;
+      all.push_back({{"member", member},
+                     {"kind", row.status_name()},
+                     {"step", row.no_start ? 0 : row.steps + 1},
+                     {"t", row.t},
+                     {"message", row.message}});
+    }
   }
   return all;
 }

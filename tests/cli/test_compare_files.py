@@ -67,6 +67,40 @@ class CompareFiles(CompareCase):
         self.assertEqual((error["file"], error["key"]), ("still.toml", "run.steps"))
         self.assertGreater(error["line"], 0)
 
+    def test_a_motion_without_errors(self):
+        """At rest every method is exact: nobody is the cheapest on the way to an error that nobody makes."""
+        self.write("rest.toml", "[problem]\nname='harmonic'\ninitial={q=[0],p=[0]}\n"
+                   "[method]\nname='rk4'\n[run]\ndt=0.05\nsteps=100\n")
+        rest = ("compare", "rest.toml", "--methods", "verlet,rk4")
+        c = self.compare(*rest[1:])
+        self.assertEqual(c["winners"], [])
+        for row in c["rows"]:
+            self.assertEqual((row["error"], "below_uncertainty" in row), (0, False))
+        text = self.hamflow(*rest, "--out", "o").stdout
+        self.assertNotRegex(text, "<|fewest evaluations|1e-100000")
+        self.assertFalse((self.folder / "o" / "figures").exists())
+        self.assertIn("no error to draw", self.hamflow(*rest, "--figure", "f.svg", status=3).stderr)
+
+    def drawn(self, *arguments):
+        self.hamflow("compare", *arguments, "--figure", "f.svg", "--quiet")
+        return (self.folder / "f.svg").read_text()
+
+    def test_the_figure_shows_the_errors_of_large_motions_and_tells_what_it_leaves_out(self):
+        self.write("large.toml", "[problem]\nname='harmonic'\ninitial={q=[1e9],p=[0]}\n"
+                   "[method]\nname='verlet'\n[run]\ndt=0.1\nsteps=100\n")
+        large = self.drawn("large.toml", "--methods", "verlet,stv4,rk4", "--dt", "0.2,0.1,0.05")
+        small = self.drawn("large.toml", "--methods", "verlet,stv4,rk4", "--dt", "0.2,0.1,0.05", "--set", "problem.initial.q[0]=1")
+        self.assertEqual(large.count("<use xlink:href="), small.count("<use xlink:href="))
+        self.assertNotIn("above the axis", large)
+        # Euler multiplies the energy by 10^9 with its longest step, and is shown with its best.
+        euler = self.drawn("large.toml", "--methods", "euler,verlet", "--dt", "0.5,0.25,0.125", "--set", "run.steps=1000",
+                           "--set", "problem.initial.q[0]=1")
+        self.assertIn("errors above the axis: euler 2 of 3", euler)
+        # What cannot be followed is told.
+        failed = self.drawn("large.toml", "--methods", "verlet,stv4", "--dt", "25,0.1", "--set", "run.steps=25000",
+                            "--set", "problem.initial.q[0]=1")
+        self.assertIn("failed: verlet 1 of 2, stv4 1 of 2", failed)
+
     def test_table(self):
         out = self.hamflow("compare", "henon.toml", "--methods", "verlet,stv4").stdout
         for word in ("reference: ", "evaluations", "energy error", "fewest evaluations", "least time"):

@@ -50,6 +50,43 @@ section = { expression = "x", direction = 0 }
         self.assertLess(found["max_residual"], 1e-14)
         self.assertIn("no zeros", found["message"])
 
+    def test_zeros_beside_the_edge_of_a_domain(self):
+        """sqrt(x) - 0.1 has the zeros of x - 0.01, though steps of 0.1 begin and end below 0, where it has no value."""
+        self.write("o.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2 + x^2/2"
+initial = { q = [2], p = [0] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 400
+""")
+        for direction in (-1, 0, 1):
+            for root, plain in (("sqrt(x)-0.1", "x-0.01"), ("0.1-sqrt(x)", "0.01-x"), ("log(x+1.9)+5", "x+1.9-exp(-5)")):
+                def points(text, *more):
+                    return self.summary("o.toml", "--set", f"run.section={{expression='{text}',direction={direction}}}", *more)
+
+                found = points(root)["section"]
+                self.assertEqual(found["points"], points(plain)["section"]["points"], (root, direction))
+                self.assertGreater(found["points"], 5)
+                self.assertNotIn("message", found)
+                self.assertLess(found["max_residual"], 1e-13)
+            events = [self.summary("o.toml", "--set", f"run.events=[{{expression='{text}',direction={direction}}}]")
+                      for text in ("sqrt(x)-0.1", "x-0.01")]
+            self.assertEqual(events[0]["events"], events[1]["events"])
+            self.assertNotIn("event_notes", events[0])
+        # In lanes as alone, to the bit.
+        found = []
+        for lanes in ("none", "auto"):
+            done = self.hamflow("sweep", "o.toml", "--set", "run.section={expression='sqrt(x)-0.1',direction=0}", "--vary",
+                                "problem.initial.q[0]=1:2:20", "--lanes", lanes, "--out", "none", "--json", "--quiet")
+            found.append([row["section"] for row in json.loads(done.stdout)["rows"]])
+        self.assertEqual(found[0], found[1])
+        self.assertEqual({one["points"] for one in found[0]}, {13})
+
     def test_a_section_of_a_run_that_fails(self):
         """The partial step fails at the first look, before there is any state."""
         self.write("l.toml", """
@@ -108,6 +145,18 @@ section = { coordinate = "p_x", direction = 0 }
             with h5py.File(self.folder / "o.run/run.h5") as file:
                 self.assertEqual(file["observables/theta"][()].tolist(), theta)
                 self.assertEqual(file["observables/theta"].attrs["meaning"].decode(), "atan2(q2, q1)")
+
+    def test_observables_that_are_no_numbers(self):
+        infinite = ("--set", "output.observables={ r = '1/t', l = 'log(q1 - 9)' }", "--set",
+                    'output.formats=["csv"]')
+        text = self.hamflow("run", "b.toml", *infinite, "--out", "i.run").stdout
+        self.assertIn("r not finite -> ", text)  # inf in the file, null in the summary
+        self.assertIn("l not finite -> not finite, mean not finite", text)
+        self.assertIn(",inf,nan\n", (self.folder / "i.run/trajectory.csv").read_text())
+        self.hamflow("sweep", "b.toml", *infinite, "--vary", "problem.lambda=0.5,1", "--out", "i.sweep")
+        for file in ("i.run/trajectory.csv", "i.sweep/sweep.csv"):
+            self.assertIn(",nan", (self.folder / file).read_text())
+            self.assertNotIn("-nan", (self.folder / file).read_text())
 
     def test_observables_in_sweeps(self):
         out = self.hamflow("sweep", "b.toml", *self.OBSERVE, "--vary", "problem.lambda=0.5,1", "--out", "none", "--json",

@@ -169,6 +169,41 @@ lyapunov = true
         self.hamflow("plot", "polar.h5", "-o", "orbit.svg")
         self.hamflow("plot", "polar.h5", "--kind", "section", "-o", "section.svg", status=2)
 
+    def test_runs_that_end_before_their_last_step(self):
+        """What is due later is brought up to the end: exponents and eigenvalues are those of all steps that were taken."""
+        measured = ("--out", "none", "--set", "run.lyapunov=1", "--set", "run.eigenvalues=true")
+        for event in ("q1", "t - 1.73"):
+            found = self.summary(*measured, "--set", f"run.events=[{{ expression='{event}', action='stop' }}]", "--set",
+                                 "problem.initial.q[0]=0.1")
+            steps = found["steps"]
+            self.assertLess(steps, 100)
+            whole = self.summary(*measured, "--set", f"run.steps={steps}", "--set", "problem.initial.q[0]=0.1")
+            for key in ("lyapunov", "eigenvalues"):
+                self.assertEqual(found[key], whole[key], event)
+            self.assertEqual(found["eigenvalues"]["steps"], steps)
+            self.assertAlmostEqual(found["lyapunov"]["time"], steps * 0.1, delta=1e-12)
+            done = self.hamflow("sweep", "chaos.toml", *measured, "--json", "--set", f"run.events=[{{ expression='{event}', action='stop' }}]",
+                                "--vary", "problem.initial.q[0]=0.1,0.2")
+            row = json.loads(done.stdout)["rows"][0]
+            self.assertEqual(row["steps"], steps)
+            self.assertEqual(row["lyapunov1"], whole["lyapunov"]["exponents"][0])
+            self.assertEqual([[row[f"eigenvalue{i}_re"], row[f"eigenvalue{i}_im"]] for i in range(1, 5)],
+                             whole["eigenvalues"]["values"])
+
+    def test_a_run_that_fails_has_those_of_its_steps(self):
+        escape = ("--set", "problem.initial.p[1]=2", "--set", "method.name=verlet")
+        measured = ("--out", "none", "--json", "--set", "run.eigenvalues=true")
+        failed = json.loads(self.hamflow("run", "chaos.toml", *escape, *measured, status=1).stdout)
+        whole = self.summary(*escape, *measured, "--set", f"run.steps={failed['steps']}")
+        self.assertGreater(failed["steps"], 1)
+        self.assertEqual(failed["eigenvalues"], whole["eigenvalues"])
+
+    def test_points_are_counted_in_the_text(self):
+        for steps, words in ((1, "0 points\n"), (40, "1 point, at most ")):
+            done = self.hamflow("run", "chaos.toml", "--out", "none", "--set", "run.section={coordinate='q1'}", "--set",
+                                f"run.steps={steps}", "--set", "problem.initial.q[0]=-0.1")
+            self.assertIn("section             " + words, done.stdout)
+
     def test_resumed(self):
         self.summary("--set", "run.steps=10000", *ALL)
         found = self.summary("--resume", *ALL)

@@ -246,7 +246,9 @@ class Studies(CommandCase):
         self.assertIn("is not a real number", found["rows"][2]["message"])
         self.assertIsNone(found["rows"][3]["problem.initial.p[0]"])
         self.assertAlmostEqual(found["rows"][1]["problem.initial.p[0]"], 0.1, delta=1e-15)
-        self.assertEqual(found["no_start"], 2)
+        self.assertEqual((found["no_start"], found["failed"]), (2, 2))
+        self.assertEqual([(one["member"], one["kind"]) for one in found["failures"]], [(2, "no_start"), (3, "no_start")])
+        self.assertEqual(found["failures"][0]["message"], found["rows"][2]["message"])
 
     def test_what_decides_the_columns_is_not_varied(self):
         section = ("--set", "run.section={ coordinate = 'q1' }")

@@ -128,8 +128,29 @@ TEST_F(Pages, WorkPrecisionListsItsMethodsByOrder) {
   }
 }
 
+TEST_F(Pages, WorkPrecisionTellsWhatItLeavesOut) {
+  const auto drawn = [&](const WorkPrecision& data) {
+    write_work_precision(data, folder_ / "work.svg");
+    return bytes_of(folder_ / "work.svg");
+  };
+  EXPECT_NE(drawn(two_methods()).find("failed: cg(1,2) 1 of 3"), std::string::npos);
+  EXPECT_EQ(drawn(two_methods()).find("above the axis"), std::string::npos);
+  WorkPrecision large = two_methods();
+  large.floor *= 1e9;
+  large.size = 1e9;
+  for (WorkCurve& curve : large.curves) {
+    for (double& x : curve.error) x *= 1e9;
+  }
+  EXPECT_EQ(drawn(large).find("above the axis"), std::string::npos) << "errors are those beside the motion";
+  WorkPrecision wild = two_methods();
+  wild.curves[0].error = {1e60, 1e30, 1e5};  // shown with its best
+  wild.curves[2].error = {1e60, 1e30};       // too far from all others
+  EXPECT_NE(drawn(wild).find("errors above the axis: verlet 2 of 3, stv4 2 of 2"), std::string::npos);
+}
+
 TEST_F(Pages, AnOrderThatVariesAndALongNameAreToldInFull) {
   WorkPrecision data = two_methods();
+  data.curves[1].error[1] = 1e-3;  // what failed is named below the panels too
   for (int i = 0; i < 12; ++i) {
     data.curves.push_back(data.curves[static_cast<std::size_t>(i % 3)]);
     data.curves.back().name = "taylor(tolerance=1e-06,step_control=fixed," + std::to_string(i) + ")";

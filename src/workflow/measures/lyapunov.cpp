@@ -62,6 +62,10 @@ std::string lyapunov_text(const Json& found) {
   }
   if (found["exponents"].size() > most_shown) line += ", ...";
   if (!found["pair_sums"].empty()) line += fmt::format("; pairs sum to at most {:.2g}", largest_of(found["pair_sums"]));
+  if (found.contains("stopped_at_step")) {
+    line += fmt::format("; over a time of {} alone: then a step could not be differentiated",
+                        number_text(found["time"], "{:.6g}"));
+  }
   return line;
 }
 

@@ -33,6 +33,14 @@ std::vector<NamedObserver> Measures::observers() const {
   return all;
 }
 
+void Measures::reach_the_end(const Frame& end) {
+  std::vector<TangentWatch*> watches;
+  for (const auto& [kind, measure] : requested_) {
+    if (TangentWatch* const watch = measure->tangents()) watches.push_back(watch);
+  }
+  carry_to_the_end(watches, end);
+}
+
 void Measures::add_to(nlohmann::ordered_json& summary) const {
   for (const auto& [kind, measure] : requested_) {
     measure->add_events(summary["events"]);

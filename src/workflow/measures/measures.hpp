@@ -18,6 +18,8 @@ class Measures {
   /// @param recorder see MeasureKind
   Measures(const Scenario& scenario, const Simulation& simulation, Recorder* recorder);
   std::vector<NamedObserver> observers() const;
+  /// The run has ended, where nobody could know before: what waits for a later step is brought up to this one.
+  void reach_the_end(const Frame& end);
   /// Adds an entry for each to the summary.
   void add_to(nlohmann::ordered_json& summary) const;
   /// What is to be said of steps that were too long for them.

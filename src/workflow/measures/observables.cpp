@@ -95,23 +95,22 @@ std::vector<std::string> columns_of_observables(const Scenario& first) {
 }  // namespace
 
 MeasureKind measure_observables() {
-  return {
-      .key = output_keys().observables.name,
-      .label = "observables",
-      .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
-      .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
-        return std::make_unique<ObservablesMeasure>(scenario.observables);
-      },
-      .text =
-          [](const Json& found) {
-            std::vector<std::string> all;
-            for (const auto& [name, seen] : found.items()) {
-              all.push_back(fmt::format("{} {} -> {}, mean {}", name, number_text(seen["initial"], "{:.6g}"),
-                                        number_text(seen["final"], "{:.6g}"), number_text(seen["mean"], "{:.17g}")));
-            }
-            return joined(all, "; ");
+  return {.key = output_keys().observables.name,
+          .label = "observables",
+          .requested = [](const Scenario& scenario) { return !scenario.observables.empty(); },
+          .make = [](const Scenario& scenario) -> std::unique_ptr<Measure> {
+            return std::make_unique<ObservablesMeasure>(scenario.observables);
           },
-      .columns = columns_of_observables};
+          .text =
+              [](const Json& found) {
+                std::vector<std::string> all;
+                for (const auto& [name, seen] : found.items()) {
+                  all.push_back(fmt::format("{} {} -> {}, mean {}", name, value_text(seen["initial"], "{:.6g}"),
+                                            value_text(seen["final"], "{:.6g}"), value_text(seen["mean"], "{:.17g}")));
+                }
+                return joined(all, "; ");
+              },
+          .columns = columns_of_observables};
 }
 
 }  // namespace hamflow

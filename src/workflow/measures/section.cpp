@@ -51,9 +51,11 @@ MeasureKind measure_section() {
               -> std::unique_ptr<Measure> { return std::make_unique<SectionMeasure>(scenario, simulation, recorder); },
           .text =
               [](const Json& found) {
-                return fmt::format("{} points, at most {} off it{}", found["points"].get<std::int64_t>(),
-                                   number_text(found["max_residual"], "{:.2g}"),
-                                   found.contains("message") ? "; " + found["message"].get<std::string>() : "");
+                const auto points = found["points"].get<std::size_t>();
+                std::string line = counted(points, "point");
+                if (points > 0)
+                  line += fmt::format(", at most {} off it", number_text(found["max_residual"], "{:.2g}"));
+                return line + (found.contains("message") ? "; " + found["message"].get<std::string>() : "");
               }};
 }
 
