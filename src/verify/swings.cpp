@@ -52,8 +52,8 @@ void Swings::turn(std::int64_t step) {
   if (turns_ > 0) longest_gap_ = std::max(longest_gap_, gap);
   if (turns_ >= enough_turns) {
     const double turns = static_cast<double>(gap) / half_period();
-    // A gap that samples so far apart do not explain is one slow swing.
-    later_turns_ += static_cast<double>(gap) <= std::max(6 * half_period(), missed()) ? turns : 1;
+    // A gap that samples so far apart hardly explain, once in 3000, is one slow swing.
+    later_turns_ += static_cast<double>(gap) <= std::max(6 * half_period(), missed() / 2) ? turns : 1;
     return;
   }
   if (turns_ == 0) first_turn_ = at_;
@@ -72,14 +72,14 @@ double Swings::missed() const {
 std::optional<Swings::Seen> Swings::seen(std::int64_t steps_taken) const {
   if (turns_ == 0) return std::nullopt;
   if (turns_ == 1) return Seen{0.5, false, latest_turn_};
-  const auto gap = static_cast<double>(longest_gap_);
   const auto silence = static_cast<double>(steps_taken - latest_turn_);
-  const auto begun = static_cast<double>(first_turn_);
-  const double before = earlier_turns_ > 0 ? begun : std::min(begun, gap);
-  const double after = std::min(silence, std::max(gap, missed()));
-  const bool is_over = silence > std::max(6 * gap, missed());
-  const double half_periods =
-      static_cast<double>(turns_ - 1) + later_turns_ + (before + (is_over ? 0 : after)) / half_period();
+  const bool is_over = silence > std::max(6 * static_cast<double>(longest_gap_), missed());
+  // Before the first turn and after the last one there is at most the way to it, but for what may have been missed.
+  const double begun = static_cast<double>(first_turn_) / half_period();
+  const double before = earlier_turns_ > 0 ? begun : std::min(begun, 1.0);
+  const double ended = silence / half_period();
+  const double after = is_over ? 0 : silence <= missed() / 2 ? ended : std::min(ended, 1.0);
+  const double half_periods = before + static_cast<double>(turns_ - 1) + later_turns_ + after;
   return Seen{half_periods / 2, is_over, latest_turn_};
 }
 

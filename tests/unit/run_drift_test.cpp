@@ -297,14 +297,14 @@ TEST(Swings, WhatSamplesAreTooFarApartForIsNotOver) {
 }
 
 TEST(Swings, WhatSlowsDownIsCountedByItsTurns) {
-  // 20 periods of 40 steps, then periods of 4000.
+  // 20 periods of 40 steps, then four of 16000.
   const auto slowing = [](double t) {
-    return std::cos(2 * std::numbers::pi * (t < 800 ? t / 40 : 20 + (t - 800) / 4000));
+    return std::cos(2 * std::numbers::pi * (t < 800 ? t / 40 : 20 + (t - 800) / 16000));
   };
-  const auto seen = seen_by_a_run(slowing, 40800).seen(40800);
+  const auto seen = seen_by_a_run(slowing, 64800).seen(64800);
   ASSERT_TRUE(seen);
   EXPECT_FALSE(seen->is_over);
-  EXPECT_NEAR(seen->periods, 30, 3);
+  EXPECT_NEAR(seen->periods, 24, 2);
 }
 
 std::vector<std::int64_t> looked_at(std::int64_t steps, EnergyBlocks& watch) {
