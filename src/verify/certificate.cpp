@@ -5,13 +5,16 @@
 #include <limits>
 #include <numbers>
 
+#include "energy_size.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/run/gas.hpp"
+#include "hamflow/run/walls.hpp"
 #include "rounding.hpp"
 
 namespace hamflow {
 
 namespace {
-constexpr std::size_t most_watched = 5000;  // coordinates whose turns are counted: of each 160 bytes are kept
+constexpr std::size_t most_watched = 5000;  // coordinates whose turns are counted: of each 270 bytes are kept
 constexpr std::uint64_t seed = 1686;        // any number: the places of the samples are part of the result
 
 /// In the first half of the k-th block, where it still is when two blocks become one.
@@ -174,27 +177,51 @@ void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings
   const std::vector<std::string>& names = problem.info.coordinates;
   const std::vector<std::string>& angles = problem.info.angles;
   std::optional<double> earlier;
+  bool goes_on = false;
+  std::int64_t last_turn = 0;
   for (std::size_t i = 0; i < swings.size(); ++i) {
     const bool angle =
         i < names.size() && 2 * i < swings.size() && std::find(angles.begin(), angles.end(), names[i]) != angles.end();
     if (angle && swings[i].range() > 2 * std::numbers::pi) continue;
-    const auto period = swings[i].period(steps_taken);
-    if (period) {
-      const double periods = static_cast<double>(steps_taken) / *period;
-      series.periods = std::min(series.periods.value_or(periods), periods);
+    const auto seen = swings[i].seen(steps_taken);
+    if (seen) {
+      series.periods = std::min(series.periods.value_or(seen->periods), seen->periods);
+      goes_on = goes_on || !seen->is_over;
+      last_turn = std::max(last_turn, seen->last_turn);
     }
     const double before = swings[i].earlier_periods();
     if (before > 0) earlier = std::min(earlier.value_or(before), before);
-    series.outgrown = series.outgrown || (!period && before > 0);
+    series.outgrown = series.outgrown || (!seen && before > 0);
   }
-  if (series.periods) return;
+  if (series.periods) {
+    const double whole = static_cast<double>(steps_taken);
+    if (!goes_on) series.still = (whole - static_cast<double>(last_turn)) / whole;
+    return;
+  }
   series.periods = earlier;  // an orbit that widens did turn, even if not since it doubled last
   series.steady = false;
 }
 
+/// A method whose energy has no drift over any run: symplectic, with equal steps that are solved as well as they can
+/// be. Where the forces of a gas are cut off it may have one.
+bool keeps_an_energy(const Request& request, const MethodInfo& method) {
+  return method.symplectic && takes_equal_steps(method) && !method.carries_copy && !has_hard_walls(request) &&
+         request.method.options.count(tolerance_option) == 0 && request.problem != GasKeys::problem;
+}
+
+/// Whether it has met walls at which the energy of its method walks (docs/design.md, Walls).
+bool walks_at_walls(const Request& request, const Simulation& simulation) {
+  const auto walls = walls_among(request.variant);
+  if (!walls || !(walls->rule == WallRule::event || walls->rule == WallRule::reject)) return false;
+  const std::vector<WallCount> counts = simulation.wall_counts();
+  return simulation.method().energy_conserving == Conservation::no &&
+         std::any_of(counts.begin(), counts.end(), [](const WallCount& wall) { return wall.bounces > 0; });
+}
+
 /// The energies less the first, and their unit.
 std::pair<EnergySeries, std::string> series_of(const Request& request, const ProblemEntry& problem,
-                                               const Simulation& simulation, const EnergyBlockState& state) {
+                                               const Simulation& simulation, const EnergyBlockState& state,
+                                               const RunEnds& ends, double size) {
   EnergySeries series;
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
@@ -203,14 +230,16 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
     series.deviations = std::move(differences.values);
     unit = differences.unit;
     const auto in_unit = [&](const LongNumber& x) { return quotient(x, times(1, unit)).value; };
-    series.scale = in_unit(simulation.energy_scale());
-    series.rounding = in_unit(times_power_of_ten(simulation.energy_scale(), 1 - digits));
+    series.scale = in_unit(size);
+    series.rounding = in_unit(times_power_of_ten(size, 1 - digits));
   } else {
     for (const double h : state.energies) series.deviations.push_back(h - state.energies.front());
-    series.scale = simulation.energy_scale();
-    series.rounding = epsilon * series.scale;
+    series.scale = size;
+    series.rounding = std::max(epsilon * size, energy_of_units(request, problem, ends));
   }
   series.roundings = roundings_of(simulation);
+  series.symplectic = keeps_an_energy(request, simulation.method());
+  series.bounces = walks_at_walls(request, simulation);
   find_periods(problem, state.swings, simulation.step(), series);
   return {series, unit};
 }
@@ -221,7 +250,10 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
                        const EnergyBlocks& blocks, std::int64_t steps_taken, const GoOn& go_on) {
   const Simulation& simulation = *of_the_run;
   RunCertificate found;
-  const auto [series, unit] = series_of(request, problem, simulation, blocks.state());
+  const double scale = simulation.energy_scale();
+  const RunEnds ends = ends_of(request, simulation);
+  const double energy_size = size_of_energy(request, problem, ends, scale);
+  const auto [series, unit] = series_of(request, problem, simulation, blocks.state(), ends, energy_size);
   found.drift = classify_run(series);
   const std::size_t size = request.start.q.size();
   if (const std::size_t watched = blocks.state().swings.size() / 2; watched > 0 && watched < size) {
@@ -230,12 +262,15 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   }
   found.mean_increment = times(found.drift.mean_increment, unit);
   found.mean_increment_error = times(found.drift.mean_increment_error, unit);
-  const double scale = simulation.energy_scale();
-  const LongNumber error = simulation.energy().max_error;
-  found.energy_level = scale > 0 ? quotient(error, scale) : error;
-  if (error.value == 0 && !blocks.state().digits.empty()) {  // no double is so small: as the samples saw it
-    const LongNumber seen = times(1, unit);
-    found.energy_level = scale > 0 ? quotient(seen, scale) : seen;
+  LongNumber error = simulation.energy().max_error;
+  // No double is so small: as the samples saw it.
+  if (error.value == 0 && !blocks.state().digits.empty()) error = times(1, unit);
+  // What is 0 but for its rounding is nothing that an error could be a part of.
+  constexpr double rounding_of_zero = 0x1p-40;
+  if (scale > rounding_of_zero * energy_size) {
+    found.energy_level = quotient(error, scale);
+  } else if (error.value != 0 || !error.text.empty()) {
+    found.energy_level = std::numeric_limits<double>::quiet_NaN();
   }
   found.momentum_maps = momentum_maps(simulation, problem, blocks.state().magnitudes, request);
   if (steps_taken > 0) {

@@ -188,9 +188,8 @@ std::optional<double> periods_of(const std::vector<double>& x, double correlatio
   if (correlation < resolved) return std::nullopt;
   Swings swings;
   for (std::size_t i = 0; i < x.size(); ++i) swings.look(static_cast<std::int64_t>(i), x[i]);
-  const auto blocks = static_cast<std::int64_t>(x.size()) - 1;
-  const auto period = swings.period(blocks);
-  return period ? std::optional<double>(static_cast<double>(blocks) / *period) : std::nullopt;
+  const auto seen = swings.seen(static_cast<std::int64_t>(x.size()) - 1);
+  return seen ? std::optional<double>(seen->periods) : std::nullopt;
 }
 
 // Limits between the classes, set by the confusion table (tools/confusion_table.py), whose quantiles HACKING.md shows.
@@ -223,6 +222,14 @@ bool stays_away(const std::vector<double>& deviations, double largest) {
                      [&](double x) { return std::abs(x) > largest / 2; });
 }
 
+/// Whether a trend contradicts what the method is: too large for roundings to one side, one in each action, and too
+/// small for a step with which nothing is kept.
+bool must_turn_back(const EnergySeries& series, double largest) {
+  constexpr double resolved = 1.0 / 16;
+  return series.symplectic && largest > 16 * series.rounding * (1 + series.roundings) &&
+         largest < resolved * series.scale;
+}
+
 struct Conclusion {
   std::optional<DriftClass> drift;
   std::string reason;
@@ -237,11 +244,18 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   const bool t_rejects = found.p_value < DriftStatistics::level;
   const bool sign_rejects = found.sign_p_value < RunDrift::sign_level;
   const double e = found.growth_exponent;
-  if ((t_rejects || sign_rejects) && t.size >= clear_trend && t.rank >= clear_rank) {
+  const bool rejected = (t_rejects || sign_rejects) && t.size >= clear_trend && t.rank >= clear_rank;
+  const bool stands_out = t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks;
+  if ((rejected || stands_out) && must_turn_back(series, largest)) {
+    return undecided(
+        "the energy goes one way over the run, but the method is symplectic: a slow oscillation that nothing has shown "
+        "begins like a drift");
+  }
+  if (rejected) {
     return {DriftClass::linear,
             t_rejects ? "the mean increment of a block is not 0" : "nearly all increments have one sign"};
   }
-  if (t.rank > rank_of_a_drift && t.size > clear_trend && trend_of_walks(t) > rare_in_walks) {
+  if (stands_out) {
     return {DriftClass::linear,
             fmt::format("a trend of {:.0f} standard deviations of the rest, more than a walk has", t.size)};
   }
@@ -281,6 +295,13 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   if (largest <= 16 * series.rounding) {
     return undecided("errors of a few roundings: what they sum up to would show in a longer run only");
   }
+  if (series.still > 0) {
+    return undecided(
+        fmt::format("the oscillations that were seen are over: nothing has turned back in the last {:.2g} % "
+                    "of the run",
+                    rounded_down(100 * series.still, 0.1)));
+  }
+  if (series.bounces) return undecided("no drift is seen, but from bounce to bounce the energy of this method walks");
   if (!series.steady) return undecided("the motion has outgrown the oscillations that were seen");
   if (*found.periods < RunDrift::periods_to_be_bounded) {
     return undecided(
@@ -342,6 +363,9 @@ RunDrift classify_run(const EnergySeries& series) {
     conclusion = undecided("nothing has turned back: no oscillation was seen");
   } else if (*found.periods <= 0.5) {  // of a single turn nothing is known but that
     conclusion = undecided(fmt::format("the slowest oscillation has turned once; a drift class needs {} periods",
+                                       RunDrift::fewest_periods));
+  } else if (*found.periods == 1) {
+    conclusion = undecided(fmt::format("1 period of the slowest oscillation is too few; a drift class needs {}",
                                        RunDrift::fewest_periods));
   } else if (*found.periods < RunDrift::fewest_periods) {
     conclusion = undecided(fmt::format("{:.3g} periods of the slowest oscillation are too few; a drift class needs {}",

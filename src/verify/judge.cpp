@@ -57,11 +57,12 @@ PropertyCell reversal_cell(std::string property, bool claimed, std::span<const M
 PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> on) {
   double least = std::numeric_limits<double>::infinity();
   bool any = false;
+  bool exact = false;
   Finding agrees = Finding::yes;
   for (const Measurement& m : on) {
     const double slope = m.order.slope;
-    if (std::isinf(slope)) {  // exact here
-      any = true;
+    if (std::isinf(slope)) {
+      exact = true;
       continue;
     }
     if (m.order.points < OrderMeasurement::fewest_points) {
@@ -74,10 +75,14 @@ PropertyCell order_cell(const MethodInfo& claims, std::span<const Measurement> o
       agrees = Finding::no;
     }
   }
-  const bool more = least >= claims.order + OrderMeasurement::tolerance;
+  const auto reason = [](const Measurement& m) { return m.order.reason; };
+  if (exact && !any && agrees == Finding::yes) {  // no order shows; on one problem that may be the problem's merit
+    return {"order", std::to_string(claims.order), "exact", on.size() == 1 ? Finding::yes : Finding::unclear,
+            reasons(on, reason)};
+  }
+  const bool more = any && least >= claims.order + OrderMeasurement::tolerance;
   if (agrees == Finding::yes && more && on.size() > 1) agrees = Finding::no;
-  return because({"order", std::to_string(claims.order), any ? fmt::format("{:.2f}", least) : "-", agrees}, on,
-                 [](const Measurement& m) { return m.order.reason; });
+  return because({"order", std::to_string(claims.order), any ? fmt::format("{:.2f}", least) : "-", agrees}, on, reason);
 }
 
 PropertyCell energy_cell(const MethodInfo& claims, std::span<const Measurement> on) {

@@ -90,6 +90,7 @@ OrderMeasurement slope_in(const StepMap& map, const Region& region) {
   OrderMeasurement found;
   if (masked && log_step.empty()) {
     found.slope = std::numeric_limits<double>::infinity();
+    found.reason = "errors of rounding alone with every step length: exact here, which shows no order";
     return found;
   }
   const std::size_t surplus =

@@ -318,7 +318,10 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["final"] = {{"t", frame.time}, {"q", frame.q}, {"p", frame.p}};
   s["energy"] = excursion(energy);
   s["energy"]["scale"] = scale;
-  s["energy"]["max_relative_error"] = scale > 0 ? energy.max_error / scale : energy.max_error;
+  s["energy"]["max_relative_error"] = energy.max_error / scale;
+  // Where H is 0 at the start, or nothing but rounding, there is nothing that an error could be a part of.
+  const bool is_zero = scale == 0 || (certificate != nullptr && std::isnan(certificate->energy_level.value));
+  if (is_zero) s["energy"]["max_relative_error"] = energy.max_error == 0 ? Json(0.0) : Json(nullptr);
   if (!frame.digits.q.empty()) {  // more digits than a JSON number may be read with: texts; errors need no more
     s["final"] = {{"t", frame.digits.time}, {"q", frame.digits.q}, {"p", frame.digits.p}};
     s["energy"]["initial"] = frame.digits.initial_energy;
@@ -332,7 +335,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     // No double is so small: what the certificate found.
     const LongNumber& level = certificate->energy_level;
     s["energy"]["max_relative_error"] = level.text;
-    s["energy"]["max_error"] = scale > 0 ? json_of(times(scale, level.text)) : Json(level.text);
+    s["energy"]["max_error"] = json_of(times(scale, level.text));
   }
   s["invariants"] = Json::object();
   const std::vector<InvariantExcursion> invariants = simulation.invariants();

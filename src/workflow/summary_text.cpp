@@ -70,7 +70,9 @@ std::string readable(const Json& s) {
                                                  ? list(numbers)
                                                  : fmt::format("{} numbers (--json prints them)", numbers.size()));
   }
-  const bool has_scale = !s["energy"]["scale"].is_null() && s["energy"]["scale"].get<double>() > 0;
+  const Json& energy = s["energy"];
+  const bool has_scale = !energy["scale"].is_null() && energy["scale"].get<double>() > 0 &&
+                         (!energy["max_relative_error"].is_null() || energy["max_error"].is_null());
   text += row("energy",
               watched(s["energy"]) + (has_scale ? fmt::format(" ({} of its scale)",
                                                               number_text(s["energy"]["max_relative_error"], "{:.3g}"))

@@ -15,6 +15,7 @@
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
+#include "hamflow/verify/certificate.hpp"
 
 namespace hamflow {
 
@@ -24,27 +25,6 @@ using Json = nlohmann::ordered_json;
 constexpr double steps_per_period = 10;
 
 Json warning(const char* kind, const std::string& message) { return {{"kind", kind}, {"message", message}}; }
-
-/// |q dH/dq| + |p dH/dp|: for homogeneous T and V about T and V without their constants.
-struct Virial {
-  double of_q = 0;
-  double of_p = 0;
-};
-Virial virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
-              const std::vector<double>& p) {
-  constexpr double part = 0x1p-20;
-  const auto slope = [&](double of_q, double of_p) {
-    const auto energy = [&](double sign) {
-      std::vector<double> moved_q = q;
-      std::vector<double> moved_p = p;
-      for (double& x : moved_q) x *= 1 + sign * of_q;
-      for (double& x : moved_p) x *= 1 + sign * of_p;
-      return problem.energy(parameters, moved_q, moved_p);
-    };
-    return std::abs(energy(1) - energy(-1)) / (2 * part);
-  };
-  return {slope(part, 0), slope(0, part)};
-}
 
 std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
   return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);

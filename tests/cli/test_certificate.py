@@ -178,6 +178,75 @@ class Certificate(CommandCase):
         self.assertGreater(c["energy_level"], 1)
         self.assertNotEqual(c["drift"], "bounded")
 
+    def formula(self, hamiltonian, q, p, steps, method="verlet", coordinates=("x", "y"), more=""):
+        self.write("formula.toml", f"[problem]\nname='formula'\ncoordinates={list(coordinates)}\n"
+                   f"hamiltonian='{hamiltonian}'\ninitial={{q={q},p={p}}}\n[method]\nname='{method}'\n"
+                   f"[run]\ndt=0.05\nsteps={steps}\n{more}")
+        return self.summary("formula.toml")["certificate"]
+
+    def test_oscillations_that_are_over_count_as_long_as_they_lasted(self):
+        # A spring that becomes weaker and lets go: a few oscillations at first, then a free flight.
+        spring = "(p_x^2+p_y^2)/2+x^2/2*exp(-y^2/400)"
+        for speed, steps, most in ((2, 40000, 3), (0.8, 40000, 8), (0.2, 100000, 30)):
+            for method in ("verlet", "rk4"):
+                c = self.formula(spring, [0.3, 0], [0, speed], steps, method)
+                self.assertLess(c["periods"], most, (speed, method))
+                self.assertEqual(c["drift"], "undecided", (speed, method, c["reason"]))
+        for decay, most in (("exp(-t/20)", 9), ("(1-tanh((t-20)/5))/2", 6)):
+            c = self.formula(f"p_x^2/2+x^2/2*{decay}", [1], [0], 40000, coordinates=("x",))
+            self.assertLess(c["periods"], most, decay)
+            self.assertEqual(c["drift"], "undecided", c["reason"])
+            self.assertIn("over: nothing has turned back in the last 9", c["reason"])
+        # A planet that is thrown out within some steps.
+        self.write("thrown.toml", "[problem]\nname='central-force'\npotential='kepler'\n"
+                   "orbit={kind='ellipse',r_per=0.1,r_aph=1.9}\n[method]\nname='verlet'\n"
+                   "step_control='reversible'\n[run]\ndt=0.01\nsteps=20000\n")
+        c = self.summary("thrown.toml")["certificate"]
+        self.assertLess(c["periods"] or 0, 4)
+        self.assertEqual(c["drift"], "undecided", c["reason"])
+
+    def test_a_quarter_of_a_slow_oscillation_of_a_symplectic_method_is_no_drift(self):
+        slow = ("let X=(x-y)/sqrt(2), Y=(x+y-2*z)/sqrt(6), Z=(x+y+z)/sqrt(3) in (p_x^2+p_y^2+p_z^2)/2"
+                "+(X^2+Y^2)/2*(1+0.2*Z)^2-0.2*Z+0.0001*Z^2/2")
+        start = ([0.7071067811865475, -0.7071067811865475, 0.0],
+                 [0.4111350418098112, 0.4111350418098112, -0.813609829581778])
+        c = self.formula(slow, *start, 2500, "stv4", ("x", "y", "z"))
+        self.assertLess(c["p_value"], 1e-20)
+        self.assertEqual(c["drift"], "undecided")
+        self.assertIn("symplectic", c["reason"])
+
+    def test_the_units_of_a_lattice_are_its_rounding(self):
+        self.write("coarse.toml", "[problem]\nname='pendulum'\ninitial={q=[1],p=[0]}\n[method]\nname='kahan-li8'\n"
+                   "[run]\ndt=0.05\nsteps=40000\narithmetic='lattice'\n")
+        for unit in (52, 42, 32, 22):
+            lattice = f"run.lattice={{position='2^-{unit}',momentum='2^-{unit}'}}"
+            c = self.summary("coarse.toml", "--set", lattice)["certificate"]
+            self.assertEqual(c["drift"], "random walk", (unit, c["reason"]))
+
+    def test_an_energy_that_is_0_at_the_start(self):
+        for problem in ("name='pendulum'\ninitial={q=['pi/2'],p=[0]}",
+                        "name='duffing'\nalpha=-1\nbeta=1\ninitial={q=['sqrt(2)'],p=[0]}",
+                        "name='formula'\ncoordinates=['x']\nhamiltonian='p_x^2/2+x^2/2-0.5'\ninitial={q=[1],p=[0]}"):
+            self.write("level.toml", f"[problem]\n{problem}\n[method]\nname='verlet'\n[run]\ndt=0.1\nsteps=4000\n")
+            s = self.summary("level.toml")
+            c = s["certificate"]
+            self.assertEqual(c["drift"], "bounded", (problem, c["reason"]))
+            self.assertIsNone(c["energy_level"], problem)
+            self.assertIsNone(s["energy"]["max_relative_error"], problem)
+            self.assertGreater(s["energy"]["max_error"], 0)
+            text = self.hamflow("run", "level.toml", "--out", "none").stdout
+            self.assertIn("(not relative: H is 0 at the start)", text)
+        # Errors of rounding are beside the energies that cancel.
+        c = self.summary("level.toml", "--set", "method={name='cg', quadrature=12}")["certificate"]
+        self.assertNotIn("above the scale", c["reason"])
+
+    def test_located_walls_make_the_energy_of_a_splitting_walk(self):
+        self.write("box.toml", "[problem]\nname='henon-heiles'\ninitial={q=[0.1,0.2],p=[0.1,0]}\n"
+                   "walls=[{coordinate='q1',min=-0.1,max=0.15}]\n[method]\nname='stv4'\n[run]\ndt=0.05\nsteps=100000\n")
+        for rule in ("event", "reject"):
+            c = self.summary("box.toml", "--set", f"problem.wall_rule={rule}")["certificate"]
+            self.assertEqual(c["drift"], "undecided", (rule, c["reason"]))
+
     def test_more_digits(self):
         """Energies, differences and statistics in the arithmetic of the run: what doubles do not see."""
         for arithmetic in ("quad", "double-double"):

@@ -52,6 +52,18 @@ class Verify(CommandCase):
         for problem in ("pendulum", "henon-heiles"):
             self.assertIn(problem, out)
 
+    def test_where_a_method_is_exact_no_order_is_told(self):
+        answer = json.loads(self.hamflow("verify", "cg(1,1)", "--problem", "free-fall", "--json").stdout)["methods"][0]
+        (measured,) = answer["measurements"]
+        self.assertEqual((measured["order"]["points"], measured["order"]["slope"]), (0, None))
+        self.assertIn("exact here", measured["order"]["reason"])
+        order = next(p for p in answer["properties"] if p["property"] == "order")
+        self.assertEqual(order["measured"], "exact")
+        self.assertIn("shows no order", order["reason"])
+        text = self.hamflow("verify", "cg(1,1)", "--problem", "free-fall").stdout
+        self.assertIn("2 / exact", text)
+        self.assertRegex(text, r"what was not measured in full, and why(.|\n)*order +errors of rounding alone")
+
     def test_json_has_every_property_and_problem(self):
         answer = json.loads(self.hamflow("verify", "rk4", "--json").stdout)
         (method,) = answer["methods"]

@@ -1,6 +1,7 @@
 // The drift of a single run, on series whose class is known, and the observer that takes the samples.
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "../support/near.hpp"
 #include "hamflow/core/counter_random.hpp"
@@ -196,6 +197,38 @@ TEST(RunDrift, NothingIsBoundedAboveItsScaleOrOnceOutgrown) {
   EXPECT_FALSE(classify_run(wave).drift);
 }
 
+TEST(RunDrift, NothingIsBoundedByOscillationsThatAreOver) {
+  EnergySeries wave = series([](int b, double) { return std::sin(2.4 * b); });
+  wave.still = 0.994;
+  const auto found = classify_run(wave);
+  EXPECT_FALSE(found.drift);
+  EXPECT_NE(found.reason.find("last 99 % of the run"), std::string::npos) << found.reason;
+}
+
+TEST(RunDrift, ATrendContradictsASymplecticMethodAboveRoundingAndBelowTheScale) {
+  const auto with_trend = [](double size, double rounding) {
+    EnergySeries trend = series([&](int b, double) { return size * b / blocks; });
+    trend.rounding = rounding;
+    trend.roundings = 1e4;
+    trend.scale = 1;
+    return trend;
+  };
+  EXPECT_EQ(classify_run(with_trend(1e-6, 1e-16)).drift, DriftClass::linear);
+  for (const auto& [size, rounding, drift] : {std::tuple(1e-6, 1e-16, std::optional<DriftClass>()),
+                                              std::tuple(1e-12, 1e-16, std::optional(DriftClass::linear)),
+                                              std::tuple(0.5, 1e-16, std::optional(DriftClass::linear))}) {
+    EnergySeries trend = with_trend(size, rounding);
+    trend.symplectic = true;
+    EXPECT_EQ(classify_run(trend).drift, drift) << size;
+  }
+}
+
+TEST(RunDrift, OffWallsThatTheEnergyWalksAtNothingIsBounded) {
+  EnergySeries wave = series([](int b, double) { return std::sin(2.4 * b); });
+  wave.bounces = true;
+  EXPECT_FALSE(classify_run(wave).drift);
+}
+
 TEST(RunDrift, HugeAndBrokenEnergies) {
   EXPECT_EQ(classify_run(series([](int b, double) { return 1e300 * b; })).drift, DriftClass::linear);
   EXPECT_FALSE(classify_run(series([](int b, double) { return b == 70 ? std::nan("") : 0; })).drift ==
@@ -219,6 +252,59 @@ TEST(Swings, CountWhatTurnsBack) {
   EXPECT_EQ(watched(wave, 60).period(60).value(), 120);  // one turn: long, and no more is known
   const Swings widening = watched([&](double t) { return t * t * t * wave(t); }, 450);
   EXPECT_GT(widening.earlier_periods(), 1);
+}
+
+/// As a run looks at it: every step at first, later once in blocks that are as long as the run is many times 256 steps.
+template <class F>
+Swings seen_by_a_run(F&& x, std::int64_t steps) {
+  EnergyBlocks watch;
+  Frame frame;
+  for (frame.step = watch.next_due(0); frame.step <= steps; frame.step = watch.next_due(frame.step + 1)) {
+    frame.q = {x(static_cast<double>(frame.step))};
+    frame.p = {0};
+    (void)watch.observe(frame);
+  }
+  return watch.state().swings.front();
+}
+
+TEST(Swings, PeriodsAreNotCountedBeyondTheLastTurnNorBeforeTheFirst) {
+  constexpr double period = 40;
+  const auto wave = [](double t) { return std::cos(2 * std::numbers::pi * t / period); };
+  for (const double last : {4.0, 10.0, 30.0}) {  // periods, of 1000
+    const auto seen = seen_by_a_run([&](double t) { return t < last * period ? wave(t) : 1.0; }, 40000).seen(40000);
+    ASSERT_TRUE(seen);
+    EXPECT_TRUE(seen->is_over) << last;
+    EXPECT_NEAR(seen->periods, last, 1);
+    EXPECT_LE(static_cast<double>(seen->last_turn), last * period);
+  }
+  const auto late = seen_by_a_run([&](double t) { return t < 400 * period ? 1.0 : wave(t); }, 16400).seen(16400);
+  ASSERT_TRUE(late);
+  EXPECT_LE(late->periods, 16);
+}
+
+TEST(Swings, WhatSamplesAreTooFarApartForIsNotOver) {
+  // A sine, and a peak that lasts a twentieth of its period: after a thousand periods both are met by chance alone.
+  const auto phase = [](double t) { return 2 * std::numbers::pi * t / 40.37; };
+  for (const std::int64_t steps : {400, 3000, 40000, 1000000}) {
+    const auto wave = seen_by_a_run([&](double t) { return std::sin(phase(t)); }, steps).seen(steps);
+    const auto peak =
+        seen_by_a_run([&](double t) { return std::exp(-20 * (1 - std::cos(phase(t)))); }, steps).seen(steps);
+    ASSERT_TRUE(wave && peak);
+    EXPECT_FALSE(wave->is_over) << steps;
+    EXPECT_FALSE(peak->is_over) << steps;
+    EXPECT_NEAR(wave->periods / (static_cast<double>(steps) / 40.37), 1, 0.05) << steps;
+  }
+}
+
+TEST(Swings, WhatSlowsDownIsCountedByItsTurns) {
+  // 20 periods of 40 steps, then four of 16000.
+  const auto slowing = [](double t) {
+    return std::cos(2 * std::numbers::pi * (t < 800 ? t / 40 : 20 + (t - 800) / 16000));
+  };
+  const auto seen = seen_by_a_run(slowing, 64800).seen(64800);
+  ASSERT_TRUE(seen);
+  EXPECT_FALSE(seen->is_over);
+  EXPECT_NEAR(seen->periods, 24, 2);
 }
 
 std::vector<std::int64_t> looked_at(std::int64_t steps, EnergyBlocks& watch) {

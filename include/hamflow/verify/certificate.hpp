@@ -96,6 +96,15 @@ bool depends_on_time(const ProblemEntry& problem);
 bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
                      double scale);
 
+/// |q dH/dq| + |p dH/dp|: for homogeneous T and V about T and V without their constants.
+struct Virial {
+  double of_q = 0;
+  double of_p = 0;
+};
+/// @param parameters complete
+Virial virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+              const std::vector<double>& p);
+
 /// What a reversal over a part of a run proves.
 enum class ReversalProof { every_bit, to_rounding, not_reversible, nothing };
 
@@ -141,7 +150,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
 struct RunCertificate {
   RunDrift drift;                                   // increments in units of the largest deviation seen
   LongNumber mean_increment, mean_increment_error;  // of the energy, over a block
-  LongNumber energy_level;                          // max |H - H0|/scale over every step
+  LongNumber energy_level;                          // max |H - H0|/scale over every step; NaN: H is 0 at the start
   std::vector<MomentumMap> momentum_maps;
   std::optional<ReversalEvidence> reversal;  // none: no step was taken
 };

@@ -40,9 +40,12 @@ struct EnergySeries {
   std::optional<double> periods{};  // of the slowest oscillation of q and p that was seen; none: nothing turned back
   bool steady = true;               // false: only what the motion has outgrown since has turned back
   bool outgrown = false;            // one of q and p has turned back, but not since its range doubled last
-  double rounding = 0;              // of one energy: the rounding unit times its scale
-  double roundings = 0;             // how many rounded actions were taken, of which each may leave one
-  double scale = 1;                 // of the energy itself
+  double still = 0;         // the last part of the run in which nothing turned back, where oscillations are over
+  bool symplectic = false;  // with equal steps: its energy has no drift over any run [HLW2006, Thm. IX.8.1]
+  bool bounces = false;     // off walls that its energy walks at
+  double rounding = 0;      // of one energy: the rounding unit times its scale
+  double roundings = 0;     // how many rounded actions were taken, of which each may leave one
+  double scale = 1;         // of the energy itself
 };
 
 /// What is concluded of it.

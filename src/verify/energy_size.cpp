@@ -1,0 +1,67 @@
+#include "energy_size.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hamflow {
+
+Virial virial(const ProblemEntry& problem, const Texts& parameters, const std::vector<double>& q,
+              const std::vector<double>& p) {
+  constexpr double part = 0x1p-20;
+  const auto slope = [&](double of_q, double of_p) {
+    const auto energy = [&](double sign) {
+      std::vector<double> moved_q = q;
+      std::vector<double> moved_p = p;
+      for (double& x : moved_q) x *= 1 + sign * of_q;
+      for (double& x : moved_p) x *= 1 + sign * of_p;
+      return problem.energy(parameters, moved_q, moved_p);
+    };
+    return std::abs(energy(1) - energy(-1)) / (2 * part);
+  };
+  return {slope(part, 0), slope(0, part)};
+}
+
+RunEnds ends_of(const Request& request, const Simulation& simulation) {
+  constexpr std::size_t most_coordinates = 200;
+  RunEnds ends;
+  simulation.look(ends.end);
+  if (ends.end.q.size() > most_coordinates) return {};
+  Request plain = request;
+  plain.watch = plain.record = false;
+  plain.threads = 1;
+  make_simulation(plain)->look(ends.start);
+  return ends;
+}
+
+/// A sixteenth of the virial, since of a high power V of r its r dV/dr is many times V. Of the end the kinetic part
+/// alone says what is large, see is_energy_nonsense in src/workflow/warnings.cpp.
+double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale) {
+  if (ends.start.q.empty()) return scale;
+  const Texts all = complete(problem.info, request.parameters);
+  const Virial start = virial(problem, all, ends.start.q, ends.start.p);
+  const Virial end = virial(problem, all, ends.end.q, ends.end.p);
+  double size = scale;
+  for (const double x : {(start.of_q + start.of_p) / 16, 0.01 * end.of_p}) {
+    if (x > size && std::isfinite(x)) size = x;
+  }
+  return size;
+}
+
+double energy_of_units(const Request& request, const ProblemEntry& problem, const RunEnds& ends) {
+  if (request.arithmetic != "lattice" || ends.start.q.empty()) return 0;
+  const Texts all = complete(problem.info, request.parameters);
+  const auto per = [](double of_all, const std::vector<double>& xs) {
+    double most = 0;
+    for (const double x : xs) most = std::max(most, std::abs(x));
+    return most > 0 ? of_all / most : 0;
+  };
+  double moved = 0;
+  for (const Frame* frame : {&ends.start, &ends.end}) {
+    const Virial v = virial(problem, all, frame->q, frame->p);
+    const double here = per(v.of_q, frame->q) * request.position_unit + per(v.of_p, frame->p) * request.momentum_unit;
+    if (here > moved && std::isfinite(here)) moved = here;
+  }
+  return moved;
+}
+
+}  // namespace hamflow
