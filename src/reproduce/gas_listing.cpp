@@ -1,6 +1,8 @@
 #include "gas_listing.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hamflow::reproduction {
@@ -14,10 +16,27 @@ double mean_error(const std::vector<double>& a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
   return std::sqrt(squares) / (static_cast<double>(a.size()) / 2);
 }
+
+double speed(const ListedGas& gas, std::size_t i) { return std::hypot(gas.p()[i], gas.p()[i + 1]); }
+
+/// The place of its x among the coordinates. A speed that is none is the highest.
+std::size_t fastest(const ListedGas& gas) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < gas.p().size(); i += 2) found = speed(gas, i) <= speed(gas, found) ? found : i;
+  return found;
+}
+
+double nearest(const std::vector<double>& q, std::size_t i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < q.size(); j += 2) {
+    if (j != i) least = std::min(least, std::hypot(q[i] - q[j], q[i + 1] - q[j + 1]));
+  }
+  return least;
+}
 }  // namespace
 
-ListedGas::ListedGas(double scale, double dt, std::vector<double> q, std::vector<double> p)
-    : scale_(scale), dt_(dt), q_(std::move(q)), p_(std::move(p)), force_(q_.size()) {
+ListedGas::ListedGas(double scale, double dt, std::vector<double> q, std::vector<double> p, int power)
+    : scale_(scale), dt_(dt), q_(std::move(q)), p_(std::move(p)), force_(q_.size()), power_(power) {
   evaluate();
 }
 
@@ -25,7 +44,8 @@ void ListedGas::evaluate() {
   const double S2 = scale_ * scale_;
   for (std::size_t i = 0; i < q_.size(); i += 2) {
     const double room = radius * radius - (q_[i] * q_[i] + q_[i + 1] * q_[i + 1]);
-    const double wall = -1 / (S2 * S2) * (1 / (room * room));
+    const double wall = power_ == 1 ? -1 / (S2 * S2) * (1 / (room * room))  // as listed, to the last bit
+                                    : -power_ / (S2 * S2 * std::pow(room, power_ + 1));
     force_[i] = q_[i] * wall;
     force_[i + 1] = q_[i + 1] * wall;
   }
@@ -82,7 +102,7 @@ double ListedGas::energy() const {
   double sum = 0;
   for (std::size_t i = 0; i < q_.size(); i += 2) {
     sum += (p_[i] * p_[i] + p_[i + 1] * p_[i + 1]) / 2;
-    sum += 1 / (2 * S2 * S2 * (radius * radius - (q_[i] * q_[i] + q_[i + 1] * q_[i + 1])));
+    sum += 1 / (2 * S2 * S2 * std::pow(radius * radius - (q_[i] * q_[i] + q_[i + 1] * q_[i + 1]), power_));
     for (std::size_t j = i + 2; j < q_.size(); j += 2) {
       const double dx = q_[i] - q_[j], dy = q_[i + 1] - q_[j + 1];
       const double sixth = std::pow((dx * dx + dy * dy) * S2, -3);
@@ -125,6 +145,26 @@ std::int64_t first_outside(ListedGas gas, std::int64_t steps, const std::functio
     if (gas.outside() > 0) return k;
   }
   return 0;
+}
+
+Passage passage(ListedGas gas, std::int64_t steps, const std::function<void()>& breathe) {
+  const double fast = 2 * speed(gas, fastest(gas));
+  Passage all;
+  bool is_fast = false;
+  for (std::int64_t k = 1; k <= steps; ++k) {
+    breathe();
+    const std::vector<double> before = gas.q();
+    gas.step();
+    const std::size_t first = fastest(gas);
+    if (!is_fast && !(speed(gas, first) <= fast)) {
+      is_fast = true;
+      all.is_after_collision = gas.scale() * nearest(before, first) < 1;
+    }
+    if (gas.outside() == 0) continue;
+    all.step = k;
+    return all;
+  }
+  return {};
 }
 
 }  // namespace hamflow::reproduction

@@ -10,8 +10,9 @@ namespace hamflow::reproduction {
 
 class ListedGas {
  public:
-  /// @param scale S, `SkalierFaktor`   @param q, p x, y of each particle
-  ListedGas(double scale, double dt, std::vector<double> q, std::vector<double> p);
+  /// @param scale S, `SkalierFaktor`   @param q, p x, y of each particle   @param power of the wall, page 80: 1 as
+  /// listed; the listing's factor S^-4 stays
+  ListedGas(double scale, double dt, std::vector<double> q, std::vector<double> p, int power = 1);
 
   void step();
   void negate_momenta();
@@ -20,6 +21,7 @@ class ListedGas {
 
   int outside() const;  // particles on the soft wall or beyond it, or nowhere
   double energy() const;
+  double scale() const { return scale_; }
   const std::vector<double>& q() const { return q_; }
   const std::vector<double>& p() const { return p_; }
 
@@ -28,6 +30,7 @@ class ListedGas {
 
   double scale_, dt_;
   std::vector<double> q_, p_, force_;
+  int power_;
 };
 
 /// What the listed program prints after `steps` steps there and as many back.
@@ -46,5 +49,15 @@ ListedReturn listed_return(ListedGas gas, std::int64_t steps, bool by_hand, cons
 
 /// The first step after which a particle is outside; 0 where none is in `steps` steps.
 std::int64_t first_outside(ListedGas gas, std::int64_t steps, const std::function<void()>& breathe);
+
+/// How a particle comes to be outside.
+struct Passage {
+  std::int64_t step = 0;  // the first after which one is; 0: none is
+  /// The step was too long for two that met ("Durchdringung", page 80): a particle became more than twice as fast as
+  /// any at the start, and the first that did had another within a length of the potential before the step. What it
+  /// then does to a wall says nothing of the wall.
+  bool is_after_collision = false;
+};
+Passage passage(ListedGas gas, std::int64_t steps, const std::function<void()>& breathe);
 
 }  // namespace hamflow::reproduction
