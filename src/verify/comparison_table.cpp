@@ -40,8 +40,8 @@ bool is_series(const ComparisonPoint& p) {
 }  // namespace
 
 std::string comparison_table(const Comparison& c) {
-  Lines lines{
-      {"method", "order", "dt", "steps", "evals/step", "evaluations", "error", "energy error", "at the end", "time"}};
+  Lines lines{{"method", "order", "dt", "steps", "evals/step", "evaluations", "error", "relative energy error",
+               "at the end", "time"}};
   std::string last;
   int order = 0;
   for (const ComparisonPoint& p : c.points) {

@@ -35,9 +35,10 @@ std::string orbit_text(const Json& orbit) {
   std::string text = orbit["type"].get<std::string>();
   if (!orbit["conic"].is_null()) text += " (" + orbit["conic"].get<std::string>() + ")";
   const auto number = [&](const char* key) { return number_text(orbit[key], "{:.6g}"); };
-  const bool bounded = !orbit["r_max"].is_null() && std::isfinite(orbit["r_max"].get<double>());
+  const auto is_finite = [](const Json& x) { return !x.is_null() && std::isfinite(x.get<double>()); };
+  const bool bounded = is_finite(orbit["r_max"]);
   text += fmt::format(", r = {} .. {}, apsidal angle {}", number("r_min"), bounded ? number("r_max") : "inf",
-                      number("apsidal_angle"));
+                      is_finite(orbit["apsidal_angle"]) ? number("apsidal_angle") : "infinite or not known");
   if (orbit["falls_into_centre"].get<bool>()) text += ", falls into the centre";
   return text;
 }

@@ -308,9 +308,12 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
       has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {
+    // The phase stands still only on a line. Who falls with angular momentum is not helped by a little more of it.
+    const bool on_line = summary["orbit"]["apsidal_angle"].get<double>() == 0;
     all.push_back(warning("falls_into_centre",
-                          "the orbit ends in the centre, where H has no finite value, before the run does: what comes "
-                          "after is no motion; stop earlier, or give the start some angular momentum"));
+                          std::string("the orbit ends in the centre, where H has no finite value, before the run does: "
+                                      "what comes after is no motion; stop earlier, or give the start ") +
+                              (on_line ? "some angular momentum" : "so much more angular momentum that it stays out")));
   }
   return all;
 }

@@ -60,6 +60,16 @@ class New(CommandCase):
             lines = [re.sub(rf"^{name} = ", f"# {name} = ", line) for line in lines]
         return lines
 
+    def test_the_other_form_of_lennard_jones_is_that_of_the_lattice(self):
+        lines = self.hamflow("new", "gas").stdout.splitlines()
+        (at,) = [i for i, line in enumerate(lines) if line.startswith("# sigma = ")]
+        for both in (False, True):
+            chosen = [line[2:] if i == at or (both and line.startswith("# epsilon = ")) else line for i, line in enumerate(lines)]
+            self.write("gas.toml", "\n".join(chosen) + "\n")
+            self.assertEqual(self.summary("gas.toml")["status"], "done")
+        (epsilon,) = [i for i, line in enumerate(lines) if line.startswith("# epsilon = ")]
+        self.assertIn("flies apart", " ".join(lines[epsilon - 4:epsilon]))
+
     def test_every_other_start_can_be_chosen(self):
         tried = 0
         for name, variant, options in self.variants():

@@ -49,6 +49,64 @@ class Problems(CommandCase):
         self.assertAlmostEqual(orbit["circular_radius"], 1.5, delta=64 * EPSILON)
         self.assertAlmostEqual(orbit["radial_period"], 2 * math.pi * math.sqrt(8), delta=1e-13)
 
+    def field(self, potential, q, p, *extra, steps=0):
+        return self.run_text(f'name="central-force"\n{potential}\ninitial={{q={q},p={p}}}', 4, 0.001, steps, *extra)
+
+    def test_the_angle_of_a_fall_with_angular_momentum(self):
+        # The integral of l/(r^2 r') from the centre, by another quadrature in 40 digits.
+        cubic = 'potential="power"\na=-1\nn=-4'  # V = -1/r^3
+        orbit = self.field(cubic, [0.5, 0], [0, 0.5])["orbit"]
+        self.assertTrue(orbit["falls_into_centre"])
+        self.assertAlmostEqual(orbit["apsidal_angle"], 0.30437661506561234, delta=1e-14)
+        for power, bounded, unbounded in (("5/2", 0.33697377510110164, 0.27682446494808064),
+                                          ("3", 0.15188963385037247, 0.12395525766588556),
+                                          ("4", 0.057955205851491250, 0.059905466127834608)):
+            typed = f'potential="formula"\nV="-r^(-{power})"'
+            for speed, angle in ((0, bounded), (12, unbounded)):
+                orbit = self.field(typed, [0.5, 0], [speed, 0.25])["orbit"]
+                self.assertEqual(orbit["type"], "unbounded" if speed else "bounded open")
+                self.assertAlmostEqual(orbit["apsidal_angle"], angle, delta=1e-13, msg=typed)
+        # Round -1/r^2 without end; on a line not at all.
+        for sign in (1, -1):
+            s = self.field('potential="power"\na=-2\nn=-3', [0.5, 0], [0, sign * 0.25])
+            self.assertEqual((s["orbit"]["falls_into_centre"], s["orbit"]["apsidal_angle"]), (True, None))
+        self.assertEqual(self.field(cubic, [0.5, 0], [0, 0])["orbit"]["apsidal_angle"], 0)
+        text = self.hamflow("run", "s.toml", "--set", 'problem.initial={q=[0.5,0],p=[0,0.5]}', "--out", "none").stdout
+        self.assertIn("apsidal angle 0.304377, falls into the centre", text)
+
+    def test_what_keeps_a_fall_out_of_the_centre(self):
+        for momentum, words in ((0, "some angular momentum"), (0.5, "so much more angular momentum")):
+            s = self.field('potential="power"\na=-1\nn=-4', [0.5, 0], [0, momentum], "--set", "method={name='verlet'}",
+                           steps=150)
+            (message,) = [w["message"] for w in s["warnings"] if w["kind"] == "falls_into_centre"]
+            self.assertIn(words, message)
+
+    def test_a_circle_closes_after_one_revolution(self):
+        """apsidal angle/pi = revolutions/radial_periods where one revolution is a whole number of radial periods."""
+        for potential, momentum, periods in (
+            ('potential="hooke"\nk=-1', 1, 2),
+            ('potential="formula"\nV="r^2/2"', 1, 2),
+            ('potential="kepler"\nk=1', 1, 1),
+            ('potential="formula"\nV="r^7/7"', 1, 3),
+            ('potential="linear"\nk=1', 1, None),
+            ('potential="formula"\nV="4*r^(1/4)"', 1, None),  # an angle of 2/3 pi: 1.5 radial periods
+            ('potential="formula"\nV="log(r)"', 1, None),
+            ('potential="formula"\nV="-r^(-4)/4"', 1, None),  # unstable
+        ):
+            orbit = self.field(potential, [1, 0], [0, momentum])["orbit"]
+            self.assertEqual((orbit["type"], orbit["closed"], orbit["revolutions"]), ("circle", True, 1), potential)
+            self.assertEqual(orbit["radial_periods"], periods, potential)
+            if periods:
+                self.assertAlmostEqual(orbit["apsidal_angle"] * periods, math.pi, delta=1e-13)
+        rest = self.field('potential="binomial"\nk=1\nlambda=1', [1, 0], [0, 0])["orbit"]
+        self.assertEqual((rest["type"], rest["apsidal_angle"], rest["revolutions"], rest["radial_periods"]), ("circle", 0, 0, 1))
+
+    def test_where_there_is_no_circular_orbit(self):
+        none = [self.field('mass=0.8\npotential="hooke"\nk=0.6', [0.9, 0.3], [-0.2, 0.7]),
+                self.field('potential="linear"\nk=1', [1, 0], [0.5, 0])]
+        for s in none:
+            self.assertEqual((s["orbit"]["circular_radius"], s["orbit"]["circular_stable"]), (None, None))
+
     def test_exact_state(self):
         for problem in (
             'name="central-force"\npotential="kepler"\norbit={kind="hyperbola",r_per=1,angular_momentum=2}',

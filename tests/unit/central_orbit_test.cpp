@@ -643,6 +643,43 @@ TEST(CentralOrbit, SpecialCasesAreNamed) {
   EXPECT_TRUE(within(from_centre.r_max, 1, 4 * test::epsilon));
 }
 
+TEST(CentralOrbit, TurnsOnItsWayIntoTheCentre) {
+  const auto angle = [](double power, double speed, double around) {
+    const Powers<double> potential(-1, power);
+    return describe_central_orbit(potential, 1.0, Vector<double, 2>{0.5, 0}, Vector<double, 2>{speed, around})
+        .apsidal_angle;
+  };
+  // The integral of l/(r^2 r') from the centre to apocentre, or to infinity, by Gauss' rule in 40 digits.
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_TRUE(within(angle(-2.5, 0, sign / 4), 0.33697377510110164148L, 8 * test::epsilon));
+    EXPECT_TRUE(within(angle(-4, 0, sign / 4), 0.057955205851491249911L, 8 * test::epsilon));
+    EXPECT_TRUE(within(angle(-6, 0, sign / 4), 0.015492793223139042957L, 8 * test::epsilon));
+    EXPECT_TRUE(within(angle(-2.5, 12, sign / 4), 0.27682446494808064431L, 8 * test::epsilon));
+    EXPECT_TRUE(within(angle(-6, -12, sign / 4), 0.061902139497431836483L, 8 * test::epsilon));
+    EXPECT_EQ(angle(-2, 0, sign / 4), std::numeric_limits<L>::infinity());
+    EXPECT_EQ(angle(-2, 12, sign / 4), std::numeric_limits<L>::infinity());
+  }
+  EXPECT_EQ(angle(-4, 0, 0), 0);
+}
+
+TEST(CentralOrbit, OfACircleClosesAfterOneRevolution) {
+  const auto at = [](const auto& potential, double around) {
+    return describe_central_orbit(potential, 1.0, Vector<double, 2>{1, 0}, Vector<double, 2>{0, around});
+  };
+  // pi/sqrt(m + 2) for V = r^m/m: m and the radial periods of one revolution, 0 where they are no whole number.
+  for (const auto& [m, periods] : {std::pair{-1.0, 1}, {2.0, 2}, {7.0, 3}, {1.0, 0}, {0.25, 0}, {-4.0, 0}}) {
+    const CentralOrbit circle = at(Powers<double>(1 / m, m), 1);
+    EXPECT_EQ(circle.type, OrbitType::circle) << m;
+    EXPECT_TRUE(circle.closed) << m;
+    EXPECT_EQ(circle.revolutions, 1) << m;
+    EXPECT_EQ(circle.radial_periods, periods) << m;
+  }
+  const CentralOrbit rest = at(Binomial<double>(1, 1), 0);
+  EXPECT_EQ(rest.type, OrbitType::circle);
+  EXPECT_EQ(rest.revolutions, 0);
+  EXPECT_EQ(rest.radial_periods, 1);
+}
+
 TEST(CentralOrbit, FindsTwoCirclesThatAreCloseTogether) {
   // V = -1/r - 1/(3 r^3): circles where r + 1/r = l^2, a stable one outside of an unstable one.
   const Powers<L> potential(-1, -1, -1 / L(3), -3);

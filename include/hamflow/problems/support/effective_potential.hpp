@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hamflow/core/problem_info.hpp"
+#include "hamflow/numerics/quadrature.hpp"
 #include "hamflow/problems/support/potential.hpp"
 #include "hamflow/problems/support/radial_motion.hpp"
 
@@ -41,12 +43,15 @@ struct CentralOrbit {
   /// From pericentre to apocentre, half of (2.43), not negative; to infinity on unbounded orbits; of the small
   /// oscillation on a stable circle (infinity on an unstable one, and where
   /// it is approached for ever). On a line through the centre pi/2, the limit of
-  /// small l; 0 where the phase does not change, and where the motion ends in the centre.
+  /// small l; 0 where the phase does not change. Where the motion ends in the centre, from there to apocentre or to
+  /// infinity: infinity of a spiral that goes round the centre without end, or for longer than the quadrature resolves.
   long double apsidal_angle = 0;
   /// From pericentre to pericentre; infinity on unbounded orbits, unstable circles and separatrices. Where the centre
-  /// is reached twice the time from apocentre to it.
+  /// is reached twice the time from apocentre to it, which of a fall on a line is the limit of thin ellipses.
   long double radial_period = 0;
-  bool closed = false;  // (2.44): apsidal angle/pi = revolutions/radial_periods
+  /// (2.44): apsidal angle/pi = revolutions/radial_periods. A circle closes after one revolution, whatever the period
+  /// of small oscillations about it: radial_periods is 0 there where one revolution is no whole number of these.
+  bool closed = false;
   int revolutions = 0;
   int radial_periods = 0;
   bool falls_into_centre = false;  // the motion ends there: V has no finite value at r = 0
@@ -94,6 +99,29 @@ void add_circular_orbit(const RadialMotion<Potential>& motion, CentralOrbit& orb
   orbit.circular_radius = best->radius;
   orbit.circular_stable = best->stable;
 }
+
+/// The phase between the centre, where the motion ends, and apocentre or infinity. It is infinite where V is no steeper
+/// than -1/r^2: the integrand then is as 1/r, and no refinement of the quadrature comes to rest. Infinity, too, where
+/// the quadrature resolves a finite one no more: V as r^-2.001, and close above a maximum of V_eff.
+template <class Potential>
+long double phase_from_centre(const RadialMotion<Potential>& motion, const RadialClock<Potential>& clock) {
+  using L = long double;
+  constexpr L settled = 1e-6L;  // relative
+  std::vector<Integral> parts;
+  if (motion.r_max() < motion.infinity) {
+    parts.push_back(integrate_from_ends([&](L x, L rest) { return clock.at(x, rest).phase; }, clock.end()));
+  } else {  // in r up to the radius of the state, beyond it in s = 1/r
+    const L middle = motion.radius();
+    parts.push_back(integrate_from_ends([&](L r, L) { return clock.at(r).phase; }, middle));
+    parts.push_back(integrate_from_ends([&](L s, L) { return clock.at(1 / s).phase / s / s; }, 1 / middle));
+  }
+  L sum = 0;
+  for (const Integral& part : parts) {
+    if (!(part.error <= settled * abs(part.value))) return motion.infinity;
+    sum += abs(part.value);
+  }
+  return sum;
+}
 }  // namespace detail
 
 /// The orbit through (q, p). Computed in long double; what is below the rounding of R, in which the state is given,
@@ -127,7 +155,11 @@ CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Ve
     orbit.radial_period = 2 * pi_value<L>() / radial_rate;
     orbit.apsidal_angle = l == 0 ? L(0) : pi_value<L>() * abs(l) / (static_cast<L>(mass) * r * r) / radial_rate;
     orbit.closed = true;
-    orbit.revolutions = orbit.radial_periods = 1;
+    orbit.revolutions = l == 0 ? 0 : 1;  // at rest it never goes round
+    const auto ratio = commensurable(orbit.apsidal_angle / pi_value<L>(), most_radial_periods, 1024 * rounding);
+    if (ratio && ratio->first == orbit.revolutions && orbit.radial_period < infinity) {
+      orbit.radial_periods = ratio->second;
+    }
   } else {
     const RadialClock<Potential> clock(motion, static_cast<L>(mass));
     if (!(orbit.r_max < infinity)) {
@@ -135,6 +167,8 @@ CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Ve
       orbit.radial_period = infinity;
       if (l != 0 && orbit.r_min > 0) {
         orbit.apsidal_angle = motion.separatrix() ? infinity : abs(clock.phase_to_infinity());
+      } else if (l != 0) {
+        orbit.apsidal_angle = detail::phase_from_centre(motion, clock);
       }
     } else if (motion.separatrix()) {
       orbit.type = OrbitType::bounded_open;
@@ -146,6 +180,8 @@ CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Ve
         orbit.apsidal_angle = l == 0 ? L(0) : abs(clock.phase(clock.end()));
       } else if (!orbit.falls_into_centre) {
         orbit.apsidal_angle = pi_value<L>() / 2;
+      } else if (l != 0) {
+        orbit.apsidal_angle = detail::phase_from_centre(motion, clock);
       }
       if (!orbit.falls_into_centre) {
         if (const auto ratio =
