@@ -80,34 +80,32 @@ bool is_of_the_table(const Pair& pair, const TubeRun& run) {
 /// they are not contradicted.
 void claim_pair(Study& study, const Pair& pair, const TubeRun& run, const std::optional<Ensembles>& changes) {
   const bool own = is_of_the_table(pair, run);
+  const std::string how = fmt::format("{} with v = ({}, 1), {}, dt = {}", pair.name, pair.v1, run.rule, run.dt);
   const std::string table_has = pair.eps > 0 ? "reject, dt = 0.01" : "reject";
   std::vector<Measured> measured;
-  std::string decided_by = study.sized<const char*>(
-      "longer runs: the default size, --full",
-      "the thesis' own start to its last digit and its number of steps: starts beside it come to other means",
-      "the thesis' own start to its last digit and its number of steps: starts beside it come to other means");
+  std::string decided_by = "longer runs: the default size, --full";
   if (changes && changes->measured()) {
+    decided_by =
+        own ? "the thesis' own start to its last digit and its number of steps: starts beside it come to other means"
+            : "nothing with this rule and step, which are not the table's";
     Measured worst = worse_of(distance_of(pair.change1, *changes, &Changes::first, "kinEnKx"),
                               distance_of(pair.change2, *changes, &Changes::second, "kinEnKy"));
     if (!own && worst.value - worst.uncertainty > half_a_unit) {
-      worst.how += fmt::format(", {:.2g}: another number, but the printed one is of a run with {}", worst.uncertainty,
-                               table_has);
+      worst.how += fmt::format(", {:.2g}: other numbers, as another rule or step may have", worst.uncertainty);
       worst.uncertainty = std::numeric_limits<double>::infinity();
-      decided_by = "nothing with this rule and step: they are not the table's";
     }
     measured.push_back(worst);
   } else if (changes) {
     decided_by = "runs that keep H, with a smaller step: " + changes->left_out();
   }
-  const std::string how = fmt::format("{} with v = ({}, 1), {}, dt = {}", pair.name, pair.v1, run.rule, run.dt);
   study.claim(
       {fmt::format("pair_{}_{}_{}", pair.name, run.rule, run.dt),
        own ? "changes of both kinetic energies, " + how
-           : fmt::format("what was printed of a run with {} comes out of another program as well: {}", table_has, how),
+           : fmt::format("the changes of a run with {} come out with another rule or step, too: {}", table_has, how),
        fmt::format("{}, {}", pair.change1, pair.change2)},
       at_most(half_a_unit, own ? "distance from the printed number, half a unit of its last digit"
-                               : "distance from the printed number, half a unit of its last digit; beyond it nothing "
-                                 "follows, for it was printed of another rule or step"),
+                               : "distance from the printed number, half a unit of its last digit; beyond it "
+                                 "nothing follows, for the table's run had another rule or step"),
       measured, Grounds::program, decided_by);
 }
 
@@ -141,6 +139,9 @@ struct Rows {
   }
 };
 
+/// Time units: nothing follows from averages over less than some hundred bounces of the heavy body.
+constexpr double some_hundred_bounces = 400;
+
 void compare_starts(Study& study) {
   const int members = study.sized(6, 64, 64);
   Rows rows;
@@ -157,8 +158,7 @@ void compare_starts(Study& study) {
         shorter.steps = std::min<std::int64_t>(run.steps, 10000000);
         const bool is_usual = run.rule == "reject" && run.dt == "0.01";
         std::optional<Ensembles> changes;
-        // Nothing follows from averages over less than some hundred bounces of the heavy body.
-        const bool is_long = static_cast<double>(run.steps) * std::stod(run.dt) > 400;
+        const bool is_long = static_cast<double>(run.steps) * std::stod(run.dt) > some_hundred_bounces;
         if (is_long || is_usual) {
           const std::string name = fmt::format("{}_{}_{}", pair.name, rule, dt);
           changes = {changes_of(study, run, name, beside_start, members),
@@ -246,14 +246,17 @@ constexpr double almost_the_same = 0.2;
 
 void trend(Study& study, double eps, const std::vector<std::string>& starts, const std::string& rule) {
   const bool repels = eps < 0;
+  const auto block = study.sized<std::int64_t>(500, 200000, 1000000);
+  constexpr std::size_t blocks = 10;
+  const bool is_long = static_cast<double>(blocks) * static_cast<double>(block) * 0.01 > some_hundred_bounces;
   Followers first, second, same;
   int not_measured = 0;
   std::vector<double> v1, change1, error1, change2, error2;
   for (const std::string& start : starts) {
     const TubeSet set{.run = {.eps = eps, .v1 = start, .rule = rule},
-                      .blocks = 10,
+                      .blocks = blocks,
                       .most_energy_error = 0.01,
-                      .block = study.sized<std::int64_t>(500, 200000, 1000000),
+                      .block = block,
                       .both_bodies = true};
     std::vector<TubeStart> grid;
     const int members = study.sized(8, 16, 64);
@@ -287,15 +290,16 @@ void trend(Study& study, double eps, const std::vector<std::string>& starts, con
   const std::string side = repels ? "repelling" : "attracting";
   const std::string exceptions = repels ? "0 of 4" : "2 of 6";
   const auto claim = [&](const std::string& name, const std::string& statement, const Followers& followers) {
-    const char* const decided_by = followers.of_v1() > followers.of_open()
+    const std::string decided_by = !is_long ? "longer runs: the default size, --full"
+                                   : followers.of_v1() > followers.of_open()
                                        ? "the v1 of the thesis' own series, for it depends on them"
-                                   : not_measured > followers.all().open / 2
-                                       ? "runs that keep H, with a smaller step"
-                                       : study.sized<const char*>("longer runs: the default size, --full",
-                                                                  "longer runs: --full", "still longer runs");
+                                   : not_measured > followers.all().open / 2 ? "runs that keep H, with a smaller step"
+                                                                             : "still longer runs";
+    std::vector<Measured> measured;
+    if (is_long) measured.push_back(followers.share(not_measured));
     study.claim({fmt::format("{}_{}_{}", side, name, rule), statement + ", " + rule,
                  "what a series of simulations comes to; exceptions in its table: " + exceptions},
-                trend_rule(), {followers.share(not_measured)}, Grounds::program, decided_by);
+                trend_rule(), measured, Grounds::program, decided_by);
   };
   claim("light",
         repels ? "repelling, v1 < v2: kinEnKx grows to a multiple, at least twice"
