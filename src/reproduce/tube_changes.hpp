@@ -1,0 +1,119 @@
+// Mean changes of the kinetic energies of the T-tube over ensembles of starts, and how far one other start may be from
+// them: for the table of [Sonnleitner2010], pages 99 and 100.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tube_watch.hpp"
+
+namespace hamflow::reproduction::t_tube_table {
+
+/// A mean change over the starts of an ensemble, and how far it moved in the later half of the runs.
+struct Change : Spread {
+  double moved = 0;
+};
+
+struct Changes {
+  Change first, second, both;
+  int left_out = 0;
+  double energy_error = 0;  // the largest of those that count
+};
+
+inline constexpr double energy_of_heavy = 50;  // v2 = 1
+
+/// Means of both kinetic energies over so many blocks, minus those of the start.
+inline std::pair<double, double> mean_changes(const TubeWatch& one, std::size_t blocks) {
+  const auto mean = [&](const std::vector<double>& x) { return spread_of({x.data(), x.data() + blocks}).mean; };
+  return {mean(one.blocks) - one.start.v1 * one.start.v1 / 2, mean(one.heavy) - energy_of_heavy};
+}
+
+/// A few percent of H are as much as the changes are: such a run is no measurement.
+inline constexpr double most_energy_error = 0.03;
+
+inline Changes changes_over(const std::vector<TubeWatch>& all, std::size_t blocks) {
+  Changes changes;
+  std::array<std::vector<double>, 3> halves, wholes;
+  for (const TubeWatch& one : all) {
+    if (one.blocks.size() < blocks || !(one.energy_error <= most_energy_error)) {
+      ++changes.left_out;
+      continue;
+    }
+    const auto add = [&](std::array<std::vector<double>, 3>& to, std::size_t of) {
+      const auto [light, heavy] = mean_changes(one, of);
+      to[0].push_back(light), to[1].push_back(heavy), to[2].push_back(light + heavy);
+    };
+    add(halves, blocks / 2), add(wholes, blocks);
+    changes.energy_error = std::max(changes.energy_error, one.energy_error);
+  }
+  const auto change = [&](std::size_t i) {
+    const Spread whole = spread_of(wholes[i]);
+    return Change{whole, std::abs(whole.mean - spread_of(halves[i]).mean)};
+  };
+  changes.first = change(0), changes.second = change(1), changes.both = change(2);
+  return changes;
+}
+
+/// The thesis' start has Q1 = 0.01: 64 starts within 1e-9 of it, which rounding could have made of it, and as many on a
+/// grid of 1 % around it, for neighbours part within some bounces only where the motion is chaotic.
+struct Starts {
+  const char* name;
+  const char* told;
+  double from, width;  // of Q1
+};
+inline constexpr Starts beside_start{"near", "within 1e-9 of q1 = 0.01", 0.01 - 5e-10, 1e-9};
+inline constexpr Starts around_start{"grid", "on a grid of 1 % around it", 0.0099, 2e-4};
+
+struct Ensembles {
+  Changes near, grid;
+  std::int64_t steps_of_near = 0, steps_of_grid = 0;
+
+  /// How far one other start of the thesis' kind may lie from the mean of either: 3 standard deviations of single
+  /// starts, and twice as far as the mean moved in the later half of the runs, by the ensemble that scatters more; and
+  /// as far as the two are apart, for neighbours within 1e-9 that stay together do not tell how starts differ.
+  double scatter(Change Changes::*of) const {
+    const auto alone = [&](const Changes& one) { return 3 * (one.*of).deviation + 2 * (one.*of).moved; };
+    return std::max({alone(near), alone(grid), std::abs((near.*of).mean - (grid.*of).mean)});
+  }
+  bool measured() const { return std::min(near.first.members, grid.first.members) > 1; }
+  std::string told() const {
+    return fmt::format("{} starts {}, {:g} steps: {:+.4f} and {:+.4f}; {} {}, {:g} steps: {:+.4f} and {:+.4f}; {}",
+                       near.first.members, beside_start.told, static_cast<double>(steps_of_near), near.first.mean,
+                       near.second.mean, grid.first.members, around_start.told, static_cast<double>(steps_of_grid),
+                       grid.first.mean, grid.second.mean, left_out());
+  }
+  std::string left_out() const {
+    const int left = near.left_out + grid.left_out;
+    return fmt::format("{} of {} runs left out, whose H is off by more than {:g} %", left,
+                       left + near.first.members + grid.first.members, 100 * most_energy_error);
+  }
+};
+
+/// Half a unit of the last digit of the table.
+inline constexpr double half_a_unit = 5e-5;
+
+/// A printed change against those of the runs: its distance from the nearer mean.
+inline Measured distance_of(const std::string& printed, const Ensembles& changes, Change Changes::*of,
+                            const char* body) {
+  const double number = std::stod(printed);
+  const double near = std::abs(number - (changes.near.*of).mean), grid = std::abs(number - (changes.grid.*of).mean);
+  return {std::min(near, grid), changes.scatter(of),
+          fmt::format("{} {}: {:.4g} and {:.4g} from the means of {}; +- of one other start", body, printed, near, grid,
+                      changes.told())};
+}
+
+/// The number of a pair that is farther from its printed value than starts differ; where neither is, the one that may
+/// be farther off.
+inline Measured worse_of(const Measured& one, const Measured& two) {
+  const double excess = std::max(one.value - one.uncertainty, two.value - two.uncertainty);
+  if (excess > half_a_unit) return excess == one.value - one.uncertainty ? one : two;
+  return one.value + one.uncertainty > two.value + two.uncertainty ? one : two;
+}
+
+}  // namespace hamflow::reproduction::t_tube_table
