@@ -49,9 +49,10 @@ struct Followers {
     const auto [least, most] = std::minmax_element(of_starts.begin(), of_starts.end(), less);
     const Count sum = all();
     return {sum.share(), of_open() + of_v1(),
-            fmt::format("{} of {} runs follow, {} go against it, {} are open, of which {} were cut where H was off by "
-                        "1 % and measure nothing; {:.0f} to {:.0f} % of the runs of one v1 follow",
-                        sum.with, sum.all(), sum.against, sum.open, cut, 100 * least->share(), 100 * most->share())};
+            fmt::format(
+                "{} of {} runs follow, {} go against it, {} are open ({} of these cut where H was off by 1 %, which "
+                "measure nothing); {:.0f} to {:.0f} % of the runs of one v1 follow",
+                sum.with, sum.all(), sum.against, sum.open, cut, 100 * least->share(), 100 * most->share())};
   }
 };
 

@@ -28,7 +28,7 @@ struct TubeSet {
   TubeRun run;                      // rule, method and dt
   std::vector<std::string> sets{};  // PATH=VALUE
   std::size_t blocks = 0;
-  double most_energy_error = 1e300;  // of the start's; a run beyond it is stopped, and counts up to there
+  double most_energy_error = 1e300;  // of the start's; a run beyond it is stopped
   std::int64_t block = tube_block;   // steps
   bool both_bodies = false;          // the heavy one's kinetic energy, too
 };
