@@ -129,6 +129,8 @@ class ProblemFacts : ProblemStart<Family> {
     frame.time = t;
     for (const long double x : end->q) frame.q.push_back(static_cast<double>(x));
     for (const long double x : end->p) frame.p.push_back(static_cast<double>(x));
+    const auto is_known = [](double x) { return std::isfinite(x); };  // not where rounding hides it
+    if (!std::ranges::all_of(frame.q, is_known) || !std::ranges::all_of(frame.p, is_known)) return std::nullopt;
     return frame;
   }
 };

@@ -93,6 +93,10 @@ inline Start<long double, 2> universal_kepler_flow(long double k, long double ma
   const R beta = R(2) * kappa / r0 - (v0[0] * v0[0] + v0[1] * v0[1]);
   if (beta > R(0)) {
     const R period = R(2) * pi_value<R>() * kappa / (beta * sqrt(beta));
+    if (abs(t) * R(std::numeric_limits<double>::epsilon()) > period / R(4)) {  // a rounding of t is all of a phase
+      constexpr R none = std::numeric_limits<R>::quiet_NaN();
+      return {{none, none}, {none, none}};
+    }
     t -= period * nearbyint(t / period);
   }
   if (t == R(0)) return {q0, p0};
