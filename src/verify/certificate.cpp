@@ -223,6 +223,11 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
                                                const Simulation& simulation, const EnergyBlockState& state,
                                                const RunEnds& ends, double size) {
   EnergySeries series;
+  // Of rounding it is the scale that tells, unless T and V cancel at the start: beside more than that errors of a step
+  // would pass for roundings.
+  constexpr double cancelled = 0x1p-10;
+  const double scale = simulation.energy_scale();
+  const double rounded = scale > cancelled * size ? scale : size;
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
   if (!state.digits.empty()) {
@@ -231,11 +236,11 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
     unit = differences.unit;
     const auto in_unit = [&](const LongNumber& x) { return quotient(x, times(1, unit)).value; };
     series.scale = in_unit(size);
-    series.rounding = in_unit(times_power_of_ten(size, 1 - digits));
+    series.rounding = in_unit(times_power_of_ten(rounded, 1 - digits));
   } else {
     for (const double h : state.energies) series.deviations.push_back(h - state.energies.front());
     series.scale = size;
-    series.rounding = std::max(epsilon * size, energy_of_units(request, problem, ends));
+    series.rounding = std::max(epsilon * rounded, energy_of_units(request, problem, ends));
   }
   series.roundings = roundings_of(simulation);
   series.symplectic = keeps_an_energy(request, simulation.method());

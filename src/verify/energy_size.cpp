@@ -33,18 +33,14 @@ RunEnds ends_of(const Request& request, const Simulation& simulation) {
   return ends;
 }
 
-/// A sixteenth of the virial, since of a high power V of r its r dV/dr is many times V. Of the end the kinetic part
-/// alone says what is large, see is_energy_nonsense in src/workflow/warnings.cpp.
+/// A sixteenth of the virial at the start, since of a high power V of r its r dV/dr is many times V. Not of the end:
+/// beside what a run has blown up to, its error before would be a rounding.
 double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale) {
   if (ends.start.q.empty()) return scale;
   const Texts all = complete(problem.info, request.parameters);
   const Virial start = virial(problem, all, ends.start.q, ends.start.p);
-  const Virial end = virial(problem, all, ends.end.q, ends.end.p);
-  double size = scale;
-  for (const double x : {(start.of_q + start.of_p) / 16, 0.01 * end.of_p}) {
-    if (x > size && std::isfinite(x)) size = x;
-  }
-  return size;
+  const double size = (start.of_q + start.of_p) / 16;
+  return size > scale && std::isfinite(size) ? size : scale;
 }
 
 double energy_of_units(const Request& request, const ProblemEntry& problem, const RunEnds& ends) {

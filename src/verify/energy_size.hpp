@@ -12,7 +12,7 @@ struct RunEnds {
 RunEnds ends_of(const Request& request, const Simulation& simulation);
 
 /// The size of the energy: its scale, but where T and V cancel or are 0 at the start (a pendulum held level) what the
-/// forces there, or the motion at the end, make of it.
+/// forces there make of it.
 double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale);
 
 /// By how much the units of a lattice move the energy; 0 in other arithmetic.

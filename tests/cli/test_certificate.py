@@ -352,6 +352,23 @@ class Certificate(CommandCase):
         found = self.summary("planets.toml", "--set", "method.name=verlet")["certificate"]["reversal_distance"]
         self.assertEqual(found["proves"], "reversible to rounding", found["reason"])
 
+    def test_beside_what_a_run_has_blown_up_to_nothing_is_a_rounding(self):
+        """A step without a solution at the end makes 1e87 of an energy of 23."""
+        self.write("blown.toml", """[problem]
+name = "double-pendulum"
+initial = { q = [-1.0944391528208335, -0.3810951557811545], p = [0.0, 0.0] }
+[method]
+name = "cg"
+quadrature = 1
+[run]
+dt = 0.04304626556104385
+steps = 7031
+""")
+        summary = self.summary("blown.toml", status=1)
+        self.assertGreater(summary["energy"]["max_relative_error"], 1e80)
+        self.assertEqual(summary["certificate"]["drift"], "undecided")
+        self.assertIn("above the scale", summary["certificate"]["reason"])
+
 
 if __name__ == "__main__":
     unittest.main()
