@@ -238,6 +238,7 @@ int compare(const CompareOptions& options) {
   std::erase_if(of_scenario, [](const std::string& note) { return note.starts_with("method."); });
   print_notes(of_scenario, options.quiet);
   note_unused_measures(scenario, "a comparison takes every step and looks at energies and ends", options.quiet);
+  note_unused_figures(scenario, "a comparison draws with --figure FILE", options.quiet);
   print_notes(reader.notes, options.quiet);
   print_notes(comparison_notes(reader.request), options.quiet);
   require_folder_of(options.figure);

@@ -69,10 +69,13 @@ void convert_scenario(const ConvertOptions& options) {
   });
   const Scenario scenario = accepted(read_scenario(options.input, of_problem));
   if (options.json) {
+    if (!of_method.empty()) (void)converted_scenario(scenario, options.to, of_method);  // no method is in a state
     print(converted_start_json(scenario, options.to), options.output);
     return;
   }
-  print(converted_scenario(scenario, options.to, of_method), options.output);
+  const ConvertedScenario converted = converted_scenario(scenario, options.to, of_method);
+  print(converted.text, options.output);
+  print_notes(converted.notes, false);
   if (scenario.text.find('#') != std::string::npos) {
     print_notes({"comments of " + options.input + " are not in the converted text"}, false);
   }

@@ -6,7 +6,6 @@
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/reverse.hpp"
 #include "progress.hpp"
-#include "run_keys.hpp"
 
 namespace hamflow::app {
 
@@ -19,11 +18,7 @@ int reverse_command(const ReverseOptions& options) {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
     note_unused_measures(scenario, "a reversal takes every step and asks what came back", options.quiet);
-    if (!scenario.figures.empty()) {
-      print_notes({output_path(output_keys().figures) +
-                   " is not used: a reversal draws nothing; hamflow plot draws what --out DIR keeps"},
-                  options.quiet);
-    }
+    note_unused_figures(scenario, "a reversal draws nothing; hamflow plot draws what --out DIR keeps", options.quiet);
     ReversalSettings settings;
     if (writes) settings.folder = options.out;
     settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;

@@ -224,10 +224,9 @@ class Shell {
     const Excursion energy = session_.energy();
     // Beyond double the doubles would show a difference of 0 and a state that nobody can go on from.
     const bool in_digits = !now.digits.q.empty();
-    const bool one_course = in_digits && session_.changes().empty();
     const double error =
-        one_course ? static_cast<double>(differences_from_first({now.digits.initial_energy, now.digits.energy}).back())
-                   : now.energy - energy.initial;
+        in_digits ? static_cast<double>(differences_from_first({now.digits.initial_energy, now.digits.energy}).back())
+                  : now.energy - energy.initial;
     const auto number = [&](double x, const std::string& text) { return in_digits ? Json(text) : Json(x); };
     const auto list = [&](const std::vector<double>& x, const std::vector<std::string>& texts) {
       return in_digits ? Json(texts) : Json(x);
@@ -344,6 +343,9 @@ int shell_command(const ShellOptions& options) {
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
     note_unused_measures(scenario, "a session takes every step that it is told to", options.quiet);
+    note_unused_figures(scenario, "a session draws nothing; hamflow plot draws what save keeps", options.quiet);
+    if (!scenario.record.empty())
+      print_notes({run_path(run_keys().record) + " is not used: a session keeps samples by steps"}, options.quiet);
     return Shell(scenario, options).read_commands();
   });
 }

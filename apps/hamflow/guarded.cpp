@@ -119,6 +119,11 @@ void note_unused_measures(const Scenario& scenario, const std::string& why, bool
   print_notes({hamflow::joined(unused) + (unused.size() == 1 ? " is" : " are") + " not used: " + why}, quiet);
 }
 
+void note_unused_figures(const Scenario& scenario, const std::string& why, bool quiet) {
+  if (scenario.figures.empty()) return;
+  print_notes({output_path(output_keys().figures) + " is not used: " + why}, quiet);
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 }

@@ -38,6 +38,8 @@ int written_behind_report(const std::function<void()>& files);
 void print_notes(const std::vector<std::string>& notes, bool quiet);
 /// What is measured beside a run, by a command that does not: "note: run.section is not used: WHY".
 void note_unused_measures(const Scenario& scenario, const std::string& why, bool quiet);
+/// The same of output.figures, by a command that draws none of them.
+void note_unused_figures(const Scenario& scenario, const std::string& why, bool quiet);
 /// Also with --quiet: "warning: ..." each.
 void print_warnings(const std::vector<std::string>& warnings);
 void print_error(const std::string& message, const std::string& hint = {});

@@ -44,7 +44,11 @@ DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const T
 
 std::string turned(const std::string& angle, std::int64_t turns, const std::string& arithmetic) {
   if (turns == 0) return angle;
-  const std::string sum = angle + " + " + std::to_string(turns) + "*2*pi";
+  return sum_of(angle, std::to_string(turns) + "*2*pi", arithmetic);
+}
+
+std::string sum_of(const std::string& a, const std::string& b, const std::string& arithmetic) {
+  const std::string sum = "(" + a + ") + (" + b + ")";
   return in_arithmetic(arithmetic, [&]<class R>() { return written_digits(evaluate_number<R>(sum)); });
 }
 

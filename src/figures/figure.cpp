@@ -85,7 +85,8 @@ std::string refused_columns(const Figure& figure, const figures::FigureKind& kin
     }
     for (const std::string& name : asked) {
       if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
-      return "found column \"" + name + "\"; allowed " + listed(allowed) + suggestion(name, allowed);
+      const std::string of_run = figure.runs.size() > 1 ? " of " + run.label : "";
+      return "found column \"" + name + "\"" + of_run + "; allowed " + listed(allowed) + suggestion(name, allowed);
     }
   }
   return "";

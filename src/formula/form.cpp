@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 
 #include "hamflow/core/error.hpp"
 
@@ -18,6 +19,15 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return all;
 }
 
+/// From its first that is not 0, without those of the exponent.
+std::ptrdiff_t significant_digits(const std::string& text) {
+  const std::size_t first = text.find_first_of("123456789");
+  if (first == std::string::npos) return 0;
+  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = std::find_if(begin, text.end(), [](char c) { return c == 'e' || c == 'E'; });
+  return std::count_if(begin, end, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// The fraction that a decimal text is, if it is one exactly that a double has too: 2, 0.5, 1e3, not 0.1.
 std::optional<Rational> fraction_of(const std::string& text) {
   const double value = std::strtod(text.c_str(), nullptr);
@@ -29,7 +39,9 @@ std::optional<Rational> fraction_of(const std::string& text) {
   }
   if (!(scaled <= 0x1p53) || scaled != static_cast<double>(static_cast<std::int64_t>(scaled))) return std::nullopt;
   const auto found = fraction(static_cast<std::int64_t>(scaled), down);
-  // 0.1 is not the double that is nearest to it: digits that a double does not have are told by the long double.
+  // 0.1 is not the double that is nearest to it: digits that a double does not have are told by the long double, up to
+  // so many of them as it has itself.
+  if (significant_digits(text) > std::numeric_limits<long double>::digits10) return std::nullopt;
   if (!found || std::strtold(text.c_str(), nullptr) != static_cast<long double>(value)) return std::nullopt;
   return found;
 }
@@ -319,7 +331,9 @@ int Forms::derivative(int form, int symbol) {
       if (!std::binary_search(in.begin(), in.end(), symbol)) continue;
       Term rest = term;
       // c e base^(e - 1) times what else there is
-      rest.factors[k].exponent = *formula::sum(f.exponent, {-1, 1});
+      const auto lower = formula::sum(f.exponent, {-1, 1});
+      if (!lower) throw Error("found an exponent of " + f.exponent.key() + "; allowed smaller ones, below 2^53");
+      rest.factors[k].exponent = *lower;
       std::erase_if(rest.factors, [](const Factor& g) { return g.exponent.is_zero(); });
       rest = product(Term{f.exponent, {}}, rest);
       parts.push_back(product(intern({{rest}}), derivative_of_base(f.base, symbol)));

@@ -219,7 +219,10 @@ class Meaning {
   std::int64_t whole_name(const Part& part, const char* where) const {
     const std::string name = full_name(part);
     for (const Local& local : locals_) {
-      if (local.word == name && local.whole) return *local.whole;
+      if (local.word != name) continue;
+      if (local.whole) return *local.whole;
+      refuse(part.at, name + " in " + where + ", a name that let gives",
+             "whole expressions (+ - * / ^) of indices, numbers and parameters");
     }
     const auto known = symbols_.known.find(name);
     if (known == symbols_.known.end()) {

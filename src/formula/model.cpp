@@ -73,7 +73,11 @@ Kinds kinds_of(const Forms& forms, const Factor& factor, std::size_t n) {
 }
 
 /// Constants before a sum are multiplied into it where its terms are of q and of p: (p^2 + q^2)/2.
-void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out) {
+/// @param before the constants of all sums around this one, if there are any
+void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out, std::optional<int> before = {},
+            int depth = 0) {
+  constexpr int most_nested = 1000;
+  if (depth > most_nested) throw Error("found sums nested more than 1000 deep; allowed at most 1000");
   const std::vector<Term> terms = forms[form].terms;
   for (const Term& term : terms) {
     std::optional<std::size_t> group;
@@ -93,18 +97,19 @@ void spread(Forms& forms, int form, std::size_t n, std::vector<Term>& out) {
       return in.q && in.p;
     };
     if (!group || others || !mixed(term.factors[*group])) {
-      out.push_back(term);
+      if (!before) {
+        out.push_back(term);
+        continue;
+      }
+      const Form& product = forms[forms.product(*before, forms.of_terms({term}))];
+      out.insert(out.end(), product.terms.begin(), product.terms.end());
       continue;
     }
     Term constants = term;
     constants.factors.erase(constants.factors.begin() + static_cast<std::ptrdiff_t>(*group));
-    const int before = forms.of_terms({constants});
-    std::vector<Term> inner;
-    spread(forms, forms.base_at(term.factors[*group].base).a, n, inner);
-    for (const Term& part : inner) {
-      const Form& product = forms[forms.product(before, forms.of_terms({part}))];
-      out.insert(out.end(), product.terms.begin(), product.terms.end());
-    }
+    const int own = forms.of_terms({constants});
+    const int inside = forms.base_at(term.factors[*group].base).a;
+    spread(forms, inside, n, out, before ? forms.product(*before, own) : own, depth + 1);
   }
 }
 

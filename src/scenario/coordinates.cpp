@@ -110,7 +110,14 @@ const ProblemEntry& in_coordinates(const ProblemEntry& given, const std::string&
       throw Error(problem.info.name +
                   " stands in one set of coordinates, with nothing to convert to; allowed: " + allowed);
     }
-    throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
+    if (!has_charts) throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
+    std::vector<std::string> meant;
+    for (const ProblemEntry* chart : charts->second) {
+      if (choice_of(chart->info, "coordinates") == to) meant.push_back(coordinates_of(*chart));
+    }
+    if (meant.empty()) throw Error(problem.info.name + " has no " + to + " coordinates; allowed: " + allowed);
+    throw Error("found " + to + " coordinates of " + problem.info.name + ", of which there are several; allowed " +
+                joined(meant));
   }
   // Entries in charts under keys of their own may lack each other's choices.
   for (const ProblemEntry& entry : problems()) {

@@ -49,21 +49,41 @@ bool has_word(const std::string& text, const std::string& word) {
   return false;
 }
 
-/// A formula without let and sum, with texts in the place of its names.
+void refuse_length(std::size_t length) {
+  constexpr std::size_t longest = 100'000;
+  if (length > longest) throw Error("found a formula that is too long when its sums are written out");
+}
+
+/// A formula without let and sum, with texts in the place of its names. Sums and products of many terms, which nest to
+/// the left, are written without brackets between them, and are followed by no recursion.
 std::string written_out(const formula::Graph& graph, int at, const std::vector<std::string>& values) {
   using formula::Op;
-  constexpr std::size_t longest = 100'000;
+  const auto is_sum = [](Op op) { return op == Op::add || op == Op::subtract; };
+  const auto is_product = [](Op op) { return op == Op::multiply || op == Op::divide; };
+  const Op first = graph[at].op;
+  std::vector<const formula::Node*> chain;
+  for (; is_sum(first) ? is_sum(graph[at].op) : is_product(first) && is_product(graph[at].op); at = graph[at].a) {
+    chain.push_back(&graph[at]);
+    refuse_length(2 * chain.size());  // a sign and a digit
+  }
+  if (!chain.empty()) {
+    std::string text = "(" + written_out(graph, at, values);
+    for (; !chain.empty(); chain.pop_back()) {
+      text += "+-*/"[static_cast<std::size_t>(chain.back()->op) - static_cast<std::size_t>(Op::add)];
+      text += written_out(graph, chain.back()->b, values);
+      refuse_length(text.size());
+    }
+    return text + ")";
+  }
   const formula::Node& node = graph[at];
   if (node.op == Op::number) return graph.text(node);
   if (node.op == Op::pi) return "pi";
   if (node.op == Op::symbol) return "(" + values.at(static_cast<std::size_t>(node.a)) + ")";
   const std::string a = written_out(graph, node.a, values);
   const std::string b = formula::takes_two(node.op) ? written_out(graph, node.b, values) : "";
-  if (a.size() + b.size() > longest) throw Error("found a formula that is too long when its sums are written out");
+  refuse_length(a.size() + b.size());
   if (node.op == Op::negate) return "(-" + a + ")";
-  if (node.op >= Op::add && node.op <= Op::power) {
-    return "(" + a + "+-*/^"[static_cast<std::size_t>(node.op) - static_cast<std::size_t>(Op::add)] + b + ")";
-  }
+  if (node.op == Op::power) return "(" + a + "^" + b + ")";
   for (const formula::FunctionName& function : formula::functions()) {
     if (function.op == node.op) return std::string(function.name) + "(" + a + (b.empty() ? "" : ", " + b) + ")";
   }

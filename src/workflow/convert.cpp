@@ -119,16 +119,18 @@ std::string converted_start_json(const Scenario& scenario, const std::string& to
   return json_text(Json{{"coordinates", to}, {"q", state.q}, {"p", state.p}});
 }
 
-std::string converted_scenario(const Scenario& scenario, const std::string& to, const std::vector<std::string>& sets) {
+ConvertedScenario converted_scenario(const Scenario& scenario, const std::string& to,
+                                     const std::vector<std::string>& sets) {
   const std::string from = coordinates_of(*scenario.problem);
   const CanonicalState start = converted_start(scenario, to);
   const std::string why_not = refused_method(scenario, to);
   if (!why_not.empty() && sets.empty()) {
     throw Error("in " + to + " coordinates " + why_not + "; give one of them with --set method.name=...");
   }
-  const std::string text =
-      accepted(read_scenario_text(converted_text(scenario, to, start), "the converted scenario", sets)).text;
-  return "# Converted by hamflow convert from " + from + " to " + to + " coordinates.\n" + text;
+  const Scenario converted =
+      accepted(read_scenario_text(converted_text(scenario, to, start), "the converted scenario", sets));
+  return {"# Converted by hamflow convert from " + from + " to " + to + " coordinates.\n" + converted.text,
+          converted.notes};
 }
 
 bool is_run(const std::filesystem::path& path) {

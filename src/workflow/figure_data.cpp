@@ -147,8 +147,13 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenar
   for (const auto& [key, value] : without_walls(request.variant)) {
     if (!scenario.problem->structure) facts.emplace_back(key, value);  // a typed problem's are long texts
   }
-  facts.emplace_back("method", describe(request.method).name);
-  facts.emplace_back("dt", request.dt);
+  const std::vector<std::string> changes = changes_on_the_way(scenario.text);  // one fact of the whole run no more
+  const auto sets_length = [](const std::string& change) { return change.starts_with(run_keys().dt.name + " = "); };
+  const auto turns_back = [](const std::string& change) { return change == momenta_negated; };
+  const auto is_of_method = [&](const std::string& change) { return !sets_length(change) && !turns_back(change); };
+  if (std::none_of(changes.begin(), changes.end(), is_of_method))
+    facts.emplace_back("method", describe(request.method).name);
+  if (std::none_of(changes.begin(), changes.end(), sets_length)) facts.emplace_back("dt", request.dt);
   facts.emplace_back("arithmetic", request.arithmetic);
   facts.emplace_back("kernel", request.kernel);
   for (const auto& [key, value] : request.parameters) facts.emplace_back(key, value);
@@ -275,6 +280,8 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
 FigureSamples opening_of(const fs::path& run) {
   const RunSamples samples = read_run_file(file_of(run));
   const Scenario scenario = scenario_of(samples, file_of(run));
+  if (!changes_on_the_way(scenario.text).empty()) return {};  // the first steps of other settings
+  const double forward = scenario.dt < 0 ? -1 : 1;
   const std::size_t n = samples.q.size();
   const std::int64_t most = digits_beyond_double(scenario.request.arithmetic) > 0 ? 1000 : 20000;
   const std::int64_t steps =
@@ -305,7 +312,7 @@ FigureSamples opening_of(const fs::path& run) {
     if (k > 0 && simulation->advance(1) != Outcome::done) break;
     simulation->look(frame);
     if (std::abs(frame.time) > last) break;
-    while (sample < samples.t.size() && samples.t[sample] < frame.time) ++sample;
+    while (sample < samples.t.size() && forward * samples.t[sample] < forward * frame.time) ++sample;
     const bool is_sample = sample < samples.t.size() && samples.t[sample] == frame.time;
     for (std::size_t i = 0; i < n; ++i) {
       if (is_sample && (samples.q[i][sample] != frame.q[i] || samples.p[i][sample] != frame.p[i])) return {};

@@ -314,6 +314,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
     if (!from)
       note("there is no checkpoint in " + settings.folder.string() + ": the reversal starts from the beginning");
   } else {
+    if (settings.existing == Existing::resume)
+      note("there is no folder " + settings.folder.string() + " to go on from: the reversal starts from the beginning");
     if (settings.existing == Existing::replace) refuse_own_input(scenario, settings.folder, FolderOf::reversal);
     make_folder(settings.folder, FolderOf::reversal, settings.existing != Existing::refuse);
   }

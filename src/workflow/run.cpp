@@ -32,7 +32,11 @@ void note(const RunSettings& settings, const std::string& text) {
 /// What the run in the folder left to go on from, if there is one.
 std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
   const fs::path& folder = settings.folder;
-  if (folder.empty() || settings.existing != Existing::resume || !fs::exists(folder)) return std::nullopt;
+  if (folder.empty() || settings.existing != Existing::resume) return std::nullopt;
+  if (!fs::exists(folder)) {
+    note(settings, "there is no folder " + folder.string() + " to go on from: the run starts from the beginning");
+    return std::nullopt;
+  }
   if (fs::exists(folder / "checkpoint.bin")) return read_checkpoint(folder / "checkpoint.bin");
   refuse_other_kind(folder, FolderOf::run);
   if (const std::string left = left_in(folder, FolderOf::run); !left.empty()) {

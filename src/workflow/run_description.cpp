@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "hamflow/core/number.hpp"
 #include "hamflow/problems/solar_system.hpp"
 #include "hamflow/problems/support/container.hpp"
@@ -115,6 +117,17 @@ std::vector<InvariantColumn> csv_columns(const Scenario& scenario) {
 }
 
 ColumnUnits column_units(const Scenario& scenario) { return units_of(scenario).columns; }
+
+std::vector<std::string> changes_on_the_way(std::string_view scenario) {
+  std::vector<std::string> changes;
+  if (!scenario.starts_with(steered_heading)) return changes;
+  for (scenario.remove_prefix(steered_heading.size()); scenario.starts_with(change_heading);) {
+    const std::string_view line = scenario.substr(0, scenario.find('\n'));
+    changes.emplace_back(line.substr(line.find(": ") + 2));
+    scenario.remove_prefix(std::min(line.size() + 1, scenario.size()));
+  }
+  return changes;
+}
 
 RunDescription description_of(const Scenario& scenario, std::size_t samples) {
   const Request& request = scenario.request;

@@ -22,6 +22,14 @@ std::vector<InvariantColumn> csv_columns(const Scenario& scenario);
 /// Of the problem that brings numbers along; empty where units are those of the input.
 ColumnUnits column_units(const Scenario& scenario);
 
+/// Above the scenario that a session leaves, whose course was changed on the way; the changes follow, a line each.
+inline constexpr std::string_view steered_heading =
+    "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
+inline constexpr std::string_view change_heading = "# after step ";
+inline constexpr std::string_view momenta_negated = "momenta negated";
+/// What was changed on the way, such as "dt = 0.05", from the text of that scenario.
+std::vector<std::string> changes_on_the_way(std::string_view scenario);
+
 /// @param samples expected
 RunDescription description_of(const Scenario& scenario, std::size_t samples);
 

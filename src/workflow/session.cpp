@@ -5,8 +5,10 @@
 
 #include "gas_checks.hpp"
 #include "hamflow/methods/step_control.hpp"
+#include "hamflow/run/digits.hpp"
 #include "hamflow/run/large_steps.hpp"
 #include "method_keys.hpp"
+#include "run_description.hpp"
 #include "run_keys.hpp"
 #include "scenario_edit.hpp"
 #include "wall_checks.hpp"
@@ -74,6 +76,7 @@ void Session::restart() {
   one_part_ = true;
   step_before_ = 0;
   time_before_ = 0;
+  exact_time_before_ = "0";
   effort_before_ = {};
   bounces_before_.clear();
   bounces_.clear();
@@ -85,6 +88,7 @@ void Session::restart() {
   Frame start;
   simulation_->look(start);
   sizes_ = scenario_.problem->invariant_sizes(request_.parameters, start.q.size());
+  exact_initial_energy_ = start.digits.energy;
   initial_invariants_ = start.invariants;
   reference_ = start.invariants;
   offset_.assign(start.invariants.size(), 0);
@@ -181,8 +185,8 @@ void Session::change(const Request& next, const std::string& what) {
   simulation_->look(now);
   Request from_here = next;
   from_here.start = {};
-  from_here.start.q = texts_of(now.q);
-  from_here.start.p = texts_of(now.p);
+  from_here.start.q = now.digits.q.empty() ? texts_of(now.q) : now.digits.q;
+  from_here.start.p = now.digits.p.empty() ? texts_of(now.p) : now.digits.p;
   auto other = make_simulation(from_here);
   watch_from_here();
   Frame fresh;
@@ -192,6 +196,7 @@ void Session::change(const Request& next, const std::string& what) {
   bounces_before_ = wall_counts();
   step_before_ += now.step;
   time_before_ += now.time;
+  if (!now.digits.time.empty()) exact_time_before_ = sum_of(exact_time_before_, now.digits.time, request_.arithmetic);
   worst_residuals_ = constraints();
   simulation_ = std::move(other);
   listen();
@@ -209,16 +214,21 @@ Scenario Session::present() const {
   const Request& first = scenario_.request;
   const bool same_method = first.method == request_.method;
   const bool steered = !same_method || first.dt != request_.dt || !changes_.empty();
-  if (!steered && now.steps == scenario_.steps) return now;
-  now.text =
-      !steered ? "" : "# Steered by hamflow shell; the settings below are the last ones, the start is the first.\n";
+  if (!steered && now.steps == scenario_.steps && scenario_.record.empty()) return now;
+  now.text = !steered ? "" : steered_heading;
   for (const SessionChange& c : changes_) {
-    now.text += "# after step " + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
+    now.text +=
+        std::string(change_heading) + std::to_string(c.step) + ", t = " + shortest(c.time) + ": " + c.what + "\n";
   }
   std::vector<ScenarioEdit> edits{{run_path(run_keys().dt), "\"" + request_.dt + "\""},
                                   {run_path(run_keys().t_end), {}},
                                   {run_path(run_keys().steps), std::to_string(now.steps)}};
   if (!same_method) edits.push_back({"method", method_table(request_.method)});
+  if (!scenario_.record.empty()) {  // a session keeps samples by steps
+    edits.push_back({run_path(run_keys().record), {}});
+    now.record.clear();
+    now.record_steps.clear();
+  }
   now.text += edited_scenario(scenario_.text, edits);
   return now;
 }
@@ -265,6 +275,9 @@ void Session::in_session(Frame& frame) const {
   frame.time += time_before_;
   for (std::size_t i = 0; i < offset_.size(); ++i) frame.invariants[i] += offset_[i];
   frame.effort = sum(effort_before_, frame.effort);
+  if (frame.digits.q.empty() || one_part_) return;
+  frame.digits.time = sum_of(exact_time_before_, frame.digits.time, request_.arithmetic);
+  frame.digits.initial_energy = exact_initial_energy_;
 }
 
 std::vector<std::byte> Session::save() const { throw Error("a steered session has no checkpoint"); }
@@ -298,7 +311,7 @@ void Session::negate_momenta() {
   reference_ = scratch_.invariants;
   reversed_ = true;
   turns_.restart(scratch_.step, turns_.step_length(), turns_.is_active());  // q goes back along its way
-  changes_.push_back({scratch_.step, scratch_.time, "momenta negated"});
+  changes_.push_back({scratch_.step, scratch_.time, std::string(momenta_negated)});
 }
 
 Excursion Session::energy() const {
@@ -346,7 +359,11 @@ void Session::watch_from_here() {
 }
 
 void Session::watch(const Frame& frame) {
-  worst_energy_ = std::max(worst_energy_, std::abs(frame.energy - initial_energy_));
+  const std::string& exact = frame.digits.energy;
+  const double error = exact.empty()
+                           ? frame.energy - initial_energy_
+                           : static_cast<double>(differences_from_first({exact_initial_energy_, exact}).back());
+  worst_energy_ = std::max(worst_energy_, std::abs(error));
   for (std::size_t k = 0; k < sizes_.size(); ++k) {
     worst_invariants_[k] = std::max(worst_invariants_[k], deviation(frame.invariants, k));
   }

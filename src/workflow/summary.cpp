@@ -170,17 +170,19 @@ std::vector<Texts> moved_parameters(const Texts& parameters) {
 double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto between = [&](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p,
-                           double time) {
+                           double time) -> std::optional<double> {
     const auto moved = scenario.problem->exact(parameters, q, p, time);
+    if (!moved) return std::nullopt;
     double most = 0;
-    for (std::size_t k = 0; moved && k < exact.q.size(); ++k) {
+    for (std::size_t k = 0; k < exact.q.size(); ++k) {
       const double at = next_to(exact.q[k], scenario, k, moved->q[k]);
       most = std::max({most, std::abs(at - exact.q[k]), std::abs(moved->p[k] - exact.p[k])});
     }
     return most;
   };
   const auto difference = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
-    return between(scenario.request.parameters, q, p, time);
+    // Where it is not known a rounding away, it is not known here how well it is.
+    return between(scenario.request.parameters, q, p, time).value_or(infinity);
   };
   double sum = difference(scenario.start_q, scenario.start_p, std::nextafter(t, infinity));
   for (std::size_t i = 0; i < exact.q.size(); ++i) {
@@ -192,7 +194,8 @@ double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exa
     sum += std::numeric_limits<double>::epsilon() * (std::abs(exact.q[i]) + std::abs(exact.p[i]));
   }
   for (const Texts& parameters : moved_parameters(complete(scenario.problem->info, scenario.request.parameters))) {
-    sum += between(parameters, scenario.start_q, scenario.start_p, t);
+    // An exponent has no rounding, nor a closed form beside it.
+    sum += between(parameters, scenario.start_q, scenario.start_p, t).value_or(0);
   }
   return sum;
 }
@@ -209,7 +212,9 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   }
   Json found{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};
   if (frame.digits.q.empty()) return found;
-  found["uncertainty"] = uncertainty_of_exact(scenario, frame.time, *exact);
+  const double uncertainty = uncertainty_of_exact(scenario, frame.time, *exact);
+  if (!std::isfinite(uncertainty)) return std::nullopt;
+  found["uncertainty"] = uncertainty;
   return found;
 }
 

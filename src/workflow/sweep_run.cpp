@@ -158,7 +158,13 @@ class ScenarioSweep::Impl {
     };
     sweep.emplace(request.text, request.name, request.sets, std::move(varied), how);
     complaints = sweep->complaints();
-    if (complaints.empty()) notes = sweep->notes();
+    if (!complaints.empty()) return;
+    notes = sweep->notes();
+    const Scenario& common = sweep->common();
+    if (!common.folder.empty())
+      notes.push_back(output_path(output_keys().folder) + " is not used: the folder of a sweep is that of --out");
+    if (!common.figures.empty())
+      notes.push_back(output_path(output_keys().figures) + " is not used: a sweep draws with --figure FILE");
   }
 
   SweepRequest request;

@@ -240,6 +240,20 @@ observables = { d = "sqrt(x^2 + y^2)" }
         self.assertIn("stv4", done.stderr)
         self.assertEqual(len(self.rows("polar.h5", "--to", "cartesian")), 401)
 
+    def test_a_method_is_looked_at_and_what_it_drops_is_told(self):
+        self.write("m.toml", (self.folder / "kepler.toml").read_text().replace('"cg"', '"cg"\ndegree = 2'))
+        for json_too in ((), ("--json",)):
+            wrong = self.hamflow("convert", "m.toml", "--to", "polar", "--set", "method.nme=verlet", *json_too, status=2)
+            self.assertIn("did you mean name", wrong.stderr)
+        done = self.hamflow("convert", "m.toml", "--to", "polar", "--set", "method.name=gauss")
+        self.assertIn("note: method.degree of the file is not used", done.stderr)
+
+    def test_coordinates_of_several_charts(self):
+        self.write("d.toml", "[problem]\nname='double-pendulum'\ninitial={q=[0.3,0.1],p=[0,0]}\n[method]\nname='cg'\n"
+                   "[run]\ndt=0.01\nsteps=10\n")
+        said = self.hamflow("convert", "d.toml", "--to", "generalised", status=2).stderr
+        self.assertIn("found generalised coordinates of double-pendulum, of which there are several; allowed absolute, relative", said)
+
     def test_wrong_requests(self):
         self.write("pendulum.toml", '[problem]\nname="pendulum"\ninitial={q=[1],p=[0]}\n[method]\nname="verlet"\n'
                    "[run]\ndt=0.1\nsteps=1\n")

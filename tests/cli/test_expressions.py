@@ -122,6 +122,17 @@ section = { coordinate = "p_x", direction = 0 }
         self.assertIn("run.events[0].expression: found", done.stderr)
         self.assertIn("which is the same for every state", done.stderr)
 
+    def test_of_two_events_in_a_step_the_first_ends_the_run(self):
+        """Whichever way the time runs, and in whatever order they stand in the file."""
+        self.write("o.toml", "[problem]\nname='harmonic'\ninitial={q=[1],p=[0]}\n[method]\nname='verlet'\n[run]\ndt=0.3\nsteps=20\n")
+        events = ["{ name = 'later', expression = 'q - 0.85', direction = 0, action = 'stop' }",
+                  "{ name = 'first', expression = 'q - 0.9', direction = 0, action = 'stop' }"]
+        for order in (events, events[::-1]):
+            for dt in ("0.3", "-0.3"):
+                done = self.summary("o.toml", "--set", f"run.dt={dt}", "--set", f"run.events=[{', '.join(order)}]")
+                self.assertEqual(done["stopped_by"]["event"], "first", (order, dt))
+                self.assertAlmostEqual(done["stopped_by"]["q"][0], 0.9, delta=1e-14)
+
     OBSERVE = ["--set", "output.observables={ theta = 'atan2(q2, q1)', l = 'lambda*t' }"]
 
     def test_observables(self):
@@ -181,6 +192,14 @@ section = { coordinate = "p_x", direction = 0 }
         for name in ("q1", "p2"):
             text = self.hamflow("run", "kepler.toml", "--set", f"output.observables={{ {name} = 'x' }}", "--out", "none", status=2)
             self.assertIn(f"found the name {name}, which a column of every run has", text.stderr)
+
+    def test_a_varied_value_that_is_a_long_sum(self):
+        for formula, status in (("sum(i,1,1000,i/1000*problem.lambda)", 0), ("sum(i,1,60000,i*problem.lambda)", 2),
+                                ("sum(i,1,1,0)" + "-problem.lambda" * 3000, 0)):
+            done = self.hamflow("sweep", "b.toml", "--vary", "problem.lambda=0.5,1", "--vary", f"problem.initial.q[0]=({formula})/1e5",
+                                "--set", "run.steps=1", "--out", "none", status=status)
+            if status == 2:
+                self.assertIn("too long", done.stderr)
 
     def test_let_and_sum_in_varied_values(self):
         rows = json.loads(self.hamflow("sweep", "b.toml", "--vary", "problem.lambda=0.5,1", "--vary",

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import time
 import unittest
+from decimal import Decimal
 
 from command import HAMFLOW, CommandCase
 
@@ -86,6 +87,50 @@ class Commands(FormulaCase):
                               'kinetic = "(p_x^2 + p_y^2)/2"\npotential = "(x^2 + y^2)/2')
         self.write("parts.toml", parts)
         self.assertEqual(self.summary("parts.toml")["final"], self.summary("f.toml")["final"])
+
+    ONE = ("[problem]\nname='formula'\ncoordinates=['x']\nhamiltonian='%s'\nparameters={%s}\ninitial={q=[%s],p=[%s]}\n"
+           "[method]\nname='verlet'\n[run]\ndt='1/8'\nsteps=40\n")
+
+    def test_constants_have_all_their_digits(self):
+        """A decimal beside a short binary fraction is none, however near it is."""
+        for literal in ("1.00000000000000000000000001", "0.50000000000000000000000000000001", "1e0", "0.50", "2"):
+            self.write("o.toml", self.ONE % (f"p_x^2/2 + {literal}*x^2", "", 1, 0))
+            found = self.summary("o.toml", "--set", "run.arithmetic=mp(40)")
+            self.assertLess(abs(Decimal(found["energy"]["initial"]) / Decimal(literal) - 1), Decimal("1e-39"), literal)
+
+    def test_powers_and_tanh_in_double_double(self):
+        """As in quad: also of coordinates below 0, at 0, and far out."""
+        for hamiltonian, parameters, q, p in (("p_x^2/2 + x^n/4", "n=4", 1, 0), ("p_x^2/2 + x^n/4", "n=4", 0, 1),
+                                              ("p_x^2/2 + x^100/100", "", "-0.5", "-0.1"), ("p_x^2/2 + tanh(x)^2", "", 800, -1)):
+            self.write("o.toml", self.ONE % (hamiltonian, parameters, q, p))
+            found, wanted = (self.summary("o.toml", "--set", f"run.arithmetic={name}")["final"] for name in ("double-double", "quad"))
+            for key in ("q", "p"):
+                size = max(1, abs(Decimal(wanted[key][0])))
+                self.assertLess(abs(Decimal(found[key][0]) - Decimal(wanted[key][0])), size * Decimal("1e-28"), hamiltonian)
+
+    def test_angles_on_the_negative_axis(self):
+        """Where atan2 jumps, but H does not: series begin there, and come there again."""
+        for q, p in (("[-1, 0]", "[0.1, 0.5]"), ("[1, 0]", "[0, 1]")):
+            self.write("o.toml", "[problem]\nname='formula'\ncoordinates=['x','y']\n"
+                       "hamiltonian='(p_x^2+p_y^2)/2 + (x^2+y^2)/2 + 0.1*cos(2*atan2(y,x))'\ninitial={q=%s,p=%s}\n"
+                       "[method]\nname='taylor'\ntolerance=1e-15\n[run]\ndt=0.1\nsteps=100\n" % (q, p))
+            found, wanted = (self.summary("o.toml", "--set", f"method={method}")["final"] for method in
+                             ("{name='taylor',tolerance=1e-15}", "{name='dop853',tolerance=1e-14}"))
+            for key in ("q", "p"):
+                for a, b in zip(found[key], wanted[key]):
+                    self.assertAlmostEqual(a, b, delta=1e-11)
+
+    def test_sums_within_sums(self):
+        """Constants before them are multiplied into each; more than a thousand are refused at once."""
+        def nested(names):
+            definitions = [f"a{k} = " + "p_x + x + 0.5*(" * 40 + (f"a{k - 1}" if k > 0 else "p_x + x") + ")" * 40 for k in range(names)]
+            return "let " + ", ".join(definitions) + f" in p_x^2/2 + x^2/2 + a{names - 1}"
+
+        self.write("o.toml", self.ONE % (nested(2), "", 1, 0))
+        self.assertEqual(self.summary("o.toml")["parameters"]["structure"]["separable"], True)
+        self.write("o.toml", self.ONE % (nested(40), "", 1, 0))
+        said = self.hamflow("run", "o.toml", "--out", "none", status=2).stderr
+        self.assertIn("allowed at most 1000", said)
 
     def test_parameters_that_stand_nowhere(self):
         """A name with a mistake is no parameter that changes nothing."""

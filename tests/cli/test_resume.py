@@ -198,7 +198,7 @@ class Resume(CommandCase):
     def test_without_a_checkpoint_it_starts_from_the_beginning(self):
         self.scenario()
         self.run_to("whole")
-        self.run_to("new", "--resume")  # no folder at all
+        self.assertIn("there is no folder new to go on from", self.run_to("new", "--resume").stderr)
         self.expect_equal("whole", "new")
         (self.folder / "empty").mkdir()
         (self.folder / "empty" / "checkpoint.bin.new").write_bytes(b"half")  # killed as it was written

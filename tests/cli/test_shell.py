@@ -8,6 +8,7 @@ import signal
 import subprocess
 import time
 import unittest
+from decimal import Decimal
 
 from command import HAMFLOW, CommandCase
 from test_files_document import PYTHON
@@ -176,6 +177,47 @@ steps = 1000
         rows = self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()
         self.assertEqual(len(rows), 1 + 159)
         self.assertEqual(float(rows[-1].split(",")[0]), s["final"]["t"])
+
+    def test_a_change_keeps_all_digits(self):
+        """Two halves of 20 and 20 steps, the second with another tolerance, are the run of 40; times and energies, too."""
+        for arithmetic in ("quad", "double-double", "mp(50)"):
+            sets = ("--set", f"run.arithmetic={arithmetic}", "--set", "method={name='stv4'}")
+            _, s = self.final(sets[1], "run.steps=40", sets[3])
+            here = self.shown("step 20\ndt 0.2\ndt 0.1\nstep 20\nshow all\n", *sets)
+            apart = [abs(Decimal(a) - Decimal(b)) for key in ("q", "p") for a, b in zip(here[key], s["final"][key])]
+            apart += [abs(Decimal(here["t"]) - 4), abs(Decimal(here["energy"]) - Decimal(s["energy"]["final"]))]
+            self.assertLess(max(apart), Decimal("1e-29"), arithmetic)  # the kick that is kept from step to step is not
+            gained = Decimal(s["energy"]["final"]) - Decimal(s["energy"]["initial"])
+            self.assertAlmostEqual(here["energy_error"], float(gained), delta=2.0**-52 * abs(float(gained)))
+        self.shell("step 20\ndt 0.05\nstep 4\nsave a.run\n", *sets)
+        s = json.loads((self.folder / "a.run" / "summary.json").read_text())
+        self.assertLess(abs(Decimal(s["final"]["t"]) - Decimal("2.2")), Decimal("1e-45"))
+        self.assertEqual(s["energy"]["initial"], self.shown("show energy\n", *sets)["energy"])
+        rows = self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()
+        self.assertLess(abs(Decimal(rows[-1].split(",")[0]) - Decimal("2.2")), Decimal("1e-45"))
+
+    def test_samples_are_kept_by_steps(self):
+        """Also of a scenario that has times of its own, which a session need not reach."""
+        self.write("times.toml", (self.folder / "kepler.toml").read_text().replace(
+            "steps = 400", "t_end = 4\nrecord = [0.5, 2, 4]\n[output]\nfigures = ['orbit']"))
+        for steps in (10, 40):
+            self.shell(f"step {steps}\nsave! a.run\n", scenario="times.toml")
+            self.assertIn("note: run.record is not used", self.stderr)
+            self.assertIn("note: output.figures is not used", self.stderr)
+            self.hamflow("plot", "a.run", "--kind", "energy", "-o", "f.svg")
+            self.assertEqual(len(self.hamflow("convert", "a.run", "--to", "polar").stdout.splitlines()), 2 + steps)
+
+    def test_a_figure_of_a_steered_session_shows_its_samples_alone(self):
+        """The first steps with the last settings are none of its motion, and its settings are not those of all of it."""
+        self.write("h.toml", "[problem]\nname='henon-heiles'\ninitial={q=[0,0.1],p=[0.4,0.1]}\n[method]\nname='stv4'\n"
+                   "[run]\ndt=0.1\nsteps=200\nrecord_every=20\n")
+        for commands, is_one_course in (("step 60\ndt -0.01\nstep 60\n", False), ("step 60\ndt 0.03\nstep 60\n", False),
+                                        ("dt -0.1\nstep 60\n", True), ("step 60\n", True)):
+            self.shell(commands + "save! s.run\n", scenario="h.toml")
+            self.hamflow("plot", "s.run", "--kind", "orbit", "-o", "s.svg")
+            text = (self.folder / "s.svg").read_text()
+            self.assertNotIn("first steps", text, commands)
+            self.assertEqual("dt = " in text, is_one_course, commands)
 
     @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
     def test_save_has_the_bounces(self):

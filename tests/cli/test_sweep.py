@@ -326,6 +326,14 @@ steps = 333
         self.hamflow("sweep", "k.toml", "--vary", "problem.k=1")
         self.assertTrue((self.folder / "k.sweep" / "sweep.h5").exists())
 
+    def test_what_belongs_to_single_runs_is_told(self):
+        self.write("k.toml", KEPLER + '[output]\nfolder = "mine"\nfigures = ["energy-error"]\n')
+        told = self.hamflow("sweep", "k.toml", "--vary", "problem.k=1", "--out", "none").stderr
+        self.assertIn("note: output.folder is not used: the folder of a sweep is that of --out", told)
+        self.assertIn("note: output.figures is not used: a sweep draws with --figure FILE", told)
+        for words in (["compare", "k.toml", "--methods", "stv4", "--dt", "0.05"], ["reverse", "k.toml"]):
+            self.assertIn("note: output.figures is not used", self.hamflow(*words, "--set", "run.steps=3").stderr, words)
+
     def test_a_range_of_whole_numbers_has_no_others(self):
         """1 + 22 (15/22) is no whole number in double."""
         self.write("k.toml", KEPLER)

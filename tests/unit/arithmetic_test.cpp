@@ -227,6 +227,40 @@ TEST(Lattice, TheRangeIsSymmetricSoThatMomentaCanBeNegated) {
   EXPECT_EQ(Lattice::Axis::negated(least), INT64_MAX);
 }
 
+/// Also where QD goes by the logarithm of a negative number, divides infinity by infinity, reads beyond its tables, or
+/// knows no number at all.
+TEST(DoubleDouble, FunctionsHaveTheValuesAndTheEdgesOfThoseOfDouble) {
+  using Traits = ExtendedTraits<dd_real>;
+  const double edges[] = {-800, -3,   -2.5, -1,       -0.3,      -0.0, 0.0, 0.3,  1,     2,
+                          2.5,  64.0, 800,  INFINITY, -INFINITY, NAN,  1e9, 1e25, 1e300, 1e-300};
+  const auto agree = [](const dd_real& found, double wanted) {
+    if (std::isnan(wanted)) return std::isnan(found.x[0]);
+    if (wanted == 0 || std::isinf(wanted)) return found.x[0] == wanted;
+    return std::abs(found.x[0] - wanted) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(wanted);
+  };
+  using Two = std::pair<dd_real (*)(const dd_real&), double (*)(double)>;
+  const Two functions[] = {{Traits::sqrt, std::sqrt}, {Traits::exp, std::exp},   {Traits::log, std::log},
+                           {Traits::sin, std::sin},   {Traits::cos, std::cos},   {Traits::tan, std::tan},
+                           {Traits::asin, std::asin}, {Traits::acos, std::acos}, {Traits::atan, std::atan},
+                           {Traits::sinh, std::sinh}, {Traits::cosh, std::cosh}, {Traits::tanh, std::tanh}};
+  for (const double x : edges) {
+    for (std::size_t k = 0; k < std::size(functions); ++k) {
+      EXPECT_TRUE(agree(functions[k].first(dd_real(x)), functions[k].second(x))) << "function " << k << " of " << x;
+    }
+    for (const double y : edges) {
+      if ((y == 0 && std::signbit(y)) || (x == 0 && std::signbit(x))) continue;  // QD has one zero
+      EXPECT_TRUE(agree(Traits::atan2(dd_real(y), dd_real(x)), std::atan2(y, x))) << y << " beside " << x;
+    }
+    for (const double y : {-3.0, -2.5, -1.0, 0.0, 0.5, 1.0, 2.0, 3.0, 7.0, 100.0, 101.0}) {
+      EXPECT_TRUE(agree(Traits::pow(dd_real(x), dd_real(y)), std::pow(x, y))) << x << " to the power " << y;
+    }
+  }
+  // To its own digits: (-1.1)^7 of the double 1.1, as a product.
+  const dd_real x(-1.1);
+  const dd_real product = x * x * x * x * x * x * x;
+  EXPECT_LT(std::abs((Traits::pow(x, dd_real(7.0)) - product).x[0]), 64 * 0x1p-104);
+}
+
 /// The text of x in its fixed length, read again.
 dd_real written_and_read(const dd_real& x, std::size_t& longest) {
   const std::string text = written_digits(DoubleDouble(x));

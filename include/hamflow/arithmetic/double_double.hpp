@@ -6,6 +6,7 @@
 #include <qd/dd_real.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "hamflow/arithmetic/extended.hpp"
 #include "hamflow/arithmetic/quad.hpp"
@@ -41,20 +42,43 @@ struct ExtendedTraits<dd_real> {
   static T multiply(const T& a, const T& b) { return a * b; }
   static T divide(const T& a, const T& b) { return T::accurate_div(a, b); }
   static T abs(const T& x) { return ::abs(x); }
-  static T sqrt(const T& x) { return ::sqrt(x); }
+  // Where QD reads beyond a table (angles that are no number, or so large that its reduction has no digit left), prints
+  // a message, divides infinity by infinity, or squares what has no square, quad knows the value.
+  static constexpr double largest_angle = 1e20;
+  static constexpr double largest_exponent = 700;
+  static constexpr double largest_side = 1e150;
+  static T sqrt(const T& x) { return x.x[0] >= 0 && std::isfinite(x.x[0]) ? ::sqrt(x) : T(std::sqrt(x.x[0])); }
   static T exp(const T& x) { return ::exp(x); }
-  static T log(const T& x) { return ::log(x); }
-  static T sin(const T& x) { return ::sin(x); }
-  static T cos(const T& x) { return ::cos(x); }
-  static T tan(const T& x) { return ::tan(x); }
-  static T asin(const T& x) { return ::asin(x); }
-  static T acos(const T& x) { return ::acos(x); }
-  static T atan(const T& x) { return ::atan(x); }
-  static T sinh(const T& x) { return ::sinh(x); }
-  static T cosh(const T& x) { return ::cosh(x); }
-  static T tanh(const T& x) { return ::tanh(x); }
-  static T atan2(const T& y, const T& x) { return ::atan2(y, x); }
-  static T pow(const T& x, const T& y) { return ::pow(x, y); }
+  static T log(const T& x) { return x.x[0] > 0 && std::isfinite(x.x[0]) ? ::log(x) : rounded(::logq(widened(x))); }
+  static T sin(const T& x) { return is_below(x, largest_angle) ? ::sin(x) : rounded(::sinq(widened(x))); }
+  static T cos(const T& x) { return is_below(x, largest_angle) ? ::cos(x) : rounded(::cosq(widened(x))); }
+  static T tan(const T& x) { return is_below(x, largest_angle) ? ::tan(x) : rounded(::tanq(widened(x))); }
+  static T asin(const T& x) { return ::abs(x) <= T(1.0) ? ::asin(x) : nan(); }
+  static T acos(const T& x) { return ::abs(x) <= T(1.0) ? ::acos(x) : nan(); }
+  static T atan(const T& x) { return is_below(x, largest_side) ? ::atan(x) : rounded(::atanq(widened(x))); }
+  static T sinh(const T& x) { return is_below(x, largest_exponent) ? ::sinh(x) : rounded(::sinhq(widened(x))); }
+  static T cosh(const T& x) { return is_below(x, largest_exponent) ? ::cosh(x) : rounded(::coshq(widened(x))); }
+  static T tanh(const T& x) { return is_below(x, largest_exponent) ? ::tanh(x) : rounded(::tanhq(widened(x))); }
+  static T atan2(const T& y, const T& x) {
+    const double side = std::max(std::abs(y.x[0]), std::abs(x.x[0]));
+    const bool has_square = is_below(x, largest_side) && is_below(y, largest_side) && side > 1 / largest_side;
+    return has_square ? ::atan2(y, x) : rounded(::atan2q(widened(y), widened(x)));
+  }
+  /// By the logarithm; of a number below 0 whole powers alone.
+  static T pow(const T& x, const T& y) {
+    if (x.x[0] > 0 && std::isfinite(x.x[0])) return ::pow(x, y);
+    const bool is_whole = ::floor(y) == y;
+    if (!(x.x[0] < 0) || !is_whole || !std::isfinite(x.x[0])) return T(std::pow(x.x[0], y.x[0]));
+    const bool is_odd = std::fmod(y.x[0], 2) + std::fmod(y.x[1], 2) != 0;
+    const T size = ::pow(-x, y);
+    return is_odd ? -size : size;
+  }
+  static bool is_below(const T& x, double limit) { return std::abs(x.x[0]) < limit; }
+  static __float128 widened(const T& x) { return static_cast<__float128>(x.x[0]) + static_cast<__float128>(x.x[1]); }
+  static T rounded(__float128 x) {
+    const auto high = static_cast<double>(x);
+    return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<__float128>(high))) : T(high);
+  }
   /// By way of quad, whose reader rounds correctly: QD's own loses some digits. Only what written() gives where quad
   /// cannot hold both halves has more than 64 digits, and is read as it stands.
   static T read(std::string_view text) {
@@ -62,12 +86,10 @@ struct ExtendedTraits<dd_real> {
     if (std::count_if(mantissa.begin(), mantissa.end(), [](char c) { return c >= '0' && c <= '9'; }) > 64) {
       return read_wide(text);
     }
-    const __float128 x = ExtendedTraits<__float128>::read(text);
-    const double high = static_cast<double>(x);
-    return std::isfinite(high) ? T(high, static_cast<double>(x - static_cast<__float128>(high))) : T(high);
+    return rounded(ExtendedTraits<__float128>::read(text));
   }
   static std::string written(const T& x) {
-    const __float128 sum = static_cast<__float128>(x.x[0]) + static_cast<__float128>(x.x[1]);
+    const __float128 sum = widened(x);
     const bool holds_both = sum - static_cast<__float128>(x.x[0]) == static_cast<__float128>(x.x[1]);
     return holds_both || !std::isfinite(x.x[0]) ? ExtendedTraits<__float128>::written(sum) : written_wide(x);
   }

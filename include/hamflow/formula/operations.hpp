@@ -4,6 +4,7 @@
 #include "hamflow/core/dual.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/number.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/formula/graph.hpp"
 
@@ -79,10 +80,12 @@ S angle_of(const S& y, const S& x) {
     if (is_exact_recording(y) || is_exact_recording(x)) return atan2(y, x);
     using R = decltype(S::value);
     // Either half angle formula; the branch is that of the state at the recording, both are the same function where
-    // neither divides by 0.
+    // neither divides by 0. A test for equality tells where the recorded one does: there it is recorded anew.
     const S r = sqrt(x * x + y * y);
-    if (x.value < R(0)) return S(2) * atan((r - x) / y);
-    return S(2) * atan(y / (r + x));
+    const S sum = r + x;
+    if (!(x.value < R(0)) && !(sum == S(0))) return S(2) * atan(y / sum);
+    if (y == S(0)) return S(pi_value<R>()) + S(2) * atan(y / (x - r));  // the same, from the other side
+    return S(2) * atan((r - x) / y);
   }
 }
 

@@ -26,6 +26,9 @@ DigitState in_chart_of(const ProblemEntry& to, const ProblemEntry& from, const T
 /// An angle and some whole turns.
 std::string turned(const std::string& angle, std::int64_t turns, const std::string& arithmetic);
 
+/// Of two decimal texts, or number expressions.
+std::string sum_of(const std::string& a, const std::string& b, const std::string& arithmetic);
+
 /// x_k - x_0 of decimal texts. Subtracted with all their digits, and then rounded: what is left of two numbers that
 /// agree in 40 digits is good to 18.
 std::vector<long double> differences_from_first(const std::vector<std::string>& texts);

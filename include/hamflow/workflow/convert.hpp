@@ -19,11 +19,15 @@ std::string state_json(const std::string& system, const CanonicalState& state);
 CanonicalState converted_start(const Scenario& scenario, const std::string& to);
 /// The same as JSON, in arithmetic beyond double as texts with all digits.
 std::string converted_start_json(const Scenario& scenario, const std::string& to);
-/// The text of the scenario in the coordinates `to`; comments are lost.
+struct ConvertedScenario {
+  std::string text;
+  std::vector<std::string> notes;  // what of it is not used
+};
+/// The scenario in the coordinates `to`; comments are lost.
 /// @param sets PATH=VALUE texts for the converted one: its method, say, which may not be allowed in both coordinates
 /// @throws Error when its problem or its method cannot be used in them   @throws Rejection
-std::string converted_scenario(const Scenario& scenario, const std::string& to,
-                               const std::vector<std::string>& sets = {});
+ConvertedScenario converted_scenario(const Scenario& scenario, const std::string& to,
+                                     const std::vector<std::string>& sets = {});
 /// The keys of the scenario that are said in its old coordinates, and are not in the converted one.
 std::string left_out_of_converted(const Scenario& scenario, const std::string& to);
 

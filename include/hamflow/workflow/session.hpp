@@ -96,11 +96,13 @@ class Session final : public Simulation {
   bool one_part_ = true;
   std::int64_t step_before_ = 0;
   double time_before_ = 0;
+  std::string exact_time_before_ = "0";  // beyond double
   Effort effort_before_;
   std::vector<WallCount> bounces_before_;
   std::vector<Bounce> bounces_;
   bool listens_ = false;  // to bounces
   double initial_energy_ = 0;
+  std::string exact_initial_energy_;  // beyond double, with all its digits
   double scale_ = 0;
   double worst_energy_ = 0;
   std::optional<ConstraintResiduals> worst_residuals_;  // before the present part

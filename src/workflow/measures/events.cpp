@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "measure.hpp"
@@ -28,6 +29,7 @@ class EventsMeasure final : public Measure, public Observer {
   std::int64_t next_due(std::int64_t step) const override { return step; }
   Verdict observe(const Frame& frame) override {
     step_ = frame.step;
+    end_ = frame.time;
     for (const auto& finder : finders_) (void)finder->observe(frame);
     return by_ ? Verdict::stop : Verdict::go_on;
   }
@@ -66,7 +68,9 @@ class EventsMeasure final : public Measure, public Observer {
  private:
   void found(std::size_t event, const SectionPoint& point, Recorder* recorder) {
     if (recorder != nullptr) recorder->append(event, step_, point);
-    if (!events_[event].stops || (by_ && where_.time <= point.time)) return;
+    if (!events_[event].stops) return;
+    // The first within the step is the furthest from its end, whichever way the time runs.
+    if (by_ && std::abs(end_ - where_.time) >= std::abs(end_ - point.time)) return;
     by_ = event;
     where_ = point;
   }
@@ -79,6 +83,7 @@ class EventsMeasure final : public Measure, public Observer {
   const std::vector<UserEvent>& events_;
   std::vector<std::unique_ptr<SectionFinder>> finders_;
   std::int64_t step_ = 0;
+  double end_ = 0;                 // of the step
   std::optional<std::size_t> by_;  // the event that ends the run, the first within its step
   SectionPoint where_;
 };
