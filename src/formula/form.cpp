@@ -19,13 +19,13 @@ std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   return all;
 }
 
-/// From its first that is not 0, without those of the exponent.
+/// From the first to the last that is not 0, without those of the exponent.
 std::ptrdiff_t significant_digits(const std::string& text) {
-  const std::size_t first = text.find_first_of("123456789");
+  const std::string mantissa = text.substr(0, text.find_first_of("eE"));
+  const std::size_t first = mantissa.find_first_of("123456789");
   if (first == std::string::npos) return 0;
-  const auto begin = text.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto end = std::find_if(begin, text.end(), [](char c) { return c == 'e' || c == 'E'; });
-  return std::count_if(begin, end, [](char c) { return c >= '0' && c <= '9'; });
+  const std::string between = mantissa.substr(first, mantissa.find_last_of("123456789") + 1 - first);
+  return std::count_if(between.begin(), between.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// The fraction that a decimal text is, if it is one exactly that a double has too: 2, 0.5, 1e3, not 0.1.

@@ -98,6 +98,10 @@ class Commands(FormulaCase):
             found = self.summary("o.toml", "--set", "run.arithmetic=mp(40)")
             self.assertLess(abs(Decimal(found["energy"]["initial"]) / Decimal(literal) - 1), Decimal("1e-39"), literal)
 
+        # Zeros behind it change nothing.
+        self.write("o.toml", self.ONE % ("p_x^2.0000000000000000000000/2 + x^2", "", 1, 0))
+        self.assertTrue(self.summary("o.toml")["parameters"]["structure"]["quadratic_kinetic"])
+
     def test_powers_and_tanh_in_double_double(self):
         """As in quad: also of coordinates below 0, at 0, and far out."""
         for hamiltonian, parameters, q, p in (("p_x^2/2 + x^n/4", "n=4", 1, 0), ("p_x^2/2 + x^n/4", "n=4", 0, 1),
