@@ -9,6 +9,7 @@
 
 #include <variant>
 
+#include "hamflow/core/nearest_whole.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
 #include "hamflow/problems/support/pair_system.hpp"
@@ -27,7 +28,7 @@ struct GasModel : Particles<R> {
   ContainerKind container = ContainerKind::none;
   SoftWall<R> wall{};      // of a circle
   std::vector<R> edges{};  // of a periodic box
-  std::vector<R> half_edges{};
+  std::vector<R> inverse_edges{};
   std::shared_ptr<NearPairs> near{};  // with a cut-off; null: all pairs
 
   explicit GasModel(Laws pairs) : law(std::move(pairs)) {}
@@ -95,18 +96,11 @@ struct GasModel : Particles<R> {
   }
 
  private:
-  /// Edge by edge: particles that have gone far are many edges apart, but each comparison is one that recordings know.
+  /// The same whole number of edges for every number type and in recordings, however far apart the particles are.
   template <class S>
   void to_nearest(std::size_t k, S& d) const {
-    const R& edge = edges[k];
-    const S half(half_edges[k]);
-    if constexpr (std::is_same_v<S, double>) {
-      d -= edge * std::nearbyint(d / edge);
-    } else {
-      if (!(d <= S(R(1e6) * edge) && S(R(-1e6) * edge) <= d)) return;  // no number, or as good as none
-      while (half < d) d -= edge;
-      while (d < -half) d += edge;
-    }
+    const auto images = nearest_whole(S(d * inverse_edges[k]));
+    if (images != 0) d -= S(R(images) * edges[k]);
   }
 };
 
