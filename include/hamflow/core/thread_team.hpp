@@ -35,13 +35,18 @@ class ThreadTeam {
   ~ThreadTeam() { dismiss(); }
 
   std::size_t size() const { return size_; }
-  static constexpr std::size_t most_blocks = (std::size_t{1} << 20) - 1;
+  static constexpr std::size_t most_blocks = (std::size_t{1} << 32) - 1;
 
   /// work(worker, call, block) for each block, by any worker, in any order; back when all are done. A worker that comes
   /// late finds nothing to do, and is not waited for. One caller at a time; `work` must not throw.
-  /// @return the number of this call, which is passed to `work` too
+  /// @param blocks at most most_blocks   @return the number of this call, which is passed to `work` too
+  /// @throws Error for more blocks
   template <class Work>
   std::uint64_t share(std::size_t blocks, Work& work) {
+    if (blocks > most_blocks) {
+      throw Error("threads: " + std::to_string(blocks) + " blocks of work; allowed at most " +
+                  std::to_string(most_blocks));
+    }
     job_ = &work;
     run_ = [](void* job, std::size_t worker, std::uint64_t call, std::size_t block) {
       (*static_cast<Work*>(job))(worker, call, block);
@@ -62,7 +67,7 @@ class ThreadTeam {
   }
 
  private:
-  static constexpr int ticket_bits = 20;
+  static constexpr int ticket_bits = 32;
   static constexpr int patience = 2000;
 
   static void pause() {
@@ -94,14 +99,14 @@ class ThreadTeam {
       help(worker);
     }
   }
-  /// Takes blocks while there are any. The number of the call stands in the ticket: one that was looked at before the
-  /// call ended cannot be taken afterwards, and what belongs to a call is read only with a block of it in hand, for
-  /// which the caller waits.
+  /// Takes blocks while there are any. A ticket holds the low half of the call's number, so that one that was looked at
+  /// before the call ended cannot be taken afterwards. What belongs to a call (job_, run_, call_) is read only with a
+  /// block of it in hand, for which the caller waits.
   void help(std::size_t worker) {
     std::uint64_t ticket = tickets_.load(std::memory_order_acquire);
     while ((ticket & most_blocks) != 0) {
       if (!tickets_.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acquire)) continue;
-      run_(job_, worker, ticket >> ticket_bits, (ticket & most_blocks) - 1);
+      run_(job_, worker, call_, (ticket & most_blocks) - 1);
       done_.fetch_add(1, std::memory_order_release);
       ticket = tickets_.load(std::memory_order_acquire);
     }
@@ -111,7 +116,7 @@ class ThreadTeam {
   void* job_ = nullptr;
   void (*run_)(void*, std::size_t, std::uint64_t, std::size_t) = nullptr;
   std::uint64_t call_ = 0;
-  alignas(64) std::atomic<std::uint64_t> tickets_{0};  // the number of the call, and how many of its blocks are left
+  alignas(64) std::atomic<std::uint64_t> tickets_{0};  // the call's number, and how many of its blocks are left
   alignas(64) std::atomic<std::size_t> done_{0};
   alignas(64) std::atomic<std::uint32_t> calls_{0};  // what the sleeping wait for
   std::atomic<bool> leaving_{false};
