@@ -15,7 +15,8 @@ std::vector<std::size_t> moving_values(const Program& start, std::size_t state) 
     return x.kind == Operand::Kind::result && results[x.index];
   };
   for (std::size_t i = 0; i < start.operations.size(); ++i) {
-    results[i] = moves(start.operations[i].a) || moves(start.operations[i].b);
+    const auto& [kind, a, b, c] = start.operations[i];
+    results[i] = moves(a) || moves(b) || moves(c);
   }
   std::vector<std::size_t> moving;
   for (std::size_t k = 0; k < start.values(); ++k) {

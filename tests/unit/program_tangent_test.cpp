@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "hamflow/run/recorded_tangents.hpp"
+
 namespace hamflow {
 namespace {
 
@@ -26,6 +28,19 @@ double value(const Program& program, double x) {
   std::vector<double> values{x};
   EXPECT_TRUE(make_interpreter(program)->run(values, 1));
   return values[0];
+}
+
+TEST(ProgramTangent, AChoiceMovesWithEachOfItsOperands) {
+  Program program;
+  program.constants = {1.25, 2.5};
+  const auto choice_of = [](Operand a, Operand b, Operand c) {
+    return Program::Operation{Instruction::choose, a, b, c};
+  };
+  program.operations = {
+      choice_of(constant(0), constant(1), carried(0)), choice_of(constant(0), carried(0), constant(1)),
+      choice_of(constant(0), constant(1), constant(0)), choice_of(carried(0), constant(1), constant(0))};
+  program.outputs = {carried(0), result(0), result(1), result(2), result(3)};
+  EXPECT_EQ(moving_values(program, 1), (std::vector<std::size_t>{0, 1, 2, 4}));
 }
 
 TEST(ProgramTangent, EveryInstructionHasTheSlopeOfADifference) {
