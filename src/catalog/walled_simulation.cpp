@@ -60,7 +60,7 @@ class WalledSimulation : public Simulation {
   std::int64_t step() const override { return inner_->step(); }
   void look(Frame& frame) const override {
     inner_->look(frame);
-    add_evaluations(frame.effort, given_up_);
+    add_given_up(frame.effort);
   }
   void reverse_time() override { inner_->reverse_time(); }
   void negate_momenta() override { inner_->negate_momenta(); }
@@ -71,9 +71,7 @@ class WalledSimulation : public Simulation {
   std::optional<ConstraintResiduals> constraints() const override { return inner_->constraints(); }
   Effort effort() const override {
     Effort all = inner_->effort();
-    add_evaluations(all, given_up_);
-    all.steps += given_up_.steps;
-    all.solves_max = std::max(all.solves_max, given_up_.solves_max);
+    add_given_up(all);
     return all;
   }
   StepDiagnostics diagnostics() const override { return inner_->diagnostics(); }
@@ -129,6 +127,12 @@ class WalledSimulation : public Simulation {
   }
 
  protected:
+  /// The work of flights that ended beyond a wall and were taken again.
+  void add_given_up(Effort& all) const {
+    add_evaluations(all, given_up_);
+    all.steps += given_up_.steps;
+    all.solves_max = std::max(all.solves_max, given_up_.solves_max);
+  }
   /// Within a rejected step a sample is the flight that was given up; soft walls are a term of H.
   bool bounces_within_parts() const { return walls_->rule == WallRule::event || walls_->rule == WallRule::mirror; }
   std::unique_ptr<WalledSimulation> copy() const {
