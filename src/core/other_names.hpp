@@ -7,17 +7,17 @@
 namespace hamflow {
 
 inline constexpr std::string_view other_names = R"(
-verlet: leapfrog, leap-frog, stoermer-verlet, stormer-verlet, velocity-verlet, strang
+verlet: leapfrog, leap-frog, stoermer-verlet, stormer-verlet, velocity-verlet, strang, symplectic2
 verlet-dkd: position-verlet
-stv4: yoshida, yoshida4, forest-ruth
-euler-a: symplectic-euler, semi-implicit-euler
+stv4: yoshida, yoshida4, forest-ruth, symplectic4, ruth4
+euler-a: symplectic-euler, semi-implicit-euler, symplectic1
 euler: explicit-euler, forward-euler
 rk4: runge-kutta
 dop853: rk8, dopri, dopri5, dopri8
 cg: hbvm, hamiltonian-boundary-value
 discrete-gradient: gonzalez
 eg: energy-momentum, labudde-greenspan
-lobatto-3a-3b: lobatto, lobatto-iiia-iiib
+lobatto-3a-3b: lobatto, lobatto-iiia-iiib, generalized-leapfrog, generalised-leapfrog, generalized-stoermer-verlet
 avf: averaged-vector-field
 gauss: gauss-legendre, collocation, irk
 implicit-midpoint: midpoint, midpoint-rule
