@@ -56,13 +56,19 @@ std::vector<Cell> cells_of(const std::string& line) {
 
 }  // namespace
 
-GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed) {
+GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed, const std::vector<std::string>& edges) {
   GasStart start;
   const std::string intervals = std::to_string(n - 1);
+  const std::string halves = std::to_string(2 * n);
+  std::size_t k = 0;
   // One quotient each: as symmetric about 0 as numbers are.
-  each_place(n, space, [&](std::int64_t i) { start.q.push_back(std::to_string(2 * i - (n - 1)) + "/" + intervals); });
-  for (std::size_t k = 0; k < start.q.size(); ++k) {
-    const double u = static_cast<double>(counter_bits(seed, k) >> 11) * 0x1p-53;
+  each_place(n, space, [&](std::int64_t i) {
+    const std::string place = std::to_string(2 * i - (n - 1));
+    start.q.push_back(edges.empty() ? place + "/" + intervals : place + "*(" + edges[k] + ")/" + halves);
+    k = (k + 1) % space;
+  });
+  for (std::size_t i = 0; i < start.q.size(); ++i) {
+    const double u = static_cast<double>(counter_bits(seed, i) >> 11) * 0x1p-53;
     start.p.push_back(fifty_thousandths(static_cast<std::uint64_t>(1e5 * u)));
   }
   return start;

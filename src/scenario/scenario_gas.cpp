@@ -1,4 +1,5 @@
 // [problem] with the gas: words that choose its entry of the catalogue, its parameters, and where the particles begin.
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -118,6 +119,25 @@ std::size_t size_of_initial(const TomlTable& table) {
   return q != nullptr && q->is_array() ? q->as_array()->size() : 0;
 }
 
+/// The dimension, 2 where it is not given or wrong.
+std::size_t space_of(const Texts& parameters) {
+  const auto given = parameters.find(GasKeys::dimension);
+  return given != parameters.end() && number_value(given->second) == 3 ? 3 : 2;
+}
+
+/// The edges of a box that a lattice can fill; none where the container is another one, or the box is wrong.
+std::vector<std::string> edges_of_box(const Choices& choices, const Texts& parameters, std::size_t space) {
+  const auto container = choices.find(GasKeys::container);
+  const auto size = parameters.find(GasKeys::size);
+  if (container == choices.end() || size == parameters.end()) return {};
+  if (container->second != ContainerNames::box && container->second != ContainerNames::periodic) return {};
+  std::vector<std::string> edges = list_parts(size->second);
+  const bool usable = edges.size() == space && std::all_of(edges.begin(), edges.end(), [](const std::string& edge) {
+                        return number_value(edge) > 0;
+                      });
+  return usable ? edges : std::vector<std::string>{};
+}
+
 }  // namespace
 
 void ScenarioReader::read_gas(TomlTable& table) {
@@ -148,11 +168,7 @@ void ScenarioReader::read_gas(TomlTable& table) {
   }
   read_cutoff(table, request.variant, parameters);
   const std::int64_t n = table.whole(o.particles_per_side).value_or(0);
-  GasStart start = read_gas_start(table, n,
-                                  number_value(parameters.contains(GasKeys::dimension) ? parameters[GasKeys::dimension]
-                                                                                       : o.dimension.default_value) == 3
-                                      ? 3
-                                      : 2);
+  GasStart start = read_gas_start(table, n, space_of(parameters), parameters);
   if (!start.masses.empty()) {
     if (table.has(o.masses.name)) {
       table.complain(o.masses.name, table.found(o.masses.name) + " beside masses in the file; allowed one of them");
@@ -289,7 +305,7 @@ GasStart ScenarioReader::without_own_masses(const TomlTable& table, GasStart sta
   return start;
 }
 
-GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::size_t space) {
+GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::size_t space, const Texts& parameters) {
   const GasOptions& o = gas_options();
   const std::string kind = table.text(o.start).value_or(o.start.default_value);
   const auto file = table.text(o.file);
@@ -355,7 +371,8 @@ GasStart ScenarioReader::read_gas_start(TomlTable& table, std::int64_t n, std::s
     return {};
   }
   if (kind == GasStarts::corner) return gas_in_corner(n, space);
-  return gas_on_lattice(n, space, static_cast<std::uint64_t>(seed.value_or(1)));
+  return gas_on_lattice(n, space, static_cast<std::uint64_t>(seed.value_or(1)),
+                        edges_of_box(scenario_.request.variant, parameters, space));
 }
 
 /// S, as a text that every arithmetic reads.
@@ -368,11 +385,17 @@ void ScenarioReader::read_scale(TomlTable& table, std::int64_t n, std::size_t si
       table.complain(o.scale.name, table.found(o.scale.name) + "; allowed with particles_per_side, else \"" +
                                        GasScales::listing + "\" or a number");
     }
-    parameters[GasKeys::scale] = corner ? std::to_string(n - 1) : std::to_string(n - 1) + "/2";
+    const std::vector<std::string> edges = edges_of_box(scenario_.request.variant, parameters, space_of(parameters));
+    if (corner) {
+      parameters[GasKeys::scale] = std::to_string(n - 1);
+    } else if (edges.empty() || table.plain_string(o.start.name) == GasStarts::file || table.has("initial")) {
+      parameters[GasKeys::scale] = std::to_string(n - 1) + "/2";
+    } else {
+      const auto less = [](const std::string& a, const std::string& b) { return number_value(a) < number_value(b); };
+      parameters[GasKeys::scale] = std::to_string(n) + "/(" + *std::min_element(edges.begin(), edges.end(), less) + ")";
+    }
   } else if (word == GasScales::listing) {
-    const std::size_t space =
-        parameters.contains(GasKeys::dimension) && number_value(parameters[GasKeys::dimension]) == 3 ? 3 : 2;
-    const std::size_t particles = size / space;
+    const std::size_t particles = size / space_of(parameters);
     if (particles == 1)
       table.complain(o.scale.name, table.found(o.scale.name) + " with one particle; allowed a number");
     parameters[GasKeys::scale] = std::to_string(particles > 1 ? particles - 1 : 1) + "/2";

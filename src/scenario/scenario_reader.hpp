@@ -65,13 +65,14 @@ class ScenarioReader {
   static void tell_other_formulas(TomlTable& table, FormulaTexts texts, std::string wrong);
   Texts read_typed_parameters(TomlTable& table);
   void check_invariant_names(TomlTable& table, const FormulaTexts& texts);
+  void note_standing_still(const FormulaTexts& texts);
   void refuse_unused_parameters(TomlTable& table, const FormulaTexts& texts);
   void read_gas(TomlTable& table);
   void read_typed_pair(TomlTable& table, Texts& parameters);
   void note_unused_start(const TomlTable& table);
   std::filesystem::path resumed_run();
   static GasStart without_own_masses(const TomlTable& table, GasStart start);
-  GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space);
+  GasStart read_gas_start(TomlTable& table, std::int64_t n, std::size_t space, const Texts& parameters);
   void read_scale(TomlTable& table, std::int64_t n, std::size_t size, Texts& parameters);
   void read_box(TomlTable& table);
   void check_gas();

@@ -15,11 +15,13 @@ struct GasStart {
   std::vector<std::size_t> lines{};  // of a CSV, from 1, in which each particle stands
 };
 
-/// n particles on each side of the square, or cube, [-1, 1]^space, the first coordinate changing fastest; momenta
+/// n particles on each side of a lattice, the first coordinate changing fastest: of the square, or cube, [-1, 1]^space
+/// with particles on its sides, or of a box of the given edges, each particle in the middle of its cell. Momenta are
 /// uniform in [-1, 1), multiples of 2e-5 [Sonnleitner2010, ch. 3a]: the k-th of them is 2e-5 floor(1e5 u_k) - 1, u_k in
 /// [0, 1) the upper 53 bits of counter_bits(seed, k), k = 0, 1, ... in the order of p.
-/// @param n at least 2   @param space 2 or 3
-GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed);
+/// @param n at least 2   @param space 2 or 3   @param edges none, or one a coordinate, numbers as text
+GasStart gas_on_lattice(std::int64_t n, std::size_t space, std::uint64_t seed,
+                        const std::vector<std::string>& edges = {});
 /// The same on [0, 1]^space, at rest.
 GasStart gas_in_corner(std::int64_t n, std::size_t space);
 /// A CSV whose first row names x, y(, z), p_x, p_y(, p_z)(, mass), in any order; a row a particle.
