@@ -50,9 +50,11 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
     if (report.status == "interrupted") std::cout << fmt::format("{:<20}the same command with --resume\n", "to go on");
   }
   print_warnings(report.warnings);
-  if (report.status != "failed") print_notes(report.failures, options.quiet);
-  if (report.status != "failed") return;
-  for (const std::string& failure : report.failures) print_error(failure);
+  std::vector<std::string> notes = report.failures;
+  if (!report.hint.empty()) notes.push_back("hint: " + report.hint);
+  if (report.status != "failed") return print_notes(notes, options.quiet);
+  for (const std::string& failure : report.failures)
+    print_error(failure, &failure == &report.failures.back() ? report.hint : "");
 }
 
 /// Without a figure there is nothing to colour.

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +26,8 @@ class MemberReader {
     for (std::size_t key = 0; key < varied_.size(); ++key) {
       if (std::string why = varied_.without_start(member, key); !why.empty()) {
         no_start = std::move(why);
-        values.push_back(family_.add_value("1"));  // stands for what is not there
+        if (!placeholder_) placeholder_ = family_.add_value("1");  // for what is not there
+        values.push_back(*placeholder_);
       } else {
         values.push_back(value_of(member, key));
       }
@@ -61,6 +63,7 @@ class MemberReader {
   std::vector<std::string> paths_;
   ScenarioFamily family_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> numbers_;
+  std::optional<std::size_t> placeholder_;
 };
 
 }  // namespace hamflow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -187,7 +188,8 @@ class Sweep::Worker {
     row.walls = simulation->wall_counts();
     row.halved = simulation->effort().halved;
     if (watch) row.events = watch->events();
-    row.message = outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : simulation->failure();
+    row.message =
+        outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : cause_of(simulation->failure());
     if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);
     // Of a run without a step, too, all is told that the start shows, as of the single run.
     if (watch && (frame.step > 0 || outcome != Outcome::stopped)) row.observables = watch->row();
@@ -230,10 +232,17 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::funct
   std::mutex mutex;
   std::condition_variable all_done;
   bool over = false;
+  std::exception_ptr pulse_failure;  // of a pulse that throws: the sweep stops, and the caller gets it
   const auto look = [&] {
     std::unique_lock lock(mutex);
     while (!all_done.wait_for(lock, std::chrono::milliseconds(20), [&] { return over; })) {
-      if (pulse && !pulse(steps_taken_)) stop_ = true;
+      if (!pulse || pulse_failure) continue;
+      try {
+        if (!pulse(steps_taken_)) stop_ = true;
+      } catch (...) {
+        pulse_failure = std::current_exception();
+        stop_ = true;
+      }
     }
   };
   std::jthread watch;
@@ -265,6 +274,8 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::funct
     throw;
   }
   end();
+  watch.join();
+  if (pulse_failure) std::rethrow_exception(pulse_failure);
 }
 
 }  // namespace hamflow

@@ -177,6 +177,7 @@ class Sweep {
   void keep_notes(std::size_t member, const Scenario& scenario);
   MemberObservables observables_of(const Scenario& scenario) const;
   void take_as_common(std::size_t member, const Scenario& scenario);
+  void refuse_different_kinds();
   void unite_names();
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
@@ -195,7 +196,8 @@ class Sweep {
   Scenario common_;
   std::map<std::string, std::size_t> method_notes_;  // and the first member that has it
   std::size_t common_member_ = 0;
-  std::optional<std::uint64_t> start_contents_;  // of the files of all members
+  std::map<std::pair<std::string, std::size_t>, std::size_t> first_of_kind_;  // problem and size: its first member
+  std::optional<std::uint64_t> start_contents_;                               // of the files of all members
   bool common_has_start_ = false;
   std::vector<std::string> complaints_;
   std::vector<MemberStart> starts_;  // of members in lanes

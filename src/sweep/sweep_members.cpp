@@ -69,12 +69,24 @@ void Sweep::read_members(const std::string& name) {
     }
   };
   (void)on_threads(rows_.size() > 4 * batch ? threads_ : 1, work);
+  refuse_different_kinds();
   if (!found_.empty()) {
     report(found_);
     return;
   }
   for (auto& [key, group] : groups_) std::sort(group.members.begin(), group.members.end());
   unite_names();
+}
+
+/// The first member that differs from member 0, in whatever order threads have read them.
+void Sweep::refuse_different_kinds() {
+  if (first_of_kind_.size() < 2) return;
+  std::vector<std::size_t> firsts;
+  for (const auto& [kind, first] : first_of_kind_) firsts.push_back(first);
+  std::sort(firsts.begin(), firsts.end());
+  found_
+      ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
+       "that is one problem of one size"] = {firsts[1]};
 }
 
 MemberObservables Sweep::observables_of(const Scenario& scenario) const {
@@ -135,14 +147,9 @@ void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found)
 /// Members of one table are states of one problem. What else is the same of all is known of the first with a start.
 void Sweep::take_as_common(std::size_t member, const Scenario& scenario) {
   const bool has_start = !scenario.start_p.empty() && scenario.start_p.front() == scenario.start_p.front();
-  const bool alike = common_.problem == nullptr || (scenario.start_q.size() == common_.start_q.size() &&
-                                                    scenario.problem->info.name == common_.problem->info.name);
-  if (!alike) {
-    found_
-        ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
-         "that is one problem of one size"]
-            .push_back(member);
-  }
+  const std::pair kind(scenario.problem->info.name, scenario.start_q.size());
+  const auto [at, is_new] = first_of_kind_.try_emplace(kind, member);
+  if (!is_new) at->second = std::min(at->second, member);
   const bool better = has_start == common_has_start_ ? member < common_member_ : has_start;
   if (common_.problem != nullptr && !better) return;
   common_ = scenario;

@@ -11,7 +11,6 @@
 namespace hamflow {
 
 namespace {
-constexpr std::size_t most_members = 10'000'000;
 
 /// The number of members where every combination is one.
 std::size_t combinations(const std::vector<Vary>& keys) {

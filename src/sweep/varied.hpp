@@ -12,6 +12,8 @@ namespace hamflow {
 
 class Formula;
 
+inline constexpr std::size_t most_members = 10'000'000;  // of one sweep
+
 class Varied {
  public:
   Varied() = default;

@@ -107,6 +107,13 @@ std::vector<NamedPath> paths_in(const std::string& formula) {
   return all;
 }
 
+std::size_t count_of_range(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::vector<std::string> range = split(text.substr(equals == std::string::npos ? 0 : equals + 1), ':');
+  const auto count = range.size() == 3 ? number_in(trimmed(range[2])) : std::nullopt;
+  return count && *count >= 1 && *count <= static_cast<double>(most_values) ? static_cast<std::size_t>(*count) : 1;
+}
+
 Vary parse_vary(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {

@@ -30,6 +30,9 @@ std::vector<NamedPath> paths_in(const std::string& formula);
 /// allowed
 Vary parse_vary(const std::string& text);
 
+/// How many values a range "PATH=a:b:n" has, without making them; 1 for other texts and for ranges that are refused.
+std::size_t count_of_range(const std::string& text);
+
 /// A value as it was given, without the quotes of a TOML string: 1/3, not '1/3'.
 std::string without_quotes(const std::string& text);
 

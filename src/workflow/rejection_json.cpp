@@ -46,7 +46,9 @@ Complaint parts_of(const std::string& line) {
   Complaint all{"", 0, 0, "", line.substr(at + mark.size())};
   const std::size_t colon = all.message.find(": ");
   const std::string key = all.message.substr(0, colon);
-  const bool has_key = colon != std::string::npos && key.find(' ') == std::string::npos;
+  // A quoted key may have blanks.
+  const bool told = colon != std::string::npos && all.message.compare(colon + 2, 6, "found ") == 0;
+  const bool has_key = colon != std::string::npos && (told || key.find(' ') == std::string::npos);
   if (has_key) {
     all.key = key;
     all.message = all.message.substr(colon + 2);

@@ -220,8 +220,25 @@ Figure section_figure_of(const Sweep& sweep) {
   return figure;
 }
 
-/// The column that a name means: its own, or the only one that ends with it behind a slash. None of these: the name.
-std::string whole_name(const std::vector<DrawnColumn>& all, const std::string& name) {
+/// The column of a coordinate or momentum by its name, "final/q1" of "final/x"; empty for other names.
+std::string column_of_state(const Sweep& sweep, const std::vector<DrawnColumn>& all, const std::string& name) {
+  const std::string table = "final/";
+  if (!name.starts_with(table)) return {};
+  const StateNames& names = sweep.names().state();
+  for (const auto& [letter, list] : {std::pair{"q", &names.q}, {"p", &names.p}}) {
+    const auto at = std::find(list->begin(), list->end(), name.substr(table.size()));
+    if (at == list->end()) continue;
+    const std::string numbered = fmt::format("{}{}{}", table, letter, at - list->begin() + 1);
+    const auto is_numbered = [&](const DrawnColumn& column) { return column.name == numbered; };
+    return std::any_of(all.begin(), all.end(), is_numbered) ? numbered : table + letter;
+  }
+  return {};
+}
+
+/// The column that a name means: its own, that of a coordinate or momentum, or the only one that ends with it behind a
+/// slash. None of these: the name.
+std::string whole_name(const Sweep& sweep, const std::vector<DrawnColumn>& all, const std::string& name) {
+  if (const std::string column = column_of_state(sweep, all, name); !column.empty()) return column;
   std::string found = name;
   int ends = 0;
   for (const DrawnColumn& column : all) {
@@ -236,7 +253,7 @@ std::string whole_name(const std::vector<DrawnColumn>& all, const std::string& n
 /// What is wrong with a column; empty if nothing is.
 std::string refused_column(const Sweep& sweep, const std::string& colour) {
   const std::vector<DrawnColumn> all = drawn_columns(sweep);
-  const std::string name = whole_name(all, colour);
+  const std::string name = whole_name(sweep, all, colour);
   std::vector<std::string> columns;
   for (const DrawnColumn& column : all) columns.push_back(column.name);
   if (colour.empty() || std::find(columns.begin(), columns.end(), name) != columns.end()) return {};
@@ -291,7 +308,7 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   const Vary& key = varied.keys()[over];
   const std::vector<DrawnColumn> all = drawn_columns(sweep);
   std::vector<std::string> names = columns_to_average(columns);
-  for (std::string& name : names) name = whole_name(all, name);
+  for (std::string& name : names) name = whole_name(sweep, all, name);
   ParameterMap figure;
   figure.title = title_of(sweep);
   figure.x_label = key_label(sweep, key.path);
@@ -374,7 +391,7 @@ void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, co
     return;
   }
   std::vector<DrawnColumn> all = drawn_columns(sweep);
-  const std::string colour = column.empty() ? usual_colour : whole_name(all, column);
+  const std::string colour = column.empty() ? usual_colour : whole_name(sweep, all, column);
   const Varied& varied = sweep.varied();
   const FigureKeys keys = figure_keys(varied);
   ParameterMap figure;

@@ -101,6 +101,13 @@ Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std
       wrong.push_back(prefix + std::string(error.what()));
     }
   };
+  // Ranges are counted before their values are made, which take memory.
+  double members = 1;
+  for (const std::string& vary : request.varied) members *= static_cast<double>(count_of_range(vary));
+  if (!request.zip && members > static_cast<double>(most_members)) {
+    wrong.push_back("--vary: error: found more than 10000000 members; allowed fewer values for each key");
+    return {};
+  }
   for (const std::string& vary : request.varied) {
     try_to("--vary: error: ", [&] { varied.push_back(parse_vary(vary)); });
   }
@@ -212,6 +219,9 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
     if (failure["kind"] == "no_start" && summary["no_start"] != summary["members"]) continue;
     report.failures.push_back(fmt::format("member {}, step {}: {}", failure["member"].get<std::size_t>(),
                                           failure["step"].get<std::int64_t>(), failure["message"].get<std::string>()));
+    if (report.hint.empty() && failure["kind"] == name(Outcome::not_converged)) {
+      report.hint = hint_for(sweep.common().request, Outcome::not_converged, failure["message"].get<std::string>());
+    }
   }
   if (folder) folder->save(report.json);
   return report;

@@ -28,6 +28,7 @@ struct SweepRequest {
 struct SweepReport {
   std::string status;                 // "done", "interrupted"; "failed": no member came to its end
   std::vector<std::string> failures;  // the first ten, a sentence each
+  std::string hint;                   // what helps against the first of them; often nothing
   std::vector<std::string> warnings;  // what is plainly nonsense about members that are done, "kind: message" each
   std::string json;                   // the summary
   std::string text;                   // for people
