@@ -680,6 +680,18 @@ TEST(CentralOrbit, OfACircleClosesAfterOneRevolution) {
   EXPECT_EQ(rest.radial_periods, 1);
 }
 
+TEST(CentralOrbit, ANeutralCircleIsNotStable) {
+  // V = -1/r^2 with l^2 = -2 m a: V_eff is constant.
+  const CentralOrbit orbit = describe_central_orbit<double>(Powers<L>(-1, -2), 1.0, {1, 0}, {0, std::sqrt(2.0)});
+  EXPECT_EQ(orbit.type, OrbitType::circle);
+  EXPECT_FALSE(orbit.circular_stable);
+  EXPECT_TRUE(std::isinf(orbit.apsidal_angle));
+  EXPECT_TRUE(std::isinf(orbit.radial_period));
+  // A little less steep, it is stable.
+  const double speed = std::sqrt(1.999);
+  EXPECT_TRUE(describe_central_orbit<double>(Powers<L>(-1, -1.999L), 1.0, {1, 0}, {0, speed}).circular_stable);
+}
+
 TEST(CentralOrbit, FindsTwoCirclesThatAreCloseTogether) {
   // V = -1/r - 1/(3 r^3): circles where r + 1/r = l^2, a stable one outside of an unstable one.
   const Powers<L> potential(-1, -1, -1 / L(3), -3);

@@ -149,7 +149,9 @@ CentralOrbit describe_central_orbit(const Potential& potential, R mass, const Ve
     const L r = motion.radius();
     orbit.type = OrbitType::circle;
     orbit.circular_radius = r;
-    const L curvature = r > 0 ? motion.effective_curvature(r) : L(1);
+    L curvature = r > 0 ? motion.effective_curvature(r) : L(1);
+    // V = a/r^2: no circle is stable, and rounding alone would make it so.
+    if (r > 0 && curvature <= 8 * rounding * motion.size_of_curvature(r)) curvature = 0;
     orbit.circular_stable = curvature > 0;
     const L radial_rate = curvature > 0 ? sqrt(curvature / static_cast<L>(mass)) : L(0);
     orbit.radial_period = 2 * pi_value<L>() / radial_rate;

@@ -79,6 +79,12 @@ class RadialMotion {
     const auto d = potential_.derivatives(u);
     return d.slope + u * d.curvature + (l_ == R(0) ? R(0) : R(3) * l_ * l_ / (mass_ * u * u));
   }
+  /// The sum of the sizes of its terms: what a rounding of the state changes is about so many roundings.
+  R size_of_curvature(R r) const {
+    const R u = r * r;
+    const auto d = potential_.derivatives(u);
+    return abs(d.slope) + abs(u * d.curvature) + (l_ == R(0) ? R(0) : R(3) * l_ * l_ / (mass_ * u * u));
+  }
 
   // ---- r'^2 without its zeros ----
 
