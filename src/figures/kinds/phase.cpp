@@ -45,6 +45,33 @@ Curve in_plane(const FigureData& data, const Plane& plane) {
   return finite_points(column_of(data, plane.first).values(), column_of(data, plane.second).values());
 }
 
+constexpr double turn = 2 * 3.14159265358979323846;
+
+/// The coordinate of a rotor that goes round often: an angle, whose turns lie on one another where it is folded.
+bool goes_round_often(const FigureData& data, const Extent& x) {
+  constexpr double often = 4;  // turns, whose level curve can still be seen
+  const bool is_angle = std::find(data.angles.begin(), data.angles.end(), data.coordinates[0]) != data.angles.end();
+  return is_angle && x.high - x.low > often * turn;
+}
+
+/// Angles from -pi to pi.
+void fold(Curve& curve) {
+  for (double& x : curve.x) x = std::remainder(x, turn);
+}
+
+/// Whether the curve has more waves across the panel than the tracer of level curves resolves: a coordinate that runs
+/// on through many periods of H.
+bool waves_too_finely(const Curve& track) {
+  constexpr int most = 40;
+  int extrema = 0;
+  for (std::size_t i = 2; i < track.y.size(); ++i) {
+    const bool runs_on = (track.x[i] - track.x[i - 1]) * (track.x[1] - track.x[0]) > 0;
+    if (!runs_on) return false;
+    if ((track.y[i] - track.y[i - 1]) * (track.y[i - 1] - track.y[i - 2]) < 0) ++extrema;
+  }
+  return extrema > most;
+}
+
 Curve opening_in_plane(const FigureData& data, const Plane& plane) {
   FigureData opening;
   static_cast<FigureSamples&>(opening) = data.opening;
@@ -92,7 +119,14 @@ Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns,
   panel.y_label = axis_label(figure, column_of(one, plane.second));
   panel.aspect = columns == 1 ? 0.7 : 1;
   const bool whole = one.coordinates.size() == 1 && plane == Plane{one.coordinates[0], one.momenta[0]};
-  if (figure.runs.size() == 1 && whole && one.hamiltonian_1d && std::isfinite(start_of(one.energy))) {
+  if (whole && goes_round_often(one, x)) {
+    panel.x_label += " mod 2π";
+    x = {};
+    for (std::vector<Curve>* curves : {&tracks, &openings}) std::for_each(curves->begin(), curves->end(), fold);
+    for (const Curve& track : tracks) x.include(track.x);
+  }
+  const bool has_level_curve = whole && one.hamiltonian_1d && std::isfinite(start_of(one.energy));
+  if (figure.runs.size() == 1 && has_level_curve && !waves_too_finely(tracks[0])) {
     x.include(openings[0].x);  // few samples may miss most of the level curve
     y.include(openings[0].y);
     fit();
