@@ -88,6 +88,10 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
     for (const std::string& word : sub->remaining()) {
+      if (!word.starts_with("-") && sub->get_name() == "compare") {
+        message += (message.empty() ? "" : "\n") + sub->get_name() + ": found " + word +
+                   " behind a blank; allowed one list with commas between, e.g. --methods 'verlet," + word + "'";
+      }
       if (!word.starts_with("-")) continue;
       const std::string name = word.substr(0, word.find('='));
       const bool sets = std::find(names.begin(), names.end(), "--set") != names.end();

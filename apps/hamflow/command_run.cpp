@@ -45,7 +45,7 @@ int print(const RunReport& report, const std::string& folder, const RunOptions& 
   }
   const bool failed = report.status == "failed";
   if (failed) {
-    print_error(report.message, report.hint);
+    print_error(report.message, report.hint, report.details);
     if (!folder.empty()) std::cerr << "what was computed is in " << folder << '\n';
     if (!report.file_trouble.empty()) std::cerr << "the same command with --resume goes on from the last checkpoint\n";
   } else if (!report.file_trouble.empty()) {

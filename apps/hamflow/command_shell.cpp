@@ -118,7 +118,7 @@ class Shell {
       if (!rest.empty()) throw Error(word + ": found '" + rest + "' behind it; allowed nothing");
     };
     const auto with = [&](const char* what) {
-      if (rest.empty()) throw Error(word + ": found nothing; allowed " + what);
+      if (rest.empty()) throw Error(word + ": missing; allowed " + what);
     };
     if (word == "step") return step(rest);
     if (word == "dt") {

@@ -128,9 +128,10 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 }
 
-void print_error(const std::string& message, const std::string& hint) {
+void print_error(const std::string& message, const std::string& hint, const std::string& details) {
   std::cerr << "error: " << message << '\n';
   if (!hint.empty()) std::cerr << "hint: " << hint << '\n';
+  if (!details.empty()) std::cerr << "details: " << details << '\n';
 }
 
 void write_file(const std::string& file, const std::string& text) {

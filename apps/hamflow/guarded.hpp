@@ -42,7 +42,7 @@ void note_unused_measures(const Scenario& scenario, const std::string& why, bool
 void note_unused_figures(const Scenario& scenario, const std::string& why, bool quiet);
 /// Also with --quiet: "warning: ..." each.
 void print_warnings(const std::vector<std::string>& warnings);
-void print_error(const std::string& message, const std::string& hint = {});
+void print_error(const std::string& message, const std::string& hint = {}, const std::string& details = {});
 
 /// Writes a text file that an option names.   @throws FileError
 void write_file(const std::string& file, const std::string& text);

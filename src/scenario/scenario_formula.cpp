@@ -7,6 +7,7 @@
 
 #include "column_names.hpp"
 #include "formula_keys.hpp"
+#include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
 
 namespace hamflow {
@@ -217,6 +218,17 @@ void ScenarioReader::refuse_unused_parameters(TomlTable& table, const FormulaTex
   }
 }
 
+/// dq/dt = dH/dp is 0 where H does not contain p. Momenta of an array, p_x[i], are not looked at.
+void ScenarioReader::note_standing_still(const FormulaTexts& texts) {
+  const StateNames names = state_names(*scenario_.problem, texts.parameters, scenario_.problem->dimension);
+  const std::set<std::string> words = words_of(texts.hamiltonian + " " + texts.kinetic);
+  if (!texts.constraints.empty()) return;
+  for (std::size_t i = 0; i < names.p.size(); ++i) {
+    if (names.p[i].find('[') != std::string::npos || words.contains(names.p[i])) continue;
+    scenario_.notes.push_back("H does not contain " + names.p[i] + ": " + names.q[i] + " stands still");
+  }
+}
+
 /// Each is a column of every run, beside those that there are without it.
 void ScenarioReader::check_invariant_names(TomlTable& table, const FormulaTexts& texts) {
   if (texts.invariants.empty()) return;
@@ -333,6 +345,7 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
     scenario_.problem = &find_problem(name, request.variant);
     if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
+    if (texts && name == FormulaKeys::problem) note_standing_still(*texts);
   } catch (const FormulaError& error) {
     table.complain_in(error.key, error.what());
     if (texts) tell_other_formulas(table, *texts, error.key);

@@ -121,6 +121,7 @@ void ScenarioReader::read_length(TomlTable& table) {
                                   " or " + end_key + " = " + shortest(fitting * scenario_.dt));
     } else {
       scenario_.steps = static_cast<std::int64_t>(whole);
+      if (whole == 0) scenario_.notes.push_back(table.full(end_key) + " = 0: no step is taken");
     }
   }
 }

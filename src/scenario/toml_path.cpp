@@ -61,6 +61,7 @@ Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) 
       if (array == nullptr) {
         return {nullptr, "found " + walked + " to be no array; allowed an index of an array that is there"};
       }
+      if (array->empty()) return {nullptr, walked + " is an empty array; allowed " + walked + " = [...] as a whole"};
       if (part.index >= array->size()) {
         return {nullptr, "found index " + std::to_string(part.index) + " of an array of " +
                              std::to_string(array->size()) + "; allowed 0 to " + std::to_string(array->size() - 1)};
@@ -71,7 +72,9 @@ Place walk(toml::table& root, const std::vector<Part>& parts, bool make_tables) 
       continue;
     }
     toml::table* const table = at->as_table();
-    if (table == nullptr) return {nullptr, "found " + walked + " to be no table; allowed a path through tables"};
+    if (table == nullptr) {
+      return {nullptr, walked + " is a value here, not a table; allowed " + walked + " = { " + part.name + " = ... }"};
+    }
     if (last) return {at};
     walked += (walked.empty() ? "" : ".") + part.name;
     if (!table->contains(part.name)) {

@@ -155,11 +155,11 @@ std::optional<std::vector<std::string>> TomlTable::texts(const std::string& key)
 }
 
 std::string TomlTable::found(const std::string& key) const {
-  return has(key) ? "found " + shown(*table_->get(key)) : "found nothing";
+  return has(key) ? "found " + shown(*table_->get(key)) : "missing";
 }
 
 void TomlTable::missing(const std::string& key, const std::string& allowed) {
-  complain(key, "found nothing; allowed " + allowed);
+  complain(key, "missing; allowed " + allowed);
 }
 
 std::optional<std::string> TomlTable::plain_string(const std::string& key) {
@@ -171,7 +171,7 @@ std::optional<std::string> TomlTable::text(const OptionInfo& option, const std::
   const toml::node* node = find(option.name);
   const Allowed allowed = [&] { return "; allowed " + allowed_text(option) + behind; };
   if (node == nullptr) {
-    if (option.required) complain(option.name, "found nothing" + allowed());
+    if (option.required) complain(option.name, "missing" + allowed());
     return std::nullopt;
   }
   switch (option.type) {

@@ -86,7 +86,7 @@ std::string reason_of(const Simulation& simulation, Outcome outcome) {
   Frame frame;
   simulation.look(frame);
   const bool says_more = outcome == Outcome::not_converged || outcome == Outcome::wall || outcome == Outcome::outside;
-  const std::string own_words = says_more ? simulation.failure() : std::string();
+  const std::string own_words = says_more ? cause_of(simulation.failure()) : std::string();
   return fmt::format("step {}, from t = {}: {}", frame.step + 1, shortest(frame.time),
                      own_words.empty() ? std::string(message(outcome)) : own_words);
 }

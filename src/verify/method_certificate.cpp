@@ -44,7 +44,8 @@ std::string nothing_shown(const Simulation& simulation, Outcome outcome, double 
     return fmt::format("the run left the finite numbers after step {} of {}", simulation.step(), map_steps);
   }
   if (outcome != Outcome::done) {
-    return fmt::format("the run stopped at step {} of {}: {}", simulation.step(), map_steps, simulation.failure());
+    return fmt::format("the run stopped at step {} of {}: {}", simulation.step(), map_steps,
+                       cause_of(simulation.failure()));
   }
   if (!(size <= largest_growth * size_at_start)) {
     return fmt::format("the run left its scale: coordinates grew from {:.2g} to {:.2g}", size_at_start, size);

@@ -148,7 +148,7 @@ class ReferenceRun::Impl {
       const Outcome outcome = one->advance(1);
       if (outcome == Outcome::stopped) return;
       if (outcome != Outcome::done) {
-        const std::string why = one->failure().empty() ? std::string(message(outcome)) : one->failure();
+        const std::string why = one->failure().empty() ? std::string(message(outcome)) : cause_of(one->failure());
         Frame frame;
         one->look(frame);
         throw Error("there is no reference: the motion cannot be followed beyond t = " + shortest(frame.time) + ": " +

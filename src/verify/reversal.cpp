@@ -34,7 +34,8 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
   const auto counted = [&](std::int64_t step) { return !pulse || pulse(step - first); };
   const auto go = [&](std::int64_t to, std::span<Observer* const> observers) {
     found.outcome = run(simulation, to, observers, counted);
-    if (is_failure(found.outcome) && found.outcome != Outcome::non_finite) found.failure = simulation.failure();
+    if (is_failure(found.outcome) && found.outcome != Outcome::non_finite)
+      found.failure = cause_of(simulation.failure());
     return found.outcome == Outcome::done;
   };
   if (!progress.turned) {

@@ -95,7 +95,7 @@ std::vector<Complaint> differences(const Scenario& scenario, const Checkpoint& c
     // The file is gone, and the start is that of run.h5.
     if (key == contents_key() && !scenario.start_contents) continue;
     if (is_free_on_resume(key) || settings.contains(key)) continue;
-    complain(key, "found nothing; allowed with --resume " + shown(value) + ", as when the run began");
+    complain(key, "missing; allowed with --resume " + shown(value) + ", as when the run began");
   }
   if (scenario.steps < checkpoint.step) {
     const std::string by_time = run_path(run_keys().t_end);

@@ -241,6 +241,7 @@ class ScenarioRun {
     if (summary.contains("error")) {
       report.message = summary["error"]["message"].get<std::string>();
       report.hint = summary["error"]["hint"].get<std::string>();
+      report.details = summary["error"].value("details", "");
     }
     simulation_->look(report.final);
     report.energy = simulation_->energy();

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 Json summary(const Session& session, const SessionOutcome& last) {
   RunResult result;
   result.outcome = last.outcome;
-  if (is_failure(last.outcome)) result.failure = session.failure();
+  if (is_failure(last.outcome)) result.failure = cause_of(session.failure());
   result.wall_seconds = last.wall_seconds;
   result.steps_taken = session.step();
   Json all = summary_of(session.present(), session, result, nullptr, nullptr, &session.turns());

@@ -278,12 +278,14 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
   const bool own_words = says_more && !result.failure.empty();
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
   const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
-                                       own_words ? result.failure : std::string(message(result.outcome)));
-  return {{"kind", std::string(name(result.outcome))},
-          {"step", step},
-          {"t", frame.time},
-          {"message", text},
-          {"hint", hint_for(request, result.outcome, result.failure)}};
+                                       own_words ? cause_of(result.failure) : std::string(message(result.outcome)));
+  Json error = {{"kind", std::string(name(result.outcome))},
+                {"step", step},
+                {"t", frame.time},
+                {"message", text},
+                {"hint", hint_for(request, result.outcome, cause_of(result.failure))}};
+  if (const std::string numbers = numbers_of(result.failure); own_words && !numbers.empty()) error["details"] = numbers;
+  return error;
 }
 }  // namespace
 

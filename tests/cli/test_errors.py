@@ -61,7 +61,7 @@ record_every = true
             self.assertIn("run.dt", self.complaint(f"run.dt={value}"))
         self.assertIn("positive", self.complaint("problem.mass=-1"))
         self.assertIn("positive", self.complaint("problem.mass=0"))
-        self.assertIn("1 numbers", self.complaint("problem.initial={q=[1],p=[0,1]}").replace("2 numbers", "1 numbers"))
+        self.assertIn("allowed an array of 2 numbers", self.complaint("problem.initial={q=[1],p=[0,1]}"))
         self.assertIn("did you mean central-force?", self.complaint("problem.name=centralforce"))
 
     def test_geometry_says_which_inequality_fails_and_by_how_much(self):
@@ -88,14 +88,14 @@ record_every = true
         self.write("kepler.toml", ELLIPSE.replace('name = "central-force"', 'Name = "central-force"'))
         lines = self.complaint("run.steps=3").splitlines()
         self.assertEqual(len(lines), 2, lines)
-        self.assertIn("problem.name: found nothing", lines[0])
+        self.assertIn("problem.name: missing", lines[0])
         self.assertTrue(lines[1].startswith("kepler.toml:3:"), lines[1])
         self.assertIn("problem.Name: found an unknown key; ", lines[1])
         self.assertTrue(lines[1].endswith("; did you mean name?"), lines[1])
 
     def test_exactly_the_keys_of_a_start(self):
         self.assertIn("unknown key", self.complaint('problem.orbit={kind="circle",r0=1,r_per=1}'))
-        self.assertIn("found nothing", self.complaint('problem.orbit={kind="circle"}'))
+        self.assertIn("missing", self.complaint('problem.orbit={kind="circle"}'))
         self.assertIn("allowed circle, ellipse, parabola, hyperbola", self.complaint('problem.orbit={kind="line",r_per=1}'))
 
     def test_starts_that_cannot_be(self):
@@ -137,7 +137,7 @@ record_every = true
         self.write("empty.toml", "")
         text = self.hamflow("run", "empty.toml", status=2).stderr
         for key in ("problem.name", "method.name", "run.dt", "run.steps"):
-            self.assertIn(f"empty.toml:1:1: error: {key}: found nothing", text)
+            self.assertIn(f"empty.toml:1:1: error: {key}: missing", text)
 
     def test_files(self):
         self.assertIn("nowhere.toml: No such file", self.hamflow("run", "nowhere.toml", status=3).stderr)
@@ -288,8 +288,8 @@ record_every = true
                               '[output]\nobservables = { a = "x1" }\n')
         for command in (["run"], ["reverse"], ["compare", "--methods", "verlet"], ["sweep", "--vary", "run.dt=1,2"]):
             said = self.hamflow(command[0], "nb.toml", *command[1:], status=2).stderr
-            self.assertIn("problem.masses: found nothing", said)
-            self.assertIn("problem.initial: found nothing", said)
+            self.assertIn("problem.masses: missing", said)
+            self.assertIn("problem.initial: missing", said)
 
 
     def test_messages_of_json_begin_with_what_was_found(self):

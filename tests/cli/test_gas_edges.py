@@ -64,7 +64,7 @@ class Edges(CommandCase):
 
     def test_a_box_without_edges_on_the_lattice(self):
         """All that is wrong is told, whatever the arithmetic."""
-        for container, said in (('{ kind = "periodic" }', "container.size: found nothing"),
+        for container, said in (('{ kind = "periodic" }', "container.size: missing"),
                                 ('{ kind = "periodic", size = [-1, 3] }', "positive")):
             told = self.told(f"cutoff = 1\ncontainer = {container}", "run.arithmetic=lattice")
             self.assertIn(said, told)

@@ -219,9 +219,9 @@ class Told(CommandCase):
 
     def test_what_came_from_set_stands_nowhere_in_the_file(self):
         self.write("gas.toml", TWO.replace('{ kind = "none" }', "{ radius = 3 }"))
-        for change, key in (("run={ dt = 0.1 }", "run.steps: found nothing"), ("method={ }", "method.name: found nothing"),
-                            ('run.events=[{ name = "a" }]', "run.events[0].expression: found nothing"),
-                            ('problem.container={ kind = "box" }', "problem.container.size: found nothing"),
+        for change, key in (("run={ dt = 0.1 }", "run.steps: missing"), ("method={ }", "method.name: missing"),
+                            ('run.events=[{ name = "a" }]', "run.events[0].expression: missing"),
+                            ('problem.container={ kind = "box" }', "problem.container.size: missing"),
                             ("problem.initial={ q = [1, 1] }", "problem.initial.p: found neither"),
                             ("problem.initial.q[0]=5", "problem.initial: found particle 1 at 5"),
                             ("problem.container.radius=0.5", "problem.container.radius: found particle 1 at 0.6")):

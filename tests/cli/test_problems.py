@@ -261,7 +261,7 @@ class Problems(CommandCase):
     def test_errors_of_the_new_keys(self):
         cf = 'name="central-force"\n'
         for problem, words in (
-            (cf + 'potential="power"\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.a", "found nothing")),
+            (cf + 'potential="power"\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.a", "missing")),
             (cf + 'potential="power"\na=1\nn=-1\norbit={energy=1,angular_momentum=1}', ("problem.n", "but -1")),
             (cf + 'potential="power"\na=[1,2]\nn=2\norbit={energy=1,angular_momentum=1}', ("problem.n", "as a has, 2")),
             (cf + 'potential="kepler"\norbit={energy=-1,angular_momentum=1}', ("problem.orbit.energy", "fails by 0.5")),
@@ -302,7 +302,7 @@ class Problems(CommandCase):
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1],p=[0,0,0]}', ("4 numbers in the plane, 6 in space",)),
             ('name="n-body"\nmasses=[1,1]\ninitial={q=[0,0,1,0],p=[0,0,0,0,0,0]}', ("as many as q has",)),
             ('name="n-body"\nmasses=[]\ninitial={q=[],p=[]}', ("problem.masses",)),
-            ('name="n-body"\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "found nothing")),
+            ('name="n-body"\ninitial={q=[0,0,1,0],p=[0,0,0,0]}', ("problem.masses", "missing")),
             ('name="fput"\nn=2.5\ninitial={q=[1,2],p=[0,0]}', ("problem.n", "whole")),
             ('name="fput"\nn=3\ninitial={q=[1,2],p=[0,0]}', ("3 numbers",)),
             ('name="magnetic"\nfield=[1,2]\ninitial={q=[0,0,0],p=[0,0,0]}', ("problem.field", "array of 3")),

@@ -136,7 +136,7 @@ class StartOfEnergy(CommandCase):
         for sets, words in (
             (['problem.initial.p=["+", "-"]'], "found 2 components left to the energy; allowed one"),
             (["problem.initial.p=[0.1, 0.1]"], "found it beside all components of p; allowed with one of them"),
-            (['problem.initial={ q = [0, 0.1], p = ["+", 0] }'], "problem.initial.energy: found nothing; allowed a num"),
+            (['problem.initial={ q = [0, 0.1], p = ["+", 0] }'], "problem.initial.energy: missing; allowed a num"),
             (['problem.initial={ q = [0, 0.1], p = ["*", 0], energy = 1 }'], 'found an array with "*"'),
             (['problem.initial={ q = ["+", 0.1], p = [1, 0], energy = 1 }'], "problem.initial.q: found"),
             (['problem.initial.energy="1/0"'], "divided by 0"),

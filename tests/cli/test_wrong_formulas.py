@@ -35,10 +35,10 @@ class Wrong(FormulaCase):
         for old, new, key, words in (
             ('coordinates = ["x", "y"]', 'coordinates = ["x", "sin"]', "problem.coordinates", "sin"),
             ('coordinates = ["x", "y"]', 'coordinates = ["x", 2]', "problem.coordinates", "allowed an array of texts"),
-            ('coordinates = ["x", "y"]', "", "problem.coordinates", "found nothing; allowed an array of names"),
+            ('coordinates = ["x", "y"]', "", "problem.coordinates", "missing; allowed an array of names"),
             ('coordinates = ["x", "y"]', 'coordinats = ["x", "y"]', "problem.coordinats", "did you mean coordinates?"),
             ("hamiltonian =", 'kinetic = "p_x^2"\nhamiltonian =', "problem.kinetic", "beside hamiltonian; allowed either"),
-            ("hamiltonian =", "potential =", "problem.kinetic", "found nothing; allowed either hamiltonian, or"),
+            ("hamiltonian =", "potential =", "problem.kinetic", "missing; allowed either hamiltonian, or"),
             ("{ k = 1 }", "{ k = true }", "problem.parameters.k", "a number"),
             ("{ k = 1 }", "{ k = 1, pi = 3 }", "problem.parameters.pi", "pi"),
             ("{ k = 1 }", "{ k = 1, x = 3 }", "problem.coordinates", "found the name x a second time"),

@@ -2,6 +2,7 @@
 // a loop. Its name, what it means and what helps stand here and nowhere else.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace hamflow {
@@ -65,6 +66,14 @@ constexpr std::string_view message(Outcome outcome) {
       break;
   }
   return {};
+}
+
+/// The first line of Simulation::failure(): why the step failed.
+inline std::string cause_of(const std::string& failure) { return failure.substr(0, failure.find('\n')); }
+/// The numbers behind that line; often none.
+inline std::string numbers_of(const std::string& failure) {
+  const std::size_t end = failure.find('\n');
+  return end == std::string::npos ? "" : failure.substr(end + 1);
 }
 
 /// What helps; empty where nothing went wrong. What depends on the method or the problem is added where they are known.

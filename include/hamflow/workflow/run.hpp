@@ -38,6 +38,7 @@ struct RunReport {
   std::string status;        // "done", "interrupted", "failed"
   std::string message;       // of a run that failed: what happened, a sentence
   std::string hint;          // and what can be done
+  std::string details;       // the numbers of a step that found no solution
   std::string file_trouble;  // why not everything could be written; empty: it was. The numbers hold all the same
   std::vector<std::string> warnings{};  // what is plainly nonsense about it, "kind: message" each
   bool drawing_stopped = false;         // the run ended, its figures were not drawn because pulse() said to stop

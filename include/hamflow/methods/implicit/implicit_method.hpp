@@ -103,7 +103,8 @@ class ImplicitMethod {
     return d;
   }
 
-  /// Repeats the step that failed and reports every attempt. Changes nothing.
+  /// Repeats the step that failed and reports every attempt: the cause, and in a second line the residuals. Changes
+  /// nothing.
   std::string failure(const P& problem, const Base& h, const PhasePoint<A, n>& z) const {
     ImplicitMethod again = *this;
     PhasePoint<A, n> copy = z;
@@ -122,8 +123,8 @@ class ImplicitMethod {
     return solver_name(options_.iteration) + " did not converge in " + std::to_string(options_.max_iterations) +
            (options_.max_iterations == 1 ? " iteration" : " iterations") + " with " + again.setup_.detail() +
            (log.attempts() > 1 ? " from any of " + std::to_string(log.attempts()) + " starts" : "") +
-           (options_.halve ? ", nor in ten halvings of the step" : "") + "; " + E::Setup::residual_name +
-           " per iteration of the whole step " + log.text() + end_of_solution(log);
+           (options_.halve ? ", nor in ten halvings of the step" : "") + end_of_solution(log) + "\n" +
+           E::Setup::residual_name + " per iteration of the whole step " + log.text();
   }
 
   /// r(z0, U) and E(U), for any number type. The verification differentiates them.
