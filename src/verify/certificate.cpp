@@ -7,7 +7,9 @@
 
 #include "energy_size.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "rounding.hpp"
 
@@ -83,6 +85,57 @@ Verdict EnergyBlocks::observe(const Frame& frame) {
   return Verdict::go_on;
 }
 
+namespace {
+/// The sum of |x dI/dx| over all coordinates and momenta x, for each invariant I, or its largest component, at the
+/// start or the end of a run, where it is more: one rounding of each x moves I by so many roundings. Empty of systems
+/// with many coordinates.
+std::vector<double> sizes_of_invariants(const Request& request, const Frame& end) {
+  constexpr std::size_t most_coordinates = 64;
+  constexpr double part = 0x1p-20;
+  if (end.q.empty() || end.q.size() > most_coordinates) return {};
+  Request other = request;
+  other.arithmetic = "double";
+  other.record = false;
+  other.threads = 1;
+  const auto invariants_at = [&](const std::vector<double>& q, const std::vector<double>& p) {
+    other.start = {};
+    for (const double x : q) other.start.q.push_back(shortest(x));
+    for (const double x : p) other.start.p.push_back(shortest(x));
+    return make_simulation(other)->invariants();
+  };
+  Frame start;
+  make_simulation(request)->look(start);
+  std::vector<double> sizes;
+  try {
+    for (const Frame* const at : {static_cast<const Frame*>(&start), &end}) {
+      std::vector<double> here;
+      for (std::size_t k = 0; k < 2 * at->q.size(); ++k) {
+        std::vector<double> q = at->q, p = at->p;
+        double& x = k < q.size() ? q[k] : p[k - q.size()];
+        const double kept = x;
+        x = kept * (1 + part);
+        const auto above = invariants_at(q, p);
+        x = kept * (1 - part);
+        const auto below = invariants_at(q, p);
+        here.resize(above.size());
+        for (std::size_t i = 0; i < above.size(); ++i) {
+          double most = 0;
+          for (std::size_t c = 0; c < above[i].initial.size(); ++c) {
+            most = std::max(most, std::abs(above[i].initial[c] - below[i].initial[c]) / (2 * part));
+          }
+          here[i] += most;
+        }
+      }
+      sizes.resize(here.size());
+      for (std::size_t i = 0; i < here.size(); ++i) sizes[i] = std::max(sizes[i], here[i]);
+    }
+  } catch (const Error&) {  // a state beside the run's that is refused: nothing is known
+    return {};
+  }
+  return sizes;
+}
+}  // namespace
+
 /// Each kick and each drift rounds a position or a momentum once, by half a unit at most, which moves an invariant with
 /// terms of size T by about epsilon T; n roundings walk sqrt(n) of them, and reading the invariant rounds a few times.
 /// 16 of each: the largest of a walk over the whole run is rarely above four standard deviations, and two coordinates
@@ -117,6 +170,10 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
   const std::vector<InvariantInfo>& infos = problem.info.invariants;
   Frame end;
   simulation.look(end);
+  const bool any_typed =
+      std::any_of(infos.begin(), infos.end(), [](const InvariantInfo& info) { return info.terms == Terms::other; });
+  const std::vector<double> sizes =
+      any_typed && end.step > 0 ? sizes_of_invariants(request, end) : std::vector<double>{};
   for (std::size_t i = 0; i < invariants.size() && i < infos.size(); ++i) {
     MomentumMap map{infos[i].name, largest_error(invariants[i]), 0, {}};
     double size = largest(invariants[i].initial);
@@ -150,8 +207,13 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
         map.doubtful = in_arithmetic(to_one_side * most);
         break;
       }
-      case Terms::other:
+      case Terms::other: {
+        if (sizes.size() <= i || !(sizes[i] > 0)) break;
+        size = std::max(size, sizes[i]);
+        map.rounding = in_arithmetic(walk * std::max(q_unit, p_unit) * sizes[i]);
+        map.doubtful = in_arithmetic(to_one_side * walk * std::max(q_unit, p_unit) * sizes[i]);
         break;
+      }
     }
     map.relative = size > 0 ? quotient(map.max_error, size) : map.max_error;
     if (simulation.step() == 0) map.rounding.reset();  // nothing was done, which keeps nothing

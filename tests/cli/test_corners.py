@@ -103,6 +103,26 @@ steps = 1
             done = self.hamflow("sweep", "ho.toml", "--out", "none", "--threads", "2", "--vary", "problem.name=" + names, status=2)
             self.assertIn("member 700", done.stderr)
 
+    def test_typed_invariants_are_judged(self):
+        self.write("central.toml", """
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "(p_x^2 + p_y^2)/2 + (x^2 + y^2)^2/4"
+invariants = { turn = "x*p_y - y*p_x", square = "(x*p_y - y*p_x)^2", wrong = "x*p_y" }
+initial = { q = [1, 0], p = [0.3, 0.7] }
+[method]
+name = "stv4"
+[run]
+dt = 0.05
+steps = 5000
+""")
+        kept = self.summary("central.toml")["certificate"]["momentum_maps"]
+        self.assertEqual({name: kept[name]["conserved"] for name in kept},
+                         {"turn": "to rounding", "square": "to rounding", "wrong": "not"})
+        lost = self.summary("central.toml", "--set", "method.name=rk4")["certificate"]["momentum_maps"]
+        self.assertEqual({lost[name]["conserved"] for name in lost}, {"not"})
+
     def test_a_sweep_is_coloured_by_a_coordinate(self):
         self.hamflow("sweep", "kepler.toml", "--out", "none", "--set", "run.steps=3", "--vary", "run.dt=0.1:0.2:3",
                      "--figure", "map.svg", "--colour", "final/x")
