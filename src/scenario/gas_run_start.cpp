@@ -27,7 +27,7 @@ std::vector<std::string> numbers_of(hid_t file, const std::string& name, const s
 }
 
 /// Where a state of so many numbers stands.
-struct Place {
+struct StoredState {
   std::string q;
   std::string p;
   hsize_t row = 0;
@@ -36,9 +36,9 @@ struct Place {
 };
 
 /// H5MD of a gas, else /q and /p.
-Place place_of(hid_t file, const std::filesystem::path& path, RunState which) {
+StoredState place_of(hid_t file, const std::filesystem::path& path, RunState which) {
   const std::vector<hsize_t> times = shape_of(file, "t");
-  Place place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
+  StoredState place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
   if (shape_of(file, place.q).empty()) place = {"q", "p", 0, 1};
   if (which == RunState::start && !shape_of(file, "particles/start/position/value").empty()) {
     place = {"particles/start/position/value", "particles/start/momentum/value", 0, 1};
@@ -67,7 +67,7 @@ std::vector<double> masses_of_bodies(hid_t file) {
 }
 
 /// The particles of another dimension would be as many numbers, and no particles.
-void check_dimension(hid_t file, const Place& place, std::size_t space, const std::string& path) {
+void check_dimension(hid_t file, const StoredState& place, std::size_t space, const std::string& path) {
   hsize_t dimension = place.dimension;
   if (dimension == 0) {
     const std::size_t bodies = masses_of_bodies(file).size();
@@ -109,7 +109,7 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
   }
   try {
     const Hdf5Handle h5 = open_to_read(file);
-    const Place place = place_of(h5, file, which);
+    const StoredState place = place_of(h5, file, which);
     check_dimension(h5, place, space, file.string());
     GasStart start;
     const bool sampled = place.q.find("start") == std::string::npos;

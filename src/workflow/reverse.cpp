@@ -1,13 +1,12 @@
 #include "hamflow/workflow/reverse.hpp"
 
 #include <fmt/format.h>
+#include <mpfr.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
@@ -114,18 +113,18 @@ const char* const below_the_digits =
 
 /// Texts that read back exactly have up to 98 digits in double-double, where the two halves of a number lie far apart.
 /// reverse.h5 has them; here stand the 33 that the arithmetic carries.
-std::vector<std::string> shown(const std::vector<std::string>& texts, const std::string& arithmetic) {
+std::vector<std::string> shown(std::vector<std::string> texts, const std::string& arithmetic) {
   if (arithmetic != "double-double") return texts;
-  constexpr int places = 33;
-  std::vector<std::string> all;
-  for (const std::string& text : texts) {
-    const auto digits =
-        std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find('e'), text.size())),
-                      [](char c) { return c >= '0' && c <= '9'; });
-    all.push_back(digits <= places ? text
-                                   : ExtendedTraits<__float128>::written(evaluate_number<Quad>(text).value, places));
+  mpfr_t x;
+  mpfr_init2(x, 320);
+  for (std::string& text : texts) {
+    char rounded[64];
+    mpfr_set_str(x, text.c_str(), 10, MPFR_RNDN);
+    mpfr_snprintf(rounded, sizeof rounded, "%.33Rg", x);
+    text = rounded;
   }
-  return all;
+  mpfr_clear(x);
+  return texts;
 }
 
 /// Above as many coordinates as run prints, where it stands: a group of reverse.h5; null where none is kept.
