@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Kills `hamflow reproduce` again and again at random moments (kill -9), resumes it each time, and compares what it leaves
-in the end with a reproduction that was never interrupted: verdicts.json and every CSV file of a curve, byte for byte.
+in the end with a reproduction that was never interrupted: verdicts.json, index.html and every CSV file of a curve, byte for byte.
 
     tools/kill_reproduction.py build/release/hamflow all --quick --kills 20 --threads 2
 
@@ -17,7 +17,7 @@ import time
 
 
 def contents(folder):
-    files = [folder / "verdicts.json", *sorted(folder.glob("reproduction/*/*.csv"))]
+    files = [folder / "verdicts.json", folder / "index.html", *sorted(folder.glob("reproduction/*/*.csv"))]
     return {str(file.relative_to(folder)): file.read_bytes() for file in files}
 
 

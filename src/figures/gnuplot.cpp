@@ -216,22 +216,4 @@ void require_font() {
   }
 }
 
-void write_whole(const std::filesystem::path& file, const std::string& bytes) {
-  const std::filesystem::path part =
-      file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), static_cast<long>(getpid()));
-  const auto fail = [&](int error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw FileError(fmt::format("{}: could not be written: {}", file.string(), std::strerror(error)));
-  };
-  errno = 0;
-  File out(std::fopen(part.c_str(), "wbe"));
-  if (!out) fail(errno);
-  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), out.get()) == bytes.size();
-  if (std::fclose(out.release()) != 0 || !whole) fail(errno);
-  std::error_code moved;
-  std::filesystem::rename(part, file, moved);
-  if (moved) fail(moved.value());
-}
-
 }  // namespace hamflow::figures

@@ -39,7 +39,4 @@ std::string finished(std::string bytes, Format format, const std::string& title)
 /// gnuplot draws blanks where there is no font, and says nothing. @throws FileError naming the package to install
 void require_font();
 
-/// Writes a whole file or leaves the old one. @throws FileError
-void write_whole(const std::filesystem::path& file, const std::string& bytes);
-
 }  // namespace hamflow::figures

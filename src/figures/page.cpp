@@ -11,6 +11,7 @@
 #include "legend.hpp"
 #include "script.hpp"
 #include "text.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow::figures {
 
@@ -308,7 +309,9 @@ void draw(const Page& page, const std::filesystem::path& file) {
   const Format format = format_of(file);
   const std::string script = gnuplot_script(page, format);
   if (format != Format::svg) require_font();
-  write_whole(file, finished(run_gnuplot(script), format, page.title));
+  const std::string bytes = finished(run_gnuplot(script), format, page.title);
+  WholeFile whole(file);
+  write_whole(whole, bytes);
 }
 
 }  // namespace hamflow::figures

@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <span>
 
 #include "hamflow/core/error.hpp"
+#include "whole_file.hpp"
 
 namespace hamflow {
 
 CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const std::vector<InvariantColumn>& more)
-    : path_(file), out_(file) {
-  if (!out_) throw FileError("cannot write " + file.string());
+    : path_(file), out_(fdopen(open_new_file(file), "w"), std::fclose) {
+  if (!out_) fail();
   std::string header = "step,t";
   for (const char* letter : {"q", "p"}) {
     for (std::size_t i = 1; i <= dimension; ++i) header += fmt::format(",{}{}", letter, i);
@@ -26,18 +28,18 @@ CsvFile::CsvFile(const std::filesystem::path& file, std::size_t dimension, const
 }
 
 CsvFile::CsvFile(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash)
-    : path_(file), bytes_(bytes), hash_(hash) {
+    : path_(file), out_(nullptr, std::fclose), bytes_(bytes), hash_(hash) {
   if (const std::string wrong = refused_csv(file, bytes, hash); !wrong.empty()) {
     throw FileError("cannot go on with " + file.string() + ": " + wrong);
   }
   std::error_code error;
   std::filesystem::resize_file(file, bytes, error);
-  out_.open(file, std::ios::in | std::ios::out | std::ios::ate);
-  if (error || !out_) throw FileError("cannot write " + file.string());
+  out_.reset(std::fopen(file.c_str(), "ae"));
+  if (error || !out_) fail();
 }
 
 void CsvFile::put(std::string_view text) {
-  out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  (void)std::fwrite(text.data(), 1, text.size(), out_.get());  // flush() tells what went wrong
   bytes_ += text.size();
   hash_ = fnv1a(std::as_bytes(std::span(text)), hash_);
 }
@@ -64,9 +66,10 @@ void CsvFile::append(const Frame& frame, std::span<const double> observables) {
 }
 
 void CsvFile::flush() {
-  out_.flush();
-  if (!out_) throw FileError("cannot write " + path_.string() + " (is the disk full?)");
+  if (std::fflush(out_.get()) != 0 || std::ferror(out_.get()) != 0) fail();
 }
+
+void CsvFile::fail() const { throw FileError("cannot write " + path_.string() + " (is the disk full?)"); }
 
 std::string refused_csv(const std::filesystem::path& file, std::uint64_t bytes, std::uint64_t hash) {
   std::ifstream in(file, std::ios::binary);

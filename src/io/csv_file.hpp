@@ -3,9 +3,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,9 +39,10 @@ class CsvFile {
 
  private:
   void put(std::string_view text);
+  [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
-  std::ofstream out_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out_;
   std::uint64_t bytes_ = 0;
   std::uint64_t hash_ = fnv1a_of_nothing;
 };

@@ -15,16 +15,6 @@ constexpr const char* hash_attribute = "fnv1a";
 std::string hash_of(const std::string& text) { return fmt::format("{:016x}", fnv1a(std::as_bytes(std::span(text)))); }
 }  // namespace
 
-void silence_hdf5() {
-  static const bool once = [] {
-    // Closing at exit what a full disk kept from being closed crashes the library. Every file is closed where it ends.
-    H5dont_atexit();
-    return true;
-  }();
-  (void)once;
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
 Hdf5Handle text_type(std::size_t length) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
   check_hdf5(H5Tset_size(type, std::max<std::size_t>(length, 1)), "size a text type");
@@ -59,15 +49,6 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
   write_values(object, name, text_type(longest), list_of(texts.size()), all.data());
 }
 
-std::string read_attribute(hid_t object, const std::string& name) {
-  if (H5Aexists(object, name.c_str()) <= 0) return {};
-  const Hdf5Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open an attribute");
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose, "read a type");
-  std::string text(H5Tget_size(type), '\0');
-  check_hdf5(H5Aread(attribute, type, text.data()), "read attribute " + name);
-  return text.substr(0, text.find('\0'));
-}
-
 void write_text_dataset(hid_t file, const std::string& name, const std::string& text) {
   const Hdf5Handle type = text_type(text.size());
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a data space");
@@ -80,11 +61,9 @@ void write_text_dataset(hid_t file, const std::string& name, const std::string& 
 }
 
 std::string read_text_dataset(hid_t file, const std::string& name) {
-  const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name);
-  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose, "read a type");
-  std::string text(H5Tget_size(type), '\0');
-  check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read " + name);
-  const std::string hash = read_attribute(dataset, hash_attribute);
+  const StoredData dataset = StoredData::dataset(file, name);
+  std::string text = dataset.text();
+  const std::string hash = text_attribute(dataset.object(), hash_attribute);
   if (!hash.empty() && hash != hash_of(text))
     throw FileError("HDF5: dataset " + name + " is damaged: its hash is wrong");
   return text;
@@ -94,18 +73,23 @@ Hdf5Handle make_group(hid_t file, const std::string& name) {
   return {H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group " + name};
 }
 
+namespace {
+/// HDF5 creates it as a new file and follows no link.
+Hdf5Handle create_new(const std::filesystem::path& path, hid_t access) {
+  std::error_code none;
+  std::filesystem::remove(path, none);
+  return {H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access), H5Fclose, "create " + path.string()};
+}
+}  // namespace
+
 Hdf5Handle create_hdf5(const std::filesystem::path& path) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
   check_hdf5(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "choose the file format");
   constexpr hsize_t page = 4096;
   check_hdf5(H5Pset_alignment(access, 3400, page), "put chunks on pages");
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create " + path.string()};
+  return create_new(path, access);
 }
 
-Hdf5Handle open_to_read(const std::filesystem::path& path) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a property list");
-  check_hdf5(H5Pset_metadata_read_attempts(access, 24), "limit the attempts to read");
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose, "open " + path.string()};
-}
+Hdf5Handle create_hdf5_in_usual_format(const std::filesystem::path& path) { return create_new(path, H5P_DEFAULT); }
 
 }  // namespace hamflow

@@ -71,29 +71,23 @@ void Column::add(const std::string& digits) {
 }
 
 void Column::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
-  const Hdf5Handle source(H5Dopen2(other, name_.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name_);
-  const Hdf5Handle space(H5Dget_space(source), H5Sclose, "open the space of " + name_);
-  const Hdf5Handle type(H5Dget_type(source), H5Tclose, "read the type of " + name_);
-  Shape size = shape(0);
-  if (H5Sget_simple_extent_ndims(space) != rank_ || H5Tequal(type, type_) <= 0) {
-    throw FileError("HDF5: dataset " + name_ + " has another shape");
+  const StoredData source = StoredData::dataset(other, name_);
+  const std::size_t found = source.rows();
+  if (H5Tequal(source.type(), type_) <= 0 || source.shape().size() != static_cast<std::size_t>(rank_)) {
+    throw FileError("HDF5: " + source.name() + " has another shape");
   }
-  check_hdf5(H5Sget_simple_extent_dims(space, size.data(), nullptr), "read the size of " + name_);
-  if (size != shape(size[0])) throw FileError("HDF5: dataset " + name_ + " has another width");
-  if (size[0] < rows) {
-    throw FileError("HDF5: dataset " + name_ + " has " + std::to_string(size[0]) + " rows, not the " +
+  const Shape size = shape(found);
+  if (!std::equal(source.shape().begin(), source.shape().end(), size.begin())) {
+    throw FileError("HDF5: " + source.name() + " has another width");
+  }
+  if (found < rows) {
+    throw FileError("HDF5: dataset " + name_ + " has " + std::to_string(found) + " rows, not the " +
                     std::to_string(rows) + " that the checkpoint counts");
   }
   while (written_ < rows) {
-    const Shape offset{written_, 0, 0};
-    const Shape count = shape(std::min<hsize_t>(rows - written_, at_once));
-    const Hdf5Handle part(H5Dget_space(source), H5Sclose, "open the space of " + name_);
-    check_hdf5(H5Sselect_hyperslab(part, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
-               "select rows of " + name_);
-    const Hdf5Handle memory(H5Screate_simple(rank_, count.data(), nullptr), H5Sclose, "make a data space");
-    waiting_.resize(count[0] * bytes_a_row_);
-    check_hdf5(H5Dread(source, type_, memory, part, H5P_DEFAULT, waiting_.data()), "read " + name_);
-    write(count[0]);
+    const std::size_t count = std::min<std::size_t>(rows - written_, at_once);
+    waiting_ = source.bytes_of_rows(written_, count);
+    write(count);
   }
 }
 

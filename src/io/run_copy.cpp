@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 #include "hdf5_text.hpp"
@@ -12,129 +13,176 @@ namespace hamflow {
 
 namespace {
 
-/// The names of an object's attributes, or of the objects in a group.
-std::vector<std::string> names_in(hid_t file, bool attributes) {
-  std::vector<std::string> names;
-  if (attributes) {
-    const auto note = [](hid_t, const char* name, const H5A_info_t*, void* all) -> herr_t {
-      static_cast<std::vector<std::string>*>(all)->emplace_back(name);
-      return 0;
-    };
-    check_hdf5(H5Aiterate2(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, note, &names), "list the attributes");
-  } else {
-    const auto note = [](hid_t, const char* name, const H5L_info_t*, void* all) -> herr_t {
-      static_cast<std::vector<std::string>*>(all)->emplace_back(name);
-      return 0;
-    };
-    check_hdf5(H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, note, &names), "list the datasets");
-  }
-  return names;
-}
-
-void copy_attribute(hid_t from, hid_t to, const char* name) {
-  const Hdf5Handle source(H5Aopen(from, name, H5P_DEFAULT), H5Aclose, "open an attribute");
-  const Hdf5Handle type(H5Aget_type(source), H5Tclose, "read a type");
-  const Hdf5Handle space(H5Aget_space(source), H5Sclose, "open a data space");
-  const auto points = static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0));
-  if (H5Tis_variable_str(type) != 0)
-    throw FileError(std::string("HDF5: attribute ") + name + " has a type that no run has");
-  std::vector<char> bytes(points * H5Tget_size(type));
-  check_hdf5(H5Aread(source, type, bytes.data()), std::string("read attribute ") + name);
-  const Hdf5Handle target(H5Acreate2(to, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "create an attribute");
-  check_hdf5(H5Awrite(target, type, bytes.data()), std::string("write attribute ") + name);
-}
-
 /// What the copy has of its own.
 constexpr const char* written_anew[] = {"q", "p", "scenario", "digits"};
 /// Tables whose rows are no samples, of states in the coordinates that are left behind.
-constexpr const char* left_out[] = {"section", "events/wall", "events/user"};
+constexpr const char* left_out_tables[] = {"section", "events/wall", "events/user"};
 
 bool is_one_of(const auto& names, const std::string& path) {
   return std::find(std::begin(names), std::end(names), path) != std::end(names);
 }
 
-/// One dataset of the source. H5Ocopy would be one call, but crashes on a damaged file, and on a disk that is full.
-struct Source {
-  std::string name;
-  Hdf5Handle dataset;
-  int rank = 0;
-  hsize_t size[2] = {0, 1};
+/// Datasets that a run has, with a row a sample. What is damaged of them is an error.
+bool is_of_samples(const std::string& path) {
+  constexpr std::string_view folders[] = {"invariants/", "observables/", "solver/"};
+  return path == "t" || path == "step" || path == "energy" || path == "events/halved" ||
+         std::any_of(std::begin(folders), std::end(folders),
+                     [&](std::string_view folder) { return path.starts_with(folder); });
+}
 
-  Source(hid_t file, std::string path)
-      : name(std::move(path)), dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset " + name) {
-    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
-    rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 0 || rank > 2) throw FileError("HDF5: dataset " + name + " has too many dimensions");
-    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
-  }
+/// The target cannot be written, whatever there is to read.
+struct WriteError : FileError {
+  using FileError::FileError;
 };
 
-struct Objects {
-  std::vector<std::string> groups;
-  std::vector<Source> datasets;
-  std::vector<std::string> tables_left_out;
-};
-
-void collect(hid_t file, const std::string& group, Objects& objects) {
-  constexpr std::size_t most_objects = 10000;  // of a damaged file that goes in circles
-  const Hdf5Handle here(H5Gopen2(file, group.empty() ? "/" : group.c_str(), H5P_DEFAULT), H5Gclose,
-                        "open group " + group);
-  for (const std::string& name : names_in(here, false)) {
-    const std::string path = group.empty() ? name : group + "/" + name;
-    if (is_one_of(written_anew, path)) continue;
-    if (is_one_of(left_out, path)) {
-      objects.tables_left_out.push_back("/" + path);
-      continue;
-    }
-    const Hdf5Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
-    const H5I_type_t kind = H5Iget_type(object);
-    if (objects.groups.size() + objects.datasets.size() > most_objects)
-      throw FileError("HDF5: found no end of objects");
-    if (kind == H5I_DATASET) objects.datasets.emplace_back(file, path);
-    if (kind != H5I_GROUP) continue;
-    objects.groups.push_back(path);
-    collect(file, path, objects);
+bool holds_numbers(hid_t file, const std::string& path) {
+  try {
+    return StoredData::dataset(file, path).kind() == StoredData::Kind::numbers;
+  } catch (const FileError&) {
+    return true;
   }
 }
 
-/// The first `rows` rows; some at a time, so that a long run does not fill the memory.
-void copy_rows(const Source& source, hid_t to, hsize_t rows) {
-  const std::string& name = source.name;
-  const Hdf5Handle type(H5Dget_type(source.dataset), H5Tclose, "read the type of " + name);
-  const H5T_class_t kind = H5Tget_class(type);
-  if ((kind != H5T_FLOAT && kind != H5T_INTEGER && kind != H5T_STRING) || H5Tis_variable_str(type) != 0) {
-    throw FileError("HDF5: dataset " + name + " has a type that no run has");
-  }
-  const Hdf5Handle plist(H5Dget_create_plist(source.dataset), H5Pclose, "read the chunks of " + name);
-  const hsize_t size[2] = {source.rank > 0 ? rows : 1, source.size[1]};
-  const hsize_t most[2] = {H5S_UNLIMITED, source.size[1]};
-  const bool grows = H5Pget_layout(plist) == H5D_CHUNKED;
-  const Hdf5Handle space(H5Screate_simple(source.rank, size, grows ? most : nullptr), H5Sclose, "make a data space");
-  const Hdf5Handle target(H5Dcreate2(to, name.c_str(), type, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
-                          "create dataset " + name);
-  for (const std::string& attribute : names_in(source.dataset, true)) {
-    copy_attribute(source.dataset, target, attribute.c_str());
-  }
-  constexpr std::size_t bytes_at_once = std::size_t{1} << 23;
-  const std::size_t row_bytes = H5Tget_size(type) * static_cast<std::size_t>(size[1]);
-  const hsize_t at_once = std::max<hsize_t>(bytes_at_once / std::max<std::size_t>(row_bytes, 1), 1);
-  std::vector<char> bytes;
-  for (hsize_t row = 0; row < size[0]; row += at_once) {
-    const hsize_t offset[2] = {row, 0};
-    const hsize_t count[2] = {std::min(at_once, size[0] - row), size[1]};
-    bytes.resize(static_cast<std::size_t>(count[0]) * row_bytes);
-    const Hdf5Handle part(H5Dget_space(source.dataset), H5Sclose, "open the space of " + name);
-    const Hdf5Handle memory(H5Screate_simple(source.rank, count, nullptr), H5Sclose, "make a data space");
-    if (source.rank > 0) {
-      for (const hid_t both : {hid_t(part), hid_t(space)}) {
-        check_hdf5(H5Sselect_hyperslab(both, H5S_SELECT_SET, offset, nullptr, count, nullptr),
-                   "select rows of " + name);
-      }
+/// Copies object by object. H5Ocopy would be one call, but crashes on a damaged file, and on a disk that is full.
+class Copy {
+ public:
+  Copy(hid_t from, hid_t to, hsize_t rows) : from_(from), to_(to), rows_(rows) {}
+
+  void attributes_of_file() {
+    for (const std::string& name : attribute_names(from_)) {
+      // Names of coordinates are others, and no run goes on with these samples.
+      if (name != "coordinates" && name != "momenta" && name != "run") copy_one(from_, to_, "", name);
     }
-    check_hdf5(H5Dread(source.dataset, type, memory, part, H5P_DEFAULT, bytes.data()), "read " + name);
-    check_hdf5(H5Dwrite(target, type, memory, space, H5P_DEFAULT, bytes.data()), "write " + name);
   }
-}
+
+  void group(const std::string& path) {
+    const Hdf5Handle here(H5Gopen2(from_, path.empty() ? "/" : path.c_str(), H5P_DEFAULT), H5Gclose,
+                          "open group " + path);
+    if (!is_new(here)) return leave_out(path, "the same group stands under another name");
+    if (!path.empty()) attributes(here, make_group(to_, path), path);
+    for (const std::string& name : names_in(here)) object(path.empty() ? name : path + "/" + name);
+  }
+
+  /// Those that a user has added to what the copy has of its own.
+  void attributes_beside(const std::string& path) {
+    if (!has_object(from_, path) || !has_object(to_, path)) return;
+    attributes(Hdf5Handle(H5Oopen(from_, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path),
+               Hdf5Handle(H5Oopen(to_, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path), path);
+  }
+
+  LeftOut left_out() { return std::move(left_out_); }
+
+ private:
+  void leave_out(const std::string& path, const std::string& why) {
+    left_out_.others.push_back("/" + path + " (" + why + ")");
+  }
+
+  /// Groups may contain each other.
+  bool is_new(hid_t group) {
+    H5O_info_t info{};
+    check_hdf5(H5Oget_info2(group, &info, H5O_INFO_BASIC), "look at a group");
+    return groups_.emplace(info.fileno, info.addr).second;
+  }
+
+  void copy_one(hid_t from, hid_t to, const std::string& path, const std::string& name) {
+    try {
+      copy_attribute(from, to, name);
+    } catch (const FileError& error) {
+      leave_out(path, error.what());
+    }
+  }
+
+  void attributes(hid_t from, hid_t to, const std::string& path) {
+    for (const std::string& name : attribute_names(from)) {
+      if (H5Aexists(to, name.c_str()) <= 0) copy_one(from, to, path, name);
+    }
+  }
+
+  void object(const std::string& path) {
+    if (is_one_of(written_anew, path)) return;
+    if (is_one_of(left_out_tables, path)) {
+      left_out_.tables.push_back("/" + path);
+      return;
+    }
+    H5L_info_t link{};
+    check_hdf5(H5Lget_info(from_, path.c_str(), &link, H5P_DEFAULT), "look at " + path);
+    if (link.type != H5L_TYPE_HARD) return leave_out(path, "a link");
+    H5I_type_t kind = H5I_BADID;
+    {
+      const Hdf5Handle object(H5Oopen(from_, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
+      kind = H5Iget_type(object);
+    }
+    if (kind == H5I_GROUP) return group(path);
+    if (kind != H5I_DATASET) return leave_out(path, "neither a group nor a dataset");
+    try {
+      dataset(path);
+    } catch (const WriteError&) {
+      throw;
+    } catch (const FileError& error) {
+      if (is_of_samples(path) && holds_numbers(from_, path)) throw;
+      (void)H5Ldelete(to_, path.c_str(), H5P_DEFAULT);  // what there is of it
+      leave_out(path, error.what());
+    }
+  }
+
+  /// Some rows at a time, so that a long run does not fill the memory.
+  void dataset(const std::string& path) {
+    const StoredData source = StoredData::dataset(from_, path);
+    const std::string& name = source.name();
+    const bool cut = is_of_samples(path) && !source.shape().empty() && source.rows() > rows_;
+    if (H5Tdetect_class(source.type(), H5T_REFERENCE) != 0) throw FileError("it refers to objects of its file");
+    const Hdf5Handle type(H5Tcopy(source.type()), H5Tclose, "copy a type");  // a named type belongs to its file
+    const Hdf5Handle creation(H5Dget_create_plist(source.object()), H5Pclose, "read the chunks of " + name);
+    const Hdf5Handle space(H5Scopy(source.space()), H5Sclose, "copy the space of " + name);
+    const std::size_t rows = cut ? static_cast<std::size_t>(rows_) : source.rows();
+    std::vector<hsize_t> size = source.shape();
+    if (cut) {
+      std::vector<hsize_t> most(size.size());
+      check_hdf5(H5Sget_simple_extent_dims(space, nullptr, most.data()), "read the size of " + name);
+      size[0] = rows;
+      check_hdf5(H5Sset_extent_simple(space, static_cast<int>(size.size()), size.data(), most.data()),
+                 "choose the rows of " + name);
+    }
+    const Hdf5Handle target(H5Dcreate2(to_, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
+                            "create " + name);
+    attributes(source.object(), target, path);
+    constexpr std::size_t bytes_at_once = std::size_t{1} << 23;
+    const std::size_t row_bytes = std::max<std::size_t>(H5Tget_size(type) * source.width(), 1);
+    const std::size_t at_once = std::max<std::size_t>(bytes_at_once / row_bytes, 1);
+    for (std::size_t row = 0; row < rows; row += at_once) {
+      const std::size_t count = std::min(at_once, rows - row);
+      write_part(source, target, space, size, row, count);
+    }
+  }
+
+  static void write_part(const StoredData& source, hid_t target, hid_t space, std::vector<hsize_t> size,
+                         std::size_t row, std::size_t count) {
+    std::vector<char> bytes = source.bytes_of_rows(row, count);
+    if (bytes.empty()) return;
+    std::vector<hsize_t> first(size.size(), 0);
+    if (!size.empty()) {
+      first[0] = row;
+      size[0] = count;
+      check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, size.data(), nullptr),
+                 "select rows of " + source.name());
+    }
+    const Hdf5Handle memory(
+        size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
+        H5Sclose, "make a data space");
+    const herr_t written = H5Dwrite(target, source.type(), memory, space, H5P_DEFAULT, bytes.data());
+    if (H5Tdetect_class(source.type(), H5T_VLEN) != 0 || H5Tdetect_class(source.type(), H5T_STRING) != 0) {
+      (void)H5Dvlen_reclaim(source.type(), memory, H5P_DEFAULT,
+                            bytes.data());  // of texts of one length it does nothing
+    }
+    if (written < 0) throw WriteError("HDF5: cannot write " + source.name());
+  }
+
+  hid_t from_;
+  hid_t to_;
+  hsize_t rows_;
+  std::set<std::pair<unsigned long, haddr_t>> groups_;
+  LeftOut left_out_;
+};
 
 template <class T>
 void write_rows(hid_t file, const char* name, hid_t type, const std::vector<std::vector<T>>& by_coordinate,
@@ -169,36 +217,33 @@ void write_states(hid_t file, const ConvertedStates& states, std::size_t rows) {
   write_row_numbers(file, "digits/t", type, digits.t, rows, {{"t"}, "time"});
 }
 
-std::vector<std::string> copy(const std::filesystem::path& source, const std::filesystem::path& target,
-                              const ConvertedStates& states) {
+LeftOut copy(const std::filesystem::path& source, const std::filesystem::path& target, const ConvertedStates& states) {
   const Hdf5Handle from = open_to_read(source);
-  Objects objects;
-  collect(from, "", objects);
-  hsize_t rows = states.q.at(0).size();  // a run that goes on, or was killed, has columns of different lengths
-  for (const Source& each : objects.datasets) {
-    if (each.rank > 0) rows = std::min(rows, each.size[0]);
+  if (has_object(from, "particles/all")) {
+    throw FileError(source.string() + " holds particles, which have no other coordinates");
   }
+  const std::size_t rows = states.q.at(0).size();
   WholeFile whole(target);
   Hdf5Handle to = create_hdf5(whole.part());
-  for (const std::string& name : names_in(from, true)) {
-    // Names are others, and no run goes on with these samples.
-    if (name != "coordinates" && name != "momenta" && name != "run") copy_attribute(from, to, name.c_str());
-  }
+  Copy copy(from, to, rows);
+  copy.attributes_of_file();
   if (!states.coordinates.empty()) write_attribute(to, "coordinates", states.coordinates);
   if (!states.momenta.empty()) write_attribute(to, "momenta", states.momenta);
-  for (const std::string& group : objects.groups) (void)make_group(to, group);
-  for (const Source& each : objects.datasets) copy_rows(each, to, rows);
+  copy.group("");
   write_text_dataset(to, "scenario", states.scenario);
   write_states(to, states, rows);
+  for (const char* name : {"q", "p", "digits", "digits/q", "digits/p", "digits/t", "digits/energy"}) {
+    copy.attributes_beside(name);
+  }
   to.close_now("write " + target.string() + " (is the disk full?)");
   whole.put_in_place();
-  return objects.tables_left_out;
+  return copy.left_out();
 }
 
 }  // namespace
 
-std::vector<std::string> copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                                       const ConvertedStates& states) {
+LeftOut copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                      const ConvertedStates& states) {
   silence_hdf5();
   try {
     return copy(source, target, states);

@@ -1,5 +1,5 @@
 // A run.h5 with other coordinates: everything is copied but the scenario, the names of coordinates, /q, /p, /digits and
-// tables of states at other times than those of the samples.
+// tables of states at other times than those of the samples. What its user has added is copied as it is.
 #pragma once
 
 #include <filesystem>
@@ -21,10 +21,15 @@ struct ConvertedStates {
   std::size_t digits_length = 0;  // characters of each
 };
 
+/// What is not in the copy.
+struct LeftOut {
+  std::vector<std::string> tables;  // of events and sections: their states are in the coordinates left behind
+  std::vector<std::string> others;  // "/mine/link (why)": what a user has added and cannot be copied
+};
+
 /// @param source may also be a run that goes on or was cut short   @param target is replaced when it exists
-/// @return the tables of events and sections that are not in the copy: their states are in the coordinates left behind
 /// @throws FileError
-std::vector<std::string> copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
-                                       const ConvertedStates& states);
+LeftOut copy_run_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                      const ConvertedStates& states);
 
 }  // namespace hamflow

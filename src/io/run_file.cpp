@@ -238,7 +238,7 @@ RunFile::RunFile(const std::filesystem::path& file, const RunDescription& descri
   try {
     const Hdf5Handle old = open_to_read(file);
     RunDescription same = description;
-    same.created = read_attribute(old, "created");
+    same.created = text_attribute(old, "created");
     auto copy = create(fresh, same);
     for (Column& column : copy->columns) column.copy_from(old, rows, copy->most_waiting);
     for (Column& column : copy->section) column.copy_from(old, section_rows, copy->most_waiting);

@@ -111,6 +111,7 @@ struct RunSamples {
   std::vector<std::vector<double>> section_p;
   std::vector<double> wall_t;  // of the bounces that were recorded
   std::vector<std::vector<double>> wall_q;
+  std::vector<std::string> left_out;  // sentences: what stands among the samples and is no column of them
 };
 
 /// @param most_coordinates above them q and p stay empty, and description.dimension says how many there are

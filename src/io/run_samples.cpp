@@ -10,58 +10,38 @@
 namespace hamflow {
 
 namespace {
-/// A dataset of rows of `width` numbers, open to be read.
-struct OpenColumn {
-  OpenColumn(hid_t file, const char* its_name)
-      : name(its_name), dataset(H5Dopen2(file, its_name, H5P_DEFAULT), H5Dclose, "open dataset " + name) {
-    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose, "open the space of " + name);
-    if (H5Sget_simple_extent_ndims(space) > 3) throw FileError("HDF5: dataset " + name + " has too many dimensions");
-    check_hdf5(H5Sget_simple_extent_dims(space, size, nullptr), "read the size of " + name);
+
+/// A dataset of one number a row.
+StoredData column(hid_t file, const std::string& path) {
+  StoredData data = StoredData::dataset(file, path);
+  if (data.shape().size() != 1) {
+    throw FileError("HDF5: " + data.name() + " has rank " + std::to_string(data.shape().size()) + "; allowed rank 1");
   }
-  std::size_t rows() const { return size[0]; }
-  std::size_t width() const { return size[1] * size[2]; }
-  /// A chunk that its writer is writing at this moment has another checksum: a moment later it is whole.
-  void read(hid_t type, void* values) const {
-    for (int attempt = 1; attempt < 3; ++attempt) {
-      if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0) return;
+  return data;
+}
+
+/// A dataset of states: of rank 2, of particles of rank 3.
+/// @param width of a row, 0: any
+StoredData rows_of_states(hid_t file, const std::string& path, std::size_t width) {
+  StoredData data = StoredData::dataset(file, path);
+  const std::size_t rank = data.shape().size();
+  if (rank != 2 && rank != 3) {
+    throw FileError("HDF5: " + data.name() + " has rank " + std::to_string(rank) + "; allowed rank 2 or 3");
+  }
+  if (data.width() == 0 || (width != 0 && data.width() != width)) {
+    throw FileError("HDF5: " + data.name() + " has rows of " + std::to_string(data.width()) + " values; allowed " +
+                    (width != 0 ? std::to_string(width) : "at least 1"));
+  }
+  return data;
+}
+
+/// Decimal texts, in which an expression would be evaluated.
+std::vector<std::string> digits_of(const StoredData& data) {
+  std::vector<std::string> texts = data.texts();
+  for (const std::string& text : texts) {
+    if (text.find_first_not_of("0123456789+-.enaif") != std::string::npos) {
+      throw FileError("HDF5: " + data.name() + " holds a text that is not a number");
     }
-    check_hdf5(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "read " + name);
-  }
-
-  std::string name;
-  Hdf5Handle dataset;
-  hsize_t size[3] = {0, 1, 1};
-};
-
-/// Row by row.
-std::vector<double> read_column(hid_t file, const char* name, std::size_t& width) {
-  const OpenColumn column(file, name);
-  width = column.width();
-  std::vector<double> values(column.rows() * width);
-  if (!values.empty()) column.read(H5T_NATIVE_DOUBLE, values.data());
-  return values;
-}
-
-std::size_t rows_of(hid_t file, const char* name, std::size_t& width) {
-  const OpenColumn column(file, name);
-  width = std::max<std::size_t>(column.width(), 1);
-  return column.rows();
-}
-
-std::vector<std::string> read_texts(hid_t file, const char* name, std::size_t& width) {
-  const OpenColumn column(file, name);
-  width = column.width();
-  const Hdf5Handle type(H5Dget_type(column.dataset), H5Tclose, "read the type of " + column.name);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
-    throw FileError("HDF5: dataset " + column.name + " holds no texts of one length");
-  }
-  const std::size_t length = H5Tget_size(type);
-  std::string all(column.rows() * width * length, '\0');
-  if (!all.empty()) column.read(type, all.data());
-  std::vector<std::string> texts;
-  for (std::size_t at = 0; at < all.size(); at += length) {
-    const std::string_view text = std::string_view(all).substr(at, length);
-    texts.emplace_back(text.substr(0, text.find('\0')));
   }
   return texts;
 }
@@ -74,42 +54,24 @@ std::vector<std::vector<T>> by_coordinate(const std::vector<T>& rows, std::size_
   }
   return out;
 }
-/// The names in a group; none where it is not there.
-std::vector<std::string> names_in(hid_t file, const char* group_name) {
-  if (H5Lexists(file, group_name, H5P_DEFAULT) <= 0) return {};
-  const Hdf5Handle group(H5Gopen2(file, group_name, H5P_DEFAULT), H5Gclose, "open group " + std::string(group_name));
-  H5G_info_t info{};
-  check_hdf5(H5Gget_info(group, &info), "count the objects of " + std::string(group_name));
-  std::vector<std::string> names;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    char name[256] = "";
-    const bool read =
-        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name, sizeof name, H5P_DEFAULT) >= 0;
-    check_hdf5(read ? 0 : -1, "read a name in " + std::string(group_name));
-    names.emplace_back(name);
-  }
-  return names;
-}
 
-bool has_particles(hid_t file) {
-  return H5Lexists(file, "particles", H5P_DEFAULT) > 0 && H5Lexists(file, "particles/all", H5P_DEFAULT) > 0;
-}
+bool has_particles(hid_t file) { return has_object(file, "particles/all"); }
 
 /// The states that reverse.h5 has, in their order.
 std::vector<std::string> states_of_reversal(hid_t file) {
   std::vector<std::string> names;
-  if (H5Lexists(file, "t", H5P_DEFAULT) > 0) return names;
+  if (has_object(file, "t")) return names;
   for (const char* name : {"start", "turn", "end"}) {
-    if (H5Lexists(file, name, H5P_DEFAULT) > 0) names.emplace_back(name);
+    if (has_object(file, name)) names.emplace_back(name);
   }
   return names;
 }
 
-double read_number(hid_t object, const char* name) {
-  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "open an attribute");
-  double x = 0;
-  check_hdf5(H5Aread(attribute, H5T_NATIVE_DOUBLE, &x), std::string("read attribute ") + name);
-  return x;
+/// q or p of a state of a reversal.
+std::vector<double> state_of_reversal(hid_t file, const std::string& path, std::size_t width) {
+  const StoredData data = column(file, path);
+  if (data.rows() == 0 || (width != 0 && data.rows() != width)) throw FileError("HDF5: states differ in length");
+  return data.numbers();
 }
 
 /// A reversal as a run of three samples.
@@ -118,22 +80,54 @@ RunSamples read_reversal(hid_t file, const std::vector<std::string>& names, std:
   run.description.scenario = read_text_dataset(file, "scenario");
   std::vector<double> q;
   std::vector<double> p;
+  std::size_t width = 0;
   for (const std::string& name : names) {
     const Hdf5Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose, "open group " + name);
-    run.t.push_back(read_number(group, "t"));
-    std::size_t one = 0;
+    run.t.push_back(number_attribute(group, "t"));
     for (const auto& [numbers, letter] : {std::pair{&q, "/q"}, std::pair{&p, "/p"}}) {
-      const std::vector<double> row = read_column(file, (name + letter).c_str(), one);
+      const std::vector<double> row = state_of_reversal(file, name + letter, width);
+      width = row.size();
       numbers->insert(numbers->end(), row.begin(), row.end());
     }
   }
-  const std::size_t width = q.size() / names.size();
   run.description.dimension = width;
-  if (width * names.size() != q.size() || p.size() != q.size()) throw FileError("HDF5: states differ in length");
   if (width > most_coordinates) return run;
   run.q = by_coordinate(q, width, names.size());
   run.p = by_coordinate(p, width, names.size());
   return run;
+}
+
+/// What stands among the samples and may be somebody else's: it is a column where it has numbers in as many rows.
+struct OtherColumn {
+  std::string name;
+  std::string path;
+  std::vector<std::pair<std::string, std::vector<double>>>* to;
+};
+
+/// A column, or NAME_1, NAME_2, ... of several numbers a row.
+void add_other_column(hid_t file, const OtherColumn& other, RunSamples& run) {
+  const std::size_t rows = run.t.size();
+  const auto leave_out = [&](const std::string& why) {
+    run.left_out.push_back("/" + other.path + " is left out: it " + why);
+  };
+  if (!has_object(file, other.path)) return leave_out("is a link that leads nowhere");
+  {
+    const Hdf5Handle object(H5Oopen(file, other.path.c_str(), H5P_DEFAULT), H5Oclose, "open " + other.path);
+    if (H5Iget_type(object) != H5I_DATASET) return leave_out("is no dataset");
+  }
+  const StoredData data = StoredData::dataset(file, other.path);
+  const std::size_t rank = data.shape().size();
+  if (data.kind() != StoredData::Kind::numbers || rank < 1 || rank > 2 || data.width() == 0) {
+    return leave_out("has no rows of numbers");
+  }
+  if (data.rows() < rows) {
+    return leave_out("has " + std::to_string(data.rows()) + " rows, the run " + std::to_string(rows) + " samples");
+  }
+  auto columns = by_coordinate(data.numbers(), data.width(), rows);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    other.to->emplace_back(columns.size() == 1 ? other.name : other.name + "_" + std::to_string(k + 1),
+                           std::move(columns[k]));
+  }
 }
 
 RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coordinates) {
@@ -144,75 +138,60 @@ RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coor
   }
   RunSamples run;
   run.description.scenario = read_text_dataset(file, "scenario");
-  run.description.version = read_attribute(file, "hamflow");
-  run.description.host = read_attribute(file, "host");
-  run.description.problem = read_attribute(file, "problem");
-  run.description.method = read_attribute(file, "method");
-  run.description.arithmetic = read_attribute(file, "arithmetic");
-  std::size_t width = 0;
-  run.t = read_column(file, "t", width);
-  run.energy = read_column(file, "energy", width);
-  std::size_t q_width = 0;
-  std::size_t p_width = 0;
+  run.description.version = text_attribute(file, "hamflow");
+  run.description.host = text_attribute(file, "host");
+  run.description.problem = text_attribute(file, "problem");
+  run.description.method = text_attribute(file, "method");
+  run.description.arithmetic = text_attribute(file, "arithmetic");
+  run.t = column(file, "t").numbers();
+  run.energy = column(file, "energy").numbers();
   const bool particles = has_particles(file);
-  const char* const q_name = particles ? H5mdNames::position : "q";
-  const char* const p_name = particles ? H5mdNames::momentum : "p";
-  const std::size_t q_rows = rows_of(file, q_name, q_width);
-  const std::size_t p_rows = rows_of(file, p_name, p_width);
-  const bool with_states = q_width <= most_coordinates;
-  const std::vector<double> q = with_states ? read_column(file, q_name, q_width) : std::vector<double>();
-  const std::vector<double> p = with_states ? read_column(file, p_name, p_width) : std::vector<double>();
-  std::size_t one = 0;
-  for (const auto& [name, meaning] : diagnostic_columns) {
-    if (H5Lexists(file, name, H5P_DEFAULT) <= 0) continue;
-    run.diagnostics.emplace_back(name + std::string("solver/").size(), read_column(file, name, one));
-  }
-  for (const std::string& name : names_in(file, "observables")) {
-    if (particles && (name == "energy" || H5Lexists(file, ("invariants/" + name).c_str(), H5P_DEFAULT) > 0)) continue;
-    const std::string dataset = "observables/" + name + (particles ? "/value" : "");
-    run.observables.emplace_back(name, read_column(file, dataset.c_str(), one));
-  }
-  for (const std::string& name : names_in(file, "invariants")) {
-    std::size_t numbers = 0;
-    const std::vector<double> rows = read_column(file, ("invariants/" + name).c_str(), numbers);
-    numbers = std::max<std::size_t>(numbers, 1);
-    const auto columns = by_coordinate(rows, numbers, rows.size() / numbers);
-    for (std::size_t k = 0; k < numbers; ++k) {
-      run.invariants.emplace_back(numbers == 1 ? name : name + "_" + std::to_string(k + 1), columns[k]);
-    }
-  }
-  // After a crash between two flushes the columns may differ in length: what all of them have is complete.
-  std::size_t count = std::min({run.t.size(), run.energy.size(), q_rows, p_rows});
-  if (with_states) count = std::min({count, q.size() / q_width, p.size() / p_width});
-  for (const auto& column : run.diagnostics) count = std::min(count, column.second.size());
-  for (const auto& column : run.observables) count = std::min(count, column.second.size());
-  for (const auto& column : run.invariants) count = std::min(count, column.second.size());
-  for (auto* columns : {&run.diagnostics, &run.observables, &run.invariants}) {
-    for (auto& column : *columns) column.second.resize(count);
-  }
+  const StoredData q = rows_of_states(file, particles ? H5mdNames::position : "q", 0);
+  const std::size_t width = q.width();
+  const StoredData p = rows_of_states(file, particles ? H5mdNames::momentum : "p", width);
+  // After a crash between two flushes the columns may differ in length: what all of them have is complete. Time is
+  // written last, so that no other column of the run is shorter.
+  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.rows(), p.rows()});
   run.t.resize(count);
   run.energy.resize(count);
-  if (with_states) {
-    run.q = by_coordinate(q, q_width, count);
-    run.p = by_coordinate(p, p_width, count);
+  if (width <= most_coordinates) {
+    run.q = by_coordinate(q.numbers(), width, count);
+    run.p = by_coordinate(p.numbers(), width, count);
   }
-  run.description.dimension = q_width;
-  if (H5Lexists(file, "section", H5P_DEFAULT) > 0) {
-    run.section_t = read_column(file, "section/t", one);
-    const std::vector<double> section_q = read_column(file, "section/q", one);
-    const std::vector<double> section_p = read_column(file, "section/p", one);
-    const std::size_t points = std::min({run.section_t.size(), section_q.size() / q_width, section_p.size() / p_width});
+  run.description.dimension = width;
+  for (const auto& [name, meaning] : diagnostic_columns) {
+    if (has_object(file, name)) {
+      add_other_column(file, {name + std::string("solver/").size(), name, &run.diagnostics}, run);
+    }
+  }
+  const auto names_of_group = [&](const char* name) {
+    if (!has_object(file, name)) return std::vector<std::string>();
+    const Hdf5Handle group(H5Gopen2(file, name, H5P_DEFAULT), H5Gclose, "open group " + std::string(name));
+    return names_in(group);
+  };
+  for (const std::string& name : names_of_group("observables")) {
+    if (particles && (name == "energy" || has_object(file, "invariants/" + name))) continue;
+    add_other_column(file, {name, "observables/" + name + (particles ? "/value" : ""), &run.observables}, run);
+  }
+  for (const std::string& name : names_of_group("invariants")) {
+    add_other_column(file, {name, "invariants/" + name, &run.invariants}, run);
+  }
+  if (has_object(file, "section/t")) {
+    run.section_t = column(file, "section/t").numbers();
+    const StoredData section_q = rows_of_states(file, "section/q", width);
+    const StoredData section_p = rows_of_states(file, "section/p", width);
+    const std::size_t points = std::min({run.section_t.size(), section_q.rows(), section_p.rows()});
     run.section_t.resize(points);
-    run.section_q = by_coordinate(section_q, q_width, points);
-    run.section_p = by_coordinate(section_p, p_width, points);
+    run.section_q = by_coordinate(section_q.numbers(), width, points);
+    run.section_p = by_coordinate(section_p.numbers(), width, points);
     run.description.section = true;
   }
-  if (H5Lexists(file, "events", H5P_DEFAULT) > 0 && H5Lexists(file, "events/wall", H5P_DEFAULT) > 0) {
-    run.wall_t = read_column(file, "events/wall/t", one);
-    const std::vector<double> wall_q = read_column(file, "events/wall/q", one);
-    const std::size_t bounces = std::min(run.wall_t.size(), wall_q.size() / q_width);
+  if (has_object(file, "events/wall/t")) {
+    run.wall_t = column(file, "events/wall/t").numbers();
+    const StoredData wall_q = rows_of_states(file, "events/wall/q", width);
+    const std::size_t bounces = std::min(run.wall_t.size(), wall_q.rows());
     run.wall_t.resize(bounces);
-    run.wall_q = by_coordinate(wall_q, q_width, bounces);
+    run.wall_q = by_coordinate(wall_q.numbers(), width, bounces);
   }
   return run;
 }
@@ -221,32 +200,23 @@ std::vector<double> read_positions(const std::filesystem::path& path, std::size_
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
   if (const auto states = states_of_reversal(file); !states.empty()) {
-    std::size_t one = 0;
-    return read_column(file, (states.at(sample) + "/q").c_str(), one);
+    if (sample >= states.size()) throw FileError("HDF5: a state is gone");
+    return state_of_reversal(file, states[sample] + "/q", 0);
   }
-  const OpenColumn column(file, has_particles(file) ? H5mdNames::position : "q");
-  const hsize_t first[3] = {sample, 0, 0};
-  const hsize_t count[3] = {1, column.size[1], column.size[2]};
-  const hsize_t width = column.width();
-  const Hdf5Handle space(H5Dget_space(column.dataset), H5Sclose, "open the space of " + column.name);
-  const Hdf5Handle memory(H5Screate_simple(1, &width, nullptr), H5Sclose, "make a data space");
-  check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr), "select a row");
-  std::vector<double> q(width);
-  check_hdf5(H5Dread(column.dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, q.data()), "read " + column.name);
-  return q;
+  return rows_of_states(file, has_particles(file) ? H5mdNames::position : "q", 0).numbers_of_row(sample);
 }
 
 RunDigits read_digits(const std::filesystem::path& path) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
   RunDigits run;
-  if (H5Lexists(file, "digits", H5P_DEFAULT) <= 0) return run;
-  std::size_t one = 0;
-  std::size_t width = 0;
-  run.t = read_texts(file, "digits/t", one);
-  run.energy = read_texts(file, "digits/energy", one);
-  const std::vector<std::string> q = read_texts(file, "digits/q", width);
-  const std::vector<std::string> p = read_texts(file, "digits/p", width);
+  if (!has_object(file, "digits/t")) return run;
+  run.t = digits_of(column(file, "digits/t"));
+  run.energy = digits_of(column(file, "digits/energy"));
+  const StoredData q_data = rows_of_states(file, "digits/q", 0);
+  const std::size_t width = q_data.width();
+  const std::vector<std::string> q = digits_of(q_data);
+  const std::vector<std::string> p = digits_of(rows_of_states(file, "digits/p", width));
   const std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / width, p.size() / width});
   run.t.resize(count);
   run.energy.resize(count);

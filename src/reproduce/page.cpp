@@ -1,5 +1,6 @@
-// index.html: a summary of verdicts, then a section for each experiment. It is one file that needs no other, readable
-// on a telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
+// index.html: a summary of verdicts, then a section for each experiment. It holds no times: the same results make the
+// same page, byte for byte, however often the work was interrupted. It is one file that needs no other, readable on a
+// telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -343,12 +344,9 @@ std::string commands_of(const std::string& id, const std::vector<KeptScenario>& 
 
 std::string section_of(const ExperimentReport& report, const fs::path& top) {
   const ExperimentInfo& info = report.info;
-  const std::string time = report.status != "done" ? std::string()
-                           : report.seconds < 0.05 ? "; computed in less than 0.1 s"
-                                                   : fmt::format("; computed in {:.1f} s", report.seconds);
-  std::string text = fmt::format("<h3 id=\"{0}\">{0}: {1}</h3>\n<p class=\"quiet\">{2}, {3}; size {4}{5}</p>\n",
+  std::string text = fmt::format("<h3 id=\"{0}\">{0}: {1}</h3>\n<p class=\"quiet\">{2}, {3}; size {4}</p>\n",
                                  escaped_html(info.id), escaped_html(info.title), escaped_html(info.thesis),
-                                 escaped_html(pages_text(info.page)), name_of(report.extent), time);
+                                 escaped_html(pages_text(info.page)), name_of(report.extent));
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
   if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
   const fs::path folder = top / "reproduction" / info.id;
@@ -392,9 +390,7 @@ std::string words_html() {
 
 std::string page_of(const ReproduceReport& report, const fs::path& folder) {
   std::map<ClaimVerdict, int> counts;
-  double seconds = 0;
   for (const ExperimentReport& one : report.experiments) {
-    seconds += one.seconds;
     for (const Claim& claim : one.claims) ++counts[claim.judgement.verdict];
   }
   std::string text = head;
@@ -443,10 +439,8 @@ std::string page_of(const ReproduceReport& report, const fs::path& folder) {
       text += is_short ? "<div class=\"short\">\n" + section_of(one, folder) + "</div>\n" : section_of(one, folder);
     }
   }
-  return text + fmt::format(
-                    "</div>\n</main>\n<footer><p class=\"quiet\">hamflow {}, {:.0f} s of "
-                    "work.</p></footer>\n</body>\n</html>\n",
-                    escaped_html(HAMFLOW_VERSION), seconds);
+  return text + fmt::format("</div>\n</main>\n<footer><p class=\"quiet\">hamflow {}</p></footer>\n</body>\n</html>\n",
+                            escaped_html(HAMFLOW_VERSION));
 }
 
 }  // namespace hamflow::reproduction

@@ -165,8 +165,7 @@ std::vector<Curves> curves_of(const Study& study) {
 void write_h5(const fs::path& file, const Study& study, const std::vector<Curves>& all_curves) {
   silence_hdf5();
   WholeFile whole(file, next_name(file));
-  Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                "create " + file.string());
+  Hdf5Handle id = create_hdf5_in_usual_format(whole.part());
   write_attribute(id, "experiment", study.info().id);
   for (const KeptScenario& scenario : study.scenarios()) {
     write_text_dataset(id, "scenario_" + scenario.name, scenario.text);

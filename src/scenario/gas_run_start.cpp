@@ -1,97 +1,33 @@
 // The particles of a gas as a run left them.
-#include <hdf5.h>
-
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/gas_start.hpp"
 #include "hdf5_alone.hpp"
+#include "hdf5_read.hpp"
 
 namespace hamflow {
 
 namespace {
 
-/// Closes what it holds.
-struct Open {
-  hid_t id;
-  herr_t (*close)(hid_t);
-  Open(hid_t opened, herr_t (*closes)(hid_t)) : id(opened), close(closes) {}
-  Open(const Open&) = delete;
-  Open& operator=(const Open&) = delete;
-  ~Open() {
-    if (id >= 0) close(id);
-  }
-};
-
-/// The shape of a dataset; nothing where it is not there.
+/// The shape of a dataset; nothing where it is not there, or holds one value.
 std::vector<hsize_t> shape_of(hid_t file, const std::string& name) {
-  for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
-    if (H5Lexists(file, name.substr(0, at).c_str(), H5P_DEFAULT) <= 0) return {};
-  }
-  const Open data(H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0 ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1,
-                  H5Dclose);
-  if (data.id < 0) return {};
-  const Open space(H5Dget_space(data.id), H5Sclose);
-  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id))));
-  (void)H5Sget_simple_extent_dims(space.id, shape.data(), nullptr);
-  return shape;
-}
-
-/// Row `row` of a dataset of any rank, in a type of memory; nothing where it cannot be read.
-std::vector<char> bytes_of(hid_t file, const std::string& name, hsize_t row, hid_t type) {
-  std::vector<hsize_t> count = shape_of(file, name);
-  if (count.empty() || row >= count[0]) return {};
-  std::vector<hsize_t> first(count.size(), 0);
-  first[0] = row;
-  count[0] = 1;
-  hsize_t width = 1;
-  for (const hsize_t n : count) width *= n;
-  const Open data(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  const Open space(H5Dget_space(data.id), H5Sclose);
-  const Open memory(H5Screate_simple(1, &width, nullptr), H5Sclose);
-  std::vector<char> bytes(width * H5Tget_size(type));
-  const bool read = H5Sselect_hyperslab(space.id, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr) >= 0 &&
-                    H5Dread(data.id, type, memory.id, space.id, H5P_DEFAULT, bytes.data()) >= 0;
-  return read ? bytes : std::vector<char>();
-}
-
-std::vector<double> row_of(hid_t file, const std::string& name, hsize_t row) {
-  const std::vector<char> bytes = bytes_of(file, name, row, H5T_NATIVE_DOUBLE);
-  std::vector<double> numbers(bytes.size() / sizeof(double));
-  if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
-  return numbers;
-}
-
-/// Texts of fixed length, without what fills them.
-std::vector<std::string> texts_of(hid_t file, const std::string& name, hsize_t row) {
-  if (shape_of(file, name).empty()) return {};
-  const Open data(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  const Open type(H5Dget_type(data.id), H5Tclose);
-  if (H5Tget_class(type.id) != H5T_STRING || H5Tis_variable_str(type.id) != 0) return {};
-  const std::vector<char> bytes = bytes_of(file, name, row, type.id);
-  const std::size_t length = H5Tget_size(type.id);
-  std::vector<std::string> texts;
-  for (std::size_t at = 0; at < bytes.size(); at += length) {
-    const std::string text(bytes.data() + at, length);
-    texts.push_back(text.substr(0, text.find_first_of(std::string(" \0", 2))));
-  }
-  return texts;
+  return has_object(file, name) ? StoredData::dataset(file, name).shape() : std::vector<hsize_t>();
 }
 
 /// The numbers of a state: of a run beyond double with all digits.
 /// @param digits where they stand, if the run has some
 std::vector<std::string> numbers_of(hid_t file, const std::string& name, const std::string& digits, hsize_t row) {
-  if (!digits.empty() && !shape_of(file, digits).empty()) return texts_of(file, digits, row);
+  if (!digits.empty() && has_object(file, digits)) return StoredData::dataset(file, digits).texts_of_row(row);
   std::vector<std::string> texts;
-  for (const double x : row_of(file, name, row)) texts.push_back(shortest(x));
+  for (const double x : StoredData::dataset(file, name).numbers_of_row(row)) texts.push_back(shortest(x));
   return texts;
 }
 
 /// Where a state of so many numbers stands.
-struct Place {
+struct StoredState {
   std::string q;
   std::string p;
   hsize_t row = 0;
@@ -100,9 +36,9 @@ struct Place {
 };
 
 /// H5MD of a gas, else /q and /p.
-Place place_of(hid_t file, const std::filesystem::path& path, RunState which) {
+StoredState place_of(hid_t file, const std::filesystem::path& path, RunState which) {
   const std::vector<hsize_t> times = shape_of(file, "t");
-  Place place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
+  StoredState place{"particles/all/position/value", "particles/all/momentum/value", 0, 1};
   if (shape_of(file, place.q).empty()) place = {"q", "p", 0, 1};
   if (which == RunState::start && !shape_of(file, "particles/start/position/value").empty()) {
     place = {"particles/start/position/value", "particles/start/momentum/value", 0, 1};
@@ -126,17 +62,12 @@ Place place_of(hid_t file, const std::filesystem::path& path, RunState which) {
 
 /// Of an n-body run; empty where the file has none.
 std::vector<double> masses_of_bodies(hid_t file) {
-  std::vector<double> masses;
-  if (H5Aexists(file, "masses") <= 0) return masses;
-  const Open attribute(H5Aopen(file, "masses", H5P_DEFAULT), H5Aclose);
-  const Open space(H5Aget_space(attribute.id), H5Sclose);
-  masses.resize(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id))));
-  if (masses.empty() || H5Aread(attribute.id, H5T_NATIVE_DOUBLE, masses.data()) < 0) masses.clear();
-  return masses;
+  if (H5Aexists(file, "masses") <= 0) return {};
+  return StoredData::attribute(file, "masses").numbers();
 }
 
 /// The particles of another dimension would be as many numbers, and no particles.
-void check_dimension(hid_t file, const Place& place, std::size_t space, const std::string& path) {
+void check_dimension(hid_t file, const StoredState& place, std::size_t space, const std::string& path) {
   hsize_t dimension = place.dimension;
   if (dimension == 0) {
     const std::size_t bodies = masses_of_bodies(file).size();
@@ -157,8 +88,9 @@ void check_dimension(hid_t file, const Place& place, std::size_t space, const st
 
 /// One for each particle, or one for all where they are equal; nothing where the file has none.
 std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
-  std::vector<double> masses = row_of(file, "particles/all/mass/value", 0);
-  if (masses.empty()) masses = masses_of_bodies(file);
+  const char* const of_gas = "particles/all/mass/value";
+  std::vector<double> masses =
+      has_object(file, of_gas) ? StoredData::dataset(file, of_gas).numbers_of_row(0) : masses_of_bodies(file);
   if (masses.size() != particles && masses.size() != 1) return {};
   if (std::all_of(masses.begin(), masses.end(), [&](double m) { return m == masses[0]; })) masses.resize(1);
   std::vector<std::string> texts;
@@ -170,35 +102,37 @@ std::vector<std::string> masses_in(hid_t file, hsize_t particles) {
 
 GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunState which) {
   const auto alone = alone_with_hdf5();
-  (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what failed is said below
-  const auto open = [&](unsigned flags) { return H5Fopen(file.c_str(), flags, H5P_DEFAULT); };
-  const hid_t plain = open(H5F_ACC_RDONLY);
-  const Open h5(plain >= 0 ? plain : open(H5F_ACC_RDONLY | H5F_ACC_SWMR_READ), H5Fclose);
-  if (h5.id < 0) {
-    std::error_code none;
-    const bool is_there = std::filesystem::is_regular_file(file, none) && std::ifstream(file).good();
-    throw Error(is_there
-                    ? "found " + file.string() + ", which is damaged or no HDF5 file; allowed a whole run.h5, or a CSV"
-                    : "found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
+  silence_hdf5();
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none) || !std::ifstream(file).good()) {
+    throw Error("found no file " + file.string() + " that can be read; allowed a run.h5, or a CSV");
   }
-  const Place place = place_of(h5.id, file, which);
-  check_dimension(h5.id, place, space, file.string());
-  GasStart start;
-  const bool sampled = place.q.find("start") == std::string::npos;
-  start.q = numbers_of(h5.id, place.q, sampled ? "digits/q" : "", place.row);
-  start.p = numbers_of(h5.id, place.p, sampled ? "digits/p" : "", place.row);
-  if (start.q.size() != place.numbers || start.p.size() != place.numbers) {
-    throw Error("found samples in " + file.string() + " that cannot be read; allowed a whole run.h5");
+  try {
+    const Hdf5Handle h5 = open_to_read(file);
+    const StoredState place = place_of(h5, file, which);
+    check_dimension(h5, place, space, file.string());
+    GasStart start;
+    const bool sampled = place.q.find("start") == std::string::npos;
+    start.q = numbers_of(h5, place.q, sampled ? "digits/q" : "", place.row);
+    start.p = numbers_of(h5, place.p, sampled ? "digits/p" : "", place.row);
+    if (start.q.size() != place.numbers || start.p.size() != place.numbers) {
+      throw FileError("HDF5: states and their digits differ in length");
+    }
+    start.masses = masses_in(h5, place.numbers / space);
+    return start;
+  } catch (const FileError& error) {
+    throw Error("found " + file.string() + ", which cannot be read (" + error.what() +
+                "); allowed a whole run.h5, or a CSV");
+  } catch (const std::bad_alloc&) {
+    throw Error("found " + file.string() + ", which claims a size that cannot be; allowed a whole run.h5, or a CSV");
   }
-  start.masses = masses_in(h5.id, place.numbers / space);
-  return start;
 }
 
 bool is_in_run_file(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) return false;
   const auto alone = alone_with_hdf5();
-  (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  silence_hdf5();
   return H5Fis_hdf5(file.c_str()) > 0;
 }
 

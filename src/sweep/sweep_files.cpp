@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "csv_file.hpp"
 #include "hamflow/core/inverse_cube.hpp"
@@ -63,8 +62,7 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
   const auto alone = alone_with_hdf5();
   silence_hdf5();
   WholeFile whole(file, next_name(file));
-  Hdf5Handle id(H5Fcreate(whole.part().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                "create " + file.string());
+  Hdf5Handle id = create_hdf5_in_usual_format(whole.part());
   const Request& request = sweep.common().request;
   write_attribute(id, "hamflow", description.version);
   write_attribute(id, "host", description.host);
@@ -100,24 +98,24 @@ std::string cell(const SweepColumn& column, std::size_t at) {
 
 /// @throws FileError
 void write_csv(const std::filesystem::path& file, const std::vector<SweepColumn>& columns) {
+  constexpr std::size_t bytes_at_once = 1 << 16;
   WholeFile whole(file, next_name(file));
-  std::ofstream out(whole.part());
-  if (!out) throw FileError("cannot write " + file.string());
   std::vector<std::string> labels;
   for (const SweepColumn& column : columns) {
     for (std::size_t i = 0; i < column.width; ++i) labels.push_back(quoted(csv_name(column, i)));
   }
-  out << joined(labels, ",") << '\n';
+  std::string text = joined(labels, ",") + '\n';
   for (std::size_t row = 0; row < columns[0].rows(); ++row) {
     std::vector<std::string> cells;
     for (const SweepColumn& column : columns) {
       for (std::size_t i = 0; i < column.width; ++i) cells.push_back(cell(column, row * column.width + i));
     }
-    out << joined(cells, ",") << '\n';
+    text += joined(cells, ",") + '\n';
+    if (text.size() < bytes_at_once) continue;
+    whole.write(text);
+    text.clear();
   }
-  out.close();
-  if (!out) throw FileError("cannot write " + file.string() + " (is the disk full?)");
-  whole.put_in_place();
+  write_whole(whole, text);
 }
 
 }  // namespace

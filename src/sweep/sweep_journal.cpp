@@ -93,7 +93,7 @@ SweepJournal::SweepJournal(const std::filesystem::path& file, const SweepPast& p
   for (const auto& [member, finished] : past.members) add(part_of(member, finished));
   WholeFile whole(file, next_name(file));
   write_whole(whole, all.bytes());
-  descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ < 0) throw FileError("cannot open " + file.string() + ": " + std::strerror(errno));
 }
 

@@ -24,11 +24,16 @@ namespace fs = std::filesystem;
 class ConvertedRun::Impl {
  public:
   Impl(const fs::path& file, const std::string& to) : file_(file), to_(to), samples_(read_run_file(file)) {
+    if (samples_.energy.empty() && !samples_.t.empty()) {
+      throw FileError(file.string() +
+                      " cannot be converted: it holds the states of a reversal; allowed the run.h5 of a run");
+    }
     const std::string& text = samples_.description.scenario;
     reading_ = read_scenario_text(text, file.string(), {});
     if (!reading_.scenario) {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
+    check_states(scenario(), samples_, file);
     target_ = &in_coordinates(*scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
     digits_ = read_run_digits(file);
@@ -59,11 +64,8 @@ class ConvertedRun::Impl {
   }
 
   std::string csv() const {
-    std::string text = "t";
-    for (const char* name : {"q", "p"}) {
-      for (std::size_t i = 1; i <= samples_.q.size(); ++i) text += fmt::format(",{}{}", name, i);
-    }
-    text += ",energy\n";
+    const StateNames names = state_names(*target_, scenario().request.parameters, samples_.q.size());
+    std::string text = fmt::format("t,{},{},energy\n", fmt::join(names.q, ","), fmt::join(names.p, ","));
     for (std::size_t k = 0; k < samples_.t.size(); ++k) {
       if (!digits_.t.empty()) {
         const DigitState s = digits_at(k);
@@ -127,17 +129,21 @@ class ConvertedRun::Impl {
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
     const std::size_t size = samples_.q.size();
     const StateNames names = state_names(*target_, scenario().request.parameters, size);
-    const std::vector<std::string> tables = copy_run_file(file_, target,
-                                                          {.scenario = text,
-                                                           .coordinates = names.q,
-                                                           .momenta = names.p,
-                                                           .q = samples_.q,
-                                                           .p = samples_.p,
-                                                           .digits = digits_,
-                                                           .digits_length = longest_digits(arithmetic())});
-    if (!tables.empty()) {
+    const LeftOut left_out = copy_run_file(file_, target,
+                                           {.scenario = text,
+                                            .coordinates = names.q,
+                                            .momenta = names.p,
+                                            .q = samples_.q,
+                                            .p = samples_.p,
+                                            .digits = digits_,
+                                            .digits_length = longest_digits(arithmetic())});
+    if (!left_out.tables.empty()) {
       note += fmt::format("{}not in {}: {}, states of the run in {} coordinates", note.empty() ? "" : "; ",
-                          target.string(), fmt::join(tables, ", "), from_);
+                          target.string(), fmt::join(left_out.tables, ", "), from_);
+    }
+    if (!left_out.others.empty()) {
+      note +=
+          fmt::format("{}not in {}: {}", note.empty() ? "" : "; ", target.string(), fmt::join(left_out.others, ", "));
     }
     return note;
   }
@@ -171,6 +177,11 @@ class ConvertedRun::Impl {
   }
   /// A run that goes on may have got a row between two looks.
   void cut_to_equal_length() {
+    for (const auto* columns : {&digits_.q, &digits_.p}) {
+      if (columns->size() != samples_.q.size()) {
+        throw FileError(file_.string() + " is damaged: its states in /digits have another length than /q");
+      }
+    }
     const std::size_t rows = std::min(samples_.t.size(), digits_.t.size());
     const auto cut = [rows](auto&... columns) { (columns.resize(rows), ...); };
     cut(samples_.t, samples_.energy, digits_.t, digits_.energy);

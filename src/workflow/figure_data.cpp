@@ -69,6 +69,7 @@ Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
   const Reading reading = read_scenario_text(text, file.string(), {});
   if (!reading.scenario)
     throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
+  check_states(*reading.scenario, samples, file);
   return *reading.scenario;
 }
 
@@ -218,6 +219,7 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   const ColumnUnits units = column_units(scenario);
   data.units = {units.t.empty() ? "" : units.t + "s", units.q, units.p, units.energy};
   data.path = path_of(scenario, samples);
+  result.notes = std::move(samples.left_out);
   data.t = std::move(samples.t);
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);

@@ -16,6 +16,7 @@ struct RunForFigure {
   /// What it is a run of, e.g. {"method", "stv4"}, {"dt", "0.1"}: keys and values in the order in which titles have
   /// them.
   std::vector<std::pair<std::string, std::string>> facts;
+  std::vector<std::string> notes;        // on what the file has among its samples and is left out
   std::vector<double> start_q, start_p;  // where the run began, at t = 0; with or without a sample there
 };
 

@@ -28,6 +28,9 @@ void draw_into(const FigureRequest& request, const std::vector<std::filesystem::
   Figure figure{{}, options_of(request)};
   std::vector<RunForFigure> runs;
   for (const std::filesystem::path& run : request.runs) runs.push_back(read_for_figure(run, request.kind));
+  for (std::size_t i = 0; request.note && i < runs.size(); ++i) {
+    for (const std::string& note : runs[i].notes) request.note(request.runs[i].string() + ": " + note);
+  }
   tell_apart(runs);
   for (RunForFigure& run : runs) add_start(run, figure.options.at);
   for (RunForFigure& run : runs) figure.runs.push_back(std::move(run.data));
@@ -56,6 +59,11 @@ std::vector<std::string> draw_figures(const Scenario& scenario, const std::files
     std::vector<std::filesystem::path> files;
     for (const char* format : {".svg", ".pdf", ".png"}) files.push_back(folder / "figures" / (kind + format));
     try {
+      // In the folder of a run a link is replaced, and what it leads to stays.
+      for (const std::filesystem::path& file : files) {
+        std::error_code none;
+        if (std::filesystem::is_symlink(file, none)) std::filesystem::remove(file, none);
+      }
       draw_into({.runs = {folder}, .kind = kind, .file = files.front()}, files);
     } catch (const Error& error) {  // the run is done all the same, and so are the others
       missing.push_back("a figure is not drawn: " + std::string(error.what()));

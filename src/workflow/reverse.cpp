@@ -1,6 +1,7 @@
 #include "hamflow/workflow/reverse.hpp"
 
 #include <fmt/format.h>
+#include <mpfr.h>
 
 #include <cmath>
 #include <functional>
@@ -110,10 +111,27 @@ const char* const nothing_returned = "the reversal has not come to its end: noth
 const char* const below_the_digits =
     "every digit of q and p came back; what is carried on below their last digit did not, or a zero has the other sign";
 
+/// Texts that read back exactly have up to 98 digits in double-double, where the two halves of a number lie far apart.
+/// reverse.h5 has them; here stand the 33 that the arithmetic carries.
+std::vector<std::string> shown(std::vector<std::string> texts, const std::string& arithmetic) {
+  if (arithmetic != "double-double") return texts;
+  mpfr_t x;
+  mpfr_init2(x, 320);
+  for (std::string& text : texts) {
+    char rounded[64];
+    mpfr_set_str(x, text.c_str(), 10, MPFR_RNDN);
+    mpfr_snprintf(rounded, sizeof rounded, "%.33Rg", x);
+    text = rounded;
+  }
+  mpfr_clear(x);
+  return texts;
+}
+
 /// Above as many coordinates as run prints, where it stands: a group of reverse.h5; null where none is kept.
-Json state(const Frame& frame, const char* dataset, bool kept) {
+Json state(const Frame& frame, const std::string& arithmetic, const char* dataset, bool kept) {
   if (frame.q.size() > most_named_coordinates) return {{"dataset", kept ? Json(dataset) : Json(nullptr)}};
-  if (!frame.digits.q.empty()) return {{"q", frame.digits.q}, {"p", frame.digits.p}};
+  if (!frame.digits.q.empty())
+    return {{"q", shown(frame.digits.q, arithmetic)}, {"p", shown(frame.digits.p, arithmetic)}};
   return {{"q", frame.q}, {"p", frame.p}};
 }
 
@@ -155,8 +173,8 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"arithmetic", scenario.request.arithmetic},
          {"dt", scenario.dt},
          {"steps", r.steps},
-         {"start", state(r.start, "/start", kept)},
-         {"returned", done ? state(r.end, "/end", kept) : Json(nullptr)},
+         {"start", state(r.start, scenario.request.arithmetic, "/start", kept)},
+         {"returned", done ? state(r.end, scenario.request.arithmetic, "/end", kept) : Json(nullptr)},
          {"distance", done ? json_of(r.distance) : Json(nullptr)},
          {"relative_distance", done ? json_of(r.relative_distance) : Json(nullptr)},
          {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},

@@ -162,6 +162,13 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .digits_length = longest_digits(request.arithmetic)};
 }
 
+void check_states(const Scenario& scenario, const RunSamples& samples, const std::filesystem::path& file) {
+  const std::size_t found = samples.description.dimension;
+  if (found == scenario.start_q.size()) return;
+  throw FileError(file.string() + " is damaged: its states have " + std::to_string(found) +
+                  " coordinates, those of its scenario " + std::to_string(scenario.start_q.size()));
+}
+
 std::string host_name() {
   char host[256] = "";
   (void)gethostname(host, sizeof host - 1);

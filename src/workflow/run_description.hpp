@@ -33,6 +33,9 @@ std::vector<std::string> changes_on_the_way(std::string_view scenario);
 /// @param samples expected
 RunDescription description_of(const Scenario& scenario, std::size_t samples);
 
+/// @throws FileError where states of a file have another length than those of the scenario in it
+void check_states(const Scenario& scenario, const RunSamples& samples, const std::filesystem::path& file);
+
 /// The name of this machine.
 std::string host_name();
 

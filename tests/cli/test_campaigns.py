@@ -1,18 +1,21 @@
-"""A small part of each campaign of tools/: kills, damage, limits, signals. The whole ones are started by hand."""
+"""A small part of each campaign of tools/: kills, damage, objects, limits, signals. The whole ones are started by hand."""
 
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import types
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
 import campaign_damage  # noqa: E402
 import campaign_kills  # noqa: E402
 import campaign_limits  # noqa: E402
 import campaign_signals  # noqa: E402
 from campaign import Campaign  # noqa: E402
+from test_files_document import PYTHON  # noqa: E402
 
 
 class Campaigns(unittest.TestCase):
@@ -28,6 +31,13 @@ class Campaigns(unittest.TestCase):
 
     def test_damage(self):
         self.nothing_wrong(campaign_damage, every=499, only=[])
+
+    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
+    def test_objects(self):
+        done = subprocess.run([PYTHON, "-B", TOOLS / "campaign_objects.py", os.environ["HAMFLOW"], "--every", "80"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("wrong: 0", done.stdout)
 
     def test_limits(self):
         self.nothing_wrong(campaign_limits, steps=3, only=["file-size", "memory", "disk"])

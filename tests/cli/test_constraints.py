@@ -289,12 +289,12 @@ steps = 10
         self.hamflow("run", self.pendulum(), "--out", "made.run", "--quiet")
         self.hamflow("convert", "made.run", "--to", "generalised", "-o", "angles.h5")
         rows = self.hamflow("convert", "made.run", "--to", "generalised").stdout.splitlines()
-        self.assertEqual(rows[0], "t,q1,p1,energy")
+        self.assertEqual(rows[0], "t,q,p,energy")
         self.assertAlmostEqual(float(rows[1].split(",")[1]), math.atan2(0.6, 0.8), delta=4 * EPSILON)
         self.hamflow("run", self.pendulum(ANGLE, "verlet"), "--set", "run.arithmetic=quad", "--set", "run.steps=5",
                      "--out", "quad.run", "--quiet")
         rows = self.hamflow("convert", "quad.run", "--to", "cartesian").stdout.splitlines()
-        self.assertEqual(rows[0], "t,q1,q2,p1,p2,energy")
+        self.assertEqual(rows[0], "t,x,y,p_x,p_y,energy")
         self.assertGreater(len(rows[2].split(",")[1]), 30)
 
     def test_reverse_resume_compare_and_sweep(self):

@@ -155,7 +155,9 @@ observables = { d = "sqrt(x^2 + y^2)" }
 
     def rows(self, *arguments):
         lines = self.hamflow("convert", *arguments).stdout.splitlines()
-        self.assertEqual(lines[0], "t,q1,q2,p1,p2,energy")
+        to = arguments[arguments.index("--to") + 1]
+        names = "r,phi,p_r,p_phi" if to == "polar" else "x,y,p_x,p_y"
+        self.assertEqual(lines[0], f"t,{names},energy")
         return [[float(x) for x in line.split(",")] for line in lines[1:]]
 
     def test_runs(self):

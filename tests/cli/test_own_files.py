@@ -12,6 +12,7 @@ import time
 import unittest
 
 from command import HAMFLOW, CommandCase
+from test_files_document import PYTHON
 
 SCENARIO = """
 [problem]
@@ -266,6 +267,64 @@ class OwnFiles(CommandCase):
             process.wait()
         self.hamflow("convert", "r", "--to", "polar", "-o", "x.h5")  # cut short
         self.hamflow("convert", "x.h5", "--to", "cartesian", "-o", "y.csv")
+
+    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
+    def test_what_a_user_adds_to_a_run_neither_breaks_nor_shortens_it(self):
+        self.run_to("r", "--set", "output.observables={ r = 'sqrt(x^2 + y^2)' }")
+        self.hamflow("convert", "r", "--to", "polar", "-o", "before.csv")
+        add = """import h5py, numpy
+f = h5py.File('r/run.h5', 'r+', libver='latest')
+f.attrs['note'] = 'x'
+f.attrs['root'] = f.ref
+f['q'].attrs['mine'] = 'text of q'
+mine = f.create_group('mine')
+mine.attrs['what'] = 'mine too'
+mine['x'] = [1., 2., 3.]
+mine['names'] = ['a', 'bc']
+mine['self'] = mine
+mine['soft'] = h5py.SoftLink('/nowhere')
+mine.create_dataset('lists', shape=(2,), dtype=h5py.vlen_dtype(numpy.float64))
+f['observables/short'] = [1., 2.]
+f['observables/text'] = 'a text'
+f['invariants/soft'] = h5py.SoftLink('/nowhere')
+"""
+        subprocess.run([PYTHON, "-c", add], cwd=self.folder, check=True)
+        said = self.hamflow("convert", "r", "--to", "polar", "-o", "x.h5").stderr
+        for words in ("attribute root refers to objects of its file", "/mine/self (", "/mine/soft (a link)", "/invariants/soft (a link)"):
+            self.assertIn(words, said)
+        self.assertEqual(said.count("("), 4, said)
+        self.hamflow("convert", "r", "--to", "polar", "-o", "after.csv")
+        self.assertEqual((self.folder / "after.csv").read_bytes(), (self.folder / "before.csv").read_bytes())
+        look = """import h5py
+f = h5py.File('x.h5')
+assert f.attrs['note'] == 'x' and f['q'].attrs['mine'] == 'text of q' and f['mine'].attrs['what'] == 'mine too'
+assert list(f['mine/x']) == [1, 2, 3] and list(f['mine/names']) == [b'a', b'bc'] and len(f['mine/lists']) == 2
+assert [len(f[name]) for name in ('t', 'q', 'energy', 'observables/r', 'observables/short')] == [601, 601, 601, 601, 2]
+"""
+        subprocess.run([PYTHON, "-c", look], cwd=self.folder, check=True)
+        for file in ("r", "x.h5"):
+            said = self.hamflow("plot", file, "-o", "x.svg").stderr
+            self.assertIn("/observables/short is left out: it has 2 rows, the run 601 samples", said)
+            self.assertIn("/observables/text is left out", said)
+
+    def test_a_figure_is_written_through_a_link_as_other_outputs_are(self):
+        self.run_to("r", "--set", "output.figures=['energy']")
+        for name, words in (("link.svg", ["plot", "r"]), ("link.csv", ["convert", "r", "--to", "polar"])):
+            (self.folder / "there").write_text("old")
+            (self.folder / name).symlink_to("there")
+            self.hamflow(*words, "-o", name)
+            self.assertTrue((self.folder / name).is_symlink())
+            self.assertGreater((self.folder / "there").stat().st_size, 1000)
+            self.assertFalse((self.folder / "there").is_symlink())
+        # In the folder of a run a link that somebody has put there is replaced, and what it leads to stays.
+        (self.folder / "mine").write_text("mine")
+        for name in ("figures/energy.svg", "checkpoint.bin.new", "run.h5.new", "summary.json.new", "trajectory.csv.new"):
+            (self.folder / "r" / name).unlink(missing_ok=True)
+            (self.folder / "r" / name).symlink_to(self.folder / "mine")
+        self.run_to("r", "--resume", "--set", "output.figures=['energy']", "--set", "run.steps=900")
+        self.assertEqual((self.folder / "mine").read_text(), "mine")
+        self.assertFalse((self.folder / "r/figures/energy.svg").is_symlink())
+        self.assertFalse((self.folder / "r/checkpoint.bin").is_symlink())
 
     def hanging_gnuplot(self):
         programs = self.folder / "bin"

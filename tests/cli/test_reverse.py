@@ -2,6 +2,7 @@
 
 import json
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -111,6 +112,19 @@ class Reverse(CommandCase):
 
     def same(self, a, b):
         self.assertEqual({**a, "wall_seconds": 0}, {**b, "wall_seconds": 0})
+
+    def test_double_double_is_shown_with_its_own_digits(self):
+        """Texts that read back exactly have 98 digits where the halves of a number lie far apart; a report has 33."""
+        start = 'problem.initial={ q = ["1.0000000000000000000000000000000000000000123", "1/3"], p = ["-1e-20", 0.7] }'
+        text = (self.folder / "kepler.toml").read_text().splitlines()
+        self.write("dd.toml", "\n".join(line for line in text if not line.startswith("orbit")))
+        s = self.reverse("dd.toml", "--set", start, "--set", "method={name='verlet'}", "--set", "run.arithmetic=double-double",
+                         "--set", "run.steps=20")
+        self.assertEqual(s["start"]["q"][0], "1")
+        for state in ("start", "returned"):
+            for number in s[state]["q"] + s[state]["p"]:
+                self.assertLessEqual(len(re.sub("e.*|[-.]", "", number).lstrip("0")), 33, number)
+        self.assertLess(s["relative_distance"], 1e-30)
 
     def test_killed_and_resumed(self):
         """What comes back is what comes back of a reversal in one go, from whichever half it was killed in."""

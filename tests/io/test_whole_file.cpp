@@ -7,6 +7,8 @@
 
 #include "csv_file.hpp"
 #include "hamflow/core/error.hpp"
+#include "reverse_file.hpp"
+#include "run_file.hpp"
 #include "whole_file.hpp"
 
 namespace {
@@ -62,6 +64,32 @@ TEST_F(WholeFiles, LinksAreFollowedAndPipesAreWrittenDirectly) {
   EXPECT_THROW(write_whole(full, "new"), FileError);
   WholeFile nowhere(folder_ / "none" / "x");
   EXPECT_THROW(write_whole(nowhere, "new"), FileError);
+}
+
+TEST_F(WholeFiles, LinksUnderTheOtherNameAreNotFollowed) {
+  put("mine", "mine");
+  const auto plant = [this](const fs::path& link) {
+    fs::create_symlink(folder_ / "mine", link);
+    return link;
+  };
+  plant(folder_ / "x.new");
+  WholeFile whole(folder_ / "x", next_name(folder_ / "x"));
+  write_whole(whole, "new");
+  plant(WholeFile(folder_ / "y").part());
+  WholeFile named(folder_ / "y");
+  write_whole(named, "new");
+  CsvFile csv(plant(folder_ / "t.csv"), 1, std::vector<InvariantColumn>{});
+  { RunFile run(folder_ / "run.h5", {.dimension = 1}); }
+  plant(folder_ / "run.h5.new");
+  { RunFile run(folder_ / "run.h5", {.dimension = 1}); }
+  write_reverse_file((plant(folder_ / "reverse.h5.new"), folder_ / "reverse.h5"), "text", {}, {}, nullptr);
+  EXPECT_EQ(text("mine"), "mine");
+  for (const char* name : {"x", "y", "t.csv", "run.h5", "reverse.h5"}) {
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder_ / name))) << name;
+  }
+  fs::create_directory(folder_ / "z.new");
+  WholeFile taken(folder_ / "z", next_name(folder_ / "z"));
+  EXPECT_THROW(write_whole(taken, "new"), FileError);
 }
 
 TEST_F(WholeFiles, OtherLinesAreFound) {

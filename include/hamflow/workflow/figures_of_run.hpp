@@ -20,7 +20,7 @@ struct FigureRequest {
   std::string size{};                       // "8.5x6" (centimetres), "85x60mm", "3.35x2.4in"; empty: as is usual
   int dpi = 0;                              // pixels to the inch, of a .png; 0: 300
   bool title = true;
-  std::function<void(const std::string&)> note{};  // is told of times at which there is no sample
+  std::function<void(const std::string&)> note{};  // is told of times without a sample, and of what is left out
 };
 
 /// Draws one figure of one run, or of several with a legend of what differs between them.
