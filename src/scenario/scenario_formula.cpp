@@ -346,6 +346,10 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
     if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
     if (texts && name == FormulaKeys::problem) note_standing_still(*texts);
+    if (texts && scenario_.problem->structure && scenario_.problem->structure->time) {
+      driven_hamiltonian_ =
+          !texts->hamiltonian.empty() ? texts->hamiltonian : "(" + texts->kinetic + ") + (" + texts->potential + ")";
+    }
   } catch (const FormulaError& error) {
     table.complain_in(error.key, error.what());
     if (texts) tell_other_formulas(table, *texts, error.key);

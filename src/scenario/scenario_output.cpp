@@ -56,6 +56,10 @@ void ScenarioReader::read_observables(TomlTable& output) {
           {name, StateExpression(text, *scenario_.problem, scenario_.request.parameters, size)});
     }
   }
+  if (known && !driven_hamiltonian_.empty()) {
+    scenario_.hamiltonian = {
+        "hamiltonian", StateExpression(driven_hamiltonian_, *scenario_.problem, scenario_.request.parameters, size)};
+  }
   if (!output.has(key)) {
     output.know(key);
     return;
@@ -64,6 +68,7 @@ void ScenarioReader::read_observables(TomlTable& output) {
   if (known) {
     taken = columns_of_every_run(*scenario_.problem, scenario_.request.parameters, size);
     for (const NamedExpression& own : scenario_.observables) taken.push_back(own.name);
+    if (scenario_.hamiltonian) taken.push_back(scenario_.hamiltonian->name);
     for (const InvariantInfo& invariant : scenario_.problem->info.invariants) taken.push_back(invariant.name);
   }
   TomlTable table = output.table(key);

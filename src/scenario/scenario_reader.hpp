@@ -124,6 +124,7 @@ class ScenarioReader {
   const std::optional<std::string>& resumed_in_;
   const toml::table& document_;
   std::string no_start_;
+  std::string driven_hamiltonian_;        // the text of H(q, p, t); empty where H does not depend on t
   std::vector<std::size_t> start_lines_;  // of the particles of a gas in its CSV
   StartSpec start_of_bodies_;             // as numbers that any arithmetic works out
   Scenario scenario_;

@@ -101,12 +101,16 @@ std::vector<InvariantColumn> invariant_columns(const Scenario& scenario) {
 std::vector<InvariantColumn> observable_columns(const Scenario& scenario) {
   std::vector<InvariantColumn> all;
   for (const NamedExpression& each : scenario.observables) all.push_back({each.name, 1, each.expression.text(), {}});
+  if (scenario.hamiltonian) {
+    all.push_back({scenario.hamiltonian->name, 1, "H(q, p, t) itself, with the work of the drive", {}});
+  }
   return all;
 }
 
 std::vector<double> observable_values(const Scenario& scenario, const Frame& frame) {
   std::vector<double> all;
   for (const NamedExpression& each : scenario.observables) all.push_back(each.expression(frame));
+  if (scenario.hamiltonian) all.push_back(scenario.hamiltonian->expression(frame));
   return all;
 }
 

@@ -334,6 +334,13 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     s["energy"]["initial"] = frame.digits.initial_energy;
     s["energy"]["final"] = frame.digits.energy;
   }
+  if (scenario.hamiltonian) {  // the energy above is H less the work of the drive
+    Frame start;
+    start.q = scenario.start_q;
+    start.p = scenario.start_p;
+    s["hamiltonian"] = {{"initial", scenario.hamiltonian->expression(start)},
+                        {"final", scenario.hamiltonian->expression(frame)}};
+  }
   if (frame.q.size() > most_named_coordinates) {
     const bool gas = scenario.request.problem == GasKeys::problem;
     s["final"] = {{"t", s["final"]["t"]}, {"dataset", gas ? "/particles/all" : "/q, /p"}};

@@ -74,7 +74,12 @@ std::string readable(const Json& s) {
   const Json& energy = s["energy"];
   const bool has_scale = !energy["scale"].is_null() && energy["scale"].get<double>() > 0 &&
                          (!energy["max_relative_error"].is_null() || energy["max_error"].is_null());
-  text += row("energy",
+  const bool driven = s.contains("hamiltonian");
+  if (driven) {
+    text += row("H(q, p, t)", number_text(s["hamiltonian"]["initial"], "{:.17g}") + " -> " +
+                                  number_text(s["hamiltonian"]["final"], "{:.17g}"));
+  }
+  text += row(driven ? "H - int dH/dt" : "energy",
               watched(s["energy"]) + (has_scale ? fmt::format(" ({} of its scale)",
                                                               number_text(s["energy"]["max_relative_error"], "{:.3g}"))
                                                 : " (not relative: H is 0 at the start)"));

@@ -1,6 +1,7 @@
 """Corners that were silent or said the wrong thing: no steps, free flight, coordinates that stand still, failed steps."""
 
 import json
+import math
 import unittest
 
 from command import CommandCase
@@ -122,6 +123,32 @@ steps = 5000
                          {"turn": "to rounding", "square": "to rounding", "wrong": "not"})
         lost = self.summary("central.toml", "--set", "method.name=rk4")["certificate"]["momentum_maps"]
         self.assertEqual({lost[name]["conserved"] for name in lost}, {"not"})
+
+    def test_of_a_driven_motion_h_itself_is_told(self):
+        self.write("driven.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p^2/2 - x*cos(t)"
+momenta = ["p"]
+initial = { q = [0], p = [0] }
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 100
+record_every = 50
+[output]
+formats = ["csv"]
+""")
+        done = self.hamflow("run", "driven.toml", "--out", "driven.run")
+        self.assertIn("H(q, p, t)", done.stdout)
+        self.assertIn("H - int dH/dt", done.stdout)
+        summary = json.loads((self.folder / "driven.run/summary.json").read_text())
+        x, p = summary["final"]["q"][0], summary["final"]["p"][0]
+        self.assertEqual(summary["hamiltonian"]["initial"], 0)
+        self.assertAlmostEqual(summary["hamiltonian"]["final"], p * p / 2 - x * math.cos(1), delta=1e-14)
+        self.assertIn("hamiltonian", (self.folder / "driven.run/trajectory.csv").read_text().splitlines()[0])
 
     def test_a_sweep_is_coloured_by_a_coordinate(self):
         self.hamflow("sweep", "kepler.toml", "--out", "none", "--set", "run.steps=3", "--vary", "run.dt=0.1:0.2:3",

@@ -54,15 +54,16 @@ struct Scenario {
   std::string folder;                      // empty: derived from the file's name
   std::vector<std::string> formats{"h5"};
   std::vector<std::string> figures;
-  std::vector<NamedExpression> observables;  // recorded with the samples
-  std::size_t lyapunov = 0;                  // exponents to be measured
-  bool eigenvalues = false;                  // of the derivative of all steps
-  std::optional<Section> section{};          // whose points are recorded
-  std::vector<UserEvent> events;             // declared by the user
-  std::int64_t record_events = 100000;       // rows of each table of events, at most
-  std::vector<std::string> notes;            // worth saying, but no errors
-  std::optional<TwoBodies> bodies;           // of a start by two bodies in space
-  std::vector<double> start_q;               // in double, canonical
+  std::vector<NamedExpression> observables;      // recorded with the samples
+  std::optional<NamedExpression> hamiltonian{};  // H(q, p, t) itself, recorded with the samples, where it depends on t
+  std::size_t lyapunov = 0;                      // exponents to be measured
+  bool eigenvalues = false;                      // of the derivative of all steps
+  std::optional<Section> section{};              // whose points are recorded
+  std::vector<UserEvent> events;                 // declared by the user
+  std::int64_t record_events = 100000;           // rows of each table of events, at most
+  std::vector<std::string> notes;                // worth saying, but no errors
+  std::optional<TwoBodies> bodies;               // of a start by two bodies in space
+  std::vector<double> start_q;                   // in double, canonical
   std::vector<double> start_p;
   std::optional<std::uint64_t> start_contents{};  // of a start that stands in a file: a hash of its numbers
   std::map<std::string, Setting> settings;        // every key that was given, by its dotted path
