@@ -58,8 +58,41 @@ LongNumber largest_error(const InvariantExcursion& seen) {
 
 std::int64_t EnergyBlocks::next_due(std::int64_t step) const { return std::max(step, state_.next); }
 
+void EnergyExchange::look(double kinetic, double potential) {
+  if (!std::isfinite(kinetic) || !std::isfinite(potential)) return;
+  if (samples == 0) {
+    first_kinetic = std::abs(kinetic);
+    first_potential = potential;
+  }
+  const double change = std::abs(potential - first_potential);
+  most_kinetic = std::max(most_kinetic, std::abs(kinetic));
+  most_change = std::max(most_change, change);
+  sum_of_kinetic += std::abs(kinetic);
+  sum_of_change += change;
+  ++samples;
+}
+std::optional<double> EnergyExchange::largest() const {
+  if (samples == 0) return std::nullopt;
+  return std::max(first_kinetic, std::min(most_kinetic, most_change));
+}
+std::optional<double> EnergyExchange::typical() const {
+  if (samples == 0) return std::nullopt;
+  return std::max(first_kinetic, std::min(sum_of_kinetic, sum_of_change) / static_cast<double>(samples));
+}
+
+EnergyBlocks::Energy energy_for_blocks(const Request& request, const ProblemEntry& problem, std::size_t coordinates) {
+  constexpr std::size_t most_coordinates = 200;
+  if (coordinates > most_coordinates || depends_on_time(problem) || !problem.energy) return {};
+  return [&problem, all = complete(problem.info, request.parameters)](
+             const std::vector<double>& q, const std::vector<double>& p) { return problem.energy(all, q, p); };
+}
+
 Verdict EnergyBlocks::observe(const Frame& frame) {
   if (frame.step < state_.next) return Verdict::go_on;
+  if (energy_) {
+    const double potential = energy_(frame.q, std::vector<double>(frame.p.size(), 0.0));
+    state_.exchange.look(energy_(frame.q, frame.p) - potential, potential);
+  }
   auto& energies = state_.energies;
   energies.push_back(frame.energy);
   if (!frame.digits.energy.empty()) state_.digits.push_back(frame.digits.energy);
@@ -288,7 +321,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
   // Of rounding it is the scale that tells, unless T and V cancel at the start: beside more than that errors of a step
   // would pass for roundings.
   constexpr double cancelled = 0x1p-10;
-  const double scale = simulation.energy_scale();
+  const double scale = std::max(simulation.energy_scale(), state.exchange.largest().value_or(0));
   const double rounded = scale > cancelled * size ? scale : size;
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
@@ -317,9 +350,15 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
                        const EnergyBlocks& blocks, std::int64_t steps_taken, const GoOn& go_on) {
   const Simulation& simulation = *of_the_run;
   RunCertificate found;
-  const double scale = simulation.energy_scale();
+  found.exchanged = blocks.state().exchange.largest();
+  found.typically_exchanged = blocks.state().exchange.typical();
+  const double scale = std::max(simulation.energy_scale(), found.exchanged.value_or(0));
   const RunEnds ends = ends_of(request, simulation);
-  const double energy_size = size_of_energy(request, problem, ends, scale);
+  // A constant in H changes what is concluded of it no more than the motion.
+  const double exchanged = found.typically_exchanged.value_or(0);
+  const double energy_size = exchanged > 0 && std::isfinite(exchanged)
+                                 ? std::max(exchanged, 0x1p-40 * simulation.energy_scale())
+                                 : size_of_energy(request, problem, ends, scale);
   const auto [series, unit] = series_of(request, problem, simulation, blocks.state(), ends, energy_size);
   found.drift = classify_run(series);
   const std::size_t size = request.start.q.size();

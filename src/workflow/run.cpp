@@ -274,7 +274,7 @@ class ScenarioRun {
   std::optional<Checkpoint> begin_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;
-  EnergyBlocks blocks_;
+  EnergyBlocks blocks_{energy_for_blocks(scenario_.request, *scenario_.problem, scenario_.start_q.size())};
   TurnWatch turns_;
   std::optional<Measures> measures_;
   bool certificate_stopped_ = false;

@@ -307,7 +307,8 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   simulation.look(frame);
   const Effort effort = simulation.effort();
   const Excursion energy = simulation.energy();
-  const double scale = simulation.energy_scale();
+  const double exchanged = certificate != nullptr ? certificate->exchanged.value_or(0) : 0;
+  const double scale = std::max(simulation.energy_scale(), std::isfinite(exchanged) ? exchanged : 0);
   Json s;
   s["status"] = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
   s["problem"] = scenario.request.problem;
@@ -389,7 +390,8 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   }
   if (describe(scenario.request.method).halves_steps) s["events"]["halved"] = effort.halved;
   if (measures != nullptr) measures->add_to(s);
-  s["warnings"] = warnings_of(scenario, s, simulation, turns);
+  s["warnings"] = warnings_of(scenario, s, simulation, turns,
+                              certificate != nullptr ? certificate->typically_exchanged : std::nullopt);
   if (measures != nullptr) measures->add_warnings(s["warnings"]);
   s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;

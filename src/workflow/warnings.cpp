@@ -299,7 +299,12 @@ bool has_fallen(const Scenario& scenario, double period, double t) {
 
 }  // namespace
 
-bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end) {
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end,
+                        std::optional<double> exchanged) {
+  // Of what is exchanged by a motion that stands still rounding is left.
+  if (exchanged && *exchanged > 0 && std::isfinite(*exchanged)) {
+    return energy.max_error > std::max(*exchanged, 0x1p-40 * scale);
+  }
   if (!(energy.max_error > scale)) return false;
   // Of a pendulum held level T and V are nothing but rounding: there the virial at the start says what is large, and an
   // error that is small beside the kinetic part of that at the end is none. Its other part says nothing where a motion
@@ -311,28 +316,33 @@ bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, doubl
   return !(energy.max_error <= (start.of_q + start.of_p) / 4 || energy.max_error <= 0.01 * of(end.q, end.p).of_p);
 }
 
-Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns) {
+Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation& simulation, const TurnWatch* turns,
+                 std::optional<double> exchanged) {
   Frame end;
   simulation.look(end);
   Json all = warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns,
-                         simulation.wall_counts(), end.step);
+                         simulation.wall_counts(), end.step, exchanged);
   if (!flies_freely(scenario, end)) add_long_search(scenario, simulation, all);
   add_no_numbers(summary, all);
   return all;
 }
 
 Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, double scale, const Frame& end,
-                 const TurnWatch* turns, std::span<const WallCount> walls, std::int64_t steps) {
+                 const TurnWatch* turns, std::span<const WallCount> walls, std::int64_t steps,
+                 std::optional<double> exchanged) {
   Json all = Json::array();
-  if (is_energy_nonsense(scenario, energy, scale, end)) {
+  if (is_energy_nonsense(scenario, energy, scale, end, exchanged)) {
     all.push_back(warning(
         "energy_error",
-        fmt::format(
-            "the energy was off by {:.3g}, {}: this is "
-            "no motion of {}; try a smaller dt{}",
-            energy.max_error,
-            scale > 0 ? fmt::format("more than its scale, {:.3g}", scale) : std::string("and is 0 at the start"),
-            scenario.request.problem, describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
+        fmt::format("the energy was off by {:.3g}, {}: this is "
+                    "no motion of {}; try a smaller dt{}",
+                    energy.max_error,
+                    scale > 0 && !(energy.max_error > scale)
+                        ? fmt::format("more than the motion exchanges between T and V, {:.3g}", exchanged.value_or(0))
+                    : scale > 0 ? fmt::format("more than its scale, {:.3g}", scale)
+                                : std::string("and is 0 at the start"),
+                    scenario.request.problem,
+                    describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
             overlap_at_start(scenario)));
   }
   const bool exact = flies_freely(scenario, end);

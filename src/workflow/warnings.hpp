@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,13 +20,15 @@ namespace hamflow {
 /// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary its energy, orbit, exact and final   @param turns null where nobody has watched
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
-                                   const Simulation& simulation, const TurnWatch* turns);
+                                   const Simulation& simulation, const TurnWatch* turns,
+                                   std::optional<double> exchanged = {});
 /// The same of a motion that ended elsewhere than the simulation stands.
 /// @param summary its orbit   @param end where it ended
 /// @param walls how often they were met   @param steps in how many steps
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
                                    const Excursion& energy, double scale, const Frame& end, const TurnWatch* turns,
-                                   std::span<const WallCount> walls = {}, std::int64_t steps = 0);
+                                   std::span<const WallCount> walls = {}, std::int64_t steps = 0,
+                                   std::optional<double> exchanged = {});
 /// What is said of steps in which particles of a gas may pass through each other unseen; empty where it is nothing.
 /// @param problem that of the request, whose method counts
 std::string passing_in_a_step(const Request& request, const ProblemEntry& problem, double dt, const Frame& start,
@@ -35,6 +38,8 @@ std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 
 /// Whether an energy error is more than the energy can account for: above its scale, and not only because the scale is
 /// that of a start at which T and V vanish by chance.   @param end the last state
-bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end);
+/// @param exchanged EnergyExchange::typical(), which decides where it is known: no constant in H changes it
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end,
+                        std::optional<double> exchanged = {});
 
 }  // namespace hamflow

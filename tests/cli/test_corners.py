@@ -150,6 +150,48 @@ formats = ["csv"]
         self.assertAlmostEqual(summary["hamiltonian"]["final"], p * p / 2 - x * math.cos(1), delta=1e-14)
         self.assertIn("hamiltonian", (self.folder / "driven.run/trajectory.csv").read_text().splitlines()[0])
 
+    def test_a_constant_in_h_changes_no_verdict(self):
+        level = """
+[problem]
+name = "formula"
+coordinates = ["a"]
+momenta = ["p_a"]
+hamiltonian = "p_a^2/2 + 9.81*sin(a) + %s"
+initial = { q = [0], p = [0] }
+[method]
+name = "stv4"
+[run]
+dt = 0.01
+steps = 20000
+"""
+        found = []
+        for constant in ("0", "1", "-7"):
+            self.write("level.toml", level % constant)
+            summary = self.summary("level.toml")
+            self.assertEqual(summary["warnings"], [])
+            found.append((summary["certificate"]["drift"], summary["certificate"]["periods"]))
+        self.assertEqual(found, [found[0]] * 3)
+        self.assertEqual(found[0][0], "bounded")
+        self.write("level.toml", level % "0")
+        self.assertGreater(self.summary("level.toml")["energy"]["scale"], 9)
+
+    def test_nonsense_is_seen_beside_a_constant(self):
+        kepler = """
+[problem]
+name = "formula"
+coordinates = ["x", "y"]
+hamiltonian = "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2) + %s"
+initial = { q = [1, 0], p = [0, 0.3] }
+[method]
+name = "euler"
+[run]
+dt = 0.2
+steps = 400
+"""
+        for constant in ("0", "1000000"):
+            self.write("far.toml", kepler % constant)
+            self.assertIn("energy_error", [w["kind"] for w in self.summary("far.toml")["warnings"]], constant)
+
     def test_a_sweep_is_coloured_by_a_coordinate(self):
         self.hamflow("sweep", "kepler.toml", "--out", "none", "--set", "run.steps=3", "--vary", "run.dt=0.1:0.2:3",
                      "--figure", "map.svg", "--colour", "final/x")

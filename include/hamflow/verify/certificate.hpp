@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hamflow/run/catalog.hpp"
@@ -19,6 +20,28 @@
 
 namespace hamflow {
 
+/// What the motion exchanges between its parts T = H(q, p) - H(q, 0) and V = H(q, 0), at the samples of a run. A
+/// constant in V changes nothing of it, and where one part grows alone, as in a run that blows up, that is no exchange.
+struct EnergyExchange {
+  std::int64_t samples = 0;
+  double first_kinetic = 0;
+  double first_potential = 0;
+  double most_kinetic = 0;  // |T|
+  double most_change = 0;   // |V - V0|
+  double sum_of_kinetic = 0;
+  double sum_of_change = 0;
+
+  void look(double kinetic, double potential);
+  /// T at the start, or the largest exchange where that is more. None: nothing is known.
+  std::optional<double> largest() const;
+  /// T at the start, or the mean exchange where that is more: close encounters and blow-ups count for little.
+  std::optional<double> typical() const;
+  template <class Archive>
+  void archive(Archive& ar) {
+    ar(samples, first_kinetic, first_potential, most_kinetic, most_change, sum_of_kinetic, sum_of_change);
+  }
+};
+
 /// What the observer of a run keeps: the energies at the samples taken, one in each block, and the next one due.
 struct EnergyBlockState {
   std::int64_t block_steps = 1;
@@ -27,10 +50,11 @@ struct EnergyBlockState {
   std::vector<std::string> digits;  // the same with all their digits, in arithmetic beyond double; else empty
   std::vector<double> magnitudes;   // the largest over the samples; see observe()
   std::vector<Swings> swings;       // of each q, then of each p
+  EnergyExchange exchange{};
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(block_steps, next, energies, digits, magnitudes, swings);
+    ar(block_steps, next, energies, digits, magnitudes, swings, exchange);
   }
 };
 
@@ -42,7 +66,10 @@ class EnergyBlocks final : public Observer {
  public:
   static constexpr std::size_t most_blocks = 256;
 
-  EnergyBlocks() { state_.magnitudes.assign(5, 0); }
+  /// H(q, p), which is asked twice a sample; empty where nobody wants to know what is exchanged.
+  using Energy = std::function<double(const std::vector<double>& q, const std::vector<double>& p)>;
+
+  explicit EnergyBlocks(Energy energy = {}) : energy_(std::move(energy)) { state_.magnitudes.assign(5, 0); }
   std::int64_t next_due(std::int64_t step) const override;
   Verdict observe(const Frame& frame) override;
 
@@ -51,8 +78,12 @@ class EnergyBlocks final : public Observer {
   void archive(Reader& ar) override { ar(state_); }
 
  private:
+  Energy energy_;
   EnergyBlockState state_;
 };
+
+/// H of a problem for EnergyBlocks; empty of large systems, whose energy takes long, and where H depends on t.
+EnergyBlocks::Energy energy_for_blocks(const Request& request, const ProblemEntry& problem, std::size_t coordinates);
 
 /// How far an invariant was off, as a text where no double is so small.
 LongNumber largest_error(const InvariantExcursion& seen);
@@ -151,6 +182,8 @@ struct RunCertificate {
   RunDrift drift;                                   // increments in units of the largest deviation seen
   LongNumber mean_increment, mean_increment_error;  // of the energy, over a block
   LongNumber energy_level;                          // max |H - H0|/scale over every step; NaN: H is 0 at the start
+  std::optional<double> exchanged{};                // EnergyExchange::largest()
+  std::optional<double> typically_exchanged{};      // EnergyExchange::typical()
   std::vector<MomentumMap> momentum_maps;
   std::optional<ReversalEvidence> reversal;  // none: no step was taken
 };
