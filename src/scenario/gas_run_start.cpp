@@ -121,7 +121,7 @@ GasStart gas_from_run(const std::filesystem::path& file, std::size_t space, RunS
     start.masses = masses_in(h5, place.numbers / space);
     return start;
   } catch (const FileError& error) {
-    throw Error("found " + file.string() + ", which cannot be read (" + error.what() +
+    throw Error("found " + file.string() + ", which is damaged or no HDF5 file (" + error.what() +
                 "); allowed a whole run.h5, or a CSV");
   } catch (const std::bad_alloc&) {
     throw Error("found " + file.string() + ", which claims a size that cannot be; allowed a whole run.h5, or a CSV");
