@@ -228,7 +228,14 @@ std::string readable_reversal(const Json& s) {
   text += state_rows("start", s["start"]);
   if (!s["returned"].is_null()) {
     text += state_rows("returned", s["returned"]);
-    text += row("distance", joined(s["distances"], [](const Json& each) {
+    constexpr std::size_t most_groups = 4;
+    Json groups = s["distances"];
+    if (groups.size() > most_groups) {  // that which is furthest off
+      std::erase_if(groups.get_ref<Json::array_t&>(),
+                    [&](const Json& each) { return each["relative"] != s["relative_distance"]; });
+      groups.get_ref<Json::array_t&>().resize(1);
+    }
+    text += row("distance", joined(groups, [](const Json& each) {
                   return fmt::format("{} {} ({} of its size along the motion)", each["of"].get<std::string>(),
                                      number_text(each["distance"], "{:.3g}"), number_text(each["relative"], "{:.3g}"));
                 }));
