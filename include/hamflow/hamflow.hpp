@@ -282,6 +282,7 @@
 #include "hamflow/verify/reference_flow.hpp"
 #include "hamflow/verify/reference_solution.hpp"
 #include "hamflow/verify/reversal_progress.hpp"
+#include "hamflow/verify/state_units.hpp"
 #include "hamflow/verify/step_map_of.hpp"
 #include "hamflow/verify/swings.hpp"
 #include "hamflow/verify/turns.hpp"

@@ -1,5 +1,8 @@
 #include "run_walls.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "hamflow/run/recorded_walls.hpp"
 #include "walled_functions.hpp"
 
@@ -23,22 +26,91 @@ bool turn_single_momenta(const RunWalls<R>& walls, const ErasedFunctions<R>& fun
   return true;
 }
 
-/// Whether -p_i in place of p_i leaves H as it is to the last bit, which terms that are written otherwise than as
-/// squares need not do; of some momenta.
-bool keep_last_bits(const RunWalls<double>& walls, const Functions<double>& functions,
-                    const Vector<double, dynamic>& q) {
-  std::uint32_t any = 1;
-  for (int n = 0; n < 16; ++n) {
-    auto p = zeros_like(q);
-    for (double& x : p) x = 0x1p-31 * static_cast<double>(any = any * 1664525u + 1013904223u) - 1;
-    const double energy = functions.energy(q, p);
-    for (const WallSide<double>& wall : walls.sides) {
-      auto turned = p;
-      turned[wall.coordinate] = -p[wall.coordinate];
-      if (!(functions.energy(q, turned) == energy)) return false;
+/// What an operation does when one input changes its sign, to the last bit: it stays, it changes its sign, too, or
+/// neither is known.
+enum class Sign { stays, turns, unknown };
+
+Sign product_of(Sign a, Sign b) {
+  if (a == Sign::unknown || b == Sign::unknown) return Sign::unknown;
+  return a == b ? Sign::stays : Sign::turns;
+}
+
+/// IEEE arithmetic rounds x and -x alike, and so do the odd functions of the library.
+Sign sign_of(const TapeNode& node, const std::vector<double>& constants, const std::vector<Sign>& all) {
+  const auto at = [&](int i) { return i < 0 ? Sign::unknown : all[static_cast<std::size_t>(i)]; };
+  const auto of_even_function = [&] { return at(node.a) == Sign::unknown ? Sign::unknown : Sign::stays; };
+  const auto of_other_function = [&] { return at(node.a) == Sign::stays ? Sign::stays : Sign::unknown; };
+  switch (node.operation) {
+    case Operation::constant:
+      return Sign::stays;
+    case Operation::add:
+    case Operation::subtract:
+      return at(node.a) == at(node.b) ? at(node.a) : Sign::unknown;
+    case Operation::multiply:
+    case Operation::divide:
+      return product_of(at(node.a), at(node.b));
+    case Operation::negate:
+    case Operation::scale:
+    case Operation::divide_constant:
+    case Operation::invert:
+    case Operation::sine:
+    case Operation::sinh:
+    case Operation::tangent:
+    case Operation::tanh:
+    case Operation::arctangent:
+    case Operation::arcsine:
+      return at(node.a);
+    case Operation::square:
+    case Operation::cosine:
+    case Operation::cosh:
+    case Operation::absolute:
+      return of_even_function();
+    case Operation::power: {
+      const double exponent = constants[static_cast<std::size_t>(node.constant)];
+      if (at(node.a) != Sign::turns) return at(node.a);
+      if (std::fmod(exponent, 2) == 0) return Sign::stays;
+      return std::fmod(exponent, 1) == 0 ? Sign::turns : Sign::unknown;
     }
+    case Operation::larger:
+    case Operation::arctangent2:
+    case Operation::power_of_two:
+    case Operation::inverse_cube:
+    case Operation::inverse_root:
+    case Operation::choose: {
+      const bool third = node.operation != Operation::choose || at(node.c) == Sign::stays;
+      return third && at(node.a) == Sign::stays && at(node.b) == Sign::stays ? Sign::stays : Sign::unknown;
+    }
+    default:
+      return of_other_function();
   }
-  return true;
+}
+
+/// Whether -p_i in place of p_i leaves H as it is to the last bit for every q and p, which terms that are written
+/// otherwise than as squares need not do: by the recording of H.
+bool keep_last_bits(const RunWalls<double>& walls, const Functions<Trace<double>>& functions,
+                    const Vector<double, dynamic>& q, const Vector<double, dynamic>& p) {
+  Recorder<double> recorder(Folding::exact);
+  Vector<Trace<double>, dynamic> x(q.size());
+  Vector<Trace<double>, dynamic> y(p.size());
+  for (std::size_t i = 0; i < q.size(); ++i) x[i] = recorder.input(q[i]);
+  for (std::size_t i = 0; i < p.size(); ++i) y[i] = recorder.input(p[i]);
+  Tape<double> tape;
+  try {
+    tape = recorder.finish({functions.energy(x, y)});
+  } catch (const CannotRecord&) {
+    return false;
+  }
+  return std::all_of(walls.sides.begin(), walls.sides.end(), [&](const WallSide<double>& wall) {
+    std::vector<Sign> all(tape.nodes.size(), Sign::unknown);
+    for (std::size_t i = 0; i < tape.nodes.size(); ++i) {
+      const bool is_input = i < tape.inputs;
+      all[i] = is_input ? (i == q.size() + wall.coordinate ? Sign::turns : Sign::stays)
+                        : sign_of(tape.nodes[i], tape.constants, all);
+    }
+    const auto stays = [&](int node) { return all[static_cast<std::size_t>(node)] == Sign::stays; };
+    return stays(tape.outputs.front()) &&
+           std::all_of(tape.guards.begin(), tape.guards.end(), [&](const auto& guard) { return stays(guard.node); });
+  });
 }
 
 }  // namespace
@@ -63,7 +135,7 @@ std::shared_ptr<const RunWalls<R>> put_behind_walls(ErasedRun<R>& run, const Req
     if (walls.hard()) {
       const bool few = run.functions.size <= 64;  // steps of more are too long to be recorded, or gain little
       const bool keep_energy =
-          few && walls.rule == WallRule::reject && keep_last_bits(*behind, *run.functions.plain, run.q);
+          few && walls.rule == WallRule::reject && keep_last_bits(*behind, *run.functions.trace, run.q, run.p);
       run.walls = std::make_shared<const StepWalls>(StepWalls{behind->sides, walls.rule, keep_energy});
       behind->turns_single = (walls.rule == WallRule::reject || (few && walls.rule == WallRule::event)) &&
                              turn_single_momenta(*behind, run.functions);

@@ -160,7 +160,7 @@ void write_work_precision(const WorkPrecision& data, const std::filesystem::path
   const std::vector<Entry> entries = marked(curves);
   const Quantity evaluations{"evaluations of force or gradient", &WorkCurve::evaluations};
   const Quantity seconds{"processor time in seconds", &WorkCurve::seconds};
-  const Quantity error{"largest error of q, p at the end", &WorkCurve::error};
+  const Quantity error{"largest relative error of q, p at the end", &WorkCurve::error};
   const Quantity energy_error{"max |{/:Italic H} − {/:Italic H}_0|/scale", &WorkCurve::energy_error};
   Page page{data.title, {}, 2, two_columns, legend_of(entries)};
   bool floor_shown = false;

@@ -144,14 +144,20 @@ void ScenarioReader::read_lattice(TomlTable& table) {
     for (const double x : values) most = std::max(most, std::abs(std::remainder(x, unit)));
     return most;
   };
-  const double lost = std::max(rounding(scenario_.start_q, scenario_.request.position_unit),
-                               rounding(scenario_.start_p, scenario_.request.momentum_unit));
-  if (lost > 1e-12) scenario_.notes.push_back("the start is rounded to the lattice by up to " + shortest(lost));
   const auto reach = [](const std::vector<double>& values) {
     double most = 0;
     for (const double x : values) most = std::max(most, std::abs(x));
     return most;
   };
+  // Positions and momenta have units of their own: each is told beside its own size.
+  const auto tell = [&](const char* what, const std::vector<double>& values, double unit) {
+    const double lost = rounding(values, unit);
+    if (!(lost > 1e-12 * reach(values))) return;
+    scenario_.notes.push_back(std::string("the ") + what + " of the start are rounded to the lattice by up to " +
+                              shortest(lost));
+  };
+  tell("positions", scenario_.start_q, scenario_.request.position_unit);
+  tell("momenta", scenario_.start_p, scenario_.request.momentum_unit);
   const auto check = [&](const char* what, double largest, double unit) {
     if (largest > 0 && largest < unit) {
       table.complain(key, std::string("found ") + what + " of at most " + shortest(largest) +

@@ -322,7 +322,8 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
   // would pass for roundings.
   constexpr double cancelled = 0x1p-10;
   const double scale = std::max(simulation.energy_scale(), state.exchange.largest().value_or(0));
-  const double rounded = scale > cancelled * size ? scale : size;
+  const double rounded = std::max(scale > cancelled * size ? scale : size,
+                                  rounding_of_state(request, problem, ends, evaluate_number<double>(request.dt)));
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
   if (!state.digits.empty()) {

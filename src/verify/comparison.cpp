@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "comparison_jobs.hpp"
+#include "hamflow/verify/state_units.hpp"
 #include "state_difference.hpp"
 
 namespace hamflow {
@@ -145,12 +146,33 @@ void unwind(const ProblemInfo& info, const ReferenceSolution& reference, std::ve
   }
 }
 
-void judge(ComparisonJob& job, const ProblemInfo& info, const ReferenceSolution& reference) {
+/// The largest difference of each group of numbers with one unit, in that unit.
+std::vector<std::pair<std::string, Magnitude>> differences_of(const ProblemEntry& problem,
+                                                              const std::vector<std::string>& end,
+                                                              const std::vector<std::string>& reference, int digits) {
+  const std::size_t n = end.size() / 2;
+  const UnitGroups groups = unit_groups(problem, n);
+  std::vector<std::pair<std::string, Magnitude>> all;
+  for (std::size_t g = 0; g < 2 * groups.count(); ++g) {
+    std::vector<std::string> a, b;
+    for (std::size_t i = 0; i < 2 * n; ++i) {
+      if ((i < n ? groups.group(i) : groups.count() + groups.group(i - n)) != g) continue;
+      a.push_back(end[i]);
+      b.push_back(reference[i]);
+    }
+    const std::string& name = g < groups.count() ? groups.q[g] : groups.p[g - groups.count()];
+    all.emplace_back(name, largest_difference(a, b, std::vector<double>(a.size(), 1), digits));
+  }
+  return all;
+}
+
+void judge(ComparisonJob& job, const ProblemEntry& problem, const ReferenceSolution& reference) {
   if (job.end.empty()) return;
-  unwind(info, reference, job.end);
+  unwind(problem.info, reference, job.end);
   // Twice the digits of the reference: a difference of 45-digit decimals of doubles is formed without a rounding.
   const int digits = std::max(100, 2 * digits_of(job.request.arithmetic));
-  job.point.error = largest_difference(job.end, reference.digits, digits);
+  job.point.error = largest_difference(job.end, reference.digits, reference.sizes, digits);
+  job.point.differences = differences_of(problem, job.end, reference.digits, digits);
   // A closed form that is known to the last digit is uncertain by 0: an error of 0 is then what it says.
   job.point.below_uncertainty = Magnitude() < reference.uncertainty && !(reference.uncertainty < job.point.error);
 }
@@ -204,7 +226,7 @@ Comparison compare(const ComparisonRequest& asked, const std::function<bool(cons
   if (going) (void)carry_out_if([](const ComparisonJob&) { return true; });
   for (ComparisonJob& job : jobs) {
     if (!job.finished) continue;
-    judge(job, problem.info, found.reference);
+    judge(job, problem, found.reference);
     found.points.push_back(job.point);
   }
   return found;

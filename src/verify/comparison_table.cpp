@@ -66,7 +66,9 @@ std::string comparison_table(const Comparison& c) {
   std::string text = fmt::format("{}, t = {}, {} arithmetic\nreference: {}", c.problem, shortest(c.t_end), c.arithmetic,
                                  c.reference.description);
   if (c.reference.kind == "none") return text + "\n";
-  text += fmt::format("; uncertain by {}\n\n", readable(c.reference.uncertainty)) + aligned(lines);
+  text += fmt::format("; uncertain by {}\nerrors: of a coordinate or momentum over its size along the motion\n\n",
+                      readable(c.reference.uncertainty)) +
+          aligned(lines);
   Lines best{{"error", "fewest evaluations", "", "", "least time", "", ""}};
   const std::vector<ComparisonWinner> all = winners(c);
   for (const ComparisonWinner& w : all) {

@@ -43,6 +43,29 @@ double size_of_energy(const Request& request, const ProblemEntry& problem, const
   return size > scale && std::isfinite(size) ? size : scale;
 }
 
+double rounding_of_state(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double dt) {
+  if (ends.start.q.empty()) return 0;
+  const Texts all = complete(problem.info, request.parameters);
+  const std::vector<double>& q = ends.start.q;  // not those of the end, which a run may have blown up to
+  const std::vector<double>& p = ends.start.p;
+  const std::vector<double> v = problem.rates(all, q, p);
+  double fastest = 0;
+  for (const double x : v) fastest = std::max(fastest, std::abs(x));
+  double sum = 0;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    sum += std::abs(p[i] * v[i]);
+    const double in_a_step = std::abs(dt) * (v[i] != 0 ? std::abs(v[i]) : fastest);
+    const double moved = in_a_step > 0 ? 0x1p-6 * in_a_step : 0x1p-26 * std::abs(q[i]);  // all are at rest
+    std::vector<double> above = q;
+    std::vector<double> below = q;
+    above[i] += moved;
+    below[i] -= moved;
+    const double apart = above[i] - below[i];
+    if (apart > 0) sum += std::abs(q[i] * (problem.energy(all, above, p) - problem.energy(all, below, p))) / apart;
+  }
+  return std::isfinite(sum) ? sum / 4 : 0;
+}
+
 double energy_of_units(const Request& request, const ProblemEntry& problem, const RunEnds& ends) {
   if (request.arithmetic != "lattice" || ends.start.q.empty()) return 0;
   const Texts all = complete(problem.info, request.parameters);

@@ -15,6 +15,11 @@ RunEnds ends_of(const Request& request, const Simulation& simulation);
 /// forces there make of it.
 double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale);
 
+/// By how much one rounding of the state moves the energy, in units of rounding: sum |q_i dH/dq_i| + |p_i dH/dp_i|, a
+/// quarter of it, since a rounding is a quarter of a unit in the mean. Far from the origin it is many times the energy.
+/// @param dt of the run: dH/dq_i is a difference of H over a small part of what q_i moves in a step
+double rounding_of_state(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double dt);
+
 /// By how much the units of a lattice move the energy; 0 in other arithmetic.
 double energy_of_units(const Request& request, const ProblemEntry& problem, const RunEnds& ends);
 

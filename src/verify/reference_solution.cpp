@@ -9,6 +9,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
+#include "hamflow/verify/state_units.hpp"
 #include "rounding.hpp"
 #include "state_difference.hpp"
 
@@ -51,6 +52,19 @@ bool falls_into_centre(const ProblemEntry& problem, const Texts& parameters, con
   });
 }
 
+/// Of each number of a state, what a difference is relative to.
+State<double> sizes_along(const ProblemEntry& problem, const StateSizes& sizes) {
+  const std::size_t n = sizes.q.size();
+  const UnitGroups groups = unit_groups(problem, n);
+  const std::vector<double> of_groups = group_sizes(groups, sizes).size;
+  State<double> all(2 * n);
+  for (std::size_t i = 0; i < 2 * n; ++i) {
+    const double size = of_groups[i < n ? groups.group(i) : groups.count() + groups.group(i - n)];
+    all[i] = size > 0 && std::isfinite(size) ? size : 1;
+  }
+  return all;
+}
+
 /// The closed form is computed in long double from the start in double. Its uncertainty: the rounding of what it
 /// returns, and 32 roundings of long double in each coordinate of the start, as the motion carries them to the end.
 std::optional<ReferenceSolution> closed_form(const Request& request, const ProblemEntry& problem, double t_end) {
@@ -60,24 +74,35 @@ std::optional<ReferenceSolution> closed_form(const Request& request, const Probl
   if (falls_into_centre(problem, parameters, start)) return std::nullopt;  // an integration finds out when
   const auto exact = problem.exact(parameters, start.q, start.p, t_end);
   if (!exact) return std::nullopt;
-  ReferenceSolution found{"closed form", "the closed form of the problem, in double", joined_state(*exact), {}, {}};
+  ReferenceSolution found{"closed form", "the closed form of the problem, in double", joined_state(*exact), {}, {}, {}};
   found.digits = all_exact_digits(found.end);
-  double size = 0;
-  for (const double x : joined_state(start)) size = std::max(size, std::abs(x));
+  StateSizes seen;
+  seen.include(start.q, start.p);
+  constexpr int looks = 64;
+  for (int k = 1; k <= looks; ++k) {
+    const auto at = problem.exact(parameters, start.q, start.p, t_end * k / looks);
+    if (at) seen.include(at->q, at->p);
+  }
+  found.sizes = sizes_along(problem, seen);
   double moved_by = 0;
   for (std::size_t i = 0; i < 2 * start.q.size(); ++i) {
     Frame near = start;
     double& x = i < start.q.size() ? near.q[i] : near.p[i - start.q.size()];
-    x += epsilon * (x != 0 ? x : size);
+    x += epsilon * (x != 0 ? x : found.sizes[i]);
     const auto moved = problem.exact(parameters, near.q, near.p, t_end);
     if (!moved) return std::nullopt;  // a rounding away it is not known: nor how well it is here
     const State<double> end = joined_state(*moved);
     double most = 0;
-    for (std::size_t k = 0; k < end.size(); ++k) most = std::max(most, std::abs(end[k] - found.end[k]));
+    for (std::size_t k = 0; k < end.size(); ++k)
+      most = std::max(most, std::abs(end[k] - found.end[k]) / found.sizes[k]);
     moved_by += most;
   }
   constexpr double share = 32 * 0x1p-11;  // of a rounding of double
-  found.uncertainty = epsilon / 2 * size_of(found.digits) + share * moved_by;
+  double of_the_end = 0;
+  for (std::size_t k = 0; k < found.end.size(); ++k) {
+    of_the_end = std::max(of_the_end, std::abs(found.end[k]) / found.sizes[k]);
+  }
+  found.uncertainty = epsilon / 2 * of_the_end + share * moved_by;
   return found;
 }
 
@@ -97,8 +122,9 @@ std::string reference_arithmetic(const std::string& arithmetic) {
 
 class ReferenceRun::Impl {
  public:
-  Impl(const Request& request, const std::string& t_end, std::int64_t steps) {
-    const ProblemEntry& problem = find_problem(request.problem, request.variant);
+  Impl(const Request& request, const std::string& t_end, std::int64_t steps)
+      : problem_(find_problem(request.problem, request.variant)) {
+    const ProblemEntry& problem = problem_;
     Request full = request;
     full.parameters = complete(problem.info, request.parameters);
     const bool beyond_double = digits_beyond_double(request.arithmetic) > 0;
@@ -139,6 +165,7 @@ class ReferenceRun::Impl {
     full.method = extrapolated(second_tolerance_);
     second_ = problem.simulate_erased(full);
     arithmetic_ = full.arithmetic;
+    look();
   }
 
   void advance(const std::function<bool()>& goes_on) {
@@ -155,6 +182,7 @@ class ReferenceRun::Impl {
                     why);
       }
     }
+    look();
     if (finished()) compare();
   }
   bool finished() const { return first_ == nullptr || first_->step() == pieces_; }
@@ -171,6 +199,11 @@ class ReferenceRun::Impl {
     return fmt::format("extrapolated midpoint rule of order {}", 2 * extrapolation_columns(tolerance));
   }
 
+  void look() {
+    Frame frame;
+    first_->look(frame);
+    seen_.include(frame.q, frame.p);
+  }
   void compare() {
     Frame frame;
     first_->look(frame);
@@ -179,16 +212,20 @@ class ReferenceRun::Impl {
     solution_.digits = state_digits(frame);
     second_->look(frame);
     const int digits = digits_of(arithmetic_);
-    const Magnitude difference = largest_difference(solution_.digits, state_digits(frame), digits + 10);
+    solution_.sizes = sizes_along(problem_, seen_);
+    const Magnitude difference =
+        largest_difference(solution_.digits, state_digits(frame), solution_.sizes, digits + 10);
     // Not less than the tolerance of the coarser one: two errors can meet by chance.
-    const Magnitude least = second_tolerance_ * size_of(solution_.digits);
+    const Magnitude least = second_tolerance_;
     const Magnitude twice = difference.text.empty() ? Magnitude(2 * difference.value) : difference;
     solution_.uncertainty = twice < least ? least : twice;
-    solution_.description = fmt::format("{}, tolerance {:.0e}, in {}; it differs by {} from the {}, tolerance {:.0e}",
-                                        first_name_, first_tolerance_, arithmetic_, readable(difference),
-                                        extrapolation_name(second_tolerance_), second_tolerance_);
+    solution_.description = fmt::format(
+        "{}, tolerance {:.0e}, in {}; it differs by {} of its size from the {}, tolerance {:.0e}", first_name_,
+        first_tolerance_, arithmetic_, readable(difference), extrapolation_name(second_tolerance_), second_tolerance_);
   }
 
+  const ProblemEntry& problem_;
+  StateSizes seen_;                    // along the motion
   std::unique_ptr<Simulation> first_;  // null: a closed form
   std::unique_ptr<Simulation> second_;
   std::int64_t pieces_ = 0;

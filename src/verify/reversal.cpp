@@ -1,7 +1,7 @@
 // Forward, negate the momenta, forward, negate: the experiment that finds every step that is not reversible.
 #include <algorithm>
-#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "hamflow/core/hash.hpp"
 #include "hamflow/verify/reversal_progress.hpp"
@@ -9,17 +9,31 @@
 namespace hamflow {
 
 namespace {
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
-}
-double largest_entry(const std::vector<double>& a) { return largest_difference(a, std::vector<double>(a.size())); }
+
+/// Looks at the way there at up to 64 of its steps. Where they are depends on the number of steps alone.
+class SizesThere final : public Observer {
+ public:
+  SizesThere(std::int64_t first, std::int64_t steps, StateSizes& sizes)
+      : first_(first), last_(first + steps), apart_(std::max<std::int64_t>(1, steps / 64)), sizes_(sizes) {}
+  std::int64_t next_due(std::int64_t step) const override {
+    const std::int64_t due = first_ + (std::max(step, first_) - first_ + apart_ - 1) / apart_ * apart_;
+    return due > last_ ? never : due;
+  }
+  Verdict observe(const Frame& frame) override {
+    sizes_.include(frame.q, frame.p);
+    return Verdict::go_on;
+  }
+
+ private:
+  std::int64_t first_, last_, apart_;
+  StateSizes& sizes_;
+};
 
 /// All but the states at the start and at the turn, which are the progress's.
 /// @param there, back   observers of either way
 Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
-                   std::span<Observer* const> there, std::span<Observer* const> back, ReversalProgress& progress) {
+                   std::span<Observer* const> there, std::span<Observer* const> back, ReversalProgress& progress,
+                   const UnitGroups& groups) {
   Reversal found;
   found.steps = steps;
   if (!progress.begun) {
@@ -39,7 +53,10 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
     return found.outcome == Outcome::done;
   };
   if (!progress.turned) {
-    const bool arrived = go(first + steps, there);
+    SizesThere sizes(first, steps, progress.sizes);
+    std::vector<Observer*> watching{&sizes};
+    watching.insert(watching.end(), there.begin(), there.end());
+    const bool arrived = go(first + steps, watching);
     simulation.look(progress.turn);
     progress.turn_hash = fnv1a(simulation.bits());
     progress.energy_there = simulation.energy();
@@ -60,18 +77,16 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
   simulation.negate_momenta();
   simulation.look(found.end);
   found.end_hash = fnv1a(simulation.bits());
-  const FrameDigits& to = found.end.digits;
-  const FrameDigits& from = progress.start.digits;
-  if (from.q.empty()) {
-    found.distance =
-        std::max(largest_difference(found.end.q, progress.start.q), largest_difference(found.end.p, progress.start.p));
-  } else {
-    const LongNumber in_q = hamflow::largest_difference(to.q, from.q);
-    const LongNumber in_p = hamflow::largest_difference(to.p, from.p);
-    found.distance = at_most(in_q, in_p) ? in_p : in_q;
+  progress.sizes.include(progress.start.q, progress.start.p);
+  progress.sizes.include(progress.turn.q, progress.turn.p);
+  found.sizes = progress.sizes;
+  found.distances = group_distances(groups, progress.sizes, found.end, progress.start);
+  const GroupDistance* furthest = &found.distances.front();
+  for (const GroupDistance& each : found.distances) {
+    if (!at_most(each.relative, furthest->relative)) furthest = &each;
   }
-  const double size = std::max(largest_entry(progress.start.q), largest_entry(progress.start.p));
-  found.relative_distance = size > 0 ? quotient(found.distance, size) : found.distance;
+  found.distance = furthest->distance;
+  found.relative_distance = furthest->relative;
   found.bit_exact = simulation.bits() == progress.bits;
   return found;
 }
@@ -79,17 +94,17 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
 }  // namespace
 
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
-                 std::span<Observer* const> there) {
+                 std::span<Observer* const> there, const UnitGroups& groups) {
   ReversalProgress progress;
-  Reversal found = carry_out(simulation, steps, pulse, there, {}, progress);
+  Reversal found = carry_out(simulation, steps, pulse, there, {}, progress, groups);
   found.start = std::move(progress.start);
   found.turn = std::move(progress.turn);
   return found;
 }
 
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t)>& pulse,
-                 std::span<Observer* const> observers, ReversalProgress& progress) {
-  Reversal found = carry_out(simulation, steps, pulse, observers, observers, progress);
+                 std::span<Observer* const> observers, ReversalProgress& progress, const UnitGroups& groups) {
+  Reversal found = carry_out(simulation, steps, pulse, observers, observers, progress, groups);
   found.start = progress.start;
   found.turn = progress.turn;
   return found;

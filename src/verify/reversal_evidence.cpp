@@ -24,12 +24,6 @@ constexpr double beyond = 16;           // bounds of rounding: what is within so
 constexpr std::int64_t most_waypoints = 64;                // at which two motions are compared
 constexpr std::int64_t most_kept = std::int64_t{1} << 23;  // coordinates of all of them: 128 MB, with momenta
 
-double largest_of(const std::vector<double>& xs) {
-  double most = 0;
-  for (const double x : xs) most = std::max(most, std::abs(x));
-  return most;
-}
-
 /// Keeps the states of a motion at up to `most_waypoints` of its steps, of very large systems at fewer: at least four.
 class Waypoints final : public Observer {
  public:
@@ -37,70 +31,123 @@ class Waypoints final : public Observer {
       : apart_(std::max<std::int64_t>(
             1, steps / std::clamp<std::int64_t>(most_kept / static_cast<std::int64_t>(std::max<std::size_t>(1, size)),
                                                 4, most_waypoints))) {}
+  std::int64_t apart() const { return apart_; }
   std::int64_t next_due(std::int64_t step) const override { return (step + apart_ - 1) / apart_ * apart_; }
   Verdict observe(const Frame& frame) override {
     q_.push_back(frame.q);
     p_.push_back(frame.p);
+    sizes_.include(frame.q, frame.p);
     return Verdict::go_on;
   }
   std::size_t count() const { return q_.size(); }
   const std::vector<double>& q(std::size_t i) const { return q_[i]; }
   const std::vector<double>& p(std::size_t i) const { return p_[i]; }
-  double size_of(const std::vector<std::vector<double>>& all) const {
-    double most = 0;
-    for (const auto& x : all) most = std::max(most, largest_of(x));
-    return most;
-  }
-  double q_size() const { return size_of(q_); }
-  double p_size() const { return size_of(p_); }
+  const StateSizes& sizes() const { return sizes_; }
 
  private:
   std::int64_t apart_;
   std::vector<std::vector<double>> q_;
   std::vector<std::vector<double>> p_;
+  StateSizes sizes_;
 };
 
-/// How far another motion is from those states, at the same steps. It keeps none of its own.
+double largest_of(const std::vector<double>& sizes) {
+  return sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
+}
+
+/// The motion whose reversal is judged.
+struct Motion {
+  const Request& request;
+  const ProblemEntry& problem;
+  const Reversal& reversal;
+  const Waypoints& way;
+  UnitGroups groups;
+  GroupSizes sizes = group_sizes(groups, way.sizes());
+  std::size_t count() const { return sizes.size.size(); }  // of groups, those of momenta included
+  /// What a difference within a group is relative to.
+  double unit(std::size_t group) const { return sizes.size[group] > 0 ? sizes.size[group] : 1; }
+};
+
+/// How far another motion is from those states, at the same steps: group by group, relative to the group's size. It
+/// keeps no states of its own.
 class DistancesFrom final : public Observer {
  public:
-  explicit DistancesFrom(const Waypoints& way) : way_(way) {}
-  std::int64_t next_due(std::int64_t step) const override { return way_.next_due(step); }
-  Verdict observe(const Frame& frame) override {
-    const std::size_t i = distances_.size();
-    if (i == way_.count()) return Verdict::stop;
-    double distance = 0;
-    for (std::size_t k = 0; k < frame.q.size(); ++k) {
-      distance = std::max({distance, std::abs(way_.q(i)[k] - frame.q[k]), std::abs(way_.p(i)[k] - frame.p[k])});
-    }
-    distances_.push_back(distance);
-    return Verdict::go_on;
+  explicit DistancesFrom(const Motion& motion) : motion_(motion), furthest_(motion.count()), squares_(motion.count()) {
+    const auto walls = walls_among(motion.request.variant);
+    if (walls && walls->hard()) sides_ = wall_sides<double>(*walls);
   }
-  const std::vector<double>& all() const { return distances_; }
+  std::int64_t next_due(std::int64_t step) const override { return motion_.way.next_due(step); }
+  Verdict observe(const Frame& frame) override { return look(frame.q, frame.p) ? Verdict::go_on : Verdict::stop; }
+
+  /// The next state. False: there is none left to compare it with.
+  bool look(const std::vector<double>& q, const std::vector<double>& p) {
+    if (looks_ == motion_.way.count()) return false;
+    const std::vector<double>& way_q = motion_.way.q(looks_);
+    const std::vector<double>& way_p = motion_.way.p(looks_);
+    const std::size_t n = motion_.groups.count();
+    std::vector<double> here(motion_.count());
+    const auto add = [&](std::size_t group, double distance) {
+      if (!std::isfinite(distance)) finite_ = false;
+      here[group] = std::max(here[group], distance / motion_.unit(group));
+    };
+    for (std::size_t k = 0; k < q.size(); ++k) add(motion_.groups.group(k), std::abs(way_q[k] - q[k]));
+    for (std::size_t g = 0; g < n; ++g) furthest_[g] = std::max(furthest_[g], here[g]);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const double apart = std::abs(way_p[k] - p[k]);
+      // Of two motions that meet a wall one is the first to bounce. Until the other has, their momenta are opposite.
+      const double turned = is_on_wall(k, way_q[k], q[k]) ? std::abs(way_p[k] + p[k]) : apart;
+      add(n + motion_.groups.group(k), std::min(apart, turned));
+    }
+    for (std::size_t g = 0; g < here.size(); ++g) {
+      furthest_[g] = std::max(furthest_[g], here[g]);
+      squares_[g] += here[g] * here[g];
+    }
+    ++looks_;
+    return true;
+  }
+  bool is_complete() const { return finite_ && looks_ == motion_.way.count(); }
+  const std::vector<double>& furthest() const { return furthest_; }
+  double mean_square(std::size_t group) const { return squares_[group] / static_cast<double>(looks_); }
 
  private:
-  const Waypoints& way_;
-  std::vector<double> distances_;
+  /// Both are as near to a wall as the motions are to each other, some times over.
+  bool is_on_wall(std::size_t coordinate, double a, double b) const {
+    const std::size_t group = motion_.groups.group(coordinate);
+    const double near = 16 * std::max(moved, furthest_[group]) * motion_.unit(group);
+    return std::any_of(sides_.begin(), sides_.end(), [&](const WallSide<double>& side) {
+      return side.coordinate == coordinate && std::abs(side.beyond(a)) <= near && std::abs(side.beyond(b)) <= near;
+    });
+  }
+
+  const Motion& motion_;
+  std::vector<WallSide<double>> sides_;
+  std::vector<double> furthest_;
+  std::vector<double> squares_;
+  std::size_t looks_ = 0;
+  bool finite_ = true;
 };
 
-/// How the start of another motion lies beside that of the first: every coordinate moved by `size` of the largest one,
-/// up or down by chance. With `unequal`, by half of it up to the whole: no two particles then move alike, so that the
-/// distance of every pair changes, and of a move and the opposite one either brings it nearer.
+/// How the start of another motion lies beside that of the first: every coordinate moved by `size` of its own size
+/// along the motion, up or down by chance. On a lattice, whose roundings have one size, of the largest coordinate's.
+/// With `unequal`, by half of it up to the whole: no two particles then move alike, so that the distance of every pair
+/// changes, and of a move and the opposite one either brings it nearer.
 struct Move {
   double size = moved;
   std::uint64_t seed = 1;
   bool unequal = false;
 };
 
-std::vector<std::string> moved_by(const std::vector<double>& x, double size, const Move& move, std::uint64_t seed) {
-  std::vector<std::string> texts;
-  texts.reserve(x.size());
+std::vector<double> moved_by(const std::vector<double>& x, const std::vector<double>& sizes, const Move& move,
+                             std::uint64_t seed, bool on_lattice) {
+  std::vector<double> out = x;
+  const double largest = largest_of(sizes);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::uint64_t random = counter_bits(seed, i);
     const double sign = random % 2 == 0 ? 1 : -1;
     const double share = move.unequal ? 0.5 + 0.5 * static_cast<double>(random >> 11U) * 0x1p-53 : 1;
-    texts.push_back(shortest(x[i] + sign * share * move.size * size));
+    out[i] += sign * share * move.size * (on_lattice ? largest : sizes[i]);
   }
-  return texts;
+  return out;
 }
 
 std::function<bool(std::int64_t)> pulse_of(const GoOn& go_on) {
@@ -120,68 +167,138 @@ std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
   }
 }
 
-/// How far two motions part that begin `Move::size` apart.
+/// How far two motions part that begin `Move::size` apart, group by group, relative to the sizes of the groups.
 struct Parting {
   bool measured = false;
-  double root_mean_square = 0;  // over the way, in that
-  double furthest = 0;          // as it is
+  std::vector<double> root_mean_square{};  // over the way, over Move::size
+  std::vector<double> furthest{};
+  /// The group that has grown most of those that hold more than rounding.
+  std::size_t widest(const Motion& motion) const {
+    std::size_t most = 0;
+    for (std::size_t g = 1; g < furthest.size(); ++g) {
+      if (!motion.sizes.is_rounding[g] && furthest[g] > furthest[most]) most = g;
+    }
+    return most;
+  }
 };
 
-/// In double: what is small beside the motion grows alike in every arithmetic.
-Parting parting(const Request& request, const Reversal& reversal, const Waypoints& way, const GoOn& go_on,
-                const Move& move = {}) {
-  Request other = request;
-  other.watch = false;
-  other.arithmetic = "double";
-  other.threads = 1;
-  other.start = {};
-  other.start.q = moved_by(reversal.start.q, way.q_size(), move, move.seed);
-  other.start.p = moved_by(reversal.start.p, way.p_size(), move, move.seed + 1);
-  DistancesFrom beside(way);
-  Observer* const watch[] = {&beside};
-  const auto simulation = make_simulation_of(std::move(other));
-  Parting found;
-  const Outcome outcome = run(*simulation, reversal.steps, watch, pulse_of(go_on));
-  if (outcome != Outcome::done || beside.all().size() != way.count()) return found;
-  double squares = 0;
-  for (const double distance : beside.all()) {
-    if (!std::isfinite(distance)) return found;
-    found.furthest = std::max(found.furthest, distance);
-    squares += distance * distance;
+std::vector<std::string> all_texts(const std::vector<double>& x) {
+  std::vector<std::string> texts;
+  texts.reserve(x.size());
+  for (const double number : x) texts.push_back(shortest(number));
+  return texts;
+}
+
+/// The motion that begins at (q, p), and its second copy with it at states of its own: a run keeps them together at the
+/// start, but what rounding does to one it does not do to the other.
+void follow_with_copy(const Motion& motion, const std::vector<double>& q, const std::vector<double>& p,
+                      const Move& move, DistancesFrom& beside, const GoOn& go_on) {
+  const Reversal& reversal = motion.reversal;
+  const std::size_t n = q.size();
+  Request request = motion.request;
+  request.parameters = complete(motion.problem.info, request.parameters);
+  const auto map = motion.problem.step_map(request, n);
+  if (!map) return;
+  // (q, x, p, y): the copy of the start itself, moved by other chances.
+  const StateSizes& sizes = motion.way.sizes();
+  const std::vector<double> x = moved_by(reversal.start.q, sizes.q, move, move.seed + 16, false);
+  const std::vector<double> y = moved_by(reversal.start.p, sizes.p, move, move.seed + 17, false);
+  State<double> z = q;
+  for (const auto* part : {&x, &p, &y}) z.insert(z.end(), part->begin(), part->end());
+  const auto h = evaluate_number<double>(request.dt);
+  const auto part = [&](std::size_t k) {
+    const auto begin = z.begin() + static_cast<std::ptrdiff_t>(k * n);
+    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(n));
+  };
+  while (beside.look(part(0), part(2))) {
+    if ((go_on && !go_on()) || !map->advance(z, h, motion.way.apart())) return;
   }
-  found.measured = true;
-  found.root_mean_square = std::sqrt(squares / static_cast<double>(way.count())) / std::abs(move.size);
+}
+
+/// In double: what is small beside the motion grows alike in every arithmetic.
+Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) {
+  const Reversal& reversal = motion.reversal;
+  const StateSizes& sizes = motion.way.sizes();
+  const bool on_lattice = motion.request.arithmetic == "lattice";
+  const std::vector<double> q = moved_by(reversal.start.q, sizes.q, move, move.seed, on_lattice);
+  const std::vector<double> p = moved_by(reversal.start.p, sizes.p, move, move.seed + 1, on_lattice);
+  DistancesFrom beside(motion);
+  if (describe(motion.request.method).carries_copy) {
+    follow_with_copy(motion, q, p, move, beside, go_on);
+  } else {
+    Request other = motion.request;
+    other.watch = false;
+    other.arithmetic = "double";
+    other.threads = 1;
+    other.start = {};
+    other.start.q = all_texts(q);
+    other.start.p = all_texts(p);
+    Observer* const watch[] = {&beside};
+    const auto simulation = make_simulation_of(std::move(other));
+    if (run(*simulation, reversal.steps, watch, pulse_of(go_on)) != Outcome::done) return {};
+  }
+  if (!beside.is_complete()) return {};
+  Parting found{.measured = true, .root_mean_square = {}, .furthest = beside.furthest()};
+  for (std::size_t g = 0; g < motion.count(); ++g) {
+    found.root_mean_square.push_back(std::sqrt(beside.mean_square(g)) / std::abs(move.size));
+  }
   return found;
 }
 
-/// The distance that rounding explains. A rounding of step j, on the way there or back, is carried by the way back from
-/// j to the start. Of a symplectic map the inverse has the norm of the map, so that it grows as a small difference at
-/// the start does on the way to j, which is measured. Roundings of unit size u then add up like a walk: to u
-/// sqrt(2 a sum_j g_j^2) for a actions a step; four of them,
+/// The distance that rounding explains, group by group, relative to the size of the group. A rounding of step j, on the
+/// way there or back, is carried by the way back from j to the start. Of a symplectic map the inverse has the norm of
+/// the map, so that it grows as a small difference at the start does on the way to j, which is measured. Roundings of
+/// unit size u then add up like a walk: to u sqrt(2 a sum_j g_j^2) for a actions a step; four of them,
 /// which is more than six times what reversible methods were found to need (tools/confusion_table.py).
-/// @param bounds so many times that
-LongNumber explained_by_rounding(const Request& request, const Reversal& reversal, const Parting& parting,
-                                 const Waypoints& way, double actions, double bounds = 1) {
-  const double factor =
-      bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(reversal.steps))) * parting.root_mean_square;
+/// @param growth Parting::root_mean_square of the group   @param bounds so many times that
+LongNumber explained_by_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
+  const Request& request = motion.request;
+  const double factor = bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(motion.reversal.steps))) * growth;
   const int digits = digits_beyond_double(request.arithmetic);
   if (digits > 0) return times_power_of_ten(factor, 1 - digits);
   if (request.arithmetic != "lattice") return factor * epsilon;
   const auto over = [](double unit, double size) { return size > 0 ? unit / size : 0; };
-  return factor *
-         std::max({epsilon, over(request.position_unit, way.q_size()), over(request.momentum_unit, way.p_size())});
+  const StateSizes& sizes = motion.way.sizes();
+  return factor * std::max({epsilon, over(request.position_unit, largest_of(sizes.q)),
+                            over(request.momentum_unit, largest_of(sizes.p))});
+}
+
+/// Whether every group is within so many of those bounds.
+bool within_rounding(const Motion& motion, const std::vector<double>& growth, double actions, double bounds = 1) {
+  for (std::size_t g = 0; g < motion.count(); ++g) {
+    const LongNumber explained = explained_by_rounding(motion, growth[g], actions, bounds);
+    if (!at_most(motion.reversal.distances[g].relative, explained)) return false;
+  }
+  return true;
+}
+
+/// The group that is furthest off beside what rounding explains.
+std::size_t furthest_off(const Motion& motion, const std::vector<double>& growth, double actions) {
+  std::size_t most = 0;
+  std::optional<LongNumber> ratio;
+  for (std::size_t g = 0; g < motion.count(); ++g) {
+    const LongNumber& off = motion.reversal.distances[g].relative;
+    if (off.value == 0 && off.text.empty()) continue;
+    const LongNumber here = quotient(off, explained_by_rounding(motion, growth[g], actions));
+    if (ratio && at_most(here, *ratio)) continue;
+    ratio = here;
+    most = g;
+  }
+  return most;
 }
 
 std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:.1e}", x.value) : x.text; }
 
 /// Whether a motion begins on a hard wall, to rounding. There it comes back to the wall with the momentum of before or
 /// behind the bounce, which of them decides the last bit of the time.
-bool begins_on_a_wall(const Request& request, const Frame& start, double size) {
-  const auto walls = walls_among(request.variant);
+bool begins_on_a_wall(const Motion& motion) {
+  const auto walls = walls_among(motion.request.variant);
   if (!walls || !walls->hard()) return false;
   const auto sides = wall_sides<double>(*walls);
   return std::any_of(sides.begin(), sides.end(), [&](const WallSide<double>& side) {
-    return std::abs(side.beyond(start.q[side.coordinate])) <= 8 * epsilon * std::max(size, std::abs(side.at));
+    const double size = motion.unit(motion.groups.group(side.coordinate));
+    return std::abs(side.beyond(motion.reversal.start.q[side.coordinate])) <=
+           8 * epsilon * std::max(size, std::abs(side.at));
   });
 }
 
@@ -191,89 +308,113 @@ bool begins_on_a_wall(const Request& request, const Frame& start, double size) {
 /// Bodies of unlike masses part by unlike factors in unlike directions: what is not in proportion to the first move is
 /// compared with a larger move in its own direction. The furthest that is seen is then what rounding may become.
 /// @param apart how the first move parts; becomes the furthest parting seen
-std::string out_of_proportion(const Request& request, const Reversal& reversal, const Waypoints& way, Parting& apart,
-                              const GoOn& go_on) {
-  const auto alike = [](const Parting& nearer, const Parting& wider) {
-    const double ratio = nearer.root_mean_square / wider.root_mean_square;
-    return ratio <= in_proportion && ratio * in_proportion >= 1;
+std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& go_on) {
+  const auto unlike = [&](const Parting& nearer, const Parting& wider) -> std::optional<std::size_t> {
+    for (std::size_t g = 0; g < motion.count(); ++g) {
+      const double one = nearer.root_mean_square[g];
+      const double other = wider.root_mean_square[g];
+      if (!(one <= in_proportion * other && other <= in_proportion * one)) return g;
+    }
+    return {};
+  };
+  const auto widen = [&](const Parting& wider) {
+    for (std::size_t g = 0; g < motion.count(); ++g) {
+      apart.root_mean_square[g] = std::max(apart.root_mean_square[g], wider.root_mean_square[g]);
+      apart.furthest[g] = std::max(apart.furthest[g], wider.furthest[g]);
+    }
+  };
+  const auto is_beyond = [&](const Parting& nearer) {
+    for (std::size_t g = 0; g < motion.count(); ++g) {
+      const double most = std::max(apart.furthest[g], nearer.furthest[g]);
+      if (motion.reversal.distances[g].relative.value > beyond * most) return true;
+    }
+    return false;
   };
   const char* const unmeasured = "but how far rounding is carried could not be measured";
   for (const double sign : {1.0, -1.0}) {
-    const Parting nearer = parting(request, reversal, way, go_on, {sign * moved_less, 3, true});
+    const Parting nearer = parting(motion, go_on, {sign * moved_less, 3, true});
     if (!nearer.measured) return unmeasured;
-    if (alike(nearer, apart)) continue;
-    if (reversal.distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;  // no jump did that
-    const Parting wider = parting(request, reversal, way, go_on, {sign * moved, 3, true});
+    if (!unlike(nearer, apart)) continue;
+    if (is_beyond(nearer)) continue;  // no jump did that
+    const Parting wider = parting(motion, go_on, {sign * moved, 3, true});
     if (!wider.measured) return unmeasured;
-    if (alike(nearer, wider)) {
-      apart.root_mean_square = std::max(apart.root_mean_square, wider.root_mean_square);
-      apart.furthest = std::max(apart.furthest, wider.furthest);
+    const std::optional<std::size_t> group = unlike(nearer, wider);
+    if (!group) {
+      widen(wider);
       continue;
     }
     return fmt::format(
-        "but what rounding becomes is not known: motions that begin {:.1e} apart part by {:.1e}, those that begin "
-        "{:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where a force jumps and a "
-        "rounding decides on which side it is taken",
-        moved * std::max(way.q_size(), way.p_size()), wider.furthest, moved_less * std::max(way.q_size(), way.p_size()),
-        nearer.furthest);
+        "but what rounding becomes is not known: motions that begin {:.1e} of their size apart part by {:.1e} of it, "
+        "those that begin {:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where a force "
+        "jumps and a rounding decides on which side it is taken",
+        moved, wider.furthest[*group], moved_less, nearer.furthest[*group]);
   }
   return {};
 }
 
 /// What is proved, and why.
-std::pair<ReversalProof, std::string> judged(const Request& request, const ProblemEntry& problem,
-                                             const Reversal& reversal, const Waypoints& way, double scale,
-                                             double actions, const GoOn& go_on) {
-  const MethodInfo method = describe(request.method);
+std::pair<ReversalProof, std::string> judged(const Motion& motion, double actions, const GoOn& go_on) {
+  const Reversal& reversal = motion.reversal;
+  const MethodInfo method = describe(motion.request.method);
   const Frame* const states[] = {&reversal.start, &reversal.turn};
-  if (!even_in_momenta(problem, request.parameters, states, scale)) {
-    return {ReversalProof::nothing,
-            "H(q, -p) is another H than H(q, p): the motion itself is not reversed by negating the momenta"};
-  }
+  const std::string why_not =
+      why_not_reversed(parity_in_momenta(motion.problem, motion.request.parameters, motion.way.sizes(), states));
+  if (!why_not.empty()) return {ReversalProof::nothing, why_not};
   if (reversal.bit_exact) {
     if (method.reversible) return {ReversalProof::every_bit, "every bit came back"};
     return {ReversalProof::nothing,
             "every bit came back, but " + method.name + " is not reversible: its defect is below rounding"};
   }
-  Parting apart = parting(request, reversal, way, go_on);
-  const double size = std::max(way.q_size(), way.p_size());
+  Parting apart = parting(motion, go_on);
   if (!apart.measured) return {ReversalProof::nothing, "how far rounding is carried could not be measured"};
-  const auto parts_too_far = [&] {
-    return fmt::format(
-        "{} off, but motions that begin close to each other part by a factor of {:.0e}: what rounding "
-        "becomes is not known",
-        brief(reversal.distance), apart.furthest / (moved * size));
+  const auto off = [&](std::size_t group) {
+    const GroupDistance& there = reversal.distances[group];
+    return fmt::format("{} {} off", there.name, brief(there.distance));
   };
-  if (apart.furthest > parted * size) return {ReversalProof::nothing, parts_too_far()};
+  const auto parts_too_far = [&] {
+    const std::size_t g = apart.widest(motion);
+    return std::pair{ReversalProof::nothing,
+                     fmt::format("{}, but motions that begin close to each other part by a factor of {:.0e}: what "
+                                 "rounding becomes is not known",
+                                 off(g), apart.furthest[g] / moved)};
+  };
+  const auto has_parted = [&] { return apart.furthest[apart.widest(motion)] > parted; };
+  if (has_parted()) return parts_too_far();
   if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
     return {ReversalProof::to_rounding,
             "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
   }
-  Parting nothing_grows = apart;  // what is below the bound of such a motion needs no other one
-  nothing_grows.root_mean_square = std::min(apart.root_mean_square, size);
-  if (!at_most(reversal.distance, explained_by_rounding(request, reversal, nothing_grows, way, actions))) {
-    const std::string unknown = out_of_proportion(request, reversal, way, apart, go_on);
-    if (!unknown.empty()) return {ReversalProof::nothing, brief(reversal.distance) + " off, " + unknown};
-    if (apart.furthest > parted * size) return {ReversalProof::nothing, parts_too_far()};
+  std::vector<double> nothing_grows = apart.root_mean_square;  // what is below that bound needs no other motion
+  for (double& growth : nothing_grows) growth = std::min(growth, 1.0);
+  if (!within_rounding(motion, nothing_grows, actions)) {
+    const std::string unknown = out_of_proportion(motion, apart, go_on);
+    const std::size_t g = furthest_off(motion, apart.root_mean_square, actions);
+    if (!unknown.empty()) return {ReversalProof::nothing, off(g) + ", " + unknown};
+    if (has_parted()) return parts_too_far();
   }
-  const LongNumber rounding = explained_by_rounding(request, reversal, apart, way, actions);
-  const std::string explained =
-      fmt::format("{} off, of which rounding explains {}", brief(reversal.distance), brief(rounding));
-  if (!at_most(reversal.distance, rounding)) {
-    if (method.reversible &&
-        at_most(reversal.distance, explained_by_rounding(request, reversal, apart, way, actions, beyond))) {
+  const std::vector<double>& growth = apart.root_mean_square;
+  const std::size_t worst = furthest_off(motion, growth, actions);
+  const LongNumber rounding = explained_by_rounding(motion, growth[worst], actions);
+  const LongNumber in_its_unit = rounding.text.empty() ? LongNumber(rounding.value * motion.unit(worst))
+                                                       : times(motion.unit(worst), rounding.text);
+  const std::string explained = fmt::format("{}, of which rounding explains {}", off(worst), brief(in_its_unit));
+  if (!within_rounding(motion, growth, actions)) {
+    if (method.reversible && within_rounding(motion, growth, actions, beyond)) {
       return {
           ReversalProof::nothing,
           explained + fmt::format(", and less than {:g} times that is no proof: a stiff step rounds by more than is "
                                   "estimated, and an arithmetic of more digits would tell",
                                   beyond)};
     }
-    if (!begins_on_a_wall(request, reversal.start, size)) return {ReversalProof::not_reversible, explained};
+    if (!begins_on_a_wall(motion)) return {ReversalProof::not_reversible, explained};
     return {ReversalProof::nothing, explained +
                                         ", but the motion begins on a wall, where the state before the bounce "
                                         "and that behind it are one"};
   }
-  if (rounding.value > parted * size) return {ReversalProof::nothing, explained + ", which is too much to tell"};
+  for (std::size_t g = 0; g < motion.count(); ++g) {
+    if (motion.sizes.is_rounding[g] || !(explained_by_rounding(motion, growth[g], actions).value > parted)) continue;
+    return {ReversalProof::nothing, explained + ", which is too much to tell"};
+  }
   if (!method.reversible) {
     return {ReversalProof::nothing,
             explained + "; " + method.name + " is not reversible, but its defect is below that"};
@@ -295,16 +436,6 @@ std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn
 }  // namespace
 
 bool depends_on_time(const ProblemEntry& problem) { return problem.structure && problem.structure->time; }
-
-bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
-                     double scale) {
-  const Texts all = complete(problem.info, parameters);
-  return std::all_of(states.begin(), states.end(), [&](const Frame* frame) {
-    std::vector<double> p = frame->p;
-    for (double& x : p) x = -x;
-    return std::abs(problem.energy(all, frame->q, frame->p) - problem.energy(all, frame->q, p)) <= 64 * epsilon * scale;
-  });
-}
 
 ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& problem, std::int64_t steps_taken,
                                    std::optional<double> period, const GoOn& asked) {
@@ -333,10 +464,15 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   Waypoints way(found.steps, start.q.size());
   Observer* const watch[] = {&way};
   Reversal reversal;
-  if (go_on()) reversal = reverse(*simulation, found.steps, pulse_of(go_on), watch);
+  const UnitGroups groups = unit_groups(problem, start.q.size());
+  if (go_on()) reversal = reverse(*simulation, found.steps, pulse_of(go_on), watch, groups);
   if (!stopped && reversal.outcome != Outcome::done) {
-    found.reason = "a step of the way there or back failed: " +
-                   (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
+    const Frame* const states[] = {&reversal.start, &reversal.turn};
+    const MomentumParity parity = parity_in_momenta(problem, request.parameters, way.sizes(), states);
+    found.reason = !parity.is_defined
+                       ? why_not_reversed(parity)
+                       : "a step of the way there or back failed: " +
+                             (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
   } else if (!stopped) {
     found.distance = reversal.distance;
     found.relative = reversal.relative_distance;
@@ -344,10 +480,10 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const Effort effort = simulation->effort();
     const double actions =
         std::max(1.0, static_cast<double>(effort.force + effort.gradient) / static_cast<double>(2 * found.steps));
-    const double scale = simulation->energy_scale();
     simulation.reset();  // another one is made, and two of a million particles need not have their lists at a time
     reversal.end = {};
-    std::tie(found.proves, found.reason) = judged(request, problem, reversal, way, scale, actions, go_on);
+    const Motion motion{request, problem, reversal, way, groups};
+    std::tie(found.proves, found.reason) = judged(motion, actions, go_on);
   }
   if (stopped) {
     ReversalEvidence none;

@@ -53,11 +53,12 @@ std::vector<std::string> state_digits(const Frame& frame) {
   return all;
 }
 
-Magnitude largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b, int digits) {
+Magnitude largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b,
+                             const std::vector<double>& sizes, int digits) {
   const MpDigits scope(digits);
   Mp most(0);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Mp difference = abs(parse_decimal<Mp>(a[i]) - parse_decimal<Mp>(b[i]));
+    const Mp difference = abs(parse_decimal<Mp>(a[i]) - parse_decimal<Mp>(b[i])) / Mp(sizes[i]);
     if (!(difference <= most)) most = difference;  // not a number is the most
   }
   return magnitude_of(most);
@@ -66,12 +67,6 @@ Magnitude largest_difference(const std::vector<std::string>& a, const std::vecto
 Magnitude relative_difference(const std::string& a, const std::string& b, double scale, int digits) {
   const MpDigits scope(digits);
   return magnitude_of(abs(parse_decimal<Mp>(a) - parse_decimal<Mp>(b)) / Mp(scale));
-}
-
-double size_of(const std::vector<std::string>& z) {
-  double most = 0;
-  for (const std::string& x : z) most = std::max(most, std::abs(std::strtod(x.c_str(), nullptr)));
-  return most;
 }
 
 }  // namespace hamflow

@@ -14,11 +14,10 @@ std::vector<std::string> state_digits(const Frame& frame);
 /// A double as the decimal that it is, to 45 digits: any arithmetic of the catalogue reads it back.
 std::string exact_digits(double x);
 
-/// max_i |a_i - b_i|, formed with so many digits.
-Magnitude largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b, int digits);
+/// max_i |a_i - b_i|/sizes_i, formed with so many digits.
+Magnitude largest_difference(const std::vector<std::string>& a, const std::vector<std::string>& b,
+                             const std::vector<double>& sizes, int digits);
 /// |a - b|/scale.
 Magnitude relative_difference(const std::string& a, const std::string& b, double scale, int digits);
-/// max_i |a_i|
-double size_of(const std::vector<std::string>& z);
 
 }  // namespace hamflow

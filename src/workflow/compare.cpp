@@ -45,6 +45,8 @@ Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   if (p.tolerance) row["tolerance"] = *p.tolerance;
   const auto measured = [&](const Magnitude& x) { return p.done() ? json_of(x) : Json(nullptr); };
   row["error"] = measured(p.error);
+  row["differences"] = p.done() ? Json::object() : Json(nullptr);
+  for (const auto& [of, difference] : p.differences) row["differences"][of] = json_of(difference);
   row["max_energy_error"] = measured(p.max_energy_error);
   row["end_energy_error"] = measured(p.end_energy_error);
   row["seconds"] = measured(p.seconds);
@@ -160,9 +162,6 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
   WorkPrecision data;
   data.title = fmt::format("{}, t = {}, {} arithmetic", c.problem, shortest(c.t_end), c.arithmetic);
   data.floor = c.reference.uncertainty.value;
-  double size = 0;
-  for (const double x : c.reference.end) size = std::max(size, std::abs(x));
-  if (size > 0) data.size = size;
   std::string last;
   for (const ComparisonPoint& p : c.points) {
     if (p.method != last) data.curves.push_back({p.method, p.order, p.explicit_step, {}, {}, {}, {}});

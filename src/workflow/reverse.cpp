@@ -76,17 +76,14 @@ std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, co
 /// @param tolerance as it was given, else empty   @param irreversible what to say of a method that is not reversible
 /// @param exact_with see exact_return
 std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
-                    bool even, bool expected, const std::function<std::string()>& irreversible,
-                    const std::string& exact_with) {
+                    const std::string& why_not_reversed, bool expected,
+                    const std::function<std::string()>& irreversible, const std::string& exact_with) {
   if (timed) {
     return "H depends on t, which goes on: the motion itself is not reversed by negating the momenta, so that a "
            "distance "
            "says nothing about the method";
   }
-  if (!even) {
-    return "H(q, -p) differs from H(q, p): the motion itself is not reversed by negating the momenta, so that a "
-           "distance says nothing about the method";
-  }
+  if (!why_not_reversed.empty()) return why_not_reversed + ", so that a distance says nothing about the method";
   if (expected) return "a palindromic splitting on the lattice returns every bit";
   if (!method.reversible) return irreversible();
   if (!tolerance.empty()) {
@@ -161,6 +158,18 @@ Json warnings_about(const Scenario& scenario, const Simulation& simulation, cons
 
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }
 
+/// Of each group of numbers that share a unit.
+Json distances_json(const std::vector<GroupDistance>& distances) {
+  Json all = Json::array();
+  for (const GroupDistance& each : distances) {
+    all.push_back({{"of", each.name},
+                   {"distance", json_of(each.distance)},
+                   {"size", each.size},
+                   {"relative", json_of(each.relative)}});
+  }
+  return all;
+}
+
 /// @param kept whether reverse.h5 has the states
 Json json_of(const Scenario& scenario, const Simulation& simulation, const ReversalReport& report, const Json& warnings,
              bool kept) {
@@ -177,6 +186,7 @@ Json json_of(const Scenario& scenario, const Simulation& simulation, const Rever
          {"returned", done ? state(r.end, scenario.request.arithmetic, "/end", kept) : Json(nullptr)},
          {"distance", done ? json_of(r.distance) : Json(nullptr)},
          {"relative_distance", done ? json_of(r.relative_distance) : Json(nullptr)},
+         {"distances", done ? distances_json(r.distances) : Json(nullptr)},
          {"bit_exact", done ? Json(r.bit_exact) : Json(nullptr)},
          {"hash",
           {{"start", hex(r.start_hash)},
@@ -236,8 +246,17 @@ std::string readable_reversal(const Json& s) {
   text += state_rows("start", s["start"]);
   if (!s["returned"].is_null()) {
     text += state_rows("returned", s["returned"]);
-    text += row("distance", fmt::format("{} ({} of the start's size)", number_text(s["distance"], "{:.3g}"),
-                                        number_text(s["relative_distance"], "{:.3g}")));
+    constexpr std::size_t most_groups = 4;
+    Json groups = s["distances"];
+    if (groups.size() > most_groups) {  // that which is furthest off
+      std::erase_if(groups.get_ref<Json::array_t&>(),
+                    [&](const Json& each) { return each["relative"] != s["relative_distance"]; });
+      groups.get_ref<Json::array_t&>().resize(1);
+    }
+    text += row("distance", joined(groups, [](const Json& each) {
+                  return fmt::format("{} {} ({} of its size along the motion)", each["of"].get<std::string>(),
+                                     number_text(each["distance"], "{:.3g}"), number_text(each["relative"], "{:.3g}"));
+                }));
     text += row("digits lost", fmt::format("{:.2f}", s["digits_lost"].get<double>()));
     if (s.contains("return_error")) {
       const auto counted = [&](const char* key, const char* what) {
@@ -268,20 +287,22 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   ReversalReport report;
   report.reversal = std::move(reversal);
   const Frame* const states[] = {&report.reversal.start, &report.reversal.turn};
-  const bool even = even_in_momenta(*scenario.problem, scenario.request.parameters, states, simulation.energy_scale());
-  const bool timed = depends_on_time(*scenario.problem);
-  report.expected_bit_exact = even && !timed && palindromic_on_lattice(scenario);
+  const MomentumParity parity =
+      parity_in_momenta(*scenario.problem, scenario.request.parameters, report.reversal.sizes, states);
+  const bool same_motion = parity.is_even && parity.is_defined && !depends_on_time(*scenario.problem);
+  report.expected_bit_exact = same_motion && parity.to_the_last_bit && palindromic_on_lattice(scenario);
   const Reversal& r = report.reversal;
   const MethodSpec& method = scenario.request.method;
   const auto tolerance = method.options.find(tolerance_option);
   const MethodInfo info = describe(method);
   if (r.outcome != Outcome::done) {
     report.note = nothing_returned;  // what a method is said to return was not seen here
+    if (!parity.is_defined) report.note += "; " + why_not_reversed(parity);
   } else {
     report.note = note_of(
-        info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic, timed, even,
-        report.expected_bit_exact, [&] { return note_of_irreversible(scenario, r, info.name); },
-        exact_return(scenario));
+        info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic,
+        depends_on_time(*scenario.problem), why_not_reversed(parity), report.expected_bit_exact,
+        [&] { return note_of_irreversible(scenario, r, info.name); }, exact_return(scenario));
   }
   if (r.outcome == Outcome::done && rejects_steps(scenario)) {
     report.note +=
@@ -291,13 +312,17 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }
-  const Json json = json_of(scenario, simulation, report,
-                            warnings_about(scenario, simulation, r, even && !timed, there, turns), kept);
+  const Json json =
+      json_of(scenario, simulation, report, warnings_about(scenario, simulation, r, same_motion, there, turns), kept);
   report.warnings = warning_lines(json);
   report.status = json["status"].get<std::string>();
   if (json.contains("error")) {
     report.message = json["error"]["message"].get<std::string>();
     report.hint = json["error"]["hint"].get<std::string>();
+    if (!parity.is_defined) {
+      report.message = why_not_reversed(parity);
+      report.hint = "to go back along this motion, begin at its end with the other sign of dt";
+    }
   }
   report.json = json_text(json);
   report.text = readable_reversal(json);
@@ -312,7 +337,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   WayThere way_there(turns, scenario.steps);
   Observer* const observers[] = {&way_there};
   ReversalProgress progress;
-  Reversal reversal = reverse(*simulation, scenario.steps, pulse, observers, progress);
+  Reversal reversal = reverse(*simulation, scenario.steps, pulse, observers, progress,
+                              unit_groups(*scenario.problem, scenario.start_q.size()));
   return report_of(scenario, *simulation, std::move(reversal), progress.energy_there, turns, false);
 }
 
@@ -364,7 +390,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
         if (!goes_on) checkpoints.write();
         return goes_on;
       },
-      observers, checkpoints.progress());
+      observers, checkpoints.progress(), unit_groups(*scenario.problem, scenario.start_q.size()));
   ReversalReport report = report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().energy_there,
                                     checkpoints.turns(), true);
   const Reversal& r = report.reversal;

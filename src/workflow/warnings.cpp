@@ -11,6 +11,7 @@
 
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/methods/tao.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
@@ -105,6 +106,21 @@ void add_long_step(const Scenario& scenario, const Json& summary, const TurnWatc
   }
   all.push_back(warning("long_step", fmt::format("dt = {:g} is more than a tenth of the {}; try dt = {:.2g} or less",
                                                  dt, whose, enough)));
+}
+
+/// The error of tao2 and tao4 grows as omega dt^order, since the springs turn the copies by 2 omega dt in a step.
+void add_fast_springs(const Scenario& scenario, Json& all) {
+  constexpr double most = 0.25;
+  const MethodSpec& method = scenario.request.method;
+  if (!describe(method).carries_copy) return;
+  const auto given = method.options.find("omega");
+  const double omega = given == method.options.end() ? TaoOptions().omega : evaluate_number<double>(given->second);
+  const double product = omega * std::abs(scenario.dt);
+  if (!(product > most)) return;
+  all.push_back(
+      warning("long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
+                                       "the state are too fast for the step; try dt = {:.2g} or less",
+                                       product, scenario.dt * most / product)));
 }
 
 /// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes
@@ -347,6 +363,7 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
   }
   const bool exact = flies_freely(scenario, end);
   if (turns != nullptr && !exact) add_long_step(scenario, summary, *turns, walls, steps, all);
+  if (end.step > 0) add_fast_springs(scenario, all);
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
       has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {

@@ -54,7 +54,7 @@ class Compare(CompareCase):
         c = self.compare("kepler.toml", "--methods", "stv4", "--dt", "0.1")
         s = self.summary("kepler.toml", "--set", "method={name='stv4'}")
         self.assertEqual(len(c["rows"]), 1)
-        self.assertEqual(c["rows"][0]["error"], s["exact"]["max_difference"])
+        self.assertEqual(max(c["rows"][0]["differences"].values()), s["exact"]["max_difference"])
         self.assertEqual(c["rows"][0]["max_energy_error"], s["energy"]["max_relative_error"])
         self.assertEqual(c["rows"][0]["evaluations"], s["evaluations"])
 
@@ -126,7 +126,7 @@ steps = 40
         # rounded once, and every force, h eps |F| apart, walks to less than that.
         fine = self.compare("henon.toml", "--methods", "yoshida6", "--dt", "0.003125", "--set",
                             "run.arithmetic=compensated")
-        self.assertLess(fine["rows"][0]["error"], 4 * 2.0**-52)
+        self.assertLess(max(fine["rows"][0]["differences"].values()), 4 * 2.0**-52)
 
     def test_the_uncertainty_bounds_the_distance_of_both_kinds_of_reference(self):
         """The closed form of Kepler's problem against the same motion of two bodies, for which none is known here."""
@@ -188,7 +188,7 @@ steps = 40
             D = decimal.Decimal
             ends = [abs(D(a) - D(b)) for key in ("q", "p") for a, b in zip(run["final"][key], c["reference"][key])]
             energy = abs(D(run["energy"]["final"]) - D(run["energy"]["initial"])) / D(run["energy"]["scale"])
-        self.assertAlmostEqual(c["rows"][0]["error"] / float(max(ends)), 1, delta=1e-12)
+        self.assertAlmostEqual(max(c["rows"][0]["differences"].values()) / float(max(ends)), 1, delta=1e-12)
         self.assertAlmostEqual(c["rows"][0]["end_energy_error"] / float(energy), 1, delta=1e-12)
 
     def test_errors_below_the_doubles_are_texts(self):
@@ -196,11 +196,33 @@ steps = 40
                    "[run]\ndt='1e-110'\nsteps=1\narithmetic='mp(350)'\n")
         row = self.compare("spring.toml", "--methods", "verlet", "--dt", "1e-110")["rows"][0]
         # p = -h + h^3/6 of the exact motion, -h + h^3/4 of verlet: the error is h^3/12.
-        mantissa, exponent = row["error"].split("e")
+        mantissa, exponent = row["differences"]["p"].split("e")
         self.assertAlmostEqual(float(mantissa), 100 / 12, delta=1e-9)
         self.assertEqual(int(exponent), -332)
+        self.assertAlmostEqual(row["error"] / (1e-220 / 12), 1, delta=1e-9)  # beside p, which is h in size
         # Tolerances are doubles: below them the reference claims nothing.
         self.assertTrue(row["below_uncertainty"])
+
+    def test_units_change_no_error(self):
+        """One ellipse in units of length, mass and time that differ by 2^40, 2^20 and 2^30."""
+        def rows(length, mass, time):
+            self.write("ellipse.toml", f"""[problem]
+                name = "central-force"
+                potential = "kepler"
+                k = {mass * length**3 / time**2!r}
+                mass = {mass!r}
+                initial = {{ q = [{length!r}, 0], p = [0, {0.75 * mass * length / time!r}] }}
+                [run]
+                dt = {time / 16!r}
+                steps = 64
+                """)
+            c = self.compare("ellipse.toml", "--methods", "verlet,gauss(2)", "--dt", repr(time / 16))
+            return [r["error"] for r in c["rows"]]
+        natural = rows(1.0, 1.0, 1.0)
+        self.assertGreater(natural[0], 1e-4)
+        for units in ((2.0**40, 2.0**20, 2.0**30), (2.0**-40, 2.0**60, 2.0**-20)):
+            for a, b in zip(natural, rows(*units)):
+                self.assertAlmostEqual(a / b, 1, delta=1e-9)
 
     def test_adaptive_methods_vary_their_tolerance(self):
         c = self.compare("henon.toml", "--methods", "dop853,taylor,stv4")

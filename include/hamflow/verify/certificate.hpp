@@ -16,6 +16,7 @@
 #include "hamflow/run/observer.hpp"
 #include "hamflow/verify/drift.hpp"
 #include "hamflow/verify/long_number.hpp"
+#include "hamflow/verify/state_units.hpp"
 #include "hamflow/verify/swings.hpp"
 
 namespace hamflow {
@@ -108,24 +109,35 @@ struct Reversal {
   Outcome outcome = Outcome::done;
   std::string failure;  // why a step was not taken
   Frame start, turn, end;
-  LongNumber distance;           // |end - start|, largest coordinate
-  LongNumber relative_distance;  // to the largest coordinate of the start
+  std::vector<GroupDistance> distances;  // |end - start| of each group of numbers with one unit
+  LongNumber distance;                   // of the group that is furthest off beside its size along the motion
+  LongNumber relative_distance;          // that, over this size
+  StateSizes sizes;                      // along the way there
   bool bit_exact = false;
   std::uint64_t start_hash = 0, turn_hash = 0, end_hash = 0;  // of the stored bits
 };
 
 /// @param pulse called between blocks with the steps taken both ways; returns false to stop
-/// @param there watch the way there
+/// @param there watch the way there   @param groups of the problem (unit_groups); as it is: q is one group, p another
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse = {},
-                 std::span<Observer* const> there = {});
+                 std::span<Observer* const> there = {}, const UnitGroups& groups = {});
 
 /// H(q, p, t): on the way back the time goes on, so that negating the momenta does not reverse the motion.
 bool depends_on_time(const ProblemEntry& problem);
 
-/// H(q, -p) = H(q, p) to rounding at these states: else the motion itself is not reversed with the momenta.
-/// @param scale of the energy
-bool even_in_momenta(const ProblemEntry& problem, const Texts& parameters, std::span<const Frame* const> states,
-                     double scale);
+/// What negating the momenta does to H. Where H is not even in them, the motion itself is not reversed with them.
+struct MomentumParity {
+  bool is_even = true;          // H(q, -p) = H(q, p) to rounding
+  bool to_the_last_bit = true;  // and so are the velocities: what a lattice returns
+  bool is_defined = true;       // H has a value at (q, -p)
+};
+/// Asked at states of the motion and at others beside them, in general position: at those of the motion itself terms
+/// may vanish that make the difference (the angular momentum in a rotating frame).
+/// @param sizes along the motion
+MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& parameters, const StateSizes& sizes,
+                                 std::span<const Frame* const> states);
+/// Why a reversal says nothing about the method; empty where H is even.
+std::string why_not_reversed(const MomentumParity& parity);
 
 /// |q dH/dq| + |p dH/dp|: for homogeneous T and V about T and V without their constants.
 struct Virial {
@@ -157,7 +169,7 @@ struct ReversalEvidence {
   std::int64_t steps = 0;  // each way; 0: none was tried
   double share = 0;        // of the run
   std::int64_t bounces = 0;
-  std::optional<LongNumber> distance, relative;  // none: a step failed, or H depends on t
+  std::optional<LongNumber> distance, relative;  // see Reversal; none: a step failed, or H depends on t
   bool bit_exact = false;
   ReversalProof proves = ReversalProof::nothing;
   std::string reason;  // also what was left out

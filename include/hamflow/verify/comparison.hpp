@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hamflow/run/catalog.hpp"
@@ -33,7 +34,8 @@ struct ComparisonPoint {
   std::optional<double> tolerance;  // of an adaptive method, which has it in place of dt
   Outcome outcome = Outcome::done;
   std::string failure;
-  Magnitude error;                           // largest coordinate of the difference at the end
+  Magnitude error;  // largest difference at the end, over its size along the motion
+  std::vector<std::pair<std::string, Magnitude>> differences;  // of each group of numbers with one unit, in that unit
   bool below_uncertainty = false;            // of the reference: the error is no more than that it is small
   Magnitude max_energy_error;                // over every step, relative to the energy's scale
   Magnitude end_energy_error;                // the same at the end

@@ -21,7 +21,8 @@ struct ReferenceSolution {
   std::string description;
   State<double> end;                // q, then p
   std::vector<std::string> digits;  // the same with all digits
-  Magnitude uncertainty;            // of its largest coordinate
+  State<double> sizes;              // of each number: that of its group along the motion (state_units.hpp); 1 for 0
+  Magnitude uncertainty;            // of the number that is most uncertain beside its size
 };
 
 /// The arithmetic in which the reference of a run in `arithmetic` is integrated: double-double for all that have no

@@ -10,6 +10,7 @@ struct ReversalProgress {
   bool begun = false;
   bool turned = false;          // the momenta are negated: this is the way back
   std::int64_t first = 0;       // the step at which the way there began
+  StateSizes sizes;             // along the way there
   Frame start, turn;            // without effort and diagnostics once they were archived
   std::vector<std::byte> bits;  // of the start
   std::uint64_t start_hash = 0, turn_hash = 0;
@@ -17,7 +18,7 @@ struct ReversalProgress {
 
   template <class Archive>
   void archive(Archive& ar) {
-    ar(begun, turned, first, bits, start_hash, turn_hash);
+    ar(begun, turned, first, bits, start_hash, turn_hash, sizes);
     for (Frame* frame : {&start, &turn}) {
       FrameDigits& digits = frame->digits;
       ar(frame->step, frame->time, frame->q, frame->p, frame->energy, frame->invariants);
@@ -30,6 +31,6 @@ struct ReversalProgress {
 /// simulation and the progress belong together.
 /// @param observers watch both ways
 Reversal reverse(Simulation& simulation, std::int64_t steps, const std::function<bool(std::int64_t step)>& pulse,
-                 std::span<Observer* const> observers, ReversalProgress& progress);
+                 std::span<Observer* const> observers, ReversalProgress& progress, const UnitGroups& groups = {});
 
 }  // namespace hamflow
