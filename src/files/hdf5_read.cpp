@@ -152,7 +152,7 @@ std::size_t StoredData::width() const {
 }
 
 void StoredData::check_size(std::size_t values, std::size_t bytes_each) const {
-  constexpr std::uintmax_t never_too_much = std::uintmax_t{1} << 26;
+  constexpr std::uintmax_t never_too_much = std::uintmax_t{1} << 24;  // twice what a writer may have in flight
   const bool overflows = bytes_each > (std::size_t{1} << 20) && values > (std::size_t{1} << 20);
   const std::uintmax_t bytes = overflows ? 0 : std::uintmax_t{values} * bytes_each;
   if (!overflows && bytes <= never_too_much) return;
