@@ -88,7 +88,8 @@ std::optional<ReferenceSolution> closed_form(const Request& request, const Probl
   for (std::size_t i = 0; i < 2 * start.q.size(); ++i) {
     Frame near = start;
     double& x = i < start.q.size() ? near.q[i] : near.p[i - start.q.size()];
-    x += epsilon * (x != 0 ? x : found.sizes[i]);
+    const double along = i < start.q.size() ? seen.q[i] : seen.p[i - start.q.size()];
+    x += epsilon * (x != 0 ? x : along);
     const auto moved = problem.exact(parameters, near.q, near.p, t_end);
     if (!moved) return std::nullopt;  // a rounding away it is not known: nor how well it is here
     const State<double> end = joined_state(*moved);
