@@ -36,19 +36,16 @@ class Waypoints final : public Observer {
   Verdict observe(const Frame& frame) override {
     q_.push_back(frame.q);
     p_.push_back(frame.p);
-    sizes_.include(frame.q, frame.p);
     return Verdict::go_on;
   }
   std::size_t count() const { return q_.size(); }
   const std::vector<double>& q(std::size_t i) const { return q_[i]; }
   const std::vector<double>& p(std::size_t i) const { return p_[i]; }
-  const StateSizes& sizes() const { return sizes_; }
 
  private:
   std::int64_t apart_;
   std::vector<std::vector<double>> q_;
   std::vector<std::vector<double>> p_;
-  StateSizes sizes_;
 };
 
 double largest_of(const std::vector<double>& sizes) {
@@ -62,7 +59,7 @@ struct Motion {
   const Reversal& reversal;
   const Waypoints& way;
   UnitGroups groups;
-  GroupSizes sizes = group_sizes(groups, way.sizes());
+  GroupSizes sizes = group_sizes(groups, reversal.sizes);
   std::size_t count() const { return sizes.size.size(); }  // of groups, those of momenta included
   /// What a difference within a group is relative to.
   double unit(std::size_t group) const { return sizes.size[group] > 0 ? sizes.size[group] : 1; }
@@ -201,7 +198,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
   const auto map = motion.problem.step_map(request, n);
   if (!map) return;
   // (q, x, p, y): the copy of the start itself, moved by other chances.
-  const StateSizes& sizes = motion.way.sizes();
+  const StateSizes& sizes = motion.reversal.sizes;
   const std::vector<double> x = moved_by(reversal.start.q, sizes.q, move, move.seed + 16, false);
   const std::vector<double> y = moved_by(reversal.start.p, sizes.p, move, move.seed + 17, false);
   State<double> z = q;
@@ -219,7 +216,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
 /// In double: what is small beside the motion grows alike in every arithmetic.
 Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) {
   const Reversal& reversal = motion.reversal;
-  const StateSizes& sizes = motion.way.sizes();
+  const StateSizes& sizes = motion.reversal.sizes;
   const bool on_lattice = motion.request.arithmetic == "lattice";
   const std::vector<double> q = moved_by(reversal.start.q, sizes.q, move, move.seed, on_lattice);
   const std::vector<double> p = moved_by(reversal.start.p, sizes.p, move, move.seed + 1, on_lattice);
@@ -250,13 +247,12 @@ Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) 
 /// @param growth Parting::root_mean_square   @param bounds so many times that
 LongNumber explained_by_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   const Request& request = motion.request;
-  const double factor =
-      bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(motion.reversal.steps))) * growth;
+  const double factor = bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(motion.reversal.steps))) * growth;
   const int digits = digits_beyond_double(request.arithmetic);
   if (digits > 0) return times_power_of_ten(factor, 1 - digits);
   if (request.arithmetic != "lattice") return factor * epsilon;
   const auto over = [](double unit, double size) { return size > 0 ? unit / size : 0; };
-  const StateSizes& sizes = motion.way.sizes();
+  const StateSizes& sizes = motion.reversal.sizes;
   return factor * std::max({epsilon, over(request.position_unit, largest_of(sizes.q)),
                             over(request.momentum_unit, largest_of(sizes.p))});
 }
@@ -321,7 +317,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   const MethodInfo method = describe(motion.request.method);
   const Frame* const states[] = {&reversal.start, &reversal.turn};
   const std::string why_not =
-      why_not_reversed(parity_in_momenta(motion.problem, motion.request.parameters, motion.way.sizes(), states));
+      why_not_reversed(parity_in_momenta(motion.problem, motion.request.parameters, motion.reversal.sizes, states));
   if (!why_not.empty()) return {ReversalProof::nothing, why_not};
   if (reversal.bit_exact) {
     if (method.reversible) return {ReversalProof::every_bit, "every bit came back"};
@@ -429,11 +425,11 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   if (go_on()) reversal = reverse(*simulation, found.steps, pulse_of(go_on), watch, groups);
   if (!stopped && reversal.outcome != Outcome::done) {
     const Frame* const states[] = {&reversal.start, &reversal.turn};
-    const MomentumParity parity = parity_in_momenta(problem, request.parameters, way.sizes(), states);
-    found.reason = !parity.is_defined ? why_not_reversed(parity)
-                                      : "a step of the way there or back failed: " + (reversal.failure.empty()
-                                                                                          ? std::string(message(reversal.outcome))
-                                                                                          : reversal.failure);
+    const MomentumParity parity = parity_in_momenta(problem, request.parameters, reversal.sizes, states);
+    found.reason = !parity.is_defined
+                       ? why_not_reversed(parity)
+                       : "a step of the way there or back failed: " +
+                             (reversal.failure.empty() ? std::string(message(reversal.outcome)) : reversal.failure);
   } else if (!stopped) {
     found.distance = reversal.distance;
     found.relative = reversal.relative_distance;

@@ -75,8 +75,8 @@ std::string note_of_irreversible(const Scenario& scenario, const Reversal& r, co
 /// @param tolerance as it was given, else empty   @param irreversible what to say of a method that is not reversible
 /// @param exact_with see exact_return
 std::string note_of(const MethodInfo& method, const std::string& tolerance, const std::string& arithmetic, bool timed,
-                    const std::string& why_not_reversed, bool expected, const std::function<std::string()>& irreversible,
-                    const std::string& exact_with) {
+                    const std::string& why_not_reversed, bool expected,
+                    const std::function<std::string()>& irreversible, const std::string& exact_with) {
   if (timed) {
     return "H depends on t, which goes on: the motion itself is not reversed by negating the momenta, so that a "
            "distance "
@@ -283,8 +283,8 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   } else {
     report.note = note_of(
         info, tolerance == method.options.end() ? "" : tolerance->second, scenario.request.arithmetic,
-        depends_on_time(*scenario.problem), why_not_reversed(parity), report.expected_bit_exact, [&] { return note_of_irreversible(scenario, r, info.name); },
-        exact_return(scenario));
+        depends_on_time(*scenario.problem), why_not_reversed(parity), report.expected_bit_exact,
+        [&] { return note_of_irreversible(scenario, r, info.name); }, exact_return(scenario));
   }
   if (r.outcome == Outcome::done && rejects_steps(scenario)) {
     report.note +=
@@ -294,8 +294,8 @@ ReversalReport report_of(const Scenario& scenario, const Simulation& simulation,
   if (r.outcome == Outcome::done && !r.bit_exact && r.distance.value == 0 && r.distance.text.empty()) {
     report.note += (report.note.empty() ? "" : "; ") + std::string(below_the_digits);
   }
-  const Json json = json_of(scenario, simulation, report,
-                            warnings_about(scenario, simulation, r, same_motion, there, turns), kept);
+  const Json json =
+      json_of(scenario, simulation, report, warnings_about(scenario, simulation, r, same_motion, there, turns), kept);
   report.warnings = warning_lines(json);
   report.status = json["status"].get<std::string>();
   if (json.contains("error")) {

@@ -99,9 +99,10 @@ void add_fast_springs(const Scenario& scenario, Json& all) {
   const double omega = given == method.options.end() ? TaoOptions().omega : evaluate_number<double>(given->second);
   const double product = omega * std::abs(scenario.dt);
   if (!(product > most)) return;
-  all.push_back(warning("long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
-                                                 "the state are too fast for the step; try dt = {:.2g} or less",
-                                                 product, scenario.dt * most / product)));
+  all.push_back(
+      warning("long_step", fmt::format("omega dt = {:.3g} is above 1/4: the springs between the two copies of "
+                                       "the state are too fast for the step; try dt = {:.2g} or less",
+                                       product, scenario.dt * most / product)));
 }
 
 /// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes

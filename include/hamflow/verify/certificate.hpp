@@ -100,8 +100,8 @@ struct MomentumParity {
   bool to_the_last_bit = true;  // and so are the velocities: what a lattice returns
   bool is_defined = true;       // H has a value at (q, -p)
 };
-/// Asked at states of the motion and at others beside them, in general position: at those of the motion itself terms may
-/// vanish that make the difference (the angular momentum in a rotating frame).
+/// Asked at states of the motion and at others beside them, in general position: at those of the motion itself terms
+/// may vanish that make the difference (the angular momentum in a rotating frame).
 /// @param sizes along the motion
 MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& parameters, const StateSizes& sizes,
                                  std::span<const Frame* const> states);

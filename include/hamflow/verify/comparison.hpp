@@ -34,7 +34,7 @@ struct ComparisonPoint {
   std::optional<double> tolerance;  // of an adaptive method, which has it in place of dt
   Outcome outcome = Outcome::done;
   std::string failure;
-  Magnitude error;                           // largest difference at the end, over its size along the motion
+  Magnitude error;  // largest difference at the end, over its size along the motion
   std::vector<std::pair<std::string, Magnitude>> differences;  // of each group of numbers with one unit, in that unit
   bool below_uncertainty = false;            // of the reference: the error is no more than that it is small
   Magnitude max_energy_error;                // over every step, relative to the energy's scale

@@ -14,9 +14,9 @@ namespace hamflow {
 
 /// Coordinates that share a unit form a group, and their momenta form one.
 struct UnitGroups {
-  std::vector<std::size_t> of{};        // the group of each coordinate and of its momentum; empty: there is one group
-  std::vector<std::string> q{"q"};      // names of the groups of coordinates
-  std::vector<std::string> p{"p"};      // names of the groups of momenta
+  std::vector<std::size_t> of{};    // the group of each coordinate and of its momentum; empty: there is one group
+  std::vector<std::string> q{"q"};  // names of the groups of coordinates
+  std::vector<std::string> p{"p"};  // names of the groups of momenta
   std::size_t count() const { return q.size(); }
   std::size_t group(std::size_t coordinate) const { return of.empty() ? 0 : of[coordinate]; }
 };
