@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/walls.hpp"
@@ -65,6 +66,10 @@ State<double> sizes_along(const ProblemEntry& problem, const StateSizes& sizes) 
   return all;
 }
 
+/// In [0, 1): sizes are looked up at random times, always the same ones. At times in step with an oscillation the
+/// momenta may be 0 each time.
+double random_part(std::int64_t k) { return 0.5 + 0.5 * counter_uniform(64, static_cast<std::uint64_t>(k)); }
+
 /// The closed form is computed in long double from the start in double. Its uncertainty: the rounding of what it
 /// returns, and 32 roundings of long double in each coordinate of the start, as the motion carries them to the end.
 std::optional<ReferenceSolution> closed_form(const Request& request, const ProblemEntry& problem, double t_end) {
@@ -80,7 +85,7 @@ std::optional<ReferenceSolution> closed_form(const Request& request, const Probl
   seen.include(start.q, start.p);
   constexpr int looks = 64;
   for (int k = 1; k <= looks; ++k) {
-    const auto at = problem.exact(parameters, start.q, start.p, t_end * k / looks);
+    const auto at = problem.exact(parameters, start.q, start.p, t_end * (k - random_part(k)) / looks);
     if (at) seen.include(at->q, at->p);
   }
   found.sizes = sizes_along(problem, seen);
@@ -88,7 +93,8 @@ std::optional<ReferenceSolution> closed_form(const Request& request, const Probl
   for (std::size_t i = 0; i < 2 * start.q.size(); ++i) {
     Frame near = start;
     double& x = i < start.q.size() ? near.q[i] : near.p[i - start.q.size()];
-    x += epsilon * (x != 0 ? x : found.sizes[i]);
+    const double along = i < start.q.size() ? seen.q[i] : seen.p[i - start.q.size()];
+    x += epsilon * (x != 0 ? x : along);
     const auto moved = problem.exact(parameters, near.q, near.p, t_end);
     if (!moved) return std::nullopt;  // a rounding away it is not known: nor how well it is here
     const State<double> end = joined_state(*moved);
@@ -170,6 +176,11 @@ class ReferenceRun::Impl {
 
   void advance(const std::function<bool()>& goes_on) {
     const StopQuestion question(goes_on);
+    constexpr std::int64_t looked_into = 16;  // pieces
+    if (first_ != nullptr && first_->step() < looked_into) {
+      Frame within;
+      if (first_->look_part(random_part(first_->step()), within) == Outcome::done) seen_.include(within.q, within.p);
+    }
     for (Simulation* one : {first_.get(), second_.get()}) {
       if (one == nullptr) continue;
       const Outcome outcome = one->advance(1);

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/hash.hpp"
 #include "hamflow/verify/reversal_progress.hpp"
 
@@ -10,13 +11,15 @@ namespace hamflow {
 
 namespace {
 
-/// Looks at the way there at up to 64 of its steps. Where they are depends on the number of steps alone.
+/// Looks at the way there once in each of some 64 parts, at a random place that is always the same: at places in step
+/// with an oscillation the momenta may be 0 each time.
 class SizesThere final : public Observer {
  public:
   SizesThere(std::int64_t first, std::int64_t steps, StateSizes& sizes)
-      : first_(first), last_(first + steps), apart_(std::max<std::int64_t>(1, steps / 64)), sizes_(sizes) {}
+      : first_(first), last_(first + steps), part_(std::max<std::int64_t>(1, steps / 64)), sizes_(sizes) {}
   std::int64_t next_due(std::int64_t step) const override {
-    const std::int64_t due = first_ + (std::max(step, first_) - first_ + apart_ - 1) / apart_ * apart_;
+    const std::int64_t k = std::max<std::int64_t>(0, step - first_) / part_;
+    const std::int64_t due = place(k) >= step ? place(k) : place(k + 1);
     return due > last_ ? never : due;
   }
   Verdict observe(const Frame& frame) override {
@@ -25,7 +28,13 @@ class SizesThere final : public Observer {
   }
 
  private:
-  std::int64_t first_, last_, apart_;
+  std::int64_t place(std::int64_t k) const {
+    constexpr std::uint64_t draw = 64;
+    const std::uint64_t random = counter_bits(draw, static_cast<std::uint64_t>(k));
+    return first_ + k * part_ + static_cast<std::int64_t>(random % static_cast<std::uint64_t>(part_));
+  }
+
+  std::int64_t first_, last_, part_;
   StateSizes& sizes_;
 };
 
@@ -66,6 +75,9 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
     }
   }
   found.turn_hash = progress.turn_hash;
+  progress.sizes.include(progress.start.q, progress.start.p);
+  progress.sizes.include(progress.turn.q, progress.turn.p);
+  found.sizes = progress.sizes;
   if (!progress.turned) return found;
   if (!go(first + 2 * steps, back)) {
     const auto here = simulation.clone();  // the way back may go on, with what its method remembers
@@ -77,9 +89,6 @@ Reversal carry_out(Simulation& simulation, std::int64_t steps, const std::functi
   simulation.negate_momenta();
   simulation.look(found.end);
   found.end_hash = fnv1a(simulation.bits());
-  progress.sizes.include(progress.start.q, progress.start.p);
-  progress.sizes.include(progress.turn.q, progress.turn.p);
-  found.sizes = progress.sizes;
   found.distances = group_distances(groups, progress.sizes, found.end, progress.start);
   const GroupDistance* furthest = &found.distances.front();
   for (const GroupDistance& each : found.distances) {

@@ -36,19 +36,16 @@ class Waypoints final : public Observer {
   Verdict observe(const Frame& frame) override {
     q_.push_back(frame.q);
     p_.push_back(frame.p);
-    sizes_.include(frame.q, frame.p);
     return Verdict::go_on;
   }
   std::size_t count() const { return q_.size(); }
   const std::vector<double>& q(std::size_t i) const { return q_[i]; }
   const std::vector<double>& p(std::size_t i) const { return p_[i]; }
-  const StateSizes& sizes() const { return sizes_; }
 
  private:
   std::int64_t apart_;
   std::vector<std::vector<double>> q_;
   std::vector<std::vector<double>> p_;
-  StateSizes sizes_;
 };
 
 double largest_of(const std::vector<double>& sizes) {
@@ -62,17 +59,17 @@ struct Motion {
   const Reversal& reversal;
   const Waypoints& way;
   UnitGroups groups;
-  GroupSizes sizes = group_sizes(groups, way.sizes());
+  GroupSizes sizes = group_sizes(groups, reversal.sizes);
   std::size_t count() const { return sizes.size.size(); }  // of groups, those of momenta included
   /// What a difference within a group is relative to.
   double unit(std::size_t group) const { return sizes.size[group] > 0 ? sizes.size[group] : 1; }
 };
 
-/// How far another motion is from those states, at the same steps: group by group, relative to the group's size. It
-/// keeps no states of its own.
+/// How far another motion is from those states, at the same steps: the largest difference of a number over the size of
+/// its group, where that is more than rounding. It keeps no states of its own.
 class DistancesFrom final : public Observer {
  public:
-  explicit DistancesFrom(const Motion& motion) : motion_(motion), furthest_(motion.count()), squares_(motion.count()) {
+  explicit DistancesFrom(const Motion& motion) : motion_(motion), of_positions_(motion.groups.count()) {
     const auto walls = walls_among(motion.request.variant);
     if (walls && walls->hard()) sides_ = wall_sides<double>(*walls);
   }
@@ -85,35 +82,41 @@ class DistancesFrom final : public Observer {
     const std::vector<double>& way_q = motion_.way.q(looks_);
     const std::vector<double>& way_p = motion_.way.p(looks_);
     const std::size_t n = motion_.groups.count();
-    std::vector<double> here(motion_.count());
-    const auto add = [&](std::size_t group, double distance) {
+    double here = 0;
+    const auto relative = [&](std::size_t group, double distance) {
       if (!std::isfinite(distance)) finite_ = false;
-      here[group] = std::max(here[group], distance / motion_.unit(group));
+      distance /= motion_.unit(group);
+      if (!motion_.sizes.is_rounding[group] && distance > here) {
+        here = distance;
+        if (here > furthest_) widest_ = group;
+      }
+      return distance;
     };
-    for (std::size_t k = 0; k < q.size(); ++k) add(motion_.groups.group(k), std::abs(way_q[k] - q[k]));
-    for (std::size_t g = 0; g < n; ++g) furthest_[g] = std::max(furthest_[g], here[g]);
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      double& most = of_positions_[motion_.groups.group(k)];
+      most = std::max(most, relative(motion_.groups.group(k), std::abs(way_q[k] - q[k])));
+    }
     for (std::size_t k = 0; k < p.size(); ++k) {
       const double apart = std::abs(way_p[k] - p[k]);
       // Of two motions that meet a wall one is the first to bounce. Until the other has, their momenta are opposite.
       const double turned = is_on_wall(k, way_q[k], q[k]) ? std::abs(way_p[k] + p[k]) : apart;
-      add(n + motion_.groups.group(k), std::min(apart, turned));
+      (void)relative(n + motion_.groups.group(k), std::min(apart, turned));
     }
-    for (std::size_t g = 0; g < here.size(); ++g) {
-      furthest_[g] = std::max(furthest_[g], here[g]);
-      squares_[g] += here[g] * here[g];
-    }
+    furthest_ = std::max(furthest_, here);
+    squares_ += here * here;
     ++looks_;
     return true;
   }
   bool is_complete() const { return finite_ && looks_ == motion_.way.count(); }
-  const std::vector<double>& furthest() const { return furthest_; }
-  double mean_square(std::size_t group) const { return squares_[group] / static_cast<double>(looks_); }
+  double furthest() const { return furthest_; }
+  std::size_t widest() const { return widest_; }  // the group that is
+  double mean_square() const { return squares_ / static_cast<double>(looks_); }
 
  private:
   /// Both are as near to a wall as the motions are to each other, some times over.
   bool is_on_wall(std::size_t coordinate, double a, double b) const {
     const std::size_t group = motion_.groups.group(coordinate);
-    const double near = 16 * std::max(moved, furthest_[group]) * motion_.unit(group);
+    const double near = 16 * std::max(moved, of_positions_[group]) * motion_.unit(group);
     return std::any_of(sides_.begin(), sides_.end(), [&](const WallSide<double>& side) {
       return side.coordinate == coordinate && std::abs(side.beyond(a)) <= near && std::abs(side.beyond(b)) <= near;
     });
@@ -121,8 +124,10 @@ class DistancesFrom final : public Observer {
 
   const Motion& motion_;
   std::vector<WallSide<double>> sides_;
-  std::vector<double> furthest_;
-  std::vector<double> squares_;
+  std::vector<double> of_positions_;  // the furthest of each group of coordinates
+  double furthest_ = 0;
+  std::size_t widest_ = 0;
+  double squares_ = 0;
   std::size_t looks_ = 0;
   bool finite_ = true;
 };
@@ -167,19 +172,12 @@ std::unique_ptr<Simulation> simulation_beside_the_run(const Request& request) {
   }
 }
 
-/// How far two motions part that begin `Move::size` apart, group by group, relative to the sizes of the groups.
+/// How far two motions part that begin `Move::size` apart, relative to the sizes of the groups.
 struct Parting {
   bool measured = false;
-  std::vector<double> root_mean_square{};  // over the way, over Move::size
-  std::vector<double> furthest{};
-  /// The group that has grown most of those that hold more than rounding.
-  std::size_t widest(const Motion& motion) const {
-    std::size_t most = 0;
-    for (std::size_t g = 1; g < furthest.size(); ++g) {
-      if (!motion.sizes.is_rounding[g] && furthest[g] > furthest[most]) most = g;
-    }
-    return most;
-  }
+  double root_mean_square = 0;  // over the way, over Move::size
+  double furthest = 0;
+  std::size_t widest = 0;  // the group in which that is
 };
 
 std::vector<std::string> all_texts(const std::vector<double>& x) {
@@ -200,7 +198,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
   const auto map = motion.problem.step_map(request, n);
   if (!map) return;
   // (q, x, p, y): the copy of the start itself, moved by other chances.
-  const StateSizes& sizes = motion.way.sizes();
+  const StateSizes& sizes = motion.reversal.sizes;
   const std::vector<double> x = moved_by(reversal.start.q, sizes.q, move, move.seed + 16, false);
   const std::vector<double> y = moved_by(reversal.start.p, sizes.p, move, move.seed + 17, false);
   State<double> z = q;
@@ -218,7 +216,7 @@ void follow_with_copy(const Motion& motion, const std::vector<double>& q, const 
 /// In double: what is small beside the motion grows alike in every arithmetic.
 Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) {
   const Reversal& reversal = motion.reversal;
-  const StateSizes& sizes = motion.way.sizes();
+  const StateSizes& sizes = motion.reversal.sizes;
   const bool on_lattice = motion.request.arithmetic == "lattice";
   const std::vector<double> q = moved_by(reversal.start.q, sizes.q, move, move.seed, on_lattice);
   const std::vector<double> p = moved_by(reversal.start.p, sizes.p, move, move.seed + 1, on_lattice);
@@ -238,19 +236,15 @@ Parting parting(const Motion& motion, const GoOn& go_on, const Move& move = {}) 
     if (run(*simulation, reversal.steps, watch, pulse_of(go_on)) != Outcome::done) return {};
   }
   if (!beside.is_complete()) return {};
-  Parting found{.measured = true, .root_mean_square = {}, .furthest = beside.furthest()};
-  for (std::size_t g = 0; g < motion.count(); ++g) {
-    found.root_mean_square.push_back(std::sqrt(beside.mean_square(g)) / std::abs(move.size));
-  }
-  return found;
+  return {true, std::sqrt(beside.mean_square()) / std::abs(move.size), beside.furthest(), beside.widest()};
 }
 
-/// The distance that rounding explains, group by group, relative to the size of the group. A rounding of step j, on the
+/// The distance that rounding explains, relative to the size of a group. A rounding of step j, on the
 /// way there or back, is carried by the way back from j to the start. Of a symplectic map the inverse has the norm of
 /// the map, so that it grows as a small difference at the start does on the way to j, which is measured. Roundings of
 /// unit size u then add up like a walk: to u sqrt(2 a sum_j g_j^2) for a actions a step; four of them,
 /// which is more than six times what reversible methods were found to need (tools/confusion_table.py).
-/// @param growth Parting::root_mean_square of the group   @param bounds so many times that
+/// @param growth Parting::root_mean_square   @param bounds so many times that
 LongNumber explained_by_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
   const Request& request = motion.request;
   const double factor = bounds * 4 * (1 + std::sqrt(2 * actions * static_cast<double>(motion.reversal.steps))) * growth;
@@ -258,33 +252,14 @@ LongNumber explained_by_rounding(const Motion& motion, double growth, double act
   if (digits > 0) return times_power_of_ten(factor, 1 - digits);
   if (request.arithmetic != "lattice") return factor * epsilon;
   const auto over = [](double unit, double size) { return size > 0 ? unit / size : 0; };
-  const StateSizes& sizes = motion.way.sizes();
+  const StateSizes& sizes = motion.reversal.sizes;
   return factor * std::max({epsilon, over(request.position_unit, largest_of(sizes.q)),
                             over(request.momentum_unit, largest_of(sizes.p))});
 }
 
-/// Whether every group is within so many of those bounds.
-bool within_rounding(const Motion& motion, const std::vector<double>& growth, double actions, double bounds = 1) {
-  for (std::size_t g = 0; g < motion.count(); ++g) {
-    const LongNumber explained = explained_by_rounding(motion, growth[g], actions, bounds);
-    if (!at_most(motion.reversal.distances[g].relative, explained)) return false;
-  }
-  return true;
-}
-
-/// The group that is furthest off beside what rounding explains.
-std::size_t furthest_off(const Motion& motion, const std::vector<double>& growth, double actions) {
-  std::size_t most = 0;
-  std::optional<LongNumber> ratio;
-  for (std::size_t g = 0; g < motion.count(); ++g) {
-    const LongNumber& off = motion.reversal.distances[g].relative;
-    if (off.value == 0 && off.text.empty()) continue;
-    const LongNumber here = quotient(off, explained_by_rounding(motion, growth[g], actions));
-    if (ratio && at_most(here, *ratio)) continue;
-    ratio = here;
-    most = g;
-  }
-  return most;
+/// Whether what came back is within so many of those bounds.
+bool within_rounding(const Motion& motion, double growth, double actions, double bounds = 1) {
+  return at_most(motion.reversal.relative_distance, explained_by_rounding(motion, growth, actions, bounds));
 }
 
 std::string brief(const LongNumber& x) { return x.text.empty() ? fmt::format("{:.1e}", x.value) : x.text; }
@@ -309,45 +284,29 @@ bool begins_on_a_wall(const Motion& motion) {
 /// compared with a larger move in its own direction. The furthest that is seen is then what rounding may become.
 /// @param apart how the first move parts; becomes the furthest parting seen
 std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& go_on) {
-  const auto unlike = [&](const Parting& nearer, const Parting& wider) -> std::optional<std::size_t> {
-    for (std::size_t g = 0; g < motion.count(); ++g) {
-      const double one = nearer.root_mean_square[g];
-      const double other = wider.root_mean_square[g];
-      if (!(one <= in_proportion * other && other <= in_proportion * one)) return g;
-    }
-    return {};
-  };
-  const auto widen = [&](const Parting& wider) {
-    for (std::size_t g = 0; g < motion.count(); ++g) {
-      apart.root_mean_square[g] = std::max(apart.root_mean_square[g], wider.root_mean_square[g]);
-      apart.furthest[g] = std::max(apart.furthest[g], wider.furthest[g]);
-    }
-  };
-  const auto is_beyond = [&](const Parting& nearer) {
-    for (std::size_t g = 0; g < motion.count(); ++g) {
-      const double most = std::max(apart.furthest[g], nearer.furthest[g]);
-      if (motion.reversal.distances[g].relative.value > beyond * most) return true;
-    }
-    return false;
+  const auto alike = [](const Parting& nearer, const Parting& wider) {
+    return nearer.root_mean_square <= in_proportion * wider.root_mean_square &&
+           wider.root_mean_square <= in_proportion * nearer.root_mean_square;
   };
   const char* const unmeasured = "but how far rounding is carried could not be measured";
   for (const double sign : {1.0, -1.0}) {
     const Parting nearer = parting(motion, go_on, {sign * moved_less, 3, true});
     if (!nearer.measured) return unmeasured;
-    if (!unlike(nearer, apart)) continue;
-    if (is_beyond(nearer)) continue;  // no jump did that
+    if (alike(nearer, apart)) continue;
+    if (motion.reversal.relative_distance.value > beyond * std::max(apart.furthest, nearer.furthest)) continue;
     const Parting wider = parting(motion, go_on, {sign * moved, 3, true});
     if (!wider.measured) return unmeasured;
-    const std::optional<std::size_t> group = unlike(nearer, wider);
-    if (!group) {
-      widen(wider);
+    if (alike(nearer, wider)) {
+      apart.root_mean_square = std::max(apart.root_mean_square, wider.root_mean_square);
+      if (wider.furthest > apart.furthest) apart.widest = wider.widest;
+      apart.furthest = std::max(apart.furthest, wider.furthest);
       continue;
     }
     return fmt::format(
         "but what rounding becomes is not known: motions that begin {:.1e} of their size apart part by {:.1e} of it, "
         "those that begin {:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where a force "
-        "jumps and a rounding decides on which side it is taken",
-        moved, wider.furthest[*group], moved_less, nearer.furthest[*group]);
+        "jumps and a rounding decides on which side it is taken, or where stiff steps round by more than that",
+        moved, wider.furthest, moved_less, nearer.furthest);
   }
   return {};
 }
@@ -358,7 +317,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
   const MethodInfo method = describe(motion.request.method);
   const Frame* const states[] = {&reversal.start, &reversal.turn};
   const std::string why_not =
-      why_not_reversed(parity_in_momenta(motion.problem, motion.request.parameters, motion.way.sizes(), states));
+      why_not_reversed(parity_in_momenta(motion.problem, motion.request.parameters, motion.reversal.sizes, states));
   if (!why_not.empty()) return {ReversalProof::nothing, why_not};
   if (reversal.bit_exact) {
     if (method.reversible) return {ReversalProof::every_bit, "every bit came back"};
@@ -372,29 +331,30 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
     return fmt::format("{} {} off", there.name, brief(there.distance));
   };
   const auto parts_too_far = [&] {
-    const std::size_t g = apart.widest(motion);
+    const std::size_t g = apart.widest;
     return std::pair{ReversalProof::nothing,
                      fmt::format("{}, but motions that begin close to each other part by a factor of {:.0e}: what "
                                  "rounding becomes is not known",
-                                 off(g), apart.furthest[g] / moved)};
+                                 off(g), apart.furthest / moved)};
   };
-  const auto has_parted = [&] { return apart.furthest[apart.widest(motion)] > parted; };
+  const auto has_parted = [&] { return apart.furthest > parted; };
   if (has_parted()) return parts_too_far();
   if (reversal.distance.text.empty() && reversal.distance.value == 0 && method.reversible) {
     return {ReversalProof::to_rounding,
             "q and p came back with every digit, but not the sign of a zero or what the steps carry beside them"};
   }
-  std::vector<double> nothing_grows = apart.root_mean_square;  // what is below that bound needs no other motion
-  for (double& growth : nothing_grows) growth = std::min(growth, 1.0);
-  if (!within_rounding(motion, nothing_grows, actions)) {
+  std::size_t worst = 0;  // the group that is furthest off
+  for (std::size_t g = 1; g < motion.count(); ++g) {
+    if (!at_most(reversal.distances[g].relative, reversal.distances[worst].relative)) worst = g;
+  }
+  // What is below the bound of a motion in which nothing grows needs no other one.
+  if (!within_rounding(motion, std::min(apart.root_mean_square, 1.0), actions)) {
     const std::string unknown = out_of_proportion(motion, apart, go_on);
-    const std::size_t g = furthest_off(motion, apart.root_mean_square, actions);
-    if (!unknown.empty()) return {ReversalProof::nothing, off(g) + ", " + unknown};
+    if (!unknown.empty()) return {ReversalProof::nothing, off(worst) + ", " + unknown};
     if (has_parted()) return parts_too_far();
   }
-  const std::vector<double>& growth = apart.root_mean_square;
-  const std::size_t worst = furthest_off(motion, growth, actions);
-  const LongNumber rounding = explained_by_rounding(motion, growth[worst], actions);
+  const double growth = apart.root_mean_square;
+  const LongNumber rounding = explained_by_rounding(motion, growth, actions);
   const LongNumber in_its_unit = rounding.text.empty() ? LongNumber(rounding.value * motion.unit(worst))
                                                        : times(motion.unit(worst), rounding.text);
   const std::string explained = fmt::format("{}, of which rounding explains {}", off(worst), brief(in_its_unit));
@@ -411,10 +371,7 @@ std::pair<ReversalProof, std::string> judged(const Motion& motion, double action
                                         ", but the motion begins on a wall, where the state before the bounce "
                                         "and that behind it are one"};
   }
-  for (std::size_t g = 0; g < motion.count(); ++g) {
-    if (motion.sizes.is_rounding[g] || !(explained_by_rounding(motion, growth[g], actions).value > parted)) continue;
-    return {ReversalProof::nothing, explained + ", which is too much to tell"};
-  }
+  if (rounding.value > parted) return {ReversalProof::nothing, explained + ", which is too much to tell"};
   if (!method.reversible) {
     return {ReversalProof::nothing,
             explained + "; " + method.name + " is not reversible, but its defect is below that"};
@@ -468,7 +425,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
   if (go_on()) reversal = reverse(*simulation, found.steps, pulse_of(go_on), watch, groups);
   if (!stopped && reversal.outcome != Outcome::done) {
     const Frame* const states[] = {&reversal.start, &reversal.turn};
-    const MomentumParity parity = parity_in_momenta(problem, request.parameters, way.sizes(), states);
+    const MomentumParity parity = parity_in_momenta(problem, request.parameters, reversal.sizes, states);
     found.reason = !parity.is_defined
                        ? why_not_reversed(parity)
                        : "a step of the way there or back failed: " +
