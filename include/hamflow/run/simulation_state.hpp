@@ -69,7 +69,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
 
   std::vector<std::byte> bits() const final {
     Writer ar;
-    for (std::size_t i = 0; i < z_.q.size(); ++i) ar(z_.q[i]);
+    for (std::size_t i = 0; i < z_.q.size() - clocks_of(problem_); ++i) ar(z_.q[i]);  // clocks are not of the motion
     for (std::size_t i = 0; i < z_.p.size(); ++i) ar(z_.p[i]);
     return ar.take();
   }
