@@ -35,13 +35,18 @@ class ThreadTeam {
   ~ThreadTeam() { dismiss(); }
 
   std::size_t size() const { return size_; }
-  static constexpr std::size_t most_blocks = (std::size_t{1} << 20) - 1;
+  static constexpr std::size_t most_blocks = (std::size_t{1} << 24) - 1;
 
   /// work(worker, call, block) for each block, by any worker, in any order; back when all are done. A worker that comes
   /// late finds nothing to do, and is not waited for. One caller at a time; `work` must not throw.
   /// @return the number of this call, which is passed to `work` too
+  /// @throws Error above most_blocks, of which a ticket could not keep count
   template <class Work>
   std::uint64_t share(std::size_t blocks, Work& work) {
+    if (blocks > most_blocks) {
+      throw Error("threads: found work in " + std::to_string(blocks) + " blocks; allowed at most " +
+                  std::to_string(most_blocks) + ", else one thread");
+    }
     job_ = &work;
     run_ = [](void* job, std::size_t worker, std::uint64_t call, std::size_t block) {
       (*static_cast<Work*>(job))(worker, call, block);
@@ -62,7 +67,7 @@ class ThreadTeam {
   }
 
  private:
-  static constexpr int ticket_bits = 20;
+  static constexpr int ticket_bits = 24;  // the other 40 count calls
   static constexpr int patience = 2000;
 
   static void pause() {
@@ -71,7 +76,8 @@ class ThreadTeam {
 #endif
   }
   void wake() {
-    calls_.fetch_add(1, std::memory_order_release);
+    // A sleeper says that it sleeps, then looks at calls_; here it is the other way round. Neither may pass the other.
+    calls_.fetch_add(1, std::memory_order_seq_cst);
     calls_.notify_all();
   }
   void dismiss() {
