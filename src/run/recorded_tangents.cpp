@@ -15,7 +15,7 @@ std::vector<std::size_t> moving_values(const Program& start, std::size_t state) 
     return x.kind == Operand::Kind::result && results[x.index];
   };
   for (std::size_t i = 0; i < start.operations.size(); ++i) {
-    results[i] = moves(start.operations[i].a) || moves(start.operations[i].b);
+    results[i] = moves(start.operations[i].a) || moves(start.operations[i].b) || moves(start.operations[i].c);
   }
   std::vector<std::size_t> moving;
   for (std::size_t k = 0; k < start.values(); ++k) {
