@@ -23,7 +23,6 @@
 #include "hamflow/core/math.hpp"
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/near_pairs.hpp"
-#include "hamflow/core/nearest_whole.hpp"
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/option_info.hpp"
 #include "hamflow/core/optional_functions.hpp"

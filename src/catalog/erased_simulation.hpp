@@ -65,6 +65,7 @@ PartRecorder part_recorder_of(const ErasedRun<double>& run, const M& recipe) {
     return {};
   } else {
     if (!run.walls || run.walls->rule != WallRule::event) return {};
+    if (run.functions.plain->has_clock()) return {};  // the time at which the step began is no constant
     const std::size_t n = run.functions.size;
     return [problem = Traced(n, run.functions.trace), exact = Traced(n, run.exact ? run.exact : run.functions.trace),
             recipe](const Vector<double, dynamic>& q, const Vector<double, dynamic>& p, double h) {

@@ -45,7 +45,6 @@ Gas<R> make_gas(const GasShape& shape, const Parameters<R>& given, std::size_t s
   }
   if (shape.container == ContainerKind::periodic) {
     model->edges = given.list("size");
-    for (const R& edge : model->edges) model->inverse_edges.push_back(R(1) / edge);
   }
   if (shape.cutoff != CutoffKind::none && particles > most_recorded_particles)
     model->near = near_pairs_of(*model, given);

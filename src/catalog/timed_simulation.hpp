@@ -1,5 +1,5 @@
-// A simulation of H(q, p, t), which carries the time as its last coordinate (formula/model.hpp), without that
-// coordinate: what a look shows has the coordinates that have names.
+// A simulation of H(q, p, t), whose last coordinates carry the time (core/step_clock.hpp), without these: what a look
+// shows has the coordinates that have names.
 #pragma once
 
 #include "hamflow/run/recorded_step.hpp"
@@ -35,8 +35,8 @@ class TimedSimulation final : public Simulation, public RecordedMember {
     if (!told) return extended_->tell_bounces({});
     extended_->tell_bounces([told = std::move(told)](const Bounce& extended) {
       Bounce bounce = extended;
-      bounce.q.pop_back();
-      bounce.p.pop_back();
+      strip(bounce.q);
+      strip(bounce.p);
       told(bounce);
     });
   }
@@ -59,8 +59,12 @@ class TimedSimulation final : public Simulation, public RecordedMember {
     if (!extended) return nullptr;
     auto step = std::make_shared<RecordedStep>(*extended);
     const auto end_of_q = step->state.begin() + static_cast<std::ptrdiff_t>(step->state.size() / 2);
-    step->state.pop_back();
-    step->state.erase(end_of_q - 1);
+    std::vector<std::size_t> q(step->state.begin(), end_of_q);
+    std::vector<std::size_t> p(end_of_q, step->state.end());
+    strip(q);
+    strip(p);
+    q.insert(q.end(), p.begin(), p.end());
+    step->state = std::move(q);
     return step;
   }
   void make_ready() override { recorded_->make_ready(); }
@@ -78,12 +82,15 @@ class TimedSimulation final : public Simulation, public RecordedMember {
 
  private:
   static void strip(Frame& frame) {
-    for (auto* numbers : {&frame.q, &frame.p}) {
-      if (!numbers->empty()) numbers->pop_back();
-    }
-    for (auto* texts : {&frame.digits.q, &frame.digits.p}) {
-      if (!texts->empty()) texts->pop_back();
-    }
+    strip(frame.q);
+    strip(frame.p);
+    strip(frame.digits.q);
+    strip(frame.digits.p);
+  }
+  /// Nothing where a look has found nothing.
+  template <class T>
+  static void strip(std::vector<T>& of_each) {
+    if (!of_each.empty()) of_each.resize(of_each.size() - clock_coordinates);
   }
 
   std::unique_ptr<Simulation> extended_;

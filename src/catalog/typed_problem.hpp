@@ -24,7 +24,7 @@ class EntryModel {
   /// @param structure what the texts are known to be, with the usual names of momenta; made() throws where they are not
   EntryModel(const FormulaTexts& texts, const FormulaStructure& structure);
   std::size_t size() const { return momenta().size(); }
-  std::size_t degrees() const { return size() + (structure().time ? 1 : 0); }
+  std::size_t degrees() const { return size() + (structure().time ? clock_coordinates : 0); }
   const std::vector<std::string>& momenta() const { return late_->momenta; }
   const FormulaStructure& structure() const { return late_->structure; }
   const std::shared_ptr<const formula::Model>& made() const;

@@ -277,15 +277,19 @@ Model::Model(const FormulaTexts& texts) {
       d.h = d.forms.sum({d.h, momentum});
       if (structure_.separable) d.t = d.forms.sum({d.t, momentum});
     }
-    const std::size_t all = degrees();
+    const auto by = [&](int form, std::size_t i, auto&& symbol_of) {
+      return i < moving() ? d.derivative(form, symbol_of(i)) : d.forms.sum({});
+    };
+    const auto position = [this](std::size_t i) { return position_symbol(i); };
+    const auto momentum_of = [this](std::size_t i) { return momentum_symbol(i); };
 
     std::vector<Derivation::Output> of_gradient;
     std::vector<Derivation::Output> of_force;
     std::vector<Derivation::Output> of_velocity;
     std::vector<int> by_q;
     std::vector<int> by_p;
-    for (std::size_t i = 0; i < all; ++i) by_q.push_back(d.derivative(d.v >= 0 ? d.v : d.h, position_symbol(i)));
-    for (std::size_t i = 0; i < all; ++i) by_p.push_back(d.derivative(d.t >= 0 ? d.t : d.h, momentum_symbol(i)));
+    for (std::size_t i = 0; i < degrees(); ++i) by_q.push_back(by(d.v >= 0 ? d.v : d.h, i, position));
+    for (std::size_t i = 0; i < degrees(); ++i) by_p.push_back(by(d.t >= 0 ? d.t : d.h, i, momentum_of));
     for (const int form : by_q) of_gradient.push_back({form});
     for (const int form : by_p) of_gradient.push_back({form});
     gradient = d.code(of_gradient);
@@ -356,7 +360,7 @@ void Model::derive_constraints(const std::vector<int>& values) {
           bend.push_back(d.forms.product(second, d.forms.product(d.symbol(n + i), d.symbol(n + j))));
         }
       }
-      if (structure_.time) of_gradients.push_back({d.forms.sum({})});
+      for (std::size_t i = n; i < degrees(); ++i) of_gradients.push_back({d.forms.sum({})});
       if (!any) throw FormulaError(key, "found no coordinate in it; allowed a function of coordinates that is to be 0");
       of_bends.push_back({d.forms.sum(bend)});
     } catch (const FormulaError&) {
@@ -374,7 +378,7 @@ const HessianCode& Model::hessian() const {
   const std::scoped_lock lock(mutex_);
   if (hessian_) return *hessian_;
   Derivation& d = *derivation_;
-  const std::size_t n = degrees();
+  const std::size_t n = moving();
   auto all = std::make_unique<HessianCode>();
   std::vector<Derivation::Output> outputs;
   const auto add = [&](Entries& entries, const auto& row_symbol, const auto& column_symbol, bool symmetric) {
@@ -402,10 +406,11 @@ const ForceAndHessianCode& Model::force_and_hessian() const {
   const std::scoped_lock lock(mutex_);
   if (force_and_hessian_) return *force_and_hessian_;
   Derivation& d = *derivation_;
-  const std::size_t n = degrees();
+  const std::size_t n = moving();
   auto all = std::make_unique<ForceAndHessianCode>();
   std::vector<Derivation::Output> outputs;
   for (std::size_t i = 0; i < n; ++i) outputs.push_back({d.derivative(d.v, position_symbol(i)), true});
+  for (std::size_t i = n; i < degrees(); ++i) outputs.push_back({d.forms.sum({}), true});
   for (std::size_t i = 0; i < n; ++i) {
     const int row = d.derivative(d.v, position_symbol(i));
     for (std::size_t j = i; j < n; ++j) {

@@ -158,17 +158,17 @@ TEST(FormulaStructure, IsFoundFromTheExpression) {
   EXPECT_FALSE(structure("p_x^2/2 + x*y*cos(t)").quadratic_kinetic);            // M is singular
 }
 
-/// The time is the last coordinate, H + E the energy: t' = 1, E' = -dH/dt.
+/// The time since the step began and the beginning of the step come last, H + E is the energy: t' = 1, E' = -dH/dt.
 TEST(FormulaStructure, CarriesTheTime) {
   const auto model = std::make_shared<const formula::Model>(
       FormulaTexts{.coordinates = {"x"}, .hamiltonian = "p_x^2/2 + k*x*cos(3*t)", .parameters = {{"k", "0.5"}}});
   EXPECT_EQ(model->size(), 1U);
-  EXPECT_EQ(model->degrees(), 2U);
+  EXPECT_EQ(model->degrees(), 3U);
   const formula::BoundModel<double> bound(model, Parameters<double>(Texts{{"k", "0.5"}}));
-  const Vector<double, dynamic> q{0.7, 0.2};
-  const Vector<double, dynamic> p{0.3, 1.1};
-  Vector<double, dynamic> f(2);
-  Vector<double, dynamic> v(2);
+  const Vector<double, dynamic> q{0.7, 0.05, 0.15};
+  const Vector<double, dynamic> p{0.3, 1.1, 0};
+  Vector<double, dynamic> f(3);
+  Vector<double, dynamic> v(3);
   bound.force(q, f);
   bound.velocity(p, v);
   EXPECT_NEAR(bound.energy(q, p), 0.045 + 0.35 * std::cos(0.6) + 1.1, 1e-15);
@@ -176,6 +176,8 @@ TEST(FormulaStructure, CarriesTheTime) {
   EXPECT_NEAR(f[1], 1.5 * 0.7 * std::sin(0.6), 1e-15);
   EXPECT_EQ(v[0], 0.3);
   EXPECT_EQ(v[1], 1);
+  EXPECT_EQ(f[2], 0);
+  EXPECT_EQ(v[2], 0);
   EXPECT_FALSE(formula::Model({.coordinates = {"x"}, .hamiltonian = "p_x^2*(2 + cos(t))"}).structure().separable);
 }
 

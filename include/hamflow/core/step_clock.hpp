@@ -1,9 +1,83 @@
 // Time is an integer number of steps: t = t0 + n h. Nobody writes t += h, and no step is shortened to hit an end.
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "hamflow/core/dual.hpp"
+#include "hamflow/core/phase_point.hpp"
 
 namespace hamflow {
+
+/// A time as an unevaluated sum: `whole` is the sum rounded, or next to it, `rest` what rounding has left.
+template <class R>
+struct TimeWords {
+  R whole{};
+  R rest{};
+};
+
+/// start + n step of a whole number n.   [Dekker1971; the exact sum of two numbers: Knuth1997, 4.2.2]
+template <class R>
+TimeWords<R> time_in_words(const R& start, const R& n, const R& step) {
+  using Base = base_scalar<R>;
+  const R product = n * step;
+  R lost(0);
+  if constexpr (std::is_floating_point_v<Base>) {
+    const auto upper_half = [](const R& x) {
+      const R large = R(static_cast<Base>(1ULL << ((std::numeric_limits<Base>::digits + 1) / 2)) + 1) * x;
+      return R(large - (large - x));
+    };
+    const R n1 = upper_half(n);
+    const R n0 = n - n1;
+    const R step1 = upper_half(step);
+    const R step0 = step - step1;
+    lost = ((n1 * step1 - product) + n1 * step0 + n0 * step1) + n0 * step0;
+  } else {  // n has the digits of a double, which leave room for those of another one
+    const R step1(static_cast<double>(step));
+    lost = (n * step1 - product) + n * R(step - step1);
+  }
+  const R whole = start + product;
+  const R part = whole - start;
+  return {whole, ((start - (whole - part)) + (product - part)) + lost};
+}
+
+/// Of H(q, p, t) the last coordinates carry the time: the time since the step began, which moves with t' = 1, and the
+/// time at which the step began. A method knows none of this. Behind every step the clock of the run sets both, so that
+/// no rounding of a step is carried into the next one: the time of a stage is the sum of n h, in two words, and of what
+/// the stages before it have added within this step alone, rounded once.
+inline constexpr std::size_t clock_coordinates = 2;
+
+/// Of problems behind virtual calls, which know at run time whether their last coordinates carry the time.
+template <class P>
+concept MayHaveClock = requires(const P& problem) {
+  { problem.has_clock() } -> std::same_as<bool>;
+};
+template <class P>
+bool has_clock([[maybe_unused]] const P& problem) {
+  if constexpr (MayHaveClock<P>) {
+    return problem.has_clock();
+  } else {
+    return false;
+  }
+}
+/// How many of the last coordinates carry the time: no error is measured by their size.
+template <class P>
+std::size_t clocks_of(const P& problem) {
+  return has_clock(problem) ? clock_coordinates : 0;
+}
+
+/// Sets them to the time `begin` and what has passed since then.
+/// @param passed in the numbers of the state
+template <class A, std::size_t N, class R>
+void set_clock(PhasePoint<A, N>& z, const TimeWords<R>& begin, const R& passed = R(0)) {
+  const std::size_t n = z.q.size();
+  z.q[n - 1] = z.arithmetic.position.store(begin.whole);
+  z.q[n - 2] = z.arithmetic.position.store(R(begin.rest + passed));
+  z.p[n - 1] = z.arithmetic.momentum.store(R(0));
+}
 
 /// Counts equal steps of length h from t0. Reversing turns the direction, so that going back meets the same times.
 template <class R = double>
@@ -19,6 +93,13 @@ class StepClock {
   R time() const { return time_after(0); }
   /// The time that so many steps from now will have.
   R time_after(std::int64_t steps) const { return start_ + static_cast<R>(position_ + direction_ * steps) * step_; }
+  /// The earlier end, in the order of the run forwards, of the step that follows so many steps from now. Going back,
+  /// the times of stages are counted from the same end as going forwards.
+  TimeWords<R> begin_after(std::int64_t steps) const {
+    return time_in_words(start_, static_cast<R>(position_ + direction_ * steps - (direction_ < 0 ? 1 : 0)), step_);
+  }
+  /// Where in that step it begins.
+  R passed() const { return direction_ < 0 ? step_ : R(0); }
   R start() const { return start_; }
   /// Steps from the start of time, and the direction in which they are counted.
   std::int64_t position() const { return position_; }

@@ -76,7 +76,8 @@ class ThreadTeam {
 #endif
   }
   void wake() {
-    calls_.fetch_add(1, std::memory_order_release);
+    // A sleeper says that it sleeps, then looks at calls_; here it is the other way round. Neither may pass the other.
+    calls_.fetch_add(1, std::memory_order_seq_cst);
     calls_.notify_all();
   }
   void dismiss() {

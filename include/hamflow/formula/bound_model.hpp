@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "hamflow/core/constraints.hpp"
 #include "hamflow/core/vector.hpp"
@@ -145,12 +146,14 @@ class BoundModel {
            const S* factor = nullptr) const {
     const std::size_t n = model_->size();
     const bool timed = model_->structure().time;
+    std::optional<S> now;
     code.template run<S>(
         [&](int symbol) -> const S& {
           const auto i = static_cast<std::size_t>(symbol);
           if (i < n) return q[i];
           if (i < 2 * n) return p[i - n];
-          if (i == 2 * n) return timed ? q[n] : t;
+          if (i == 2 * n && timed && !now) now.emplace(q[n + 1] + q[n]);
+          if (i == 2 * n) return timed ? *now : t;
           return i == model_->factor_symbol() ? *factor : p[n];
         },
         put);

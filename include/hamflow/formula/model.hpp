@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/formula/formula.hpp"
 #include "hamflow/formula/problem_texts.hpp"
 
@@ -38,11 +39,12 @@ class Model {
 
   /// Coordinates that have names.
   std::size_t size() const { return coordinates_.size(); }
-  /// Degrees of freedom of the functions below: where H depends on t, the time is one more coordinate, the last, with
-  /// the momentum E, and they are those of H(q, p, t) + E. Along a motion t' = 1 and E' = -dH/dt, so that H + E is
-  /// conserved: its deviation is H - H(0) - int dH/dt. Separable H stay so if T does not depend on t: kicks are at the
-  /// time of their stage.
-  std::size_t degrees() const { return size() + (structure_.time ? 1 : 0); }
+  /// Degrees of freedom of the functions below. Where H depends on t, two more coordinates carry the time: the time
+  /// since the present step began, with the momentum E, and behind it the time at which that step began, which no
+  /// motion changes (core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) + E:
+  /// along a motion t' = 1 and E' = -dH/dt, so that H + E is conserved: its deviation is H - H(0) - int dH/dt.
+  /// Separable H stay so if T does not depend on t: kicks are at the time of their stage.
+  std::size_t degrees() const { return size() + (structure_.time ? clock_coordinates : 0); }
   const std::vector<std::string>& coordinates() const { return coordinates_; }  // x[1], x[2], ...
   const std::vector<std::string>& momenta() const { return momenta_; }
   const std::vector<std::string>& invariants() const { return invariant_names_; }
@@ -55,7 +57,9 @@ class Model {
   /// The symbol of the factor of scaled_force and scaled_velocity, behind all others, and that of the momentum of t.
   std::size_t factor_symbol() const { return symbols_.names.size(); }
   std::size_t time_momentum_symbol() const { return symbols_.names.size() + 1; }
-  /// The symbols of the i-th coordinate and of its momentum, the time's included.
+  /// Coordinates by which functions have derivatives: all but the beginning of the step.
+  std::size_t moving() const { return size() + (structure_.time ? 1 : 0); }
+  /// The symbols of the i-th coordinate and of its momentum, i < moving().
   std::size_t position_symbol(std::size_t i) const { return i < size() ? i : time_symbol(); }
   std::size_t momentum_symbol(std::size_t i) const { return i < size() ? size() + i : time_momentum_symbol(); }
   /// Of a parameter symbol: its name and its place in the list.

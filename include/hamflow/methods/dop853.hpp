@@ -19,6 +19,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/dop853_tableau.hpp"
 #include "hamflow/methods/substeps.hpp"
@@ -130,7 +131,7 @@ class DormandPrince853 {
         }
         const Base tau = part == 1 ? h : exact_number<Base>(part) * h;
         attempt(problem, tau, s);
-        const double error = error_of(tau, s);
+        const double error = error_of(tau, s, clocks_of(problem));
         // Not a number: the sub-step left the domain of H.
         if (!(error <= 1)) ++rejected_;
         const double growth = error < 1e-12 ? 6.0 : 0.9 * std::pow(error, -1.0 / 8.0);
@@ -205,22 +206,23 @@ class DormandPrince853 {
     ++substeps_;
   }
 
-  double error_of(const Base& tau, const Stages& s) const {
+  /// @param clocks last positions, which carry the time and are exact
+  double error_of(const Base& tau, const Stages& s, std::size_t clocks) const {
     const double length = size_of(tau);
     double fifth = 0;
     double third = 0;
-    compare(length, s.q0, s.q1, s.dq, fifth, third);
-    compare(length, s.p0, s.p1, s.dp, fifth, third);
+    compare(length, s.q0.size() - clocks, s.q0, s.q1, s.dq, fifth, third);
+    compare(length, s.p0.size(), s.p0, s.p1, s.dp, fifth, third);
     if (fifth == 0) return 0;
     return fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
   }
-  /// One block. The two errors become infinite where anything is not a number.
-  void compare(double length, const V& x0, const V& x1, const std::array<V, stages>& slopes, double& fifth,
-               double& third) const {
+  /// One block, its first `size` entries. The two errors become infinite where anything is not a number.
+  void compare(double length, std::size_t size, const V& x0, const V& x1, const std::array<V, stages>& slopes,
+               double& fifth, double& third) const {
     double scale = 0;
     double e5 = 0;
     double e3 = 0;
-    for (std::size_t k = 0; k < x0.size(); ++k) {
+    for (std::size_t k = 0; k < size; ++k) {
       raise(scale, size_of(x0[k]));
       raise(scale, size_of(x1[k]));
       raise(scale, length * size_of(slopes[0][k]));

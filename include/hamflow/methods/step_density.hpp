@@ -16,6 +16,7 @@
 #include "hamflow/arithmetic/compensated.hpp"
 #include "hamflow/core/concepts.hpp"
 #include "hamflow/core/math.hpp"
+#include "hamflow/core/step_clock.hpp"
 
 namespace hamflow {
 
@@ -57,6 +58,13 @@ class StepDensity {
   /// Of the next step.
   Real length() const { return step_ / Real(axis_.read(density_)); }
   Real time() const { return Time::read(time_); }
+  TimeWords<Real> time_in_words() const { return {time_.high, time_.low}; }
+  /// The same after a step of length h.
+  TimeWords<Real> time_in_words_after(const Real& h) const {
+    auto after = time_;
+    Time::add(after, h);
+    return {after.high, after.low};
+  }
 
   /// A step of length h was taken. @param rate G at its end
   void advance(const Real& h, const Real& rate) {

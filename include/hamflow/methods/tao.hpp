@@ -19,6 +19,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/text.hpp"
 
 namespace hamflow {
@@ -91,6 +92,10 @@ class TaoStep {
     if (begun_) copy_.arithmetic.momentum.add(copy_.p[i], change);
     kept_ = false;
   }
+  /// The clock of the run goes on in both copies (core/step_clock.hpp).
+  void set_clock(const State& z) {
+    for (std::size_t i = 1; begun_ && i <= clock_coordinates; ++i) copy_.q[z.q.size() - i] = z.q[z.q.size() - i];
+  }
   /// The second copy, x and y. It begins with the first step.
   const State& copy() const { return copy_; }
   void begin_with(const State& copy) {
@@ -109,7 +114,7 @@ class TaoStep {
     const Base half = h / 2;
     flow_a(problem, half, z);
     flow_b(problem, half, z);
-    turn(h, z);
+    turn(problem, h, z);
     flow_b(problem, half, z);
     flow_a(problem, half, z);
   }
@@ -126,8 +131,9 @@ class TaoStep {
     z.move(h, by_p_);
     copy_.push(-h, by_q_);
   }
-  /// By increments, cos - 1 = -2 sin^2 of the half angle, so that each copy is rounded once.
-  void turn(const Base& h, State& z) {
+  /// By increments, cos - 1 = -2 sin^2 of the half angle, so that each copy is rounded once. No spring binds the time,
+  /// which is the same in both.
+  void turn(const P& problem, const Base& h, State& z) {
     const Base angle = omega_ * h;  // half of what the difference turns by
     const Base sine = sin(angle);
     const Base less = sine * sine;                // (1 - cos 2 angle)/2
@@ -141,6 +147,10 @@ class TaoStep {
       const Real apart_p = p[i] - by_p[i];
       by_q[i] = across * apart_p - less * apart_q;
       by_p[i] = -(across * apart_q) - less * apart_p;
+    }
+    for (std::size_t i = 1; i <= clocks_of(problem); ++i) {
+      by_q[q.size() - i] = Real(0);
+      by_p[q.size() - i] = Real(0);
     }
     z.move(by_q);
     z.push(by_p);

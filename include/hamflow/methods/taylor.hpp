@@ -21,6 +21,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/substeps.hpp"
 #include "hamflow/methods/tape_of_motion.hpp"
@@ -92,7 +93,7 @@ class TaylorMethod {
       double allowed = 0;
       for (;;) {
         expand(problem, unit == 1 ? h : exact_number<Base>(unit) * h, z);
-        allowed = unit * reach();
+        allowed = unit * reach(clocks_of(problem));
         if (allowed == allowed || unit < Substeps::shortest) break;
         unit /= 1024;
       }
@@ -152,27 +153,30 @@ class TaylorMethod {
   }
 
   /// The longest sub-step, in units; NaN: powers of the unit left the range.
-  double reach() const {
+  /// @param clocks last positions, which carry the time: their size is none of the motion
+  double reach(std::size_t clocks) const {
     const double share = std::pow(options_.tolerance, 1.0 / order_) * std::exp(-2.0 / order_) *
                          (order_ > 1 ? std::exp(-0.7 / (order_ - 1)) : 0.5);
     const std::size_t size = tape_->inputs / 2;
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t first : {std::size_t{0}, size}) {
+      const std::size_t count = size - (first == 0 ? clocks : 0);
       for (int j = order_ > 1 ? order_ - 1 : 1; j <= order_; ++j) {
-        const double last = norm(first, j);
+        const double last = norm(first, count, j);
         if (!(last <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::quiet_NaN();
         if (last == 0) continue;
         double rho = 0;
-        for (int k = 0; k < 3 && k < j; ++k) rho = std::fmax(rho, std::pow(norm(first, k) / last, 1.0 / (j - k)));
+        for (int k = 0; k < 3 && k < j; ++k)
+          rho = std::fmax(rho, std::pow(norm(first, count, k) / last, 1.0 / (j - k)));
         least = std::fmin(least, rho);
       }
     }
     return least * share;
   }
-  /// max_i |x_k| over a block; not finite where one is not.
-  double norm(std::size_t first, int k) const {
+  /// max_i |x_k| over so many entries; not finite where one is not.
+  double norm(std::size_t first, std::size_t count, int k) const {
     double most = 0;
-    for (std::size_t i = first; i < first + tape_->inputs / 2; ++i) {
+    for (std::size_t i = first; i < first + count; ++i) {
       const double x = std::fabs(static_cast<double>(value_of(scratch_.series.of(static_cast<int>(i))[k])));
       if (most == most && !(x <= most)) most = x;
     }

@@ -45,6 +45,8 @@ class Functions {
   virtual void force(const V& q, V& f) const = 0;
   /// M^-1 f of a T quadratic in p. The velocity, but that the time of H(q, p, t) moves whatever f is.
   virtual void inverse_mass_times(const V& f, V& out) const { velocity(f, out); }
+  /// Whether the last coordinates carry the time (core/step_clock.hpp).
+  virtual bool has_clock() const { return false; }
   // Of a problem that has them. A factor is a number of the recording where steps of any length are recorded.
   virtual bool has_scaled_velocity() const = 0;
   virtual bool has_scaled_force() const = 0;
@@ -410,6 +412,7 @@ class AnyProblem {
              std::shared_ptr<const Functions<Others>>... others)
       : size_(size),
         functions_(std::move(own), std::move(others)...),
+        has_clock_(on<R>().has_clock()),
         invariant_sizes_(std::allocate_shared<const std::vector<std::size_t>>(PoolAllocator<std::size_t>{},
                                                                               on<R>().invariant_sizes())) {}
   template <class P>
@@ -418,6 +421,7 @@ class AnyProblem {
   }
 
   std::size_t size() const { return size_; }
+  bool has_clock() const { return has_clock_; }
   template <class S>
   S energy(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p) const {
     return on<S>().energy(q, p);
@@ -552,6 +556,7 @@ class AnyProblem {
   }
   std::size_t size_;
   std::tuple<std::shared_ptr<const Functions<R>>, std::shared_ptr<const Functions<Others>>...> functions_;
+  bool has_clock_ = false;
   std::shared_ptr<const std::vector<std::size_t>> invariant_sizes_;  // needed at every step
 };
 

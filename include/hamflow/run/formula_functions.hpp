@@ -25,8 +25,9 @@ class FormulaFunctions final : public Functions<S> {
   bool has_parts() const override { return model_->model().structure().separable; }
   void inverse_mass_times(const V& f, V& out) const override {
     velocity(f, out);
-    if (model_->model().structure().time) out[out.size() - 1] = S(R(0));
+    if (has_clock()) out[model_->model().size()] = S(R(0));
   }
+  bool has_clock() const override { return model_->model().structure().time; }
   void velocity(const V& p, V& v) const override { model_->template velocity<S>(p, v); }
   void force(const V& q, V& f) const override { model_->template force<S>(q, f); }
   bool has_scaled_velocity() const override { return model_->has_scaled(); }

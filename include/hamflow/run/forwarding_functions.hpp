@@ -24,6 +24,7 @@ class ForwardingFunctions : public Functions<S> {
   void velocity(const V& p, V& v) const override { exact_->velocity(p, v); }
   void force(const V& q, V& f) const override { exact_->force(q, f); }
   void inverse_mass_times(const V& f, V& out) const override { exact_->inverse_mass_times(f, out); }
+  bool has_clock() const override { return exact_->has_clock(); }
   bool has_scaled_velocity() const override { return exact_->has_scaled_velocity(); }
   bool has_scaled_force() const override { return exact_->has_scaled_force(); }
   void scaled_velocity(const S& factor, const V& p, V& v) const override { exact_->scaled_velocity(factor, p, v); }

@@ -56,7 +56,7 @@ class InParts : public Base {
     }
   }
   void forget_momenta() override {
-    if constexpr (!remembers_positions_alone<typename Base::Stepper>()) InParts::forget();
+    if (!remembers_positions_alone<typename Base::Stepper>() || has_clock(Base::problem())) InParts::forget();
   }
   void forget_mirrored(std::size_t i) override {
     // The last bit of a force is that of its mirror image where the position is one number.

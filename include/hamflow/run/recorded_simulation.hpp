@@ -102,7 +102,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
       }
       add_bounces(step, values_, bounces);
       for (std::size_t k = 0; k < step.words; ++k) values_[step.first_word() + k] = 0;
-      if (step.stops && values_[step.stop()] != 0) undone_ = &step;
+      if (step.stops && values_[step.stop()] != 0) undone_ = loop->step;
       taken += undone_ != nullptr ? some - 1 : some;
       block = std::min(2 * block, BounceWord::most_steps);
     }
@@ -111,7 +111,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     return taken;
   }
 
-  const RecordedStep* undone_step() const override { return undone_; }
+  const RecordedStep* undone_step() const override { return undone_.get(); }
 
   /// Behind walls, of the steps of take_recorded() alone.
   bool add_to_sums(std::span<const NamedExpression> summed, std::span<StepSum> sums) override {
@@ -198,6 +198,7 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
     Base::restore(saved);
     loops_ = {};  // where time begins is a constant of theirs
     step_ = nullptr;
+    undone_ = nullptr;
   }
   bool is_recorded() const override {
     return std::any_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop && loop->steps; });
@@ -336,9 +337,9 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::int64_t block_ = first_block;
   std::int64_t asked_ = 0;
   bool behind_walls_ = false;
-  const RecordedStep* undone_ = nullptr;
-  int failures_ = 0;                           // of recording
-  std::span<const NamedExpression> summed_{};  // whose values behind each step are added to sums_
+  std::shared_ptr<const RecordedStep> undone_;  // lives on where loops are dropped
+  int failures_ = 0;                            // of recording
+  std::span<const NamedExpression> summed_{};   // whose values behind each step are added to sums_
   std::span<StepSum> sums_{};
   std::optional<PartsInNumbers> numbers_;
   int parts_asked_ = 0;

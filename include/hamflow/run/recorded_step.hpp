@@ -8,6 +8,7 @@
 #include <span>
 
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/methods/recipe.hpp"
 #include "hamflow/methods/step_density.hpp"
 #include "hamflow/numerics/program_of_tape.hpp"
@@ -149,8 +150,21 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
         return method.step(problem, h, z);
       }
     };
+    const auto set_clock_at = [&](const Number& position) {
+      if (!problem.has_clock()) return;
+      if constexpr (varies) {
+        set_clock(z, density.time_in_words());
+      } else {
+        const Number length(time.step);
+        const bool back = time.direction < 0;
+        set_clock(z, time_in_words(Number(time.start), back ? position - Number(1) : position, length),
+                  back ? length : Number(0));
+      }
+      if constexpr (requires { method.set_clock(z); }) method.set_clock(z);
+    };
     // On constants, for what the method keeps of it.
     if (step() != Outcome::done) return std::nullopt;
+    set_clock_at(Number(time.position + time.direction));
     if (at == RecordedAt::start) method.invalidate();
     Recorder<double> recorder(Folding::exact, most_recorded_operations);
     std::vector<bool> counts;
@@ -175,12 +189,15 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     auto method_before = method;
     auto probe_before = probe;
     if (step() != Outcome::done) return std::nullopt;
+    set_clock_at(position);
     const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
     const auto seen = z;  // before walls
     bool is_seen = false;
     add_evaluations(recorded.effort, method.effort(), method_before.effort());
     if (recorded.words > 0) {
       if (!remembers_positions_alone<M>()) return std::nullopt;
+      // A force that is kept where a state is thrown back is one of another time.
+      if (walls->rule == WallRule::reject && problem.has_clock()) return std::nullopt;
       // A step that is taken back, or turned, has to be one that does not fail.
       Number size(0);
       for (const Number& x : Vector<Number, dynamic>(z.positions())) size += x;

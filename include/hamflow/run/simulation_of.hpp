@@ -69,6 +69,9 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     clock_.reverse();
     if (density_) density_->reverse_time(this->monitored_rate());
     method_.invalidate();
+    if constexpr (MayHaveClock<P>) {
+      if (has_clock(problem_)) turn_clock();
+    }
   }
   void negate_momenta() override {
     z_.negate_momenta();
@@ -111,10 +114,40 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     State::expect_same(found);
     State::take(std::move(found));
     method_ = std::move(method);
+    if constexpr (MayHaveClock<P>) {
+      if (has_clock(problem_)) measure_span_of_clock();
+    }
   }
   [[gnu::cold]] std::unique_ptr<Simulation> clone() const override { return std::make_unique<SimulationOf>(*this); }
 
  private:
+  /// What a step adds to the coordinate of the time: on the lattice an integer, the same in every step.
+  [[gnu::cold]] void measure_span_of_clock() {
+    if constexpr (A::exact_undo) {
+      M method = method_;
+      method.invalidate();
+      PhasePoint<A, n> z = z_;
+      (void)method.step(problem_, clock_.step(), z);
+      this->span_of_clock_ = z.q[z.q.size() - 2] - z_.q[z_.q.size() - 2];
+    }
+  }
+  [[gnu::cold]] void turn_clock() {
+    measure_span_of_clock();
+    if (!density_) this->set_clock_after(0, clock_.step(), z_);
+    tell_time(method_, z_);
+  }
+  /// A method may carry a copy of the state; and on the lattice the last force of a step is not the first one of the
+  /// next, whose time is rounded anew: else the way back would not meet it.
+  static void tell_time(M& method, [[maybe_unused]] const PhasePoint<A, n>& z) {
+    if constexpr (requires { method.set_clock(z); }) method.set_clock(z);
+    if constexpr (A::exact_undo) method.invalidate();
+  }
+  [[gnu::cold]] Outcome complete_step() final {
+    const Outcome outcome = State::complete_step();
+    if (has_clock(problem_)) tell_time(method_, z_);
+    return outcome;
+  }
+
   /// One by one: each knows the length of the next.
   [[gnu::cold, gnu::noinline]] Outcome take_varying(std::int64_t steps) {
     for (; steps > 0; --steps) {
@@ -137,6 +170,9 @@ class SimulationOf : public SimulationState<P, A, Probe> {
     Probe probe = probe_;
     std::int64_t taken = 0;
     const Outcome outcome = march(1, part, taken, method, z, probe);
+    if constexpr (MayHaveClock<P>) {
+      if (has_clock(problem_)) set_clock(z, TimeWords<Real>{t, Real(0)});
+    }
     if (outcome == Outcome::done) this->show(z, t, frame);
     return outcome;
   }
@@ -158,6 +194,12 @@ class SimulationOf : public SimulationState<P, A, Probe> {
         return retrace(i, outcome, h, taken, method_out, z_out, probe_out);
       if (z.arithmetic.lost()) [[unlikely]]
         return retrace(i, Outcome::lattice_overflow, h, taken, method_out, z_out, probe_out);
+      if constexpr (MayHaveClock<P>) {
+        if (has_clock(problem)) {
+          this->set_clock_after(i + 1, h, z);
+          tell_time(method, z);
+        }
+      }
       if (!probe.look(problem, z.positions(), z.momenta(), this->time_after(i + 1, h))) [[unlikely]] {
         return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
       }

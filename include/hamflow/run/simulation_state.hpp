@@ -69,7 +69,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
 
   std::vector<std::byte> bits() const final {
     Writer ar;
-    for (std::size_t i = 0; i < z_.q.size(); ++i) ar(z_.q[i]);
+    for (std::size_t i = 0; i < z_.q.size() - clocks_of(problem_); ++i) ar(z_.q[i]);  // clocks are not of the motion
     for (std::size_t i = 0; i < z_.p.size(); ++i) ar(z_.p[i]);
     return ar.take();
   }
@@ -86,7 +86,10 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     z_.q[i] = A::Axis::negated(z_.q[i]);
     z_.arithmetic.position.add(z_.q[i], twice_the_wall);
   }
-  [[gnu::cold]] Outcome complete_step() final {
+  [[gnu::cold]] Outcome complete_step() override {
+    if constexpr (MayHaveClock<P>) {
+      if (has_clock(problem_)) set_clock_after(1, next_length(), z_);
+    }
     if (!probe_.look(problem_, z_.positions(), z_.momenta(), time_after(1, next_length()))) return Outcome::non_finite;
     clock_.advance(1);
     return Outcome::done;
@@ -141,6 +144,9 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       : problem_(std::move(problem)), clock_(t0, h) {
     z_.arithmetic = arithmetic;
     z_.store(q, p);
+    if constexpr (MayHaveClock<P>) {
+      if (has_clock(problem_)) begin_clock(q, p);
+    }
     const auto stored_q = z_.positions();
     const auto stored_p = z_.momenta();
     probe_.start(problem_, stored_q, stored_p, t0);
@@ -177,6 +183,33 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   /// The time after so many steps from here on, or after one of length h where steps vary.
   Real time_after(std::int64_t steps, const Real& h) const {
     return density_ ? Real(density_->time() + h) : clock_.time_after(steps);
+  }
+  /// The coordinates that carry the time, as they are after so many steps from here on, or after one of length h where
+  /// steps vary. On the lattice `span` is what a step adds to them, to its last unit; times of varying steps are summed
+  /// there by the method alone, as every sum that has to come back is.
+  void set_clock_after(std::int64_t steps, const Real& h, PhasePoint<A, n>& z) const {
+    if (density_) {
+      if constexpr (!A::exact_undo) set_clock(z, density_->time_in_words_after(h));
+    } else if constexpr (A::exact_undo) {
+      set_clock(z, clock_.begin_after(steps));
+      if (clock_.direction() < 0) z.arithmetic.position.add_units(z.q[z.q.size() - 2], span_of_clock_);
+    } else {
+      set_clock(z, clock_.begin_after(steps), clock_.passed());
+    }
+  }
+  /// A start without the coordinates that carry the time begins at the time of the clock, one with them at theirs.
+  [[gnu::cold]] void begin_clock(const Vector<Real, n>& q, const Vector<Real, n>& p) {
+    const auto whole = [&](const Vector<Real, n>& x) {
+      Vector<Real, n> all = zeros<Real, n>(problem_.size());
+      for (std::size_t i = 0; i < x.size() && i < all.size(); ++i) all[i] = x[i];
+      return all;
+    };
+    const Vector<Real, n> all_q = whole(q);
+    z_.store(all_q, whole(p));
+    Real start = clock_.start();
+    for (std::size_t i = 1; i <= clock_coordinates; ++i) start += all_q[all_q.size() - i];
+    clock_ = StepClock<Real>(start, clock_.step());
+    set_clock_after(0, clock_.step(), z_);
   }
   [[gnu::cold]] void begin_varying(Monitor monitor) {
     monitor_ = std::make_shared<const Monitor>(std::move(monitor));
@@ -284,6 +317,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
   StepClock<Real> clock_;
   Real initial_energy_{};
   Real scale_{};
+  typename A::Stored span_of_clock_{};     // on the lattice, while time runs backwards
   std::optional<StepDensity<A>> density_;  // of reversible steps, with what decides their lengths
   std::shared_ptr<const Monitor> monitor_;
 };

@@ -18,6 +18,7 @@
 #include "hamflow/core/method_info.hpp"
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/methods/substeps.hpp"
 
@@ -202,12 +203,14 @@ class ExtrapolatedMidpointMethod {
     }
     const Change& last = row_[row_.size() - 1];
     const Change& other = row_[row_.size() - 2];
-    return std::fmax(error_of(q_, last.q, other.q, first_.q, tau), error_of(p_, last.p, other.p, first_.p, tau));
+    return std::fmax(error_of(q_.size() - clocks_of(problem), q_, last.q, other.q, first_.q, tau),
+                     error_of(p_.size(), p_, last.p, other.p, first_.p, tau));
   }
-  double error_of(const V& x, const V& last, const V& other, const V& rate, const Real& tau) const {
+  /// Of the first `count` entries of a block: what carries the time is behind them.
+  double error_of(std::size_t count, const V& x, const V& last, const V& other, const V& rate, const Real& tau) const {
     Real error(0);
     Real size(0);
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       error = larger(error, Real(abs(last[i] - other[i])));
       size = larger(size, larger(larger(Real(abs(x[i])), Real(abs(x[i] + last[i]))), Real(abs(tau * rate[i]))));
       if (!(last[i] - last[i] == Real(0))) return std::numeric_limits<double>::infinity();

@@ -260,7 +260,7 @@ class Newton {
       if constexpr (requires { step.sharpen(x, at); }) {
         if (k > 0) step.sharpen(x, at);  // this correction is the last one, mostly
       }
-      const Variables correction = [&] {
+      const auto solved = [&]() -> Variables {
         if constexpr (detail::AnyIteration<E>) {
           if (at.linearised && options.diagnostics) detail::note_tangent(step.tangent(at), report.diagnostics);
           if (at.linearised) factors.factor(step.tangent(at));
@@ -268,12 +268,13 @@ class Newton {
         } else {
           const auto tangent = step.tangent(at);
           if (options.diagnostics) {
-            const auto solved = tangent;
-            detail::note_tangent(solved, report.diagnostics);
+            const auto copy = tangent;
+            detail::note_tangent(copy, report.diagnostics);
           }
           return hamflow::solve(tangent, at.residual);
         }
-      }();
+      };
+      Variables correction = solved();
       ++report.effort.linear_solves;
       Correction<Real> c = step.measure(x, at, correction);
       if constexpr (detail::AnyIteration<E>) {
@@ -332,6 +333,14 @@ class Newton {
       }
       was_at_rounding = was_at_rounding || at_rounding;
       if (at_rounding && !options.tolerance) {
+        if constexpr (requires { step.sharpen(x, at); }) {
+          // The guess was the solution, as it is of a constant force: what its residual had lost to rounding had a sign
+          // there, and with it the energy that walls bring back over and over.
+          if (k == 0) {
+            step.sharpen(x, at);
+            correction = solved();
+          }
+        }
         found.taken = step.taken(x, at, correction);
         found.x = x;
         course = {epsilon * first > noise, noise};

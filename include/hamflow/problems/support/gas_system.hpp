@@ -7,9 +7,11 @@
 // gives are separate functions: the first can be computed by others.
 #pragma once
 
+#include <cmath>
+#include <limits>
+#include <utility>
 #include <variant>
 
-#include "hamflow/core/nearest_whole.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
 #include "hamflow/problems/support/pair_system.hpp"
@@ -26,9 +28,8 @@ struct GasModel : Particles<R> {
   R scale_squared{1};
   Cutoff<R> cutoff{};
   ContainerKind container = ContainerKind::none;
-  SoftWall<R> wall{};      // of a circle
-  std::vector<R> edges{};  // of a periodic box
-  std::vector<R> inverse_edges{};
+  SoftWall<R> wall{};                 // of a circle
+  std::vector<R> edges{};             // of a periodic box
   std::shared_ptr<NearPairs> near{};  // with a cut-off; null: all pairs
 
   explicit GasModel(Laws pairs) : law(std::move(pairs)) {}
@@ -96,11 +97,53 @@ struct GasModel : Particles<R> {
   }
 
  private:
-  /// The same whole number of edges for every number type and in recordings, however far apart the particles are.
+  /// d less the whole number of edges that is nearest to d/edge: the same number, and the same roundings, for every
+  /// number type, however far the particles have gone. A recording takes the number as it is where it is recorded; two
+  /// comparisons tell it where another one begins.
   template <class S>
   void to_nearest(std::size_t k, S& d) const {
-    const auto images = nearest_whole(S(d * inverse_edges[k]));
-    if (images != 0) d -= S(R(images) * edges[k]);
+    const R& edge = edges[k];
+    const R count = nearest_whole(R(plain_value(d) / edge));
+    if constexpr (!std::is_same_v<S, R>) {
+      const auto [first, last] = range_of_images(count, edge);
+      (void)(S(first) <= d && d <= S(last));
+    }
+    d -= S(R(edge * count));
+  }
+  template <class S>
+  static R plain_value(const S& x) {
+    if constexpr (IsDual<S>::value || requires { x.recorder; }) {
+      return plain_value(x.value);
+    } else {
+      return x;
+    }
+  }
+  /// Ties to even, as they are seen in double.
+  static R nearest_whole(const R& x) {
+    if constexpr (std::is_floating_point_v<R>) {
+      return nearbyint(x);
+    } else {
+      R count(0);
+      for (double more = 1; more != 0 && more - more == 0;) {
+        more = std::nearbyint(static_cast<double>(R(x - count)));
+        count += R(more);
+      }
+      return count;
+    }
+  }
+  /// The first and the last distance of which nearest_whole(d/edge) is `count`.
+  static std::pair<R, R> range_of_images(const R& count, const R& edge) {
+    R first = (count - R(0.5)) * edge;
+    R last = (count + R(0.5)) * edge;
+    if constexpr (std::is_floating_point_v<R>) {
+      constexpr R infinity = std::numeric_limits<R>::infinity();
+      if (!(abs(count) < infinity)) return {first, last};
+      while (nearbyint(first / edge) >= count) first = std::nextafter(first, -infinity);
+      while (nearbyint(first / edge) < count) first = std::nextafter(first, infinity);
+      while (nearbyint(last / edge) <= count) last = std::nextafter(last, infinity);
+      while (nearbyint(last / edge) > count) last = std::nextafter(last, -infinity);
+    }
+    return {first, last};
   }
 };
 
