@@ -9,6 +9,7 @@
 #include "gas_checks.hpp"
 #include "guarded.hpp"
 #include "hamflow/methods/step_control.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/large_steps.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/compare.hpp"
@@ -78,7 +79,7 @@ class RequestReader {
         auto refused = refused_option(method);
         if (!refused) refused = refused_option(method, scenario_.start_q.size());
         if (refused) why_not = "method." + refused->name + ": " + refused->message;
-        if (why_not.empty()) why_not = refusal(method, scenario_.request.arithmetic);
+        if (why_not.empty()) why_not = refusal_with_advice(method, scenario_.problem, scenario_.request.arithmetic);
         if (why_not.empty()) why_not = refusal(method, *scenario_.problem);
         Request one = scenario_.request;
         one.method = method;

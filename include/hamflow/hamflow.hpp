@@ -232,6 +232,7 @@
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/run/fast_functions.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/formula_functions.hpp"
 #include "hamflow/run/formula_problem.hpp"
 #include "hamflow/run/forwarding_functions.hpp"

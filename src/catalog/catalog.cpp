@@ -9,6 +9,7 @@
 #include "gas_entry.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/fast_functions.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/recorded_step.hpp"
@@ -205,7 +206,7 @@ std::unique_ptr<Simulation> make_simulation(const Request& request) { return mak
 std::unique_ptr<Simulation> make_simulation_of(Request request) {
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
   check_arithmetic(request.arithmetic);
-  const std::string why_not = refusal(request.method, request.arithmetic);
+  const std::string why_not = refusal_with_advice(request.method, &problem, request.arithmetic);
   if (!why_not.empty())
     throw Error("method " + request.method.name + " cannot run in " + request.arithmetic + ": " + why_not);
   if (const auto wrong = refused_option(request.method)) {

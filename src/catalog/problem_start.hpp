@@ -120,17 +120,25 @@ struct ProblemStart {
       const Vector<R, n> p = solve(pp, rest);
       Vector<R, n> check = zero;
       gradient(problem, q, p, force_at_rest, check);
-      R defect(0);
-      R size(0);
+      // Masses may differ by many powers of ten: what the velocities are made of is added up in the units of
+      // sqrt(mass) v. Where that is 1/epsilon times the velocities, they say nothing of the momenta.
+      const R epsilon = std::numeric_limits<R>::epsilon();
+      R given(0);
+      R terms(0);
+      bool is_linear = true;
       for (std::size_t i = 0; i < v.size(); ++i) {
-        defect += abs(check[i] - v[i]);
-        size += abs(check[i]) + abs(v[i]) + abs(drift[i]);
+        const R size = abs(v[i]) + abs(drift[i]);
+        R sum = size;
+        for (std::size_t j = 0; j < v.size(); ++j) sum += abs(pp[i][j] * p[j]);
+        const R root = sqrt(R(abs(pp[i][i])));
+        given += root > R(0) ? size / root : size;
+        terms += root > R(0) ? sum / root : sum;
+        is_linear = is_linear && abs(check[i] - v[i]) <= R(1e6) * epsilon * sum;
       }
-      if (!(size <= std::numeric_limits<R>::max()) || !(defect <= R(1e6) * std::numeric_limits<R>::epsilon() * size)) {
-        throw Error(
-            "velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
-            "is singular there; give p");
+      if (!(terms <= std::numeric_limits<R>::max()) || !(R(16) * epsilon * terms <= given)) {
+        throw Error("velocities do not determine the momenta: the mass matrix is singular at this start; give p");
       }
+      if (!is_linear) throw Error("velocities determine momenta only where H is quadratic in p; give p");
       return p;
     }
   }

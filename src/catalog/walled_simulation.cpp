@@ -296,6 +296,8 @@ class WalledSimulation : public Simulation {
       parts_->forget_mirrored(wall->coordinate);
       met_.push_back({static_cast<std::size_t>(wall - walls_->sides.begin()), R(0)});
       keep_state(met_.back());
+      // Of several bounces in one step all but the last leave the coordinate outside.
+      if (told_) met_.back().q[wall->coordinate] = wall->at;
     }
     return false;
   }

@@ -96,7 +96,13 @@ Outcome run(Simulation& simulation, std::int64_t last_step, std::span<Observer* 
     Outcome outcome = simulation.advance(target - now);
     since_pulse += target - now;
     spared.reach(frames.of_step);
-    if (outcome == Outcome::done) outcome = wake(simulation, spared.others(), frames);
+    if (outcome == Outcome::done) {
+      outcome = wake(simulation, spared.others(), frames);
+    } else if (is_failure(outcome)) {
+      for (Observer* observer : observers) {
+        if (observer->observe_failed_step() == Verdict::stop) outcome = Outcome::stopped;
+      }
+    }
     if (outcome != Outcome::done) return outcome;
     if (since_pulse >= block) {
       const double seconds = std::chrono::duration<double>(Clock::now() - pulsed).count();

@@ -31,11 +31,33 @@ std::int64_t bounces_of(const Simulation& simulation) {
 /// sign, but there may be one in the part of the step that has them.
 bool passes_an_edge(double before, double now) { return std::isnan(before) != std::isnan(now); }
 
+/// What |x| of a touch is at most, as a part of its size in the step: the rounding of x and of the place of its least.
+constexpr double touch = 0x1p-44;
+
 }  // namespace
 
 double SectionSearch::distance(const Frame& frame) const {
+  if (section_.every_step) return 0;
   if (section_.expression) return (*section_.expression)(frame)-section_.value;
   return (section_.momentum ? frame.p : frame.q)[section_.coordinate] - section_.value;
+}
+
+bool SectionSearch::may_hide_zeros(double before, double now, bool bounced) {
+  constexpr double safety = 4;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const double change = now - before;
+  const double bend = std::abs(change - last_change_);
+  const double most = safety * std::fmax(bend, last_bend_);
+  before_last_ = std::isnan(last_change_) ? unknown : before - last_change_;
+  last_bend_ = bounced ? unknown : bend;
+  last_change_ = bounced ? unknown : change;
+  if (std::isnan(most)) return !std::isnan(change);
+  if (!(most > 0)) return false;
+  // A parabola of that second derivative through both ends has two zeros between them.
+  if (before == 0 || now == 0 || (before > 0) == (now > 0)) {
+    return std::sqrt(std::abs(before)) + std::sqrt(std::abs(now)) <= std::sqrt(most / 2);
+  }
+  return std::abs(change) <= most / 2;  // x turns twice in between
 }
 
 void SectionSearch::locate(const Simulation& before_step, double before, double now) {
@@ -84,9 +106,29 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
     ++jumps_;
     return;
   }
+  take(best);
+}
+
+void SectionSearch::take(const SectionPoint& point) {
   ++points_;
-  max_residual_ = std::max(max_residual_, best.residual);
-  found_(best);
+  max_residual_ = std::max(max_residual_, point.residual);
+  found_(point);
+}
+
+void SectionSearch::locate_in_failed_step(const Simulation& before_step, double before) {
+  double reached = 0;
+  double lost = 1;
+  for (int i = 0; i < 50 && !failed_; ++i) {
+    const double theta = (reached + lost) / 2;
+    if (before_step.look_part(theta, partial_) != Outcome::done) {
+      lost = theta;
+      continue;
+    }
+    const double now = distance(partial_);
+    if (crosses(before, now)) return locate(before_step, Change{reached, theta, before, now});
+    reached = theta;
+    before = now;
+  }
 }
 
 SectionSearch::Sample SectionSearch::sample_of(double theta, const Frame& frame) const {
@@ -175,7 +217,8 @@ void SectionSearch::note_change(double from, double to, double before, double no
   if (is_change || passes_an_edge(before, now)) changes_.push_back({from, to, before, now});
 }
 
-/// Looks for two crossings between two samples of the same sign, where a polynomial through all five comes near 0.
+/// Looks for two crossings, or a touch, between two samples of the same sign, where a polynomial through all five comes
+/// near 0.
 void SectionSearch::see_between(const Simulation& before_step, const Piece& piece, std::size_t k) {
   const Sample& left = piece[k];
   const Sample& right = piece[k + 1];
@@ -195,19 +238,27 @@ void SectionSearch::see_between(const Simulation& before_step, const Piece& piec
   constexpr int points = 32;
   int nearest = 0;
   double least = left.x * sign;
-  for (int i = 1; i < points; ++i) {
-    const double x = polynomial(static_cast<double>(k) + i / static_cast<double>(points));
+  for (int i = 1; i <= points; ++i) {
+    const double x = i < points ? polynomial(static_cast<double>(k) + i / static_cast<double>(points)) : right.x * sign;
     if (x < least) {
       least = x;
       nearest = i;
     }
   }
-  if (nearest == 0 || !(least < right.x * sign) || !(least <= size / 64)) return;
+  if (!(least <= size / 64)) return;
+  const auto falls_from = [&](double end, double inwards) { return polynomial(end + inwards) < polynomial(end); };
+  if (nearest == 0 && !falls_from(static_cast<double>(k), 0x1p-12)) {
+    // A touch on the step itself, up to rounding: x came from the same side and goes back.
+    const bool at_start = left.theta == 0 && before_last_ * sign > left.x * sign;
+    if (at_start && left.x * sign <= touch * size) note_touch(0, sign);
+    return;
+  }
+  if (nearest == points && !falls_from(static_cast<double>(k + 1), -0x1p-12)) return;
   // Golden section; 40 times leave 10^-9 of the place, and a square of that of x.
   const double width = (right.theta - left.theta) / points;
   const double golden = (std::sqrt(5.0) - 1) / 2;
-  double from = left.theta + (nearest - 1) * width;
-  double to = from + 2 * width;
+  double from = left.theta + std::max(nearest - 1, 0) * width;
+  double to = left.theta + std::min(nearest + 1, points) * width;
   double inner = to - golden * (to - from);
   double outer = from + golden * (to - from);
   const auto x_at = [&](double theta) { return failed_ ? 0 : sample(before_step, theta).x; };
@@ -217,7 +268,7 @@ void SectionSearch::see_between(const Simulation& before_step, const Piece& piec
     const bool inner_is_less = x_inner * sign < x_outer * sign;
     const double theta = inner_is_less ? inner : outer;
     const double x = inner_is_less ? x_inner : x_outer;
-    if (x * sign < 0) {
+    if (x * sign < -touch * size) {
       note_change(left.theta, theta, left.x, x);
       note_change(theta, right.theta, x, right.x);
       return;
@@ -234,6 +285,9 @@ void SectionSearch::see_between(const Simulation& before_step, const Piece& piec
       x_outer = x_at(outer = from + golden * (to - from));
     }
   }
+  const bool inner_is_less = x_inner * sign < x_outer * sign;
+  const bool touches = (inner_is_less ? x_inner : x_outer) * sign <= touch * size;
+  if (!failed_ && touches) note_touch(inner_is_less ? inner : outer, sign);
 }
 
 void SectionSearch::see(const Simulation& before_step, Piece& piece, int depth) {
@@ -281,7 +335,12 @@ void SectionSearch::locate_all(const Simulation& before_step, double before, con
   if (is_alone) changes_.front() = {0, 1, before, now};
   for (const Change& change : changes_) {
     if (failed_) break;
-    if (crosses(change.before, change.now) || passes_an_edge(change.before, change.now)) locate(before_step, change);
+    if (change.from == change.to) {
+      if (!crosses(change.before, 0)) continue;
+      const double x = sample(before_step, change.from).x;
+      if (!failed_) take({partial_.time, partial_.q, partial_.p, std::abs(x)});
+    } else if (crosses(change.before, change.now) || passes_an_edge(change.before, change.now))
+      locate(before_step, change);
   }
 }
 
@@ -295,6 +354,13 @@ SectionFinder::SectionFinder(const Simulation& simulation, const Section& sectio
 Verdict SectionFinder::observe(const Frame& frame) {
   constexpr std::int64_t steps_behind = 64;
   const double now = search_.distance(frame);
+  if (search_.section().by_steps) {
+    if (begun_ && frame.step > work_) search_.take_step(before_, now, frame);
+    work_ = frame.step;
+    before_ = now;
+    begun_ = true;
+    return Verdict::go_on;
+  }
   const long long work = frame.effort.force + frame.effort.gradient;
   const bool first = !begun_;
   const bool stepped = !first && frame.step > copy_->step();  // a run that goes on shows the state that it has again
@@ -302,7 +368,8 @@ Verdict SectionFinder::observe(const Frame& frame) {
   const std::int64_t bounces = bounces_of(simulation_);
   const bool bounced = bounces != bounces_;
   const bool is_long = has_own_substeps_ ? 2 * (work - work_) > 3 * order_ : search_.is_long();
-  const bool looks_into = is_long || bounced;
+  const bool hides = stepped && search_.may_hide_zeros(before_, now, bounced);
+  const bool looks_into = is_long || bounced || hides;
   if (stepped && (looks_into || search_.crosses(before_, now) || passes_an_edge(before_, now))) {
     if (copy_->advance(frame.step - 1 - copy_->step()) != Outcome::done) {
       search_.give_up();

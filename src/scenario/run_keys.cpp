@@ -158,7 +158,14 @@ const RunKeys& run_keys() {
                         .default_value = "100000",
                         .meaning = "rows of each table of events, at most; counts go on",
                         .range = Range::whole_from(0, static_cast<double>(most_steps)),
-                        .example = "1000"}};
+                        .example = "1000"},
+      .map = {.name = "map",
+              .default_value = "false",
+              .meaning = "the steps are a map of their own and approximate no flow: no warning, certificate or energy "
+                         "scale of a flow; sections, events and Lyapunov exponents by steps",
+              .type = OptionType::yes_no,
+              .condition = "with steps of one length and without record",
+              .example = "true"}};
   return keys;
 }
 
@@ -199,7 +206,7 @@ const std::vector<DeclaredTable>& declared_tables() {
     return std::vector<DeclaredTable>{
         {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
-          r.record_events, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+          r.record_events, r.map, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
         {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;

@@ -1,6 +1,7 @@
 // What a run measures beside its trajectory: the Lyapunov exponents, the eigenvalues and the section of [run].
 #include <algorithm>
 
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
@@ -63,9 +64,10 @@ void ScenarioReader::refuse_derivative(TomlTable& table, const std::string& key)
                             "was halved is not differentiated");
   }
   if (has_method() && describe(scenario_.request.method).carries_copy) {
-    table.complain(key, table.found(key) +
-                            " with a method that carries a second copy of the state; allowed with the others, e.g. cg, "
-                            "rk4: its steps are no map of (q, p) that could be differentiated");
+    table.complain(key, table.found(key) + " with a method that carries a second copy of the state; allowed with " +
+                            or_fitting_method("", "another method", {"stv4", "cg", "rk4"}, scenario_.problem,
+                                              arithmetic.default_value) +
+                            ": its steps are no map of (q, p) that could be differentiated");
   }
   if (has_method() && describe(scenario_.request.method).varies_steps) {
     table.complain(key, table.found(key) +
@@ -106,6 +108,7 @@ void ScenarioReader::read_events(TomlTable& table) {
     if (const auto direction = entry.whole(keys.direction)) event.zero.direction = static_cast<int>(*direction);
     event.stops = entry.text(keys.action).value_or("") == keys.action.words.back();
     event.zero.expression = read_changing_expression(entry, keys.expression);
+    event.zero.by_steps = scenario_.map;
     entry.finish();
     scenario_.events.push_back(std::move(event));
   }
@@ -123,7 +126,20 @@ void ScenarioReader::read_section(TomlTable& table) {
   Section wanted;
   if (const auto value = section.number(keys.value)) wanted.value = *value;
   if (const auto direction = section.whole(keys.direction)) wanted.direction = static_cast<int>(*direction);
+  wanted.by_steps = scenario_.map;
   section.know_all({keys.coordinate.name, keys.expression.name});
+  if (scenario_.map && !section.has(keys.coordinate.name) && !section.has(keys.expression.name)) {
+    for (const std::string& other : {keys.value.name, keys.direction.name}) {
+      if (section.has(other)) {
+        section.complain(other, section.found(other) + " without " + keys.coordinate.name + " or " +
+                                    keys.expression.name + "; allowed with one of them");
+      }
+    }
+    wanted.every_step = wanted.by_time_alone = true;
+    scenario_.section = wanted;
+    section.finish();
+    return;
+  }
   const bool by_coordinate = section.has(keys.coordinate.name);
   if (by_coordinate == section.has(keys.expression.name)) {
     const std::string names =

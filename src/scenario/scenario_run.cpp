@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
 #include "run_keys.hpp"
 #include "scenario_reader.hpp"
@@ -23,6 +24,7 @@ void ScenarioReader::read_run(TomlTable& table) {
     scenario_.dt = number_value(*dt);
     scenario_.request.dt = *dt;
   }
+  read_map(table);
   read_length(table);
   if (!std::isfinite(scenario_.dt * static_cast<double>(scenario_.steps))) {
     table.complain(keys.dt.name,
@@ -35,6 +37,20 @@ void ScenarioReader::read_run(TomlTable& table) {
   read_kernel(table);
   read_lattice(table);
   table.finish(scenario_.problem, scenario_.request.method.name);
+}
+
+void ScenarioReader::read_map(TomlTable& table) {
+  const RunKeys& keys = run_keys();
+  scenario_.map = table.yes_no(keys.map).value_or(false);
+  if (!scenario_.map) return;
+  if (has_method() && describe(scenario_.request.method).varies_steps) {
+    table.complain(keys.map.name, table.found(keys.map.name) + " with steps of varying length; allowed with " +
+                                      "step_control = \"fixed\": the steps of a map are all alike");
+  }
+  if (table.has(keys.record.name)) {
+    table.complain(keys.record.name, table.found(keys.record.name) + " with " + keys.map.name + "; allowed " +
+                                         keys.record_every.name + ": a map has no states between its steps");
+  }
 }
 
 void ScenarioReader::read_kernel(TomlTable& table) {
@@ -78,7 +94,8 @@ void ScenarioReader::read_arithmetic(TomlTable& table) {
     scenario_.request.start.q = start_of_bodies_.q;
     scenario_.request.start.p = start_of_bodies_.p;
   }
-  const std::string why_not = has_method() ? refusal(scenario_.request.method, *name) : "";
+  const std::string why_not =
+      has_method() ? refusal_with_advice(scenario_.request.method, scenario_.problem, *name) : "";
   if (!why_not.empty()) table.complain(key.name, table.found(key.name) + "; " + why_not);
 }
 

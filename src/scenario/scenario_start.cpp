@@ -322,8 +322,7 @@ void ScenarioReader::check_start(TomlTable& table) {
   const bool unsolved = std::any_of(start.p.begin(), start.p.end(), [](double p) { return !std::isfinite(p); });
   if (!request.start.v.empty() && unsolved) {
     table.complain("initial",
-                   "velocities do not determine the momenta of this H: it is not quadratic in p, or its mass matrix "
-                   "is singular there; give p");
+                   "velocities do not determine the momenta: the mass matrix is singular at this start; give p");
     return;
   }
   if (!problem.regular(request.parameters, start.q, start.p)) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hamflow/problems/support/container.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "scenario_reader.hpp"
@@ -154,7 +155,7 @@ std::string rules_taken(const Request& request, const Walls& walls, const std::v
   for (const WallRule rule : rules) {
     if (rule == WallRule::soft && (box || !ends)) continue;
     if (rule == WallRule::event && request.arithmetic == "lattice") continue;
-    words += "\"" + wall_rules()[static_cast<std::size_t>(rule)] + "\", ";
+    words += (words.empty() ? "\"" : ", \"") + wall_rules()[static_cast<std::size_t>(rule)] + "\"";
   }
   return words;
 }
@@ -166,12 +167,13 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
     const std::string soft = rules_taken(request, *walls, {WallRule::soft});
-    return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : "or ") +
+    return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : " or ") +
            "step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {
     return "with " + info.name + ", which carries a second copy of the state that meets walls elsewhere; allowed " +
-           rules_taken(request, *walls, {WallRule::soft}) + "another method, e.g. stv4";
+           or_fitting_method(rules_taken(request, *walls, {WallRule::soft}), "another method", {"stv4", "cg", "rk4"},
+                             &problem, request.arithmetic);
   }
   if (walls->rule == WallRule::event && request.arithmetic == "lattice") {
     return "on the lattice, where no part of a step is one-to-one; allowed \"mirror\", \"reject\"";
@@ -182,7 +184,8 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   const bool drifts = find_method(request.method.name).family->not_on_lattice.empty();
   if (!drifts) {
     return "with " + info.name + ", which has no drifts to be reflected; allowed " +
-           rules_taken(request, *walls, {WallRule::event, WallRule::reject}) + "or a splitting method, e.g. stv4";
+           or_fitting_method(rules_taken(request, *walls, {WallRule::event, WallRule::reject}), "a splitting method",
+                             {"stv4"}, &problem, request.arithmetic);
   }
   const bool quadratic = problem.accepts({.name = "calvo-sanz-serna4"});  // which needs constant masses
   for (const Walls::Interval& wall : walls->intervals) {
@@ -212,13 +215,15 @@ bool ScenarioReader::complain_of_soft_walls() {
   const Request& request = scenario_.request;
   const auto walls = walls_among(request.variant);
   if (!walls || walls->hard()) return false;
-  if (!refusal(request.method, find_problem(request.problem, without_walls(request.variant))).empty()) return false;
+  const ProblemEntry& inside = find_problem(request.problem, without_walls(request.variant));
+  if (!refusal(request.method, inside).empty()) return false;
   std::vector<WallRule> hard{WallRule::event, WallRule::reject};
   if (find_method(request.method.name).family->not_on_lattice.empty()) hard.push_back(WallRule::mirror);
   root_.table("problem").complain(wall_keys().wall_rule.name,
                                   "found \"" + rule_of_walls(request) + "\" with " + request.method.name +
                                       ", which takes no potential of a wall; allowed " +
-                                      rules_taken(request, *walls, hard) + "or another method, e.g. cg");
+                                      or_fitting_method(rules_taken(request, *walls, hard), "another method",
+                                                        {"cg", "stv4", "rk4"}, scenario_.problem, request.arithmetic));
   return true;
 }
 

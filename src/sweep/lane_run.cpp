@@ -116,14 +116,21 @@ double LaneRun::section_distance(std::size_t lane) {
 void LaneRun::look_for_sections() {
   const Section& first = observers_[0].section->section();
   const std::size_t size = frame_.q.size();
-  const double* const x = first.expression ? nullptr : block_.numbers(first.coordinate + (first.momentum ? size : 0));
+  const double* const x =
+      first.expression || first.every_step ? nullptr : block_.numbers(first.coordinate + (first.momentum ? size : 0));
   for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
     SectionSearch& search = *observers_[lane].section;
     const double now = x == nullptr ? section_distance(lane) : x[lane] - first.value;
     const double before = std::exchange(distances_[lane], now);
     if (search.failed() || block_.is_lost(lane)) continue;
+    if (first.by_steps) {
+      block_.show(lane, frame_);
+      search.take_step(before, now, frame_);
+      continue;
+    }
     if (search.is_to_measure(taken_ - 1)) search.measure(block_.before_step(lane));
-    if (search.is_long()) {
+    const bool hides = search.may_hide_zeros(before, now);
+    if (search.is_long() || hides) {
       block_.show(lane, frame_);
       search.locate_all(block_.before_step(lane), before, frame_, now);
     } else if (search.crosses(before, now) || std::isnan(before) != std::isnan(now)) {  // as SectionFinder has it

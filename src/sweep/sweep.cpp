@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -128,7 +129,7 @@ class Sweep::Worker {
     row.q = std::move(end.q);
     row.p = std::move(end.p);
     row.energy = end.energy;
-    row.energy_scale = end.energy_scale;
+    row.energy_scale = sweep_.common().map ? std::numeric_limits<double>::quiet_NaN() : end.energy_scale;
     row.invariants = std::move(end.invariants);
     row.walls = std::move(end.walls);
     row.halved = end.halved;
@@ -183,7 +184,7 @@ class Sweep::Worker {
     row.p = frame.p;
     row.digits = frame.digits;
     row.energy = simulation->energy();
-    row.energy_scale = simulation->energy_scale();
+    row.energy_scale = scenario.map ? std::numeric_limits<double>::quiet_NaN() : simulation->energy_scale();
     row.invariants = simulation->invariants();
     row.walls = simulation->wall_counts();
     row.halved = simulation->effort().halved;

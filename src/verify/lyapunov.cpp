@@ -1,6 +1,7 @@
 #include "hamflow/verify/lyapunov.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -102,27 +103,77 @@ void LyapunovSums::add(std::span<const double> logs, std::int64_t steps) {
   wanted_steps_ *= 2;
 }
 
-/// Blocks differ a little in length; each counts by it.
+std::vector<double> LyapunovSums::rates(std::size_t i, std::size_t joined, double h) const {
+  std::vector<double> all;
+  for (std::size_t first = 0; first + joined <= blocks_.size(); first += joined) {
+    double logs = 0;
+    std::int64_t steps = 0;
+    for (std::size_t k = first; k < first + joined; ++k) {
+      logs += blocks_[k].logs[i];
+      steps += blocks_[k].steps;
+    }
+    all.push_back(logs / (static_cast<double>(steps) * std::abs(h)));
+  }
+  return all;
+}
+
+namespace {
+
+constexpr std::size_t fewest_blocks = 16;
+
+/// The standard deviation of some numbers.
+double spread(const std::vector<double>& xs) {
+  double mean = 0;
+  for (const double x : xs) mean += x / static_cast<double>(xs.size());
+  double sum = 0;
+  for (const double x : xs) sum += (x - mean) * (x - mean);
+  return std::sqrt(sum / static_cast<double>(xs.size() - 1));
+}
+
+/// Of the mean of correlated blocks.   @param by_level their rates, one, two and four joined
+double error_of_mean(const std::array<std::vector<double>, 3>& by_level) {
+  const auto blocks = static_cast<double>(by_level[0].size());
+  double largest = 0;
+  std::array<double, 3> logs{};  // of the spread, by log2 of how many are joined
+  std::array<double, 3> weights{};
+  for (std::size_t level = 0; level < by_level.size(); ++level) {
+    const double s = spread(by_level[level]);
+    if (!(s > 0)) return s;  // 0 or no number
+    largest = std::max(largest, s / std::sqrt(blocks / std::exp2(level)));
+    logs[level] = std::log2(s);
+    weights[level] = static_cast<double>(by_level[level].size() - 1);
+  }
+  // The line of least squares through the three, which falls by 1/2 where blocks are independent.
+  const double sum = weights[0] + weights[1] + weights[2];
+  const double x = (weights[1] + 2 * weights[2]) / sum;
+  const double y = (weights[0] * logs[0] + weights[1] * logs[1] + weights[2] * logs[2]) / sum;
+  double covariance = 0;
+  double variance = 0;
+  for (std::size_t level = 0; level < logs.size(); ++level) {
+    const double from_mean = static_cast<double>(level) - x;
+    covariance += weights[level] * from_mean * (logs[level] - y);
+    variance += weights[level] * from_mean * from_mean;
+  }
+  const double slope = std::clamp(covariance / variance, -0.5, 0.0);
+  return std::max(largest, std::exp2(y + slope * (std::log2(blocks) - x)));
+}
+
+}  // namespace
+
 LyapunovSpectrum LyapunovSums::spectrum(std::size_t dimension, double h) const {
   LyapunovSpectrum found;
-  const double step = std::abs(h);
-  found.time = static_cast<double>(steps_) * step;
+  found.time = static_cast<double>(steps_) * std::abs(h);
   found.renormalisations = renormalisations_;
-  double in_blocks = 0;
-  for (const Block& block : blocks_) in_blocks += static_cast<double>(block.steps) * step;
-  const auto count = static_cast<double>(blocks_.size());
+  const bool has_blocks = blocks_.size() >= fewest_blocks;
   for (std::size_t i = 0; i < total_.size(); ++i) {
     found.exponents.push_back(total_[i] / found.time);
-    double mean = 0;
-    for (const Block& block : blocks_) mean += block.logs[i] / in_blocks;
-    double variance = 0;
-    for (const Block& block : blocks_) {
-      const double time = static_cast<double>(block.steps) * step;
-      const double deviation = block.logs[i] / time - mean;
-      variance += time / in_blocks * deviation * deviation;
-    }
-    found.standard_errors.push_back(count < 2 ? std::numeric_limits<double>::quiet_NaN()
-                                              : std::sqrt(variance / (count - 1)));
+    found.standard_errors.push_back(has_blocks ? error_of_mean({rates(i, 1, h), rates(i, 2, h), rates(i, 4, h)})
+                                               : std::numeric_limits<double>::quiet_NaN());
+  }
+  if (has_blocks) {
+    const double enough = found.exponents[0] / 5;
+    const std::vector<double> pairs = rates(0, 2, h);
+    found.settled = std::all_of(pairs.begin(), pairs.end(), [&](double rate) { return rate > 0 && rate >= enough; });
   }
   if (total_.size() == 2 * dimension) {
     for (std::size_t i = 0; i < dimension; ++i) {

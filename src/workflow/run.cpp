@@ -164,12 +164,15 @@ class ScenarioRun {
     simulation_->look(end);
     measures_->reach_the_end(end);
     RunReport report;
-    report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
-                                 going_on(result.outcome == Outcome::stopped, result.steps_taken));
-    const auto& reversal = report.certificate->reversal;
-    certificate_stopped_ = reversal && reversal->was_stopped;
-    if (certificate_stopped_) result.outcome = Outcome::stopped;  // what is left of the run is its certificate
-    Json summary = summary_of(scenario_, *simulation_, result, &*report.certificate, &*measures_, &turns_);
+    if (!scenario_.map) {
+      report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
+                                   going_on(result.outcome == Outcome::stopped, result.steps_taken));
+      const auto& reversal = report.certificate->reversal;
+      certificate_stopped_ = reversal && reversal->was_stopped;
+      if (certificate_stopped_) result.outcome = Outcome::stopped;  // what is left of the run is its certificate
+    }
+    const RunCertificate* const certificate = report.certificate ? &*report.certificate : nullptr;
+    Json summary = summary_of(scenario_, *simulation_, result, certificate, &*measures_, &turns_);
     if (summary["final"].contains("dataset") && !keeps_final_state()) {
       summary["final"]["dataset"] = nullptr;
       if (writes()) {

@@ -20,6 +20,7 @@ inline std::size_t coordinate_shown(const Section& section, std::size_t size) {
 
 /// "section x = 0, x increasing", enhanced text.
 inline std::string section_text(const Section& section, const StateNames& names) {
+  if (section.every_step) return "every step of the map";
   const std::string x = section.expression
                             ? figures::escaped(section.expression->text())
                             : figures::symbol((section.momentum ? names.p : names.q)[section.coordinate]);

@@ -330,6 +330,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   // Where H is 0 at the start, or nothing but rounding, there is nothing that an error could be a part of.
   const bool is_zero = scale == 0 || (certificate != nullptr && std::isnan(certificate->energy_level.value));
   if (is_zero) s["energy"]["max_relative_error"] = energy.max_error == 0 ? Json(0.0) : Json(nullptr);
+  if (scenario.map) s["energy"]["scale"] = s["energy"]["max_relative_error"] = nullptr;
   if (!frame.digits.q.empty()) {  // more digits than a JSON number may be read with: texts; errors need no more
     s["final"] = {{"t", frame.digits.time}, {"q", frame.digits.q}, {"p", frame.digits.p}};
     s["energy"]["initial"] = frame.digits.initial_energy;
@@ -365,8 +366,8 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
     s["diagnostics"] = diagnostics_of(simulation.diagnostics(), scenario.dt);
   }
   if (scenario.bodies) s["bodies"] = bodies_of(scenario, frame);
-  if (scenario.problem->describe_orbit) s["orbit"] = orbit_of(scenario);
-  if (scenario.problem->exact) {
+  if (scenario.problem->describe_orbit && !scenario.map) s["orbit"] = orbit_of(scenario);
+  if (scenario.problem->exact && !scenario.map) {
     if (const auto exact = exact_of(scenario, frame)) s["exact"] = *exact;
   }
   s["evaluations"] = {{"force", effort.force},

@@ -22,6 +22,9 @@ class Observer {
   /// The next step >= `step` at which to be called, or never.
   virtual std::int64_t next_due(std::int64_t step) const = 0;
   virtual Verdict observe(const Frame& frame) = 0;
+  /// Called when the step after the last one that was observed has failed, before the run is given up.
+  /// @return stop: the run was to end within that step, and has come to its end
+  virtual Verdict observe_failed_step() { return Verdict::go_on; }
   /// Where due at `step`: the times from this step on, before the next one, at which the state is wanted, as number
   /// expressions in the order of the run. observe() is called once for each, with the state that a partial step gives
   /// (Simulation::look_ahead). None: once, with the state of the step.

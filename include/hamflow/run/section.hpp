@@ -7,7 +7,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,6 +26,8 @@ struct Section {
   int direction = 1;                            // 1: x increases along the run, -1: it decreases, 0: both
   std::optional<StateExpression> expression{};  // x, in place of the coordinate
   bool by_time_alone = false;                   // x is an expression of t, and the points are stroboscopic
+  bool by_steps = false;    // of a map: the state behind the step that passes the value is the point
+  bool every_step = false;  // of a map: every step is a point; by_steps and by_time_alone hold too
 };
 
 struct SectionPoint {
@@ -33,8 +37,9 @@ struct SectionPoint {
   double residual = 0;  // |x - value|
 };
 
-/// Finds the points of a section between steps that it is told. A start on the section is not counted as a point. Of a
-/// short step an even number of crossings is not seen.
+/// Finds the points of a section between steps that it is told. A start on the section is not counted as a point. A
+/// touch, x = value without a change of sign, is a point that is approached from its own side: with direction 1 from
+/// below. Two crossings between which |x - value| stays below 2^-44 of its size in the step are one touch.
 class SectionSearch {
  public:
   SectionSearch(Section section, std::function<void(const SectionPoint&)> found)
@@ -47,12 +52,24 @@ class SectionSearch {
     if (!(before != 0 && (now == 0 || (now > 0) != (before > 0)))) return false;
     return section_.direction == 0 || section_.direction == (before < 0 ? 1 : -1);
   }
+  /// Whether a step may hold more zeros than the signs at its ends show: whether they fit under a second derivative of
+  /// four times what the last two differences of x show. True of a step that has no difference before it. To be called
+  /// once for every step, in their order.   @param bounced the step has bounces: its difference predicts nothing
+  bool may_hide_zeros(double before, double now, bool bounced = false);
+  /// Of a map: takes the state behind a step, if it is a point.
+  void take_step(double before, double now, const Frame& behind) {
+    if (section_.every_step || crosses(before, now)) {
+      take({behind.time, behind.q, behind.p, section_.every_step ? 0 : std::abs(now)});
+    }
+  }
   /// Finds it.   @param before_step as it is before the step   @param before, now x - value before the step and behind
   void locate(const Simulation& before_step, double before, double now);
   /// Finds all points of a step that may be long. One that is alone has the digits that locate() finds.
   /// @param frame behind the step   @param bounced it has bounces: under some rules the run did not go through the
   /// parts that are looked at, and nothing is missed by that
   void locate_all(const Simulation& before_step, double before, const Frame& frame, double now, bool bounced = false);
+  /// Looks for the first point in a step that fails, as far into it as partial steps lead.
+  void locate_in_failed_step(const Simulation& before_step, double before);
   /// Now and then looks into the step that follows, of a method without sub-steps of its own: from the first that is
   /// long beside the motion on, all are. No single bounce or jump makes one long.
   void measure(const Simulation& before_step) { is_long_ = is_long_ || is_long(before_step); }
@@ -72,7 +89,7 @@ class SectionSearch {
   std::int64_t unseen() const { return unseen_; }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(failed_, points_, jumps_, max_residual_, unseen_, is_long_);
+    ar(failed_, points_, jumps_, max_residual_, unseen_, is_long_, last_change_, last_bend_, before_last_);
   }
 
  private:
@@ -82,7 +99,7 @@ class SectionSearch {
     double x = 0;               // x - value
     std::vector<double> state;  // q and p
   };
-  /// Where x - value changes its sign.
+  /// Where x - value changes its sign; from == to of a touch.
   struct Change {
     double from, to, before, now;
   };
@@ -100,6 +117,8 @@ class SectionSearch {
   void see(const Simulation& before_step, Piece& piece, int depth);
   void see_between(const Simulation& before_step, const Piece& piece, std::size_t k);
   void note_change(double from, double to, double before, double now);
+  void note_touch(double theta, double before) { changes_.push_back({theta, theta, before, 0}); }
+  void take(const SectionPoint& point);
   void locate(const Simulation& before_step, const Change& change);
 
   Section section_;
@@ -110,6 +129,10 @@ class SectionSearch {
   double max_residual_ = 0;
   std::int64_t unseen_ = 0;
   bool is_long_ = false;
+  // The differences of x over the last step, and between the last two; NaN where there are none.
+  double last_change_ = std::numeric_limits<double>::quiet_NaN();
+  double last_bend_ = std::numeric_limits<double>::quiet_NaN();
+  double before_last_ = std::numeric_limits<double>::quiet_NaN();  // x - value one step before the present one begins
   Frame partial_;
   std::vector<Change> changes_;  // of the present step
   int looks_ = 0;                // into it
@@ -117,15 +140,19 @@ class SectionSearch {
 };
 
 /// Finds the points of a section during a run, which it does not change. Looks at every step: the run then goes in
-/// blocks of one, some hundred nanoseconds a step. It looks into those that were made of several sub-steps of the
-/// method's own, or that have bounces, where x may jump; of other methods now and then into one, and into all from the
-/// first that is long.
+/// blocks of one, some hundred nanoseconds a step. It looks into those that may hide zeros, that were made of several
+/// sub-steps of the method's own, or that have bounces, where x may jump; of other methods now and then into one, and
+/// into all from the first that is long.
 class SectionFinder final : public Observer {
  public:
   /// @param simulation the simulation that is observed
   SectionFinder(const Simulation& simulation, const Section& section, std::function<void(const SectionPoint&)> found);
   std::int64_t next_due(std::int64_t step) const override { return failed() ? never : step; }
   Verdict observe(const Frame& frame) override;
+  /// Looks for the first point in the step that failed, from the present state on.
+  void look_into_failed_step() {
+    if (begun_ && !search_.section().by_steps) search_.locate_in_failed_step(simulation_, before_);
+  }
   void archive(Writer& ar) override { fields(ar); }
   void archive(Reader& ar) override;
   std::int64_t points() const { return search_.points(); }
@@ -147,7 +174,7 @@ class SectionFinder final : public Observer {
   bool begun_ = false;
   bool has_own_substeps_;
   int order_;
-  long long work_ = 0;        // evaluations up to the last step
+  long long work_ = 0;        // evaluations up to the last step; of a map the number of that step
   std::int64_t bounces_ = 0;  // up to there
 };
 

@@ -45,9 +45,15 @@ class TangentFrame {
 struct LyapunovSpectrum {
   /// In the order of the frame: falling, once they have settled.
   std::vector<double> exponents;
-  /// Standard errors of the mean over 32 to 63 blocks of time, as if these were independent; NaN before there are two.
-  /// On regular motion the exponents go to 0 like log(t)/t, and this bias is larger.
+  /// Standard errors of the mean over 32 to 63 blocks of time. Blocks are correlated: the errors are those of blocks of
+  /// one, two and four joined, continued to the length of the run by the power with which they fall, and no smaller
+  /// than any of these three. NaN before there are 16 blocks. They belong to this stretch of the orbit: where it is
+  /// trapped near regular orbits before or later, the exponent of a longer run differs by more.
   std::vector<double> standard_errors;
+  /// Whether the largest exponent has settled: every two joined blocks have at least a fifth of its mean. On regular
+  /// motion, where the exponents go to 0 like log(t)/t, and on sticky orbits it is false: neither value nor error tell
+  /// what a longer run would show.
+  bool settled = false;
   std::vector<double> pair_sums;  // lambda_i + lambda_(2n+1-i), i = 1 .. n, where all 2n are known
   double time = 0;
   std::int64_t renormalisations = 0;
@@ -60,6 +66,8 @@ class LyapunovSums {
   void add(std::span<const double> logs, std::int64_t steps);
   /// @param dimension n   @param h the length of a step
   LyapunovSpectrum spectrum(std::size_t dimension, double h) const;
+  /// Of exponent i over each so many joined blocks; what is left over at the end is left out.
+  std::vector<double> rates(std::size_t i, std::size_t joined, double h) const;
   template <class Archive>
   void archive(Archive& ar) {
     ar(total_, steps_, renormalisations_, block_, block_steps_, wanted_steps_, blocks_);
@@ -159,6 +167,8 @@ class LyapunovWatch final : public TangentWatch {
   LyapunovWatch(std::shared_ptr<const StepMap> map, double h, std::int64_t last_step, std::size_t count = 0);
   LyapunovWatch(StepMapSource source, double h, std::int64_t last_step, std::size_t count = 0);
   LyapunovSpectrum spectrum() const { return sums_.spectrum(dimension(), step_length()); }
+  /// The same where each step is a unit of time.
+  LyapunovSpectrum spectrum_by_steps() const { return sums_.spectrum(dimension(), 1); }
 
  protected:
   std::vector<State<double>>& tangents() override { return frame_.vectors(); }

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 
 class EventsMeasure final : public Measure, public Observer {
  public:
-  EventsMeasure(const Scenario& scenario, const Simulation& simulation, Recorder* recorder) : events_(scenario.events) {
+  EventsMeasure(const Scenario& scenario, const Simulation& simulation, Recorder* recorder)
+      : events_(scenario.events), dt_(scenario.dt) {
     for (std::size_t i = 0; i < events_.size(); ++i) {
       finders_.push_back(std::make_unique<SectionFinder>(
           simulation, events_[i].zero, [this, recorder, i](const SectionPoint& point) { found(i, point, recorder); }));
@@ -31,6 +32,15 @@ class EventsMeasure final : public Measure, public Observer {
     step_ = frame.step;
     end_ = frame.time;
     for (const auto& finder : finders_) (void)finder->observe(frame);
+    return by_ ? Verdict::stop : Verdict::go_on;
+  }
+  /// An event that ends the run may stand before what makes the step fail. The others belong to steps that were taken.
+  Verdict observe_failed_step() override {
+    ++step_;
+    end_ += dt_;
+    for (std::size_t i = 0; i < finders_.size(); ++i) {
+      if (events_[i].stops) finders_[i]->look_into_failed_step();
+    }
     return by_ ? Verdict::stop : Verdict::go_on;
   }
   void archive(Writer& ar) override { fields(ar); }
@@ -81,6 +91,7 @@ class EventsMeasure final : public Measure, public Observer {
   }
 
   const std::vector<UserEvent>& events_;
+  double dt_;
   std::vector<std::unique_ptr<SectionFinder>> finders_;
   std::int64_t step_ = 0;
   double end_ = 0;                 // of the step

@@ -22,13 +22,14 @@ using Json = nlohmann::ordered_json;
 class LyapunovMeasure final : public Measure {
  public:
   explicit LyapunovMeasure(const Scenario& scenario)
-      : watch_(step_map_of(scenario), scenario.dt, scenario.steps, scenario.lyapunov) {}
+      : watch_(step_map_of(scenario), scenario.dt, scenario.steps, scenario.lyapunov), by_steps_(scenario.map) {}
   Observer& observer() override { return watch_; }
   TangentWatch* tangents() override { return &watch_; }
   Json summary() const override {
-    const LyapunovSpectrum found = watch_.spectrum();
+    const LyapunovSpectrum found = spectrum();
     Json all{{"exponents", found.exponents},
              {"standard_errors", found.standard_errors},
+             {"verdict", found.settled ? "settled" : "undecided"},
              {"pair_sums", found.pair_sums},
              {"time", found.time},
              {"renormalisations", found.renormalisations}};
@@ -37,13 +38,16 @@ class LyapunovMeasure final : public Measure {
   }
   /// NaN where not every step could be followed: a column cannot say at which step its numbers end.
   std::vector<double> row() const override {
-    std::vector<double> exponents = watch_.spectrum().exponents;
+    std::vector<double> exponents = spectrum().exponents;
     if (!watch_.followed()) std::fill(exponents.begin(), exponents.end(), std::numeric_limits<double>::quiet_NaN());
     return exponents;
   }
 
  private:
+  LyapunovSpectrum spectrum() const { return by_steps_ ? watch_.spectrum_by_steps() : watch_.spectrum(); }
+
   LyapunovWatch watch_;
+  bool by_steps_;
 };
 
 /// The largest of some numbers, without sign.
@@ -61,6 +65,9 @@ std::string lyapunov_text(const Json& found) {
             number_text(found["standard_errors"][i], "{:.2g}");
   }
   if (found["exponents"].size() > most_shown) line += ", ...";
+  if (found.value("verdict", "settled") == "undecided") {
+    line += "; undecided: the growth is not steady, as on regular and on sticky orbits; try a longer run";
+  }
   if (!found["pair_sums"].empty()) line += fmt::format("; pairs sum to at most {:.2g}", largest_of(found["pair_sums"]));
   if (found.contains("stopped_at_step")) {
     line += fmt::format("; over a time of {} alone: then a step could not be differentiated",
