@@ -9,6 +9,7 @@
 #include "hamflow/core/text.hpp"
 #include "ink.hpp"
 #include "legend.hpp"
+#include "printed.hpp"
 #include "script.hpp"
 #include "text.hpp"
 
@@ -49,11 +50,18 @@ class PageWriter {
     for (const Panel& panel : page_.panels) {
       if (are_upright(panel.x)) below_ = std::max(below_, below_box - tick_line + letters(panel.x.widest_label()));
     }
+    wrap_notes();
     if (page_.height > 0 || width_ < smallest_box) fill_height();
     for (Panel& panel : page_.panels) {
       if (panel.equal_axes) fill_box(panel);
     }
     script_.set_height(page_.height > 0 ? page_.height : full_height());
+    constexpr double usual_pixel = 25.4 / 300;  // mm
+    for (Panel& panel : page_.panels) {
+      const double finest = std::max(width_, width_ * panel.aspect) / 3000;
+      const PrintedBox box{width_, width_ * panel.aspect, std::max(finest, std::min(usual_pixel, 25.4 / page_.dpi))};
+      for (Series& series : panel.series) series = printed(panel, std::move(series), box);
+    }
   }
 
   std::string write() && {
@@ -84,6 +92,18 @@ class PageWriter {
   double top_of_panels() const { return edge + title_line * static_cast<double>(title_.size()); }
   double height_of_notes() const {
     return page_.notes.empty() ? 0 : 1 + note_line * static_cast<double>(page_.notes.size());
+  }
+  /// Notes begin below the box and end at the border of the page.
+  void wrap_notes() {
+    constexpr double character = 1.36;  // mm, of text of tick_size
+    constexpr std::size_t most_lines = 4;
+    const auto room = static_cast<std::size_t>((page_.width - left_of_box_ - edge) / character);
+    std::vector<std::string> lines;
+    for (const std::string& note : page_.notes) {
+      const std::vector<std::string> parts = wrapped_enhanced(note, std::max<std::size_t>(room, 10), most_lines);
+      lines.insert(lines.end(), parts.begin(), parts.end());
+    }
+    page_.notes = std::move(lines);
   }
   std::size_t legend_column() const { return page_.panels.size() % columns_; }
   std::span<const Panel> panels_of_row(std::size_t first) const {
@@ -199,7 +219,7 @@ class PageWriter {
     axis("x", panel.x, are_upright(panel.x) ? "rotate by 90 right" : "norotate center offset 0,0.35");
     axis("y", panel.y, "offset 0,0");
     const double below = bottom + below_ - edge - 1.4;
-    script_.label(panel.x_label, 0.5 * (left + right), below, "center", label_size);
+    script_.label(panel.x_label, 0.5 * (left + right), below, "center", fitting(panel.x_label, right - left));
     script_.label(panel.y_label, left - left_of_box_ + edge + 1.5, middle, "center rotate by 90",
                   fitting(panel.y_label, bottom - top + below_));
     exponent(panel.y, left, top - 2.0, "left");

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/gas.hpp"
@@ -138,9 +139,20 @@ FigureSamples path_of(const Scenario& scenario, const RunSamples& samples) {
   return path;
 }
 
+/// What a title calls the problem: one that is typed by what was typed.
+std::string problem_text(const Scenario& scenario) {
+  constexpr std::size_t longest = 60;
+  const Request& request = scenario.request;
+  if (!scenario.problem->structure) return request.problem;
+  const auto potential = request.variant.find(FormulaKeys::central_potential);
+  if (request.problem == FormulaKeys::problem) return figures::shortened({scenario.problem->info.formula}, longest)[0];
+  if (potential == request.variant.end()) return request.problem;
+  return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
+}
+
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
-  std::vector<std::pair<std::string, std::string>> facts{{"problem", request.problem}};
+  std::vector<std::pair<std::string, std::string>> facts{{"problem", problem_text(scenario)}};
   if (const auto walls = walls_among(request.variant)) {
     facts.emplace_back("walls", wall_rules()[static_cast<std::size_t>(walls->rule)]);
   }

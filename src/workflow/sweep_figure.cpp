@@ -89,6 +89,22 @@ std::vector<std::string> axis_words(const Vary& vary) {
   return vary.texts.size() > 2 ? words_of(vary) : words_of(vary, 18);
 }
 
+/// Entries of a scenario's lists are counted from 0, and everything in figures from 1.
+std::string entry_label(const std::string& key) {
+  const std::size_t open = key.find('[');
+  const std::string number = open == std::string::npos ? "" : key.substr(open + 1, key.size() - open - 2);
+  const bool is_entry = !number.empty() && key.back() == ']' && number.size() < 9 &&
+                        number.find_first_not_of("0123456789") == std::string::npos;
+  return figures::symbol(is_entry ? key.substr(0, open) + "_" + std::to_string(std::stoi(number) + 1) : key);
+}
+
+/// The velocity of a coordinate: v_2 of q2, v_x of x.
+std::string velocity_label(const std::string& coordinate) {
+  const std::string name = figures::without_brackets(coordinate);
+  const bool is_q = name.size() > 1 && name[0] == 'q' && name.find_first_not_of("0123456789", 1) == std::string::npos;
+  return figures::symbol("v_" + (is_q ? name.substr(1) : name));
+}
+
 /// The last part of a key, and the coordinate that an entry of a start belongs to.
 std::string key_label(const Sweep& sweep, const std::string& path) {
   const StateNames& names = sweep.names().state();
@@ -97,9 +113,12 @@ std::string key_label(const Sweep& sweep, const std::string& path) {
       if (path == fmt::format("{}[{}]", key, i)) return figures::symbol((*list)[i]) + "(0)";
     }
   }
+  for (std::size_t i = 0; i < names.q.size(); ++i) {
+    if (path == fmt::format("problem.initial.v[{}]", i)) return velocity_label(names.q[i]) + "(0)";
+  }
   if (path == "method.name") return "method";
   const std::string last = path.substr(path.rfind('.') + 1);
-  return last == "dt" ? "d{/:Italic t}" : figures::symbol(last);
+  return last == "dt" ? "d{/:Italic t}" : entry_label(last);
 }
 
 /// "angular momentum at the end", of NAME/final; of NAME/final2 that of its second number, NAME_2 of a run.

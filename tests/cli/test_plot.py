@@ -257,8 +257,9 @@ steps = 2
                              'name = "stv4"\n[run]\ndt = 0.1\nsteps = 100000\nrecord_every = 100\n')
         self.hamflow("run", "h.toml", "--out", "h")
         labels = self.plot("h", kind="orbit")
-        self.assertTrue(any(label.startswith("the first steps alone, to t = ") for label in labels), labels)
-        self.assertNotIn("gpPt6'", (self.folder / "f.svg").read_text().split("</defs>")[1])
+        self.assertTrue(any(label.startswith("line: the first steps, to t = ") for label in labels), labels)
+        self.assertIn("dots: the samples of the whole run", labels)
+        self.assertIn("gpPt6'", (self.folder / "f.svg").read_text().split("</defs>")[1])
 
     def test_an_opening_that_is_the_whole_run_has_no_note(self):
         self.write("g.toml", '[problem]\nname = "gas"\nparticles_per_side = 4\n[method]\nname = "verlet"\n[run]\n'
@@ -282,7 +283,7 @@ steps = 2
         self.run_some(str(EXAMPLES / "henon_heiles.toml"), "run.steps=4000", "run.record=[100,200,300]", out="h")
         self.assertFalse([label for label in self.plot("h", kind="orbit") if "first steps" in label])
         self.run_some(str(EXAMPLES / "henon_heiles.toml"), "run.steps=40000", "run.record=[100,200,300]", out="long")
-        self.assertIn("the first steps alone, to t = 2000 of 4000", self.plot("long", kind="orbit"))
+        self.assertIn("line: the first steps, to t = 2000 of 4000", self.plot("long", kind="orbit"))
 
     def test_pairs_need_something_that_holds_them(self):
         self.write("n2.toml", BODIES)
