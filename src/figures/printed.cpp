@@ -56,8 +56,7 @@ double distance_from_chord(Pixel point, Pixel a, Pixel b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double square = dx * dx + dy * dy;
-  const double part =
-      square > 0 ? std::clamp(((point.x - a.x) * dx + (point.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
+  const double part = square > 0 ? std::clamp(((point.x - a.x) * dx + (point.y - a.y) * dy) / square, 0.0, 1.0) : 0.0;
   return std::hypot(point.x - a.x - part * dx, point.y - a.y - part * dy);
 }
 
@@ -71,8 +70,7 @@ Places without_straight_parts(const std::vector<Pixel>& pixels, const Places& pl
   for (std::size_t to = 2; to < places.size(); ++to) {
     bool is_straight = to - from <= longest;
     for (std::size_t k = from + 1; k < to && is_straight; ++k) {
-      is_straight =
-          distance_from_chord(pixels[places[k]], pixels[places[from]], pixels[places[to]]) <= tolerance;
+      is_straight = distance_from_chord(pixels[places[k]], pixels[places[from]], pixels[places[to]]) <= tolerance;
     }
     if (is_straight) continue;
     from = to - 1;

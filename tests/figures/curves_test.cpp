@@ -284,7 +284,8 @@ TEST(Text, LongTitlesBreakAfterCommas) {
 
 TEST(Text, EnhancedTextIsBrokenBetweenItsGroups) {
   EXPECT_EQ(wrapped_enhanced("short {/:Italic t}", 40, 3), (std::vector<std::string>{"short {/:Italic t}"}));
-  const std::vector<std::string> lines = wrapped_enhanced("section {/:Italic x}_{1}*(1 + long\\_name)-other\\_name = 0, up", 22, 4);
+  const std::vector<std::string> lines =
+      wrapped_enhanced("section {/:Italic x}_{1}*(1 + long\\_name)-other\\_name = 0, up", 22, 4);
   std::string all;
   for (const std::string& line : lines) {
     EXPECT_LE(printed_length(line), 22U) << line;

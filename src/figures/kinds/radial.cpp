@@ -133,12 +133,11 @@ Page page(const Figure& figure) {
     if (at.empty()) {
       const std::vector<std::size_t> samples = later_samples(data);
       add(series_of(figure, run), data, samples);
-      means.push_back(
-          samples.size() == 1
-              ? "of the sample at " + time_text(data.t[samples[0]])
-              : "mean over " + std::to_string(samples.size()) + " of " + std::to_string(data.t.size()) +
-                    " samples, from " + time_text(data.t[samples.front()]) + " to " +
-                    short_value(data.t[samples.back()]));
+      means.push_back(samples.size() == 1
+                          ? "of the sample at " + time_text(data.t[samples[0]])
+                          : "mean over " + std::to_string(samples.size()) + " of " + std::to_string(data.t.size()) +
+                                " samples, from " + time_text(data.t[samples.front()]) + " to " +
+                                short_value(data.t[samples.back()]));
       continue;
     }
     for (const std::size_t sample : samples_at(data, at)) {
