@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "gnuplot.hpp"
@@ -50,18 +51,13 @@ class PageWriter {
     for (const Panel& panel : page_.panels) {
       if (are_upright(panel.x)) below_ = std::max(below_, below_box - tick_line + letters(panel.x.widest_label()));
     }
+    leave_out_unseen();
     wrap_notes();
     if (page_.height > 0 || width_ < smallest_box) fill_height();
     for (Panel& panel : page_.panels) {
       if (panel.equal_axes) fill_box(panel);
     }
     script_.set_height(page_.height > 0 ? page_.height : full_height());
-    constexpr double usual_pixel = 25.4 / 300;  // mm
-    for (Panel& panel : page_.panels) {
-      const double finest = std::max(width_, width_ * panel.aspect) / 3000;
-      const PrintedBox box{width_, width_ * panel.aspect, std::max(finest, std::min(usual_pixel, 25.4 / page_.dpi))};
-      for (Series& series : panel.series) series = printed(panel, std::move(series), box);
-    }
   }
 
   std::string write() && {
@@ -92,6 +88,24 @@ class PageWriter {
   double top_of_panels() const { return edge + title_line * static_cast<double>(title_.size()); }
   double height_of_notes() const {
     return page_.notes.empty() ? 0 : 1 + note_line * static_cast<double>(page_.notes.size());
+  }
+  /// Points that paper does not show. A path that fills an area is told apart from its first turns in a note.
+  void leave_out_unseen() {
+    constexpr double usual_pixel = 25.4 / 300;  // mm
+    bool any_area = false;
+    for (Panel& panel : page_.panels) {
+      const double height = width_ * panel.aspect;
+      const double finest = std::max(width_, height) / 3000;
+      const PrintedBox box{width_, height, std::max(finest, std::min(usual_pixel, 25.4 / page_.dpi))};
+      std::vector<Series> all;
+      for (Series& series : panel.series) {
+        std::vector<Series> parts = printed(panel, std::move(series), box);
+        any_area = any_area || parts.size() > 1;
+        std::move(parts.begin(), parts.end(), std::back_inserter(all));
+      }
+      panel.series = std::move(all);
+    }
+    if (any_area) page_.notes.emplace_back("light: the whole path; dark: its first turns");
   }
   /// Notes begin below the box and end at the border of the page.
   void wrap_notes() {

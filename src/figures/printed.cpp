@@ -88,12 +88,16 @@ class Coverage {
         high_(static_cast<std::size_t>(box.height / box.pixel) + 1),
         entries_(wide_ * high_) {}
 
-  /// Adds a segment without its first pixel.   @return whether one of its pixels was empty
-  bool add(Pixel a, Pixel b) {
+  /// Of a segment without its first pixel.
+  struct Entered {
+    std::size_t pixels = 0;
+    std::size_t empty = 0;  // of these before
+  };
+  Entered add(Pixel a, Pixel b) {
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (!(length < 1e6)) return true;
+    if (!(length < 1e6)) return {1, 1};
     const auto steps = static_cast<std::size_t>(2 * length) + 1;
-    bool is_new = false;
+    Entered entered;
     std::size_t before = place(a);
     for (std::size_t s = 1; s <= steps; ++s) {
       const double part = static_cast<double>(s) / static_cast<double>(steps);
@@ -101,21 +105,16 @@ class Coverage {
       if (here == before) continue;
       before = here;
       if (here == nowhere) continue;
-      is_new = is_new || entries_[here] == 0;
-      ++entries_[here];
+      ++entered.pixels;
+      if (entries_[here]++ == 0) ++entered.empty;
     }
-    return is_new;
+    return entered;
   }
 
-  /// The mean number of entries of the pixels that were entered.
-  double mean() const {
-    double all = 0;
-    double entered = 0;
-    for (const std::uint32_t n : entries_) {
-      all += n;
-      entered += n > 0 ? 1 : 0;
-    }
-    return entered > 0 ? all / entered : 0;
+  /// Pixels that were entered.
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(
+        std::count_if(entries_.begin(), entries_.end(), [](std::uint32_t n) { return n > 0; }));
   }
 
   /// Whether a fifth of the path lies in an area without gaps, wider than lines are.
@@ -182,26 +181,18 @@ Curve joined_branches(const Curve& curve, const std::vector<Places>& branches) {
   return result;
 }
 
-/// Pieces that a translucent pen draws one by one: within one stroke a line that crosses itself gets no darker.
-Curve in_pieces(const Curve& curve, const std::vector<Pixel>& pixels, const std::vector<Places>& branches) {
+/// The beginning of a path that enters no more than so many pixels.
+Curve beginning(const Curve& curve, const std::vector<Pixel>& pixels, const std::vector<Places>& branches,
+                const PrintedBox& box, std::size_t most) {
+  Coverage coverage(box);
   Curve result;
+  std::size_t entered = 0;
   for (const Places& branch : branches) {
     result.lift();
-    Pixel first;  // direction in which the piece began
-    bool has_direction = false;
     for (std::size_t k = 0; k < branch.size(); ++k) {
+      if (k > 0) entered += coverage.add(pixels[branch[k - 1]], pixels[branch[k]]).pixels;
+      if (entered > most) return result;
       result.add(curve.x[branch[k]], curve.y[branch[k]]);
-      if (k + 1 == branch.size()) break;
-      const Pixel a = pixels[branch[k]];
-      const Pixel b = pixels[branch[k + 1]];
-      const Pixel way{b.x - a.x, b.y - a.y};
-      if (has_direction && way.x * first.x + way.y * first.y < 0) {
-        result.lift();
-        result.add(curve.x[branch[k]], curve.y[branch[k]]);
-        has_direction = false;
-      }
-      if (!has_direction) first = way;
-      has_direction = true;
     }
   }
   return result;
@@ -217,9 +208,10 @@ Curve drawn_once(const Curve& curve, const std::vector<Pixel>& pixels, const std
     if (branch.size() < 2) result.add(curve.x[branch[0]], curve.y[branch[0]]);
     bool is_down = false;
     for (std::size_t k = 1; k < branch.size(); ++k) {
-      const bool is_new = coverage.add(pixels[branch[k - 1]], pixels[branch[k]]);
+      const Coverage::Entered entered = coverage.add(pixels[branch[k - 1]], pixels[branch[k]]);
       const bool is_end = result.x.empty() || k + 1 == branch.size();  // the first and the last are there
-      if (!is_new && !is_end) {
+      if (entered.pixels == 0 && !is_end) continue;                    // within a pixel: the pen stays as it is
+      if (entered.empty == 0 && !is_end) {
         if (is_down) result.lift();
         is_down = false;
         continue;
@@ -249,33 +241,33 @@ Curve separate_dots(const Curve& curve, const std::vector<Pixel>& pixels) {
 
 }  // namespace
 
-Series printed(const Panel& panel, Series series, const PrintedBox& box) {
+std::vector<Series> printed(const Panel& panel, Series series, const PrintedBox& box) {
   const bool is_line = series.ink == Ink::line || series.ink == Ink::exact || series.ink == Ink::level;
   const bool are_dots = series.ink == Ink::dots || series.ink == Ink::fine_dots;
-  if (!is_line && !are_dots && series.ink != Ink::path) return series;
+  if (!is_line && !are_dots && series.ink != Ink::path) return {series};
   const std::vector<Pixel> pixels = pixels_of(panel, series.curve, box);
   if (are_dots) {
     series.curve = separate_dots(series.curve, pixels);
-    return series;
+    return {series};
   }
   const std::vector<Places> branches = branches_of(pixels, series.ink == Ink::line);
   if (series.ink != Ink::path) {
     series.curve = joined_branches(series.curve, branches);
-    return series;
+    return {series};
   }
   Coverage coverage(box);
   for (const Places& branch : branches) {
     for (std::size_t k = 1; k < branch.size(); ++k) coverage.add(pixels[branch[k - 1]], pixels[branch[k]]);
   }
-  if (!coverage.fills_an_area()) {
-    series.curve = drawn_once(series.curve, pixels, branches, box);
-    return series;
-  }
-  constexpr double paper = 0.4;  // that shows through where the path has passed as often as on average
-  constexpr double faintest = 0.04;
-  series.opacity = std::max(faintest, 1 - std::pow(paper, 1 / std::max(1.0, coverage.mean())));
-  series.curve = in_pieces(series.curve, pixels, branches);
-  return series;
+  Series once = series;
+  once.curve = drawn_once(series.curve, pixels, branches, box);
+  if (!coverage.fills_an_area()) return {once};
+  constexpr double tint = 0.25;
+  constexpr std::size_t one_of = 8;  // pixels of the area has ink of the line
+  once.opacity = tint;
+  once.name.clear();
+  series.curve = beginning(series.curve, pixels, branches, box, coverage.pixels() / one_of);
+  return {once, series};
 }
 
 }  // namespace hamflow::figures

@@ -139,17 +139,6 @@ FigureSamples path_of(const Scenario& scenario, const RunSamples& samples) {
   return path;
 }
 
-/// What a title calls the problem: one that is typed by what was typed.
-std::string problem_text(const Scenario& scenario) {
-  constexpr std::size_t longest = 60;
-  const Request& request = scenario.request;
-  if (!scenario.problem->structure) return request.problem;
-  const auto potential = request.variant.find(FormulaKeys::central_potential);
-  if (request.problem == FormulaKeys::problem) return figures::shortened({scenario.problem->info.formula}, longest)[0];
-  if (potential == request.variant.end()) return request.problem;
-  return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
-}
-
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
   std::vector<std::pair<std::string, std::string>> facts{{"problem", problem_text(scenario)}};
@@ -208,6 +197,16 @@ bool shows_energy(const std::string& kind) {
 }
 
 }  // namespace
+
+std::string problem_text(const Scenario& scenario) {
+  constexpr std::size_t longest = 60;
+  const Request& request = scenario.request;
+  if (!scenario.problem->structure) return request.problem;
+  const auto potential = request.variant.find(FormulaKeys::central_potential);
+  if (request.problem == FormulaKeys::problem) return figures::shortened({scenario.problem->info.formula}, longest)[0];
+  if (potential == request.variant.end()) return request.problem;
+  return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
+}
 
 RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   const fs::path source = file_of(run);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "figure.hpp"
+#include "figure_data.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "parameter_map.hpp"
@@ -182,7 +183,7 @@ std::string title_of(const Sweep& sweep) {
     return std::any_of(keys.begin(), keys.end(),
                        [&](const Vary& vary) { return vary.path == path || path.starts_with(vary.path + "."); });
   };
-  std::string title = request.problem;
+  std::string title = problem_text(sweep.common());
   if (!is_varied("method.name")) title += ", " + describe(request.method).name;
   if (!is_varied(run_path(run_keys().dt))) title += ", dt = " + request.dt;
   return title;
