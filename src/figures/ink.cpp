@@ -13,9 +13,16 @@ namespace {
 constexpr std::array<const char*, 8> colours{"#1f4e8c", "#d55e00", "#009e73", "#b0489c",
                                              "#e69f00", "#56b4e9", "#6b3d1e", "#4d4d4d"};
 
+/// The colour with its opacity, as gnuplot takes it: "#aarrggbb", where ff is transparent.
+std::string inked(const Series& series) {
+  const std::string colour = colour_of(series);
+  if (series.opacity >= 1) return colour;
+  return fmt::format("#{:02x}{}", static_cast<int>(std::lround(255 * (1 - series.opacity))), colour.substr(1));
+}
+
 /// The part of a plot command that draws; dark dots over a lighter line differ in grey as well.
 std::string drawn(const Series& series) {
-  const std::string colour = colour_of(series);
+  const std::string colour = inked(series);
   const auto line = [&](double width) {
     return fmt::format("with lines linewidth {} linecolor rgb '{}' dashtype {}", width, colour, series.mark.dash);
   };

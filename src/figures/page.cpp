@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "gnuplot.hpp"
@@ -9,6 +10,7 @@
 #include "hamflow/core/text.hpp"
 #include "ink.hpp"
 #include "legend.hpp"
+#include "printed.hpp"
 #include "script.hpp"
 #include "text.hpp"
 #include "whole_file.hpp"
@@ -50,6 +52,8 @@ class PageWriter {
     for (const Panel& panel : page_.panels) {
       if (are_upright(panel.x)) below_ = std::max(below_, below_box - tick_line + letters(panel.x.widest_label()));
     }
+    leave_out_unseen();
+    wrap_notes();
     if (page_.height > 0 || width_ < smallest_box) fill_height();
     for (Panel& panel : page_.panels) {
       if (panel.equal_axes) fill_box(panel);
@@ -85,6 +89,36 @@ class PageWriter {
   double top_of_panels() const { return edge + title_line * static_cast<double>(title_.size()); }
   double height_of_notes() const {
     return page_.notes.empty() ? 0 : 1 + note_line * static_cast<double>(page_.notes.size());
+  }
+  /// Points that paper does not show. A path that fills an area is told apart from its first turns in a note.
+  void leave_out_unseen() {
+    constexpr double usual_pixel = 25.4 / 300;  // mm
+    bool any_area = false;
+    for (Panel& panel : page_.panels) {
+      const double height = width_ * panel.aspect;
+      const double finest = std::max(width_, height) / 3000;
+      const PrintedBox box{width_, height, std::max(finest, std::min(usual_pixel, 25.4 / page_.dpi))};
+      std::vector<Series> all;
+      for (Series& series : panel.series) {
+        std::vector<Series> parts = printed(panel, std::move(series), box);
+        any_area = any_area || parts.size() > 1;
+        std::move(parts.begin(), parts.end(), std::back_inserter(all));
+      }
+      panel.series = std::move(all);
+    }
+    if (any_area) page_.notes.emplace_back("light: the whole path; dark: its first turns");
+  }
+  /// Notes begin below the box and end at the border of the page.
+  void wrap_notes() {
+    constexpr double character = 1.36;  // mm, of text of tick_size
+    constexpr std::size_t most_lines = 4;
+    const auto room = static_cast<std::size_t>((page_.width - left_of_box_ - edge) / character);
+    std::vector<std::string> lines;
+    for (const std::string& note : page_.notes) {
+      const std::vector<std::string> parts = wrapped_enhanced(note, std::max<std::size_t>(room, 10), most_lines);
+      lines.insert(lines.end(), parts.begin(), parts.end());
+    }
+    page_.notes = std::move(lines);
   }
   std::size_t legend_column() const { return page_.panels.size() % columns_; }
   std::span<const Panel> panels_of_row(std::size_t first) const {
@@ -200,7 +234,7 @@ class PageWriter {
     axis("x", panel.x, are_upright(panel.x) ? "rotate by 90 right" : "norotate center offset 0,0.35");
     axis("y", panel.y, "offset 0,0");
     const double below = bottom + below_ - edge - 1.4;
-    script_.label(panel.x_label, 0.5 * (left + right), below, "center", label_size);
+    script_.label(panel.x_label, 0.5 * (left + right), below, "center", fitting(panel.x_label, right - left));
     script_.label(panel.y_label, left - left_of_box_ + edge + 1.5, middle, "center rotate by 90",
                   fitting(panel.y_label, bottom - top + below_));
     exponent(panel.y, left, top - 2.0, "left");

@@ -32,6 +32,7 @@ struct Series {
   /// rectangle, in colours of the panel's axis z; a rectangle is two points of the curve, its lower left and its upper
   /// right corner.
   std::vector<double> value{};
+  double opacity = 1;  // of paths and fine dots
 };
 
 struct Panel {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "text.hpp"
 
@@ -16,21 +15,6 @@ constexpr std::size_t most_dots_on_line = 200;  // more would hide the line
 constexpr std::size_t most_path_points = 12000;
 constexpr std::size_t page_columns = 400;  // two tenths of a millimetre wide in one column of a journal
 
-/// As much of a path as can be told apart on paper: some hundred times across it.
-Curve beginning(const Curve& path) {
-  Extent x;
-  Extent y;
-  x.include(path.x);
-  y.include(path.y);
-  const double size = std::max(x.high - x.low, y.high - y.low);
-  Curve part;
-  double length = 0;
-  for (std::size_t k = 0; k < path.x.size() && length <= 120 * size; ++k) {
-    if (k > 0) length += std::hypot(path.x[k] - path.x[k - 1], path.y[k] - path.y[k - 1]);
-    part.add(path.x[k], path.y[k]);
-  }
-  return part;
-}
 /// Whether no axis could show a path to be more than a point: what moves by rounding alone is at rest.
 bool is_point(const Curve& curve) {
   constexpr double rounding = 1e-14;
@@ -51,29 +35,6 @@ bool is_field(const Curve& curve) {
     if ((curve.y[k] - curve.y[k - 1]) * (curve.y[k - 1] - curve.y[k - 2]) < 0) ++turns;
   }
   return turns > 4 * page_columns;
-}
-
-/// A line over many samples without those that paper cannot show: of each short stretch the ends, the least and the
-/// largest stay.
-Curve extremes(const Curve& curve) {
-  constexpr std::size_t stretches = 2000;
-  const std::size_t n = curve.x.size();
-  if (n <= 8 * stretches) return curve;
-  Curve result;
-  for (std::size_t s = 0; s < stretches; ++s) {
-    const std::size_t end = (s + 1) * n / stretches;
-    std::set<std::size_t> kept{s * n / stretches, end - 1};
-    std::size_t least = *kept.begin();
-    std::size_t most = least;
-    for (std::size_t k = *kept.begin(); k < end; ++k) {
-      if (std::isnan(curve.y[k])) kept.insert(k);
-      if (curve.y[k] < curve.y[least] || std::isnan(curve.y[least])) least = k;
-      if (curve.y[k] > curve.y[most] || std::isnan(curve.y[most])) most = k;
-    }
-    kept.insert({least, most});
-    for (const std::size_t k : kept) result.add(curve.x[k], curve.y[k]);
-  }
-  return result;
 }
 }  // namespace
 
@@ -104,41 +65,59 @@ Series track_of(const Curve& track, Series how) {
   return how;
 }
 
+bool is_whole_run(const FigureSamples& opening, const FigureData& data) {
+  if (opening.t.empty() || data.t.empty()) return true;
+  const double end = std::isfinite(data.end) ? data.end : data.t.back();
+  constexpr double rounding = 1e-9;  // of a time that is a sum of steps
+  return std::abs(opening.t.back()) >= (1 - rounding) * std::abs(end);
+}
+
+Openings openings_of(const Figure& figure) {
+  return {.whole_run = std::all_of(figure.runs.begin(), figure.runs.end(),
+                                   [](const FigureData& run) { return is_whole_run(run.opening, run); })};
+}
+
 std::vector<Series> tracks_of(const std::vector<Curve>& tracks, const std::vector<Curve>& openings,
-                              std::vector<Series> how, bool& opened) {
+                              std::vector<Series> how, Openings& drawn) {
   bool openings_alone = !tracks.empty();
   for (std::size_t k = 0; k < tracks.size(); ++k) {
     how[k] = track_of(tracks[k], std::move(how[k]));
     openings_alone = openings_alone && how[k].ink != Ink::path;
   }
-  std::vector<Curve> starts;
   bool moves = false;
   for (std::size_t k = 0; openings_alone && k < tracks.size(); ++k) {
-    starts.push_back(beginning(openings[k]));
-    const bool rests = is_point(starts.back());
-    openings_alone = rests || follows_path(starts.back());
+    const bool rests = is_point(openings[k]);
+    openings_alone = rests || follows_path(openings[k]);
     moves = moves || !rests;
   }
   if (!openings_alone || !moves) return how;
-  opened = true;
+  drawn.any = true;
+  std::vector<Series> all;
+  for (std::size_t k = 0; k < tracks.size() && !drawn.whole_run; ++k) {
+    if (how[k].ink != Ink::fine_dots && how[k].ink != Ink::place) continue;
+    Series& dots = all.emplace_back(how[k]);  // below the line: where the rest of the run is
+    dots.ink = Ink::fine_dots;
+    dots.name.clear();
+    dots.opacity = 0.5;
+  }
   for (std::size_t k = 0; k < tracks.size(); ++k) {
-    if (is_point(starts[k])) {
-      how[k] = point_of(starts[k], std::move(how[k]));
+    if (is_point(openings[k])) {
+      all.push_back(point_of(openings[k], std::move(how[k])));
       continue;
     }
     how[k].ink = Ink::path;
-    how[k].curve = std::move(starts[k]);
+    how[k].curve = openings[k];
+    all.push_back(std::move(how[k]));
   }
-  return how;
+  return all;
 }
 
 void note_opening(Page& page, const FigureData& data) {
-  if (data.opening.t.empty() || data.t.empty()) return;
-  const double reached = data.opening.t.back();
+  if (is_whole_run(data.opening, data)) return;
   const double end = std::isfinite(data.end) ? data.end : data.t.back();
-  constexpr double rounding = 1e-9;                                 // of a time that is a sum of steps
-  if (std::abs(reached) >= (1 - rounding) * std::abs(end)) return;  // all of the run
-  page.notes.push_back("the first steps alone, to {/:Italic t} = " + short_value(reached) + " of " + short_value(end));
+  page.notes.push_back("line: the first steps, to {/:Italic t} = " + short_value(data.opening.t.back()) + " of " +
+                       short_value(end));
+  page.notes.push_back("dots: the samples of the whole run");
 }
 
 void include_drawn(const std::vector<Series>& drawn, Extent& x, Extent& y) {
@@ -206,8 +185,6 @@ void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector
     how.ink = Ink::band;
     how.curve = {band.x, band.low};
     how.value = band.high;
-  } else {
-    how.curve = extremes(how.curve);
   }
   panel.series.push_back(how);
   if (how.curve.x.size() > most_separate_dots) return;

@@ -220,10 +220,12 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width, std
     std::size_t length = rest.size();
     if (length > width) {
       length = width;
-      std::size_t score = 0;  // a break after a comma is worth twenty characters of width
-      for (std::size_t k = width / 3; k <= width; ++k) {
-        const std::size_t worth = k + (rest[k - 1] == "," ? 20 : 0);
-        if (rest[k] == " " && worth > score) {
+      std::size_t score = 0;  // a break after a comma and a space is worth twenty characters of width
+      for (std::size_t k = std::max<std::size_t>(width / 3, 1); k <= width; ++k) {
+        const bool behind_comma = rest[k - 1] == ",";
+        const bool at_space = rest[k] == " ";
+        const std::size_t worth = k + (behind_comma && at_space ? 20 : 0);
+        if ((at_space || behind_comma) && worth > score) {
           score = worth;
           length = k;
         }
@@ -238,6 +240,76 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width, std
       break;
     }
     lines.push_back(line);
+  }
+  return lines;
+}
+
+namespace {
+/// The parts of enhanced text that cannot be broken: characters and groups in braces, with what is raised or lowered.
+std::vector<std::string> unbroken_parts(const std::string& text) {
+  std::vector<std::string> parts;
+  const auto end_of = [&](std::size_t at) {
+    if (at >= text.size()) return text.size();
+    if (text[at] == '\\') return std::min(at + 2, text.size());
+    if (text[at] != '{') return at + std::max<std::size_t>(character_length(text, at), 1);
+    int depth = 0;
+    for (; at < text.size(); ++at) {
+      if (text[at] == '\\') {
+        ++at;
+        continue;
+      }
+      depth += text[at] == '{' ? 1 : text[at] == '}' ? -1 : 0;
+      if (depth == 0) return at + 1;
+    }
+    return text.size();
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const bool is_script = text[at] == '_' || text[at] == '^';
+    const std::size_t end = end_of(is_script ? at + 1 : at);
+    const std::string part = text.substr(at, end - at);
+    if (is_script && !parts.empty()) {
+      parts.back() += part;
+    } else {
+      parts.push_back(part);
+    }
+    at = end;
+  }
+  return parts;
+}
+}  // namespace
+
+std::vector<std::string> wrapped_enhanced(const std::string& text, std::size_t width, std::size_t most) {
+  static const std::string operators = "+-*/,;)=";
+  std::vector<std::string> rest = unbroken_parts(text);
+  std::vector<std::string> lines;
+  while (!rest.empty()) {
+    std::size_t length = 0;
+    std::size_t printed = 0;
+    std::size_t at_space = 0;
+    std::size_t behind_operator = 0;
+    for (; length < rest.size(); ++length) {
+      printed += printed_length(rest[length]);
+      if (printed > width) break;
+      if (rest[length] == " ") at_space = length;
+      if (rest[length].size() == 1 && operators.find(rest[length]) != std::string::npos) behind_operator = length + 1;
+    }
+    if (length < rest.size()) {
+      length = std::max<std::size_t>(length, 1);
+      if (at_space > length / 3) {
+        length = at_space;
+      } else if (behind_operator > length / 3) {
+        length = behind_operator;
+      }
+    }
+    std::string line;
+    for (std::size_t k = 0; k < length; ++k) line += rest[k];
+    while (length < rest.size() && rest[length] == " ") ++length;
+    rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(length));
+    lines.push_back(line);
+    if (lines.size() == most && !rest.empty()) {
+      lines.back() += "…";
+      break;
+    }
   }
   return lines;
 }

@@ -30,7 +30,9 @@ std::string short_value(double x);
 /// Texts of at most `most` characters: of longer ones a part, from where they differ, between dots. Texts that are
 /// alike then are numbered. Plain text, as it goes in and comes out.
 std::vector<std::string> shortened(const std::vector<std::string>& texts, std::size_t most);
-/// At most `most` lines of about `width` characters, broken at spaces where there are any.
+/// At most `most` lines of about `width` characters, broken at spaces or behind commas where there are any.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width, std::size_t most);
+/// The same of enhanced text, whose groups stay whole; without spaces it is broken behind an operator.
+std::vector<std::string> wrapped_enhanced(const std::string& text, std::size_t width, std::size_t most);
 
 }  // namespace hamflow::figures

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "hamflow/core/text.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/gas.hpp"
@@ -141,7 +142,7 @@ FigureSamples path_of(const Scenario& scenario, const RunSamples& samples) {
 
 std::vector<std::pair<std::string, std::string>> facts_of(const Scenario& scenario) {
   const Request& request = scenario.request;
-  std::vector<std::pair<std::string, std::string>> facts{{"problem", request.problem}};
+  std::vector<std::pair<std::string, std::string>> facts{{"problem", problem_text(scenario)}};
   if (const auto walls = walls_among(request.variant)) {
     facts.emplace_back("walls", wall_rules()[static_cast<std::size_t>(walls->rule)]);
   }
@@ -197,6 +198,16 @@ bool shows_energy(const std::string& kind) {
 }
 
 }  // namespace
+
+std::string problem_text(const Scenario& scenario) {
+  constexpr std::size_t longest = 60;
+  const Request& request = scenario.request;
+  if (!scenario.problem->structure) return request.problem;
+  const auto potential = request.variant.find(FormulaKeys::central_potential);
+  if (request.problem == FormulaKeys::problem) return figures::shortened({scenario.problem->info.formula}, longest)[0];
+  if (potential == request.variant.end()) return request.problem;
+  return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
+}
 
 RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   const fs::path source = file_of(run);

@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "figure.hpp"
+#include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
+
+/// What a title calls the problem: one that is typed by what was typed.
+std::string problem_text(const Scenario& scenario);
 
 struct RunForFigure {
   FigureData data;   // without title and label

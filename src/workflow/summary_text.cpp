@@ -46,7 +46,7 @@ std::string orbit_text(const Json& orbit) {
 
 std::string readable(const Json& s) {
   const auto row = [](std::string_view label, const std::string& text) {
-    return fmt::format("{:<20}{}\n", label, text);
+    return fmt::format("{:<19} {}\n", label, text);
   };
   const auto number = [](const Json& x) { return value_text(x, "{:.17g}"); };
   const auto list = [&](const Json& xs) { return joined(xs, number); };

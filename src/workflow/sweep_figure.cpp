@@ -8,6 +8,7 @@
 #include <map>
 
 #include "figure.hpp"
+#include "figure_data.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "parameter_map.hpp"
@@ -89,6 +90,22 @@ std::vector<std::string> axis_words(const Vary& vary) {
   return vary.texts.size() > 2 ? words_of(vary) : words_of(vary, 18);
 }
 
+/// Entries of a scenario's lists are counted from 0, and everything in figures from 1.
+std::string entry_label(const std::string& key) {
+  const std::size_t open = key.find('[');
+  const std::string number = open == std::string::npos ? "" : key.substr(open + 1, key.size() - open - 2);
+  const bool is_entry = !number.empty() && key.back() == ']' && number.size() < 9 &&
+                        number.find_first_not_of("0123456789") == std::string::npos;
+  return figures::symbol(is_entry ? key.substr(0, open) + "_" + std::to_string(std::stoi(number) + 1) : key);
+}
+
+/// The velocity of a coordinate: v_2 of q2, v_x of x.
+std::string velocity_label(const std::string& coordinate) {
+  const std::string name = figures::without_brackets(coordinate);
+  const bool is_q = name.size() > 1 && name[0] == 'q' && name.find_first_not_of("0123456789", 1) == std::string::npos;
+  return figures::symbol("v_" + (is_q ? name.substr(1) : name));
+}
+
 /// The last part of a key, and the coordinate that an entry of a start belongs to.
 std::string key_label(const Sweep& sweep, const std::string& path) {
   const StateNames& names = sweep.names().state();
@@ -97,9 +114,12 @@ std::string key_label(const Sweep& sweep, const std::string& path) {
       if (path == fmt::format("{}[{}]", key, i)) return figures::symbol((*list)[i]) + "(0)";
     }
   }
+  for (std::size_t i = 0; i < names.q.size(); ++i) {
+    if (path == fmt::format("problem.initial.v[{}]", i)) return velocity_label(names.q[i]) + "(0)";
+  }
   if (path == "method.name") return "method";
   const std::string last = path.substr(path.rfind('.') + 1);
-  return last == "dt" ? "d{/:Italic t}" : figures::symbol(last);
+  return last == "dt" ? "d{/:Italic t}" : entry_label(last);
 }
 
 /// "angular momentum at the end", of NAME/final; of NAME/final2 that of its second number, NAME_2 of a run.
@@ -163,7 +183,7 @@ std::string title_of(const Sweep& sweep) {
     return std::any_of(keys.begin(), keys.end(),
                        [&](const Vary& vary) { return vary.path == path || path.starts_with(vary.path + "."); });
   };
-  std::string title = request.problem;
+  std::string title = problem_text(sweep.common());
   if (!is_varied("method.name")) title += ", " + describe(request.method).name;
   if (!is_varied(run_path(run_keys().dt))) title += ", dt = " + request.dt;
   return title;

@@ -257,8 +257,9 @@ steps = 2
                              'name = "stv4"\n[run]\ndt = 0.1\nsteps = 100000\nrecord_every = 100\n')
         self.hamflow("run", "h.toml", "--out", "h")
         labels = self.plot("h", kind="orbit")
-        self.assertTrue(any(label.startswith("the first steps alone, to t = ") for label in labels), labels)
-        self.assertNotIn("gpPt6'", (self.folder / "f.svg").read_text().split("</defs>")[1])
+        self.assertTrue(any(label.startswith("line: the first steps, to t = ") for label in labels), labels)
+        self.assertIn("dots: the samples of the whole run", labels)
+        self.assertIn("gpPt6'", (self.folder / "f.svg").read_text().split("</defs>")[1])
 
     def test_an_opening_that_is_the_whole_run_has_no_note(self):
         self.write("g.toml", '[problem]\nname = "gas"\nparticles_per_side = 4\n[method]\nname = "verlet"\n[run]\n'
@@ -282,7 +283,24 @@ steps = 2
         self.run_some(str(EXAMPLES / "henon_heiles.toml"), "run.steps=4000", "run.record=[100,200,300]", out="h")
         self.assertFalse([label for label in self.plot("h", kind="orbit") if "first steps" in label])
         self.run_some(str(EXAMPLES / "henon_heiles.toml"), "run.steps=40000", "run.record=[100,200,300]", out="long")
-        self.assertIn("the first steps alone, to t = 2000 of 4000", self.plot("long", kind="orbit"))
+        self.assertIn("line: the first steps, to t = 2000 of 4000", self.plot("long", kind="orbit"))
+
+    def test_titles_and_events_of_typed_problems(self):
+        """A title says what was typed, and a name of any length stands apart from its count."""
+        self.write("f.toml", '[problem]\nname = "formula"\ncoordinates = ["x"]\nhamiltonian = "p_x^2/2 + x^2/2"\n'
+                             'initial = { q = [1], p = [0] }\n[method]\nname = "verlet"\n[run]\ndt = 0.1\nsteps = 100\n'
+                             'events = [{ name = "latitude60", expression = "x" }]\n')
+        told = self.hamflow("run", "f.toml", "--out", "f.run").stdout
+        self.assertRegex(told, "event user:latitude60 +[0-9]+\n")
+        self.plot("f.run", kind="time")
+        self.assertIn("<title>H = p_x^2/2 + x^2/2, verlet, dt = 0.1</title>", (self.folder / "f.svg").read_text())
+
+    def test_entries_of_lists_are_named_by_their_coordinate_or_counted_from_one(self):
+        self.write("v.toml", BODIES.replace("p = [0,-0.5, 0,0.5]", "v = [0,-0.5, 0,1]"))
+        for key, label in (("problem.initial.q[3]", "y2(0)"), ("problem.initial.v[3]", "vy2(0)"), ("problem.masses[1]", "masses2")):
+            self.hamflow("sweep", "v.toml", "--set", "run.steps=20", "--vary", key + "=0.5:0.6:10", "--figure", "v.svg",
+                         "--out", "none")
+            self.assertIn(label, texts((self.folder / "v.svg").read_text()), key)
 
     def test_pairs_need_something_that_holds_them(self):
         self.write("n2.toml", BODIES)

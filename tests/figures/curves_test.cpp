@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "axis.hpp"
 #include "figure.hpp"
+#include "printed.hpp"
 #include "text.hpp"
 
 namespace hamflow::figures {
@@ -275,6 +277,71 @@ TEST(Text, LongTitlesBreakAfterCommas) {
   EXPECT_EQ(wrapped("one, two three four five", 20, 3), (std::vector<std::string>{"one, two three four", "five"}));
   EXPECT_EQ(wrapped("alpha beta, gamma delta", 20, 3), (std::vector<std::string>{"alpha beta,", "gamma delta"}));
   EXPECT_EQ(wrapped(std::string(100, 'x'), 20, 2).back(), std::string(20, 'x') + "…");
+  EXPECT_EQ(wrapped("n-body, stv4(step_control=reversible,monitor=distance)", 45, 3),
+            (std::vector<std::string>{"n-body, stv4(step_control=reversible,", "monitor=distance)"}))
+      << "no word is broken behind which a comma stands";
+}
+
+TEST(Text, EnhancedTextIsBrokenBetweenItsGroups) {
+  EXPECT_EQ(wrapped_enhanced("short {/:Italic t}", 40, 3), (std::vector<std::string>{"short {/:Italic t}"}));
+  const std::vector<std::string> lines =
+      wrapped_enhanced("section {/:Italic x}_{1}*(1 + long\\_name)-other\\_name = 0, up", 22, 4);
+  std::string all;
+  for (const std::string& line : lines) {
+    EXPECT_LE(printed_length(line), 22U) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), '{'), std::count(line.begin(), line.end(), '}')) << line;
+    all += line;
+  }
+  EXPECT_EQ(printed_length(wrapped_enhanced(std::string(1000, 'x'), 20, 4).back()), 21U) << "and an ellipsis";
+}
+
+/// A panel from 0 to 1 on both axes, 68 mm wide, with pixels of 0.085 mm.
+std::vector<Series> all_on_paper(Ink ink, const Curve& curve) {
+  Panel panel;
+  return printed(panel, {.ink = ink, .name = "", .curve = curve}, {68, 68, 0.085});
+}
+
+Series on_paper(Ink ink, const Curve& curve) { return all_on_paper(ink, curve).at(0); }
+
+TEST(Printed, ALineHasNoMorePointsThanColumnsOfPixelsCarry) {
+  Curve curve;
+  for (int k = 0; k < 1000000; ++k) curve.add(k * 1e-6, 0.5 + 0.4 * std::sin(k) * std::sin(1e-5 * k));
+  curve.y[777777] = 0.99;  // one sample
+  const Series line = on_paper(Ink::line, curve);
+  EXPECT_LE(line.curve.x.size(), 4U * 801);
+  EXPECT_EQ(*std::max_element(line.curve.y.begin(), line.curve.y.end()), 0.99);
+  EXPECT_EQ(line.curve.x.front(), curve.x.front());
+  EXPECT_EQ(line.curve.x.back(), curve.x.back());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(on_paper(Ink::line, {{0, 0.1, 0.2, nan, 0.3, 0.4}, {0, 0.1, 0.2, nan, 0, 0}}).curve.x.size(), 5U)
+      << "gaps stay, straight parts are two points";
+}
+
+TEST(Printed, DotsOnOnePlaceAreOne) {
+  Curve curve;
+  for (int k = 0; k < 10000; ++k) curve.add(0.1 * (k % 10), 0.5 + 1e-7 * k);
+  EXPECT_LE(on_paper(Ink::fine_dots, curve).curve.x.size(), 10U * 30);
+}
+
+TEST(Printed, APathOverItselfIsDrawnOnceAndAnAreaIsTintedBelowItsFirstTurns) {
+  Curve circle;
+  Curve ring;
+  for (int k = 0; k < 20000; ++k) {
+    const double phi = 0.0628 * k;
+    circle.add(0.5 + 0.3 * std::cos(phi), 0.5 + 0.3 * std::sin(phi));
+    const double r = 0.3 + 0.05 * std::sin(0.617 * phi);
+    ring.add(0.5 + r * std::cos(phi), 0.5 + r * std::sin(phi));
+  }
+  const std::vector<Series> once = all_on_paper(Ink::path, circle);
+  ASSERT_EQ(once.size(), 1U);
+  EXPECT_EQ(once[0].opacity, 1);
+  EXPECT_LT(once[0].curve.x.size(), 2000U);
+  const std::vector<Series> area = all_on_paper(Ink::path, ring);
+  ASSERT_EQ(area.size(), 2U);
+  EXPECT_LT(area[0].opacity, 0.5);
+  EXPECT_EQ(area[1].opacity, 1);
+  EXPECT_GT(area[1].curve.x.size(), 100U);
+  EXPECT_LT(area[1].curve.x.size(), 5000U);
 }
 
 }  // namespace

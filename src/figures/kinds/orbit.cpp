@@ -88,7 +88,10 @@ bool has_exact(const FigureData& data) {
   return x.low < x.high || y.low < y.high;
 }
 
-Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened) {
+/// Those of each direction of space, of everything that planes of it draw.
+using Extents = std::vector<Extent>;
+
+Panel panel_of(const Figure& figure, Plane plane, bool with_names, const Extents& shared, Openings& opened) {
   const FigureData& one = figure.runs.front();
   const bool exact = figure.runs.size() == 1 && has_exact(one) && plane == Plane{0, 1};
   Panel panel;
@@ -127,6 +130,10 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
     x.include(0);
     y.include(0);
   }
+  if (!shared.empty()) {
+    x = shared[plane.first];
+    y = shared[plane.second];
+  }
   fit_equal_axes(panel, x, y);
   const std::vector<std::string> names = columns(one);
   panel.x_label = in_unit(symbol(names[plane.first]), units_of(figure).q);
@@ -137,24 +144,46 @@ Panel panel_of(const Figure& figure, Plane plane, bool with_names, bool& opened)
   }
   panel.series.insert(panel.series.end(), tracks.begin(), tracks.end());
   for (const Series& track : tracks) {  // where a body is at the end: bodies may follow each other on one path
-    if (bodies(one) < 2 || track.curve.x.empty() || track.ink != Ink::path || opened) continue;
+    if (bodies(one) < 2 || track.curve.x.empty() || track.ink != Ink::path || opened.any) continue;
     panel.series.push_back({Ink::place, "", {{track.curve.x.back()}, {track.curve.y.back()}}, track.mark});
   }
   if (exact) panel.series.push_back({Ink::centre, "", {{0}, {0}}});
   return panel;
 }
 
+Extent widened(const Extent& extent, double length) {
+  const double middle = 0.5 * (extent.low + extent.high);
+  const double half = 0.5 * std::max(length, extent.high - extent.low);
+  return {middle - half, middle + half};
+}
+
+/// One range for each direction of space, the same in every plane; the horizontal ones are equally long, so that the
+/// planes have one scale.
+Extents shared_extents(const Figure& figure) {
+  Extents all(3);
+  for (const FigureData& run : figure.runs) {
+    for (const FigureSamples* samples : {static_cast<const FigureSamples*>(&run), &run.path, &run.opening}) {
+      for (std::size_t i = 0; i < samples->q.size(); ++i) all[i % 3].include(samples->q[i]);
+    }
+  }
+  const double longest = std::max(all[0].high - all[0].low, all[1].high - all[1].low);
+  return {widened(all[0], longest), widened(all[1], longest), all[2]};
+}
+
 Page page(const Figure& figure) {
   Page all{figure.runs.front().title, {}};
-  bool opened = false;
-  for (const Plane& plane : planes(figure)) {
-    all.panels.push_back(panel_of(figure, plane, all.panels.empty(), opened));
+  Openings opened = openings_of(figure);
+  const std::vector<Plane> chosen = planes(figure);
+  const bool shares = figure.runs.front().space == 3 && chosen.size() > 1;
+  const Extents shared = shares ? shared_extents(figure) : Extents{};
+  for (const Plane& plane : chosen) {
+    all.panels.push_back(panel_of(figure, plane, all.panels.empty(), shared, opened));
   }
   if (all.panels.size() > 1) {
     all.columns = 2;
     all.width = two_columns;
   }
-  if (opened) note_opening(all, figure.runs.front());
+  if (opened.any) note_opening(all, figure.runs.front());
   return all;
 }
 }  // namespace orbit

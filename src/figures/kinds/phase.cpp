@@ -98,7 +98,7 @@ void add_exact(Panel& panel, const FigureData& data, const Curve& track) {
   panel.series.push_back({Ink::dots, "numeric", dots_on_line(track, panel)});
 }
 
-Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns, bool with_names, bool& opened) {
+Panel phase_panel(const Figure& figure, const Plane& plane, std::size_t columns, bool with_names, Openings& opened) {
   const FigureData& one = figure.runs.front();
   Panel panel;
   Extent x;
@@ -149,11 +149,11 @@ Page page(const Figure& figure) {
   all.title = figure.runs.front().title;
   const std::vector<Plane> chosen = planes(figure);
   all.columns = chosen.size() == 1 ? 1 : 2;
-  bool opened = false;
+  Openings opened = openings_of(figure);
   for (const Plane& plane : chosen) {
     all.panels.push_back(phase_panel(figure, plane, all.columns, all.panels.empty(), opened));
   }
-  if (opened) note_opening(all, figure.runs.front());
+  if (opened.any) note_opening(all, figure.runs.front());
   return all;
 }
 }  // namespace phase

@@ -118,6 +118,7 @@ Page page(const Figure& figure) {
   g.include(0);
   g.include(1);
   std::vector<Series> curves;
+  std::vector<std::string> means;  // a note for each run
   const auto add = [&](Series how, const FigureData& data, const std::vector<std::size_t>& samples) {
     const double r_max = range(data, samples);
     how.ink = Ink::line;
@@ -132,11 +133,11 @@ Page page(const Figure& figure) {
     if (at.empty()) {
       const std::vector<std::size_t> samples = later_samples(data);
       add(series_of(figure, run), data, samples);
-      if (figure.runs.size() > 1) continue;
-      all.notes.push_back(samples.size() == 1
-                              ? "of the sample at " + time_text(data.t[samples[0]])
-                              : "mean over " + std::to_string(samples.size()) + " samples, from " +
-                                    time_text(data.t[samples.front()]) + " to " + short_value(data.t[samples.back()]));
+      means.push_back(samples.size() == 1
+                          ? "of the sample at " + time_text(data.t[samples[0]])
+                          : "mean over " + std::to_string(samples.size()) + " of " + std::to_string(data.t.size()) +
+                                " samples, from " + time_text(data.t[samples.front()]) + " to " +
+                                short_value(data.t[samples.back()]));
       continue;
     }
     for (const std::size_t sample : samples_at(data, at)) {
@@ -145,6 +146,11 @@ Page page(const Figure& figure) {
       how.mark = mark_of(curves.size());
       add(std::move(how), data, {sample});
     }
+  }
+  const bool alike = std::equal(means.begin() + (means.empty() ? 0 : 1), means.end(), means.begin());
+  for (std::size_t run = 0; run < means.size(); ++run) {
+    if (alike && run > 0) break;
+    all.notes.push_back((alike ? "" : escaped(figure.runs[run].label) + ": ") + means[run]);
   }
   const std::size_t count = first.particles.count;
   if (count > most_taken) {
