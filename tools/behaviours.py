@@ -8,17 +8,20 @@ A behaviour draws scenarios at random: start, step, length. Its class follows fr
   steps), where rounding errors without bias remain (Brouwer's law).
 - linear: methods that are neither symplectic nor symmetric, of which the error of an energy has a mean.
 - none: runs that no one can judge, of fewer than 32 steps or of less than two periods.
+- held: no theory tells. The class is compared with what a run 16 times as long did.
 
 `confusion_table.py --truth` repeats runs four and sixteen times as long and shows how the largest energy error grows.
 """
 
 import math
 
-BOUNDED, WALK, LINEAR, NONE = "bounded", "random walk", "linear", "undecided"
+BOUNDED, WALK, LINEAR, NONE, HELD = "bounded", "random walk", "linear", "undecided", "held"
 
 
 def text(name, keys):
     def value(x):
+        if isinstance(x, list):
+            return "[" + ", ".join(table(v) if isinstance(v, dict) else value(v) for v in x) + "]"
         return '"%s"' % x if isinstance(x, str) else repr(x)
 
     def table(d):
@@ -155,7 +158,126 @@ def pick(rng, *specs):
     return specs[rng.randrange(len(specs))]
 
 
+def formula(rng, hamiltonian, q, p, spec, dt, period, fewest=5, most=1000, longest=20000, **more):
+    problem = {"name": "formula", "hamiltonian": hamiltonian, "initial": {"q": q, "p": p}, **more}
+    return Run(problem, method(spec), dt, length(rng, dt, period, fewest, most, longest), period)
+
+
+def kepler_in_si(rng, spec, steps_per_period):
+    """A satellite of the Earth: metres, seconds, kilograms."""
+    k, axis, mass = 3.986004418e14, rng.uniform(6.8e6, 4.2e7), 10**rng.uniform(0, 4)
+    r, x, y, u, v = kepler_state(rng, rng.uniform(0.0, 0.7))
+    speed, period = math.sqrt(k / axis), 2 * math.pi * math.sqrt(axis**3 / k)
+    problem = {"name": "central-force", "potential": "kepler", "k": k * mass, "mass": mass,
+               "initial": {"q": [axis * x, axis * y], "p": [mass * speed * u, mass * speed * v]}}
+    dt = period / steps_per_period
+    return Run(problem, method(spec), dt, length(rng, dt, period, 5, 500, 20000), period)
+
+
+def magnetic(rng, spec):
+    problem = {"name": "magnetic", "mass": 1.0, "charge": 1.0, "field": [0.0, 0.0, rng.uniform(0.5, 2)],
+               "initial": {"q": [rng.uniform(-1, 1), rng.uniform(-1, 1), 0.0],
+                           "p": [rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-0.3, 0.3)]}}
+    period = 2 * math.pi / problem["field"][2]
+    dt = period / log_uniform(rng, 20, 200)
+    return Run(problem, method(spec), dt, length(rng, dt, period, 5, 500, 10000), period)
+
+
+def rotating(rng, spec):
+    """The circular restricted problem of three bodies in its rotating frame, near the larger one."""
+    mu = 10**rng.uniform(-4, -2)
+    r = rng.uniform(0.2, 0.4)
+    h = (f"(px^2+py^2)/2 - x*py + y*px - {1 - mu!r}/sqrt((x+{mu!r})^2+y^2) - {mu!r}/sqrt((x-{1 - mu!r})^2+y^2)")
+    period = 2 * math.pi * r**1.5
+    return formula(rng, h, [r, 0.0], [0.0, math.sqrt(1 / r) * rng.uniform(0.85, 1.0)], spec,
+                   period / log_uniform(rng, 60, 400), period, longest=10000, coordinates=["x", "y"],
+                   momenta=["px", "py"])
+
+
+def between_walls(rng, spec):
+    """Free flight whose bounces fall on the ends of steps."""
+    steps = rng.randrange(20, 100)
+    dt = 1 / steps
+    problem = {"name": "formula", "hamiltonian": "(px^2+py^2)/2", "coordinates": ["x", "y"], "momenta": ["px", "py"],
+               "initial": {"q": [0.5, 0.25], "p": [1.0, 0.5]},
+               "walls": [{"coordinate": "x", "min": 0.0, "max": 1.0}, {"coordinate": "y", "min": 0.0, "max": 1.0}]}
+    return Run(problem, method(spec), dt, length(rng, dt, 4, 5, 500, 20000), 4.0)
+
+
+def henon_heiles_in_walls(rng, spec):
+    run = henon_heiles(rng, spec, rng.uniform(0.05, 0.16), rng.uniform(0.05, 0.2), fewest=5, most=500, longest=10000)
+    run.problem["walls"] = [{"coordinate": "q1", "min": -0.35, "max": 0.35}]
+    run.problem["wall_rule"] = pick(rng, "event", "mirror", "reject")
+    return run
+
+
+def tiny_mass(rng, spec):
+    """Two bodies and a third of next to no mass."""
+    m = 10**rng.uniform(-20, -6)
+    d = rng.uniform(2, 4)
+    v = math.sqrt(1 / d)
+    problem = {"name": "n-body", "masses": [0.7, 0.3, m], "initial": {
+        "q": [-0.3, 0.0, 0.7, 0.0, d, 0.0], "p": [0.0, -0.21, 0.0, 0.21, 0.0, m * v]}}
+    period = 2 * math.pi * d**1.5
+    dt = rng.uniform(0.005, 0.03)
+    return Run(problem, method(spec), dt, length(rng, dt, period, 5, 100, 20000), period)
+
+
+def shifted(rng, spec):
+    """An oscillation in a well to which a constant is added."""
+    c = rng.choice([-1, 1]) * 10**rng.uniform(0, 6)
+    return formula(rng, f"p^2/2 + x^2/2 + x^4/4 + {c!r}", [rng.uniform(0.3, 1.5)], [0.0], spec,
+                   log_uniform(rng, 0.01, 0.2), 6.0, coordinates=["x"], momenta=["p"])
+
+
+def from_zero(rng, spec):
+    """A pendulum let go from the horizontal, where T = V = 0."""
+    return formula(rng, "p^2/2 + 9.81*sin(a)", [0.0], [0.0], spec, log_uniform(rng, 0.002, 0.05), 2.37,
+                   coordinates=["a"], momenta=["p"])
+
+
+def far_away(rng, spec):
+    far = 10**rng.uniform(3, 9)
+    return formula(rng, "(p1^2+p2^2)/2 + (x2-x1-1)^2/2", [far, far + rng.uniform(1.2, 2)], [0.0, 0.0], spec,
+                   log_uniform(rng, 0.01, 0.2), 4.44, coordinates=["x1", "x2"], momenta=["p1", "p2"])
+
+
+def driven(rng, spec):
+    h = f"p^2/2 + x^2/2 + x^4/4 - {rng.uniform(0.05, 0.4)!r}*x*cos({rng.uniform(0.3, 2)!r}*t)"
+    return formula(rng, h, [rng.uniform(0, 1)], [0.0], spec, log_uniform(rng, 0.01, 0.1), 6.0, coordinates=["x"],
+                   momenta=["p"])
+
+
+def rotor(rng, spec):
+    problem = {"name": "pendulum", "initial": {"q": [0.0], "p": [rng.uniform(2.1, 6)]}}
+    dt = log_uniform(rng, 0.01, 0.1)
+    return Run(problem, method(spec), dt, rng.randrange(400, 20000), None)
+
+
+def tao_run(rng):
+    spec = {"name": pick(rng, "tao2", "tao4"), "omega": rng.uniform(5, 40)}
+    if rng.random() < 0.5:
+        return double_pendulum(rng, spec, rng.uniform(0.3, 1.5), log_uniform(rng, 0.001, 0.01), fewest=5, most=50)
+    return formula(rng, "(x^2+1)*(p^2+1)/2", [rng.uniform(-2, 2)], [rng.uniform(-1, 1)], spec,
+                   log_uniform(rng, 0.001, 0.01), 4.0, most=100, coordinates=["x"], momenta=["p"])
+
+
+def adaptive(rng):
+    spec = {"name": pick(rng, "dop853", "taylor"), "tolerance": 10**rng.uniform(-15, -8)}
+    kind = rng.randrange(4)
+    if kind == 0:
+        return kepler(rng, spec, rng.uniform(0, 0.7), log_uniform(rng, 10, 60), fewest=5, most=300, longest=5000)
+    if kind == 1:
+        return harmonic(rng, spec, log_uniform(rng, 0.05, 0.5), fewest=5, most=300, longest=10000)
+    if kind == 2:
+        return pendulum(rng, spec, rng.uniform(0.3, 2.5), log_uniform(rng, 0.05, 0.5), fewest=5, most=300,
+                        longest=10000)
+    return kepler_in_si(rng, spec, log_uniform(rng, 10, 100))
+
+
 LENGTH = dict(fewest=5, most=1000)
+SPLIT = ("verlet", "stv4", "yoshida6", "kahan-li8", "rk4", ELEMENT)  # bounded, walking and drifting errors
+IMPLICIT = (MIDPOINT, {"name": "gauss", "stages": 4}, ELEMENT, "rk4")
 
 BEHAVIOURS = {
     # Symplectic methods at steps that resolve the motion.
@@ -230,4 +352,20 @@ BEHAVIOURS = {
     "pendulum, less than two periods": (NONE, lambda r: pendulum(r, pick(r, "rk4", "verlet", "euler", "stv4"),
                                                                  r.uniform(0.3, 2.8), log_uniform(r, 0.01, 0.1),
                                                                  fewest=0.5, most=1.8)),
+    # Compared with runs 16 times as long.
+    "eccentric": (HELD, lambda r: kepler(r, pick(r, "verlet", "stv4", "yoshida6", "rk4"), r.uniform(0.5, 0.99),
+                                         log_uniform(r, 300, 4000), longest=30000, **LENGTH)),
+    "SI units": (HELD, lambda r: kepler_in_si(r, pick(r, *SPLIT), log_uniform(r, 60, 400))),
+    "magnetic field": (HELD, lambda r: magnetic(r, pick(r, *IMPLICIT))),
+    "rotating frame": (HELD, lambda r: rotating(r, pick(r, *IMPLICIT))),
+    "walls met at ends of steps": (HELD, lambda r: between_walls(r, pick(r, "verlet", "stv4", {"name": "cg"}))),
+    "henon-heiles in walls": (HELD, lambda r: henon_heiles_in_walls(r, pick(r, "verlet", "stv4"))),
+    "tiny masses": (HELD, lambda r: tiny_mass(r, pick(r, "verlet", "stv4", "rk4"))),
+    "adaptive": (HELD, adaptive),
+    "driven": (HELD, lambda r: driven(r, pick(r, "verlet", "stv4", "rk4"))),
+    "rotors": (HELD, lambda r: rotor(r, pick(r, *SPLIT))),
+    "H = 0 at the start": (HELD, lambda r: from_zero(r, pick(r, *SPLIT))),
+    "shifted by a constant": (HELD, lambda r: shifted(r, pick(r, *SPLIT))),
+    "far from the origin": (HELD, lambda r: far_away(r, pick(r, *SPLIT))),
+    "tao": (HELD, tao_run),
 }
