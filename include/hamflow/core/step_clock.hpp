@@ -93,8 +93,8 @@ class StepClock {
   R time() const { return time_after(0); }
   /// The time that so many steps from now will have.
   R time_after(std::int64_t steps) const { return start_ + static_cast<R>(position_ + direction_ * steps) * step_; }
-  /// The earlier end, in the order of the run forwards, of the step that follows so many steps from now. Going back, the
-  /// times of stages are counted from the same end as going forwards.
+  /// The earlier end, in the order of the run forwards, of the step that follows so many steps from now. Going back,
+  /// the times of stages are counted from the same end as going forwards.
   TimeWords<R> begin_after(std::int64_t steps) const {
     return time_in_words(start_, static_cast<R>(position_ + direction_ * steps - (direction_ < 0 ? 1 : 0)), step_);
   }

@@ -40,10 +40,10 @@ class Model {
   /// Coordinates that have names.
   std::size_t size() const { return coordinates_.size(); }
   /// Degrees of freedom of the functions below. Where H depends on t, two more coordinates carry the time: the time
-  /// since the present step began, with the momentum E, and behind it the time at which that step began, which no motion
-  /// changes (core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) + E: along a
-  /// motion t' = 1 and E' = -dH/dt, so that H + E is conserved: its deviation is H - H(0) - int dH/dt. Separable H stay
-  /// so if T does not depend on t: kicks are at the time of their stage.
+  /// since the present step began, with the momentum E, and behind it the time at which that step began, which no
+  /// motion changes (core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) + E:
+  /// along a motion t' = 1 and E' = -dH/dt, so that H + E is conserved: its deviation is H - H(0) - int dH/dt.
+  /// Separable H stay so if T does not depend on t: kicks are at the time of their stage.
   std::size_t degrees() const { return size() + (structure_.time ? clock_coordinates : 0); }
   const std::vector<std::string>& coordinates() const { return coordinates_; }  // x[1], x[2], ...
   const std::vector<std::string>& momenta() const { return momenta_; }

@@ -217,8 +217,8 @@ class DormandPrince853 {
     return fifth * fifth / std::sqrt(fifth * fifth + 0.01 * third * third);
   }
   /// One block, its first `size` entries. The two errors become infinite where anything is not a number.
-  void compare(double length, std::size_t size, const V& x0, const V& x1, const std::array<V, stages>& slopes, double& fifth,
-               double& third) const {
+  void compare(double length, std::size_t size, const V& x0, const V& x1, const std::array<V, stages>& slopes,
+               double& fifth, double& third) const {
     double scale = 0;
     double e5 = 0;
     double e3 = 0;

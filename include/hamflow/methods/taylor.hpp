@@ -166,7 +166,8 @@ class TaylorMethod {
         if (!(last <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::quiet_NaN();
         if (last == 0) continue;
         double rho = 0;
-        for (int k = 0; k < 3 && k < j; ++k) rho = std::fmax(rho, std::pow(norm(first, count, k) / last, 1.0 / (j - k)));
+        for (int k = 0; k < 3 && k < j; ++k)
+          rho = std::fmax(rho, std::pow(norm(first, count, k) / last, 1.0 / (j - k)));
         least = std::fmin(least, rho);
       }
     }

@@ -338,8 +338,8 @@ class RecordedSimulation final : public InParts<SimulationOf<P, M, A>>, public R
   std::int64_t asked_ = 0;
   bool behind_walls_ = false;
   std::shared_ptr<const RecordedStep> undone_;  // lives on where loops are dropped
-  int failures_ = 0;                           // of recording
-  std::span<const NamedExpression> summed_{};  // whose values behind each step are added to sums_
+  int failures_ = 0;                            // of recording
+  std::span<const NamedExpression> summed_{};   // whose values behind each step are added to sums_
   std::span<StepSum> sums_{};
   std::optional<PartsInNumbers> numbers_;
   int parts_asked_ = 0;

@@ -28,8 +28,8 @@ struct GasModel : Particles<R> {
   R scale_squared{1};
   Cutoff<R> cutoff{};
   ContainerKind container = ContainerKind::none;
-  SoftWall<R> wall{};      // of a circle
-  std::vector<R> edges{};  // of a periodic box
+  SoftWall<R> wall{};                 // of a circle
+  std::vector<R> edges{};             // of a periodic box
   std::shared_ptr<NearPairs> near{};  // with a cut-off; null: all pairs
 
   explicit GasModel(Laws pairs) : law(std::move(pairs)) {}
