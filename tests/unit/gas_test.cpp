@@ -54,5 +54,56 @@ TEST(GasOrders, TwoAndFourSurviveASmoothEnd) {
 /// Each passage of a jump of the force costs an error of the size of the step.
 TEST(GasOrders, FourDoesNotSurviveAJumpOfTheForce) { EXPECT_LT(order_of("stv4", "shifted", 100), 3); }
 
+/// Six particles in a periodic box, the last one so many edges away.
+Request far_apart(const std::string& edges) {
+  const std::map<std::string, std::string> choices{{"container", "periodic"}};
+  Request request{.problem = "gas",
+                  .variant = choices,
+                  .parameters = complete(find_problem("gas", choices).info, {{"size", "[7.3, 7.3]"}}),
+                  .method = {.name = "verlet"},
+                  .dt = "0.01"};
+  request.start.q = {"-2.1", "-2", "0.2", "-1.9", "2.3", "-2.2", "-2", "0.3", "0.1", "0.2", "2.2 - 7.3*" + edges,
+                     "0.4"};
+  request.start.p = {"0.1", "0.2", "-0.3", "0.1", "0.2", "-0.1", "0.3", "0.1", "-0.2", "0.2", "-0.1", "0.3"};
+  return request;
+}
+
+/// Images are found in the same way by recorded steps and others, before a save and behind it.
+TEST(GasImages, HaveTheSameBitsEveryWay) {
+  for (const char* edges : {"0", "2", "3"}) {
+    Request request = far_apart(edges);
+    const auto whole = make_simulation(request);
+    EXPECT_EQ(whole->advance(300), Outcome::done);
+    const auto first = make_simulation(request);
+    EXPECT_EQ(first->advance(150), Outcome::done);
+    const auto second = make_simulation(request);
+    second->restore(first->save());
+    EXPECT_EQ(second->advance(150), Outcome::done);
+    request.record = false;
+    const auto ordinary = make_simulation(request);
+    EXPECT_EQ(ordinary->advance(300), Outcome::done);
+    EXPECT_EQ(whole->bits(), second->bits()) << edges;
+    EXPECT_EQ(whole->bits(), ordinary->bits()) << edges;
+  }
+}
+
+/// However far away: forces of an image do not vanish.
+TEST(GasImages, AreFoundAtAnyDistance) {
+  for (const char* arithmetic : {"double", "quad"}) {
+    const auto momenta = [&](const std::string& edges) {
+      Request request = far_apart(edges);
+      request.arithmetic = arithmetic;
+      const auto run = make_simulation(request);
+      EXPECT_EQ(run->advance(1), Outcome::done);
+      Frame frame;
+      run->look(frame);
+      return frame.p;
+    };
+    const std::vector<double> near = momenta("0");
+    const std::vector<double> far = momenta("10000000");
+    for (std::size_t i = 0; i < near.size(); ++i) EXPECT_NEAR(near[i], far[i], 1e-7) << arithmetic << " " << i;
+  }
+}
+
 }  // namespace
 }  // namespace hamflow::test

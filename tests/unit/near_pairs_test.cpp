@@ -9,6 +9,7 @@
 #include "hamflow/arithmetic/double_double.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/thread_team.hpp"
 #include "hamflow/methods/pair_sums.hpp"
 #include "hamflow/problems/pairs/lennard_jones.hpp"
 #include "hamflow/problems/support/gas_system.hpp"
@@ -157,6 +158,13 @@ TEST(NearPairs, LeaveNoPairOutFarAwayOrWithoutNumbers) {
     q[7] = x;
     EXPECT_EQ(pairs_in(*near, q, n), n * (n - 1) / 2);
   }
+}
+
+TEST(ThreadTeam, RefusesMoreBlocksThanItCounts) {
+  ThreadTeam team(2);
+  auto nothing = [](std::size_t, std::uint64_t, std::size_t) {};
+  EXPECT_THROW((void)team.share(ThreadTeam::most_blocks + 1, nothing), Error);
+  EXPECT_EQ(team.share(3, nothing), 1U);
 }
 
 }  // namespace
