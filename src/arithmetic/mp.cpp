@@ -1,11 +1,14 @@
 #include "hamflow/arithmetic/mp.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace hamflow {
 
 namespace {
+/// 2^largest_exponent is some 10^(10^6).
+constexpr mpfr_exp_t largest_exponent = 3321928;
 /// 0: not set yet.
 thread_local mpfr_prec_t bits_in_use = 0;
 
@@ -22,6 +25,8 @@ MpNumber made_by(Operation operation) {
 MpDigits::MpDigits(int digits) : before_(bits_in_use) {
   // MPFR keeps constants for each thread; they go with it.
   struct Caches {
+    // A sine of an argument beyond that would take minutes, and no trajectory leads there.
+    Caches() { mpfr_set_emax(largest_exponent + 1); }
     ~Caches() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
   };
   static thread_local const Caches of_thread;
@@ -129,6 +134,14 @@ MpNumber Traits::pi() noexcept {
 MpNumber Traits::read(std::string_view text) {
   return made_by([&](mpfr_ptr x) { mpfr_set_str(x, std::string(text).c_str(), 10, MPFR_RNDN); });
 }
+double binary_logarithm(const Mp& x) {
+  if (mpfr_nan_p(x.value.raw())) return std::numeric_limits<double>::quiet_NaN();
+  if (mpfr_inf_p(x.value.raw())) return std::numeric_limits<double>::infinity();
+  if (mpfr_zero_p(x.value.raw())) return -std::numeric_limits<double>::infinity();
+  long exponent = 0;
+  const double mantissa = mpfr_get_d_2exp(&exponent, x.value.raw(), MPFR_RNDN);
+  return std::log2(std::fabs(mantissa)) + static_cast<double>(exponent);
+}
 std::size_t decimal_places(mpfr_prec_t bits) {
   return static_cast<std::size_t>(std::ceil(1 + static_cast<double>(bits) * std::log10(2.0)));
 }
@@ -147,8 +160,9 @@ MpNumber power_of_two(mpfr_exp_t exponent) {
 }
 }  // namespace
 MpNumber Traits::epsilon() noexcept { return power_of_two(1 - static_cast<mpfr_exp_t>(MpDigits::bits())); }
-// Far inside MPFR's own range, which is at least 2^(2^30): no physical quantity is larger.
-MpNumber Traits::max() noexcept { return power_of_two(mpfr_exp_t{1} << 28); }
+// Numbers of this thread overflow behind it (MpDigits).
+MpNumber Traits::max() noexcept { return power_of_two(largest_exponent); }
+// Far inside MPFR's own range, which is at least 2^(-2^30).
 MpNumber Traits::min() noexcept { return power_of_two(-(mpfr_exp_t{1} << 28)); }
 MpNumber Traits::infinity() noexcept {
   return made_by([](mpfr_ptr x) { mpfr_set_inf(x, 1); });

@@ -70,7 +70,8 @@ std::string refused_number(const OptionInfo& option, const std::string& text, co
   const bool meant_as_word = text != "pi" && text.find_first_of("0123456789(") == std::string::npos;
   if (meant_as_word) return found(option, whole_text) + suggestion(text, option.words);
   try {
-    return option.range.contains(evaluate_number<double>(text)) ? "" : found(option, whole_text);
+    const long double x = option.beyond_double ? wide_number_value(text) : evaluate_number<double>(text);
+    return option.range.contains(x) ? "" : found(option, whole_text);
   } catch (const Error& error) {
     return error.what();
   }
@@ -78,7 +79,7 @@ std::string refused_number(const OptionInfo& option, const std::string& text, co
 
 }  // namespace
 
-bool Range::contains(double x) const {
+bool Range::contains(long double x) const {
   if (!std::isfinite(x) || (whole && x != std::floor(x)) || (not_zero && x == 0)) return false;
   return open ? least < x && x < most : least <= x && x <= most;
 }
@@ -183,5 +184,11 @@ std::vector<std::string> option_names(const std::vector<OptionInfo>& options) {
 }
 
 double number_value(const std::string& text) { return evaluate_number<double>(text); }
+
+long double wide_number_value(const std::string& text) {
+  const auto wide = evaluate_number<long double>(text);
+  const auto narrow = static_cast<double>(wide);
+  return std::isnormal(narrow) ? number_value(text) : wide;
+}
 
 }  // namespace hamflow

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/step_sums.hpp"
 
@@ -14,6 +15,8 @@ struct Frames {
 
 /// Calls the observers that are due at the simulation's step, in their order.
 Outcome wake(const Simulation& simulation, std::span<Observer* const> observers, Frames& frames) {
+  // A partial step that was given up would count as one that failed.
+  const StopQuestion::Silence silence;
   const std::int64_t now = simulation.step();
   bool looked = false;
   Outcome outcome = Outcome::done;

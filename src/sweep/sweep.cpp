@@ -149,6 +149,8 @@ class Sweep::Worker {
       counted = step;
       return !sweep_.stop_;
     };
+    const std::function<bool()> goes_on = [&] { return !sweep_.stop_; };
+    const StopQuestion question(goes_on);
     const Outcome outcome = hamflow::run(simulation, steps, observers, count);
     count(simulation.step());
     return outcome;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gnuplot.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "json_text.hpp"
 #include "resume.hpp"
@@ -214,6 +215,8 @@ class ScenarioRun {
 
   RunResult take_steps() {
     RunResult result;
+    const GoOn goes_on = [this] { return !settings_.pulse || settings_.pulse(simulation_->step()); };
+    const StopQuestion question(goes_on);
     try {
       result.outcome = run(*simulation_, scenario_.steps, observers_, [&](std::int64_t step) {
         if (recorder_) {

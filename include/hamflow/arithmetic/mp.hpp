@@ -1,7 +1,7 @@
 // Multiple precision with a number of digits chosen at run time, by MPFR.
 // The digits are a property of the thread: code that computes in Mp runs inside an MpDigits scope, and every number
-// made there, results included, has those digits. Operations are compiled once (src/arithmetic/mp.cpp): a call is
-// nothing beside them, and problems compile faster for it.
+// made there, results included, has those digits. Beyond 10^(10^6) it is infinite. Operations are compiled once
+// (src/arithmetic/mp.cpp): a call is nothing beside them, and problems compile faster for it.
 #pragma once
 
 #include <mpfr.h>
@@ -121,6 +121,9 @@ inline double ExtendedTraits<MpNumber>::as<double>(const MpNumber& x) noexcept {
 }
 
 using Mp = Extended<MpNumber>;
+
+/// As that of other numbers (core/math.hpp).
+double binary_logarithm(const Mp& x);
 
 /// In a checkpoint: hexadecimal, with its precision.
 std::string exact_text(const Mp& x);

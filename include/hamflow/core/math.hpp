@@ -39,6 +39,12 @@ constexpr R larger(R a, R b) {
   return a < b ? b : a;
 }
 
+/// log2 |x| to the digits of a double, of numbers far beyond its range too; -infinity for 0.
+template <class R>
+double binary_logarithm(const R& x) {
+  return static_cast<double>(std::log2(static_cast<long double>(abs(x))));
+}
+
 /// a > 0 ? b : c. Recordings have it without a branch (core/tape.hpp).
 template <class S>
 S choose(const S& a, const S& b, const S& c) {

@@ -30,7 +30,7 @@ struct Range {
   static constexpr Range between(double least, double most) { return {least, most, true, false}; }
 
   /// False for NaN and for what is infinite.
-  bool contains(double x) const;
+  bool contains(long double x) const;
 };
 inline constexpr Range Range::any{};
 inline constexpr Range Range::positive{0, std::numeric_limits<double>::infinity(), true, false};
@@ -63,6 +63,7 @@ struct OptionInfo {
   std::string condition{};         // on what it depends, e.g. "with arithmetic = \"lattice\""
   std::string example{};           // a value for `new` where there is no default
   int position = 0;                // from 1: it may be given by position, as in cg(2,6); 0: by name only
+  bool beyond_double = false;      // it may be smaller or larger than a double can be
   bool free_on_resume = false;     // it decides no bit of what is written: --resume takes another value
   std::vector<OptionInfo> keys{};  // of a table
 };
@@ -85,6 +86,8 @@ std::vector<std::string> option_names(const std::vector<OptionInfo>& options);
 
 /// The value of a text that refused_value() has nothing against.
 double number_value(const std::string& text);
+/// The same as long double where a double would be 0, subnormal or infinite.
+long double wide_number_value(const std::string& text);
 
 /// An option that sets members of a struct of options. The text is one that refused_value() has nothing against.
 template <class Owner>
@@ -112,7 +115,8 @@ Owner read_options(const BoundOptions<Owner>& options, const Texts& given, Owner
   return into;
 }
 
-/// Binds a number to a member of type int, double or std::optional<double>; words stand for the values beside them.
+/// Binds a number to a member of type int, double, long double or std::optional<double>; words stand for the values
+/// beside them.
 template <class Owner, class T>
 BoundOption<Owner> bind_number(OptionInfo info, T Owner::*member, std::vector<std::pair<std::string, T>> words = {}) {
   for (const auto& word : words) info.words.push_back(word.first);
@@ -123,7 +127,9 @@ BoundOption<Owner> bind_number(OptionInfo info, T Owner::*member, std::vector<st
                 return;
               }
             }
-            if constexpr (std::is_integral_v<T>) {
+            if constexpr (std::is_same_v<T, long double>) {
+              owner.*member = wide_number_value(text);
+            } else if constexpr (std::is_integral_v<T>) {
               owner.*member = static_cast<T>(number_value(text));
             } else {
               owner.*member = number_value(text);

@@ -16,6 +16,17 @@ class StopQuestion {
   ~StopQuestion() { here() = before_; }
   StopQuestion(const StopQuestion&) = delete;
   StopQuestion& operator=(const StopQuestion&) = delete;
+  /// While it lives, nobody is asked: of what has to be done whole, whoever wants to stop.
+  class Silence {
+   public:
+    Silence() : before_(std::exchange(here(), nullptr)) {}
+    ~Silence() { here() = before_; }
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+
+   private:
+    StopQuestion* before_;
+  };
   /// Once it is true it stays so.
   static bool answered() { return here() != nullptr && here()->asked(); }
 

@@ -10,9 +10,10 @@
 namespace hamflow {
 
 struct AdaptiveOptions {
-  double tolerance = 1e-12;  // on the error of a sub-step, relative to the size of q and of p, each by itself
-  int order = 0;             // of taylor; 0: the cheapest for the tolerance
-  bool fixed = false;        // one sub-step a step, whatever its error: what orders are measured on
+  long double tolerance = 1e-12;  // beyond the range of a double for more than 300 digits; on the error of a sub-step,
+                                  // relative to the size of q and of p, each by itself
+  int order = 0;                  // of taylor; 0: the cheapest for the tolerance
+  bool fixed = false;             // one sub-step a step, whatever its error: what orders are measured on
   int max_substeps = 100000;
 };
 

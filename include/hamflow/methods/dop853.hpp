@@ -20,6 +20,7 @@
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/step_clock.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/dop853_tableau.hpp"
 #include "hamflow/methods/substeps.hpp"
@@ -123,6 +124,10 @@ class DormandPrince853 {
       derivative(problem, s.q0, s.p0, s.dq[0], s.dp[0]);
       double part = 0;
       for (bool repeated = false;; repeated = true) {
+        if (StopQuestion::answered()) {
+          z = start;
+          return Outcome::stopped;
+        }
         part = substeps.next(proposal);
         if (part == 0 || substeps.taken() == options_.max_substeps) {
           z = start;
@@ -231,8 +236,9 @@ class DormandPrince853 {
     }
     if (!(scale <= std::numeric_limits<double>::max())) e5 = std::numeric_limits<double>::quiet_NaN();
     if (e5 == 0 && e3 == 0) return;  // also where the block is at rest in 0
-    raise(fifth, e5 / (options_.tolerance * scale));
-    raise(third, e3 / (options_.tolerance * scale));
+    const double tolerance = static_cast<double>(options_.tolerance);
+    raise(fifth, e5 / (tolerance * scale));
+    raise(third, e3 / (tolerance * scale));
   }
   /// most <- max(most, x); a NaN stays.
   static void raise(double& most, double x) {
@@ -248,7 +254,7 @@ class DormandPrince853 {
       return "dop853 would need a sub-step of " + shortest(proposal) + " after " + shortest(substeps.done()) +
              " of the step, too short to add up: is the motion near a collision or another singularity, or tolerance "
              "= " +
-             shortest(options_.tolerance) + " below the rounding of the arithmetic?";
+             shortest(static_cast<double>(options_.tolerance)) + " below the rounding of the arithmetic?";
     }
     return "dop853 took " + std::to_string(options_.max_substeps) + " sub-steps, the maximum, for " +
            shortest(substeps.done()) + " of the step: a shorter step or a larger tolerance would help";

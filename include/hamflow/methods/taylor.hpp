@@ -9,8 +9,19 @@
 //     tau <= rho (tolerance e^-2)^(1/p) exp(-0.7/(p - 1)).
 // For the cheapest order, p = ceil(1 - ln(tolerance)/2), that is rho/e^2 and their safety factor. What is left of h is
 // divided into equal parts that are no longer. No sub-step depends on the one before it: there is no memory.
+//
+// The last two coefficients of both blocks can vanish by a symmetry of the motion: the quartic oscillator x' = p,
+// p' = -2 x^3 from x = 0 has q-coefficients 1, 5, 9, ... and p-coefficients 0, 4, 8, ... only. Therefore rho_j of all
+// coefficients of the second half bound the sub-step too, with three times the factor (at most 0.9).
+//
+// Sizes are kept as logarithms, because those of many digits leave the range of double: with 100 digits, powers of a
+// unit 1024 times shorter than the reach pass below 10^-308. A coefficient below the range of the arithmetic itself is
+// taken for the smallest number there, which can only shorten the sub-step. Before a sub-step is added, its last terms
+// are compared in the working arithmetic with the first ones: a series that does not converge there is a failure.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -22,6 +33,7 @@
 #include "hamflow/core/outcome.hpp"
 #include "hamflow/core/phase_point.hpp"
 #include "hamflow/core/step_clock.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/methods/adaptive_options.hpp"
 #include "hamflow/methods/substeps.hpp"
 #include "hamflow/methods/tape_of_motion.hpp"
@@ -45,7 +57,7 @@ class TaylorMethod {
     record(problem, q, p);
   }
   /// [JorbaZou2005, (3-7)]
-  static int cheapest_order(double tolerance) { return static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)); }
+  static int cheapest_order(long double tolerance) { return static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)); }
 
   MethodInfo info() const { return describe_taylor(options_, order_); }
   int order() const { return order_; }
@@ -83,6 +95,7 @@ class TaylorMethod {
   Outcome advance(const P& problem, const Base& h, PhasePoint<A, n>& z, std::string* why) {
     if (options_.fixed) {
       expand(problem, h, z);
+      if (StopQuestion::answered()) return Outcome::stopped;
       add(Base(1), z);
       return Outcome::done;
     }
@@ -97,14 +110,26 @@ class TaylorMethod {
         if (allowed == allowed || unit < Substeps::shortest) break;
         unit /= 1024;
       }
+      if (StopQuestion::answered()) {
+        z = start;
+        return Outcome::stopped;
+      }
       const double part = substeps.next(allowed);
       if (part == 0 || substeps.taken() == options_.max_substeps) {
         z = start;
         if (why != nullptr) *why = reason(part, allowed * std::fabs(static_cast<double>(h)), substeps);
         return Outcome::not_converged;
       }
-      add(part == unit ? Base(1) : exact_number<Base>(part / unit), z);
+      const Base s = part == unit ? Base(1) : exact_number<Base>(part / unit);
+      if (!converges_at(s, clocks_of(problem))) {
+        z = start;
+        if (why != nullptr) *why = divergence_reason(part, substeps);
+        return Outcome::not_converged;
+      }
+      add(s, z);
       substeps.take(part);
+      // A power of 2, so that it changes no bit of the result.
+      if (unit < 1) unit = allowed < 1 ? std::exp2(std::floor(std::log2(allowed))) : 1;
     }
     return Outcome::done;
   }
@@ -155,32 +180,78 @@ class TaylorMethod {
   /// The longest sub-step, in units; NaN: powers of the unit left the range.
   /// @param clocks last positions, which carry the time: their size is none of the motion
   double reach(std::size_t clocks) const {
-    const double share = std::pow(options_.tolerance, 1.0 / order_) * std::exp(-2.0 / order_) *
+    const double share = static_cast<double>(std::pow(options_.tolerance, 1.0L / order_)) * std::exp(-2.0 / order_) *
                          (order_ > 1 ? std::exp(-0.7 / (order_ - 1)) : 0.5);
-    const std::size_t size = tape_->inputs / 2;
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t first : {std::size_t{0}, size}) {
-      const std::size_t count = size - (first == 0 ? clocks : 0);
-      for (int j = order_ > 1 ? order_ - 1 : 1; j <= order_; ++j) {
-        const double last = norm(first, count, j);
-        if (!(last <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::quiet_NaN();
-        if (last == 0) continue;
-        double rho = 0;
-        for (int k = 0; k < 3 && k < j; ++k)
-          rho = std::fmax(rho, std::pow(norm(first, count, k) / last, 1.0 / (j - k)));
-        least = std::fmin(least, rho);
+    const double most = std::fmax(share, std::fmin(3 * share, 0.9));  // of what the second half allows
+    double last_two = std::numeric_limits<double>::infinity();
+    double second_half = std::numeric_limits<double>::infinity();
+    for (const std::size_t block : {std::size_t{0}, tape_->inputs / 2}) {
+      std::array<double, 3> sizes{};
+      for (int k = 0; k < std::min(3, order_); ++k)
+        sizes[static_cast<std::size_t>(k)] = log_size(block, end_of(block, clocks), k);
+      for (int j = std::max(1, std::min(order_ / 2 + 1, order_ - 1)); j <= order_; ++j) {
+        const double last = log_size(block, end_of(block, clocks), j);
+        if (!(last < std::numeric_limits<double>::infinity())) return std::numeric_limits<double>::quiet_NaN();
+        double& least = j >= order_ - 1 ? last_two : second_half;
+        least = std::fmin(least, radius_by(last, j, sizes));
       }
     }
-    return least * share;
+    return std::fmin(last_two * share, second_half * most);
   }
-  /// max_i |x_k| over so many entries; not finite where one is not.
-  double norm(std::size_t first, std::size_t count, int k) const {
-    double most = 0;
-    for (std::size_t i = first; i < first + count; ++i) {
-      const double x = std::fabs(static_cast<double>(value_of(scratch_.series.of(static_cast<int>(i))[k])));
+  /// Behind the last entry of a block that is one of the motion.
+  std::size_t end_of(std::size_t block, std::size_t clocks) const {
+    return block + tape_->inputs / 2 - (block == 0 ? clocks : 0);
+  }
+  /// rho_j from the logarithms of the coefficient and of the first three.
+  static double radius_by(double last, int j, const std::array<double, 3>& sizes) {
+    constexpr double none = -std::numeric_limits<double>::infinity();  // the logarithm of 0
+    static const double smallest = binary_logarithm(std::numeric_limits<Base>::min());
+    double rho = last == none ? std::numeric_limits<double>::infinity() : 0;
+    bool first = true;
+    for (int k = 0; k < std::min(3, j); ++k) {
+      const double size = sizes[static_cast<std::size_t>(k)];
+      if (size == none) continue;
+      const double by_k = std::exp2((size - std::fmax(last, smallest)) / (j - k));
+      rho = first ? by_k : std::fmax(rho, by_k);
+      first = false;
+    }
+    return rho;
+  }
+  /// log2 of the largest |x_k| of a block; -infinity for 0, infinity or NaN where a coefficient is not finite.
+  double log_size(std::size_t block, std::size_t end, int k) const {
+    Base most(0);
+    for (std::size_t i = block; i < end; ++i) {
+      const Base x = abs(value_of(scratch_.series.of(static_cast<int>(i))[k]));
       if (most == most && !(x <= most)) most = x;
     }
-    return most;
+    return binary_logarithm(most);
+  }
+
+  /// Whether no term of the second half of the series at s is larger than the largest of the first three, in each
+  /// block.
+  bool converges_at(const Base& s, std::size_t clocks) const {
+    const int half = order_ / 2 + 1;
+    for (const std::size_t block : {std::size_t{0}, tape_->inputs / 2}) {
+      Base first(0);
+      Base last(0);
+      for (std::size_t i = block; i < end_of(block, clocks); ++i) {
+        const Real* const x = scratch_.series.of(static_cast<int>(i));
+        Base power(1);
+        for (int k = 0; k <= order_; ++k) {
+          if (k > 0) power = power * s;
+          if (k >= 3 && k < half) continue;
+          const Base term = abs(value_of(x[k])) * power;
+          Base& most = k < std::min(3, half) ? first : last;
+          if (!(term <= most)) most = term;
+        }
+      }
+      if (!(last <= first)) return false;
+    }
+    return true;
+  }
+  std::string divergence_reason(double part, const Substeps& substeps) const {
+    return "the Taylor series does not converge over a sub-step of " + shortest(part) + " after " +
+           shortest(substeps.done()) + " of the step: is the motion near a singularity of H?";
   }
 
   std::string reason(double part, double allowed, const Substeps& substeps) const {

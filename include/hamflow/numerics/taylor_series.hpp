@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/core/vector.hpp"
 
@@ -72,10 +74,12 @@ class TaylorSeries {
   const R* of(int node) const { return coefficients_.begin() + static_cast<std::size_t>(node) * width_; }
 
   /// Coefficients 1..order of the inputs, from their coefficients 0. f_i is output i.
+  /// In many digits it may be stopped (StopQuestion); the coefficients are then incomplete.
   /// @return false: at this state a guard of the tape does not hold, and nothing was computed
   template <class U>
   bool solve(const Tape<Constant>& tape, std::size_t order, const U& unit) {
     for (std::size_t k = 0; k < order; ++k) {
+      if (!std::is_floating_point_v<Constant> && StopQuestion::answered()) return true;
       for (std::size_t i = tape.inputs; i < tape.nodes.size(); ++i) extend(tape, static_cast<int>(i), k);
       if (k == 0 && !guards_hold(tape)) return false;
       for (std::size_t i = 0; i < tape.inputs; ++i) {
