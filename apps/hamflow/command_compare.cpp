@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "commands.hpp"
 #include "gas_checks.hpp"
@@ -233,8 +234,10 @@ Scenario read_for(const CompareOptions& options, std::vector<std::string>& notes
 
 ComparisonReport carry_out(const ComparisonRequest& request, const CompareOptions& options) {
   catch_interrupts();
+  std::optional<Preparation> preparation(std::in_place, "the reference solution", options.json, options.quiet);
   Progress progress(0, 0, options.quiet);
   return compare_methods(request, [&](const ComparisonProgress& now) {
+    if (now.done > 0) preparation.reset();
     progress.show(now.part, now.seconds_left, fmt::format("{} of {} runs", now.done, now.runs));
     return !interrupted();
   });
