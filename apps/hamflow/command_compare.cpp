@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "commands.hpp"
 #include "gas_checks.hpp"
@@ -122,10 +123,22 @@ class RequestReader {
     return why_not.empty() ? "" : "problem.wall_rule = \"" + rule_of_walls(one) + "\" " + why_not;
   }
 
+  /// The run with this dt is then the single run, bit for bit.
+  void keep_dt(std::int64_t steps, const std::string& dt) {
+    if (divides_exactly(dt, steps, request.t_end_text, request.request.arithmetic)) request.dts.emplace(steps, dt);
+  }
+
   /// The nearest number of steps that ends at t_end.
   void read_steps(const std::string& text) {
     if (text.empty()) {
       request.steps = usual_step_counts(scenario_.steps);
+      for (const std::int64_t steps : request.steps) {  // halves and doubles of dt, which no arithmetic rounds
+        if (steps % scenario_.steps == 0) {
+          keep_dt(steps, "(" + scenario_.request.dt + ")/" + std::to_string(steps / scenario_.steps));
+        } else if (scenario_.steps % steps == 0) {
+          keep_dt(steps, "(" + scenario_.request.dt + ")*" + std::to_string(scenario_.steps / steps));
+        }
+      }
       return;
     }
     for (const std::string& part : split_list(text)) {
@@ -156,6 +169,7 @@ class RequestReader {
                         "; dt = " + shortest(fitting) + " is taken");
       }
       request.steps.push_back(steps);
+      keep_dt(steps, (evaluate_number<double>(part) * request.t_end < 0 ? "-(" : "(") + part + ")");
     }
     std::sort(request.steps.begin(), request.steps.end());
     request.steps.erase(std::unique(request.steps.begin(), request.steps.end()), request.steps.end());
@@ -221,8 +235,10 @@ Scenario read_for(const CompareOptions& options, std::vector<std::string>& notes
 
 ComparisonReport carry_out(const ComparisonRequest& request, const CompareOptions& options) {
   catch_interrupts();
+  std::optional<Preparation> preparation(std::in_place, "the reference solution", options.json, options.quiet);
   Progress progress(0, 0, options.quiet);
   return compare_methods(request, [&](const ComparisonProgress& now) {
+    if (now.done > 0) preparation.reset();
     progress.show(now.part, now.seconds_left, fmt::format("{} of {} runs", now.done, now.runs));
     return !interrupted();
   });

@@ -1,5 +1,6 @@
 // hamflow reverse: forward, negate the momenta, forward again, negate: what came back.
 #include <iostream>
+#include <optional>
 
 #include "commands.hpp"
 #include "guarded.hpp"
@@ -24,8 +25,10 @@ int reverse_command(const ReverseOptions& options) {
     settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
     settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
     catch_interrupts();
+    std::optional<Preparation> preparation(std::in_place, "setting up the reversal", options.json, options.quiet);
     Progress progress(0, 2 * scenario.steps, options.quiet);
     settings.pulse = [&](std::int64_t step) {
+      if (step > 0) preparation.reset();
       progress.show(step);
       kept.folder = settings.folder;
       return !interrupted();

@@ -25,13 +25,16 @@ RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWor
   settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
   settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
   std::optional<Progress> progress;  // its first step is where the run goes on
+  std::optional<Preparation> preparation;
   settings.pulse = [&](std::int64_t step) {
+    if (step > 0) preparation.reset();
     if (!progress) progress.emplace(step, scenario.steps, options.quiet);
     progress->show(step);
     kept.folder = settings.folder;
     return !interrupted();
   };
   catch_interrupts();
+  preparation.emplace("setting up the run", options.json, options.quiet);
   return run_scenario(scenario, settings);
 }
 

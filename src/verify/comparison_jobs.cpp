@@ -6,6 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/core/number.hpp"
+
 namespace hamflow {
 
 namespace {
@@ -75,6 +78,15 @@ std::string name_among(const MethodSpec& method, const std::vector<const MethodS
 
 }  // namespace
 
+bool divides_exactly(const std::string& dt, std::int64_t steps, const std::string& t_end,
+                     const std::string& arithmetic) {
+  const int digits = digits_of(arithmetic);
+  const MpDigits scope(digits + 30);
+  const Mp end = evaluate_number<Mp>(t_end);
+  const Mp tolerance = abs(end) * evaluate_number<Mp>("1e-" + std::to_string(digits + 10));
+  return abs(evaluate_number<Mp>("(" + dt + ")*" + std::to_string(steps)) - end) <= tolerance;
+}
+
 std::vector<std::string> comparison_names(const std::vector<MethodSpec>& methods) {
   std::map<std::string, std::vector<const MethodSpec*>> alike;
   for (const MethodSpec& method : methods) alike[describe(method).name].push_back(&method);
@@ -110,9 +122,14 @@ std::vector<ComparisonJob> comparison_jobs(const ComparisonRequest& asked) {
         point.steps = adaptive_steps;
       }
       point.dt = asked.t_end / static_cast<double>(point.steps);
-      job.request.dt = digits_beyond_double(asked.request.arithmetic) > 0
-                           ? "(" + t_end + ")/" + std::to_string(point.steps)
-                           : shortest(point.dt);
+      if (const auto typed = asked.dts.find(point.steps); typed != asked.dts.end()) {
+        job.request.dt = typed->second;
+        point.dt = evaluate_number<double>(typed->second);
+      } else {
+        job.request.dt = digits_beyond_double(asked.request.arithmetic) > 0
+                             ? "(" + t_end + ")/" + std::to_string(point.steps)
+                             : shortest(point.dt);
+      }
       const MethodInfo info = describe(job.request.method);
       point.order = info.order;
       point.explicit_step = info.explicit_step;

@@ -155,8 +155,9 @@ std::optional<std::string> own_summary(const Checkpoint& checkpoint, const fs::p
 
 bool is_complete(const Scenario& scenario, const Checkpoint& checkpoint, const std::string& summary) {
   const auto own = read_json(summary);
-  if (own.contains("stopped_by")) return true;  // by an event: there is no way on
-  return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps && own.value("status", "") == "done";
+  if (own.value("status", "") != "done") return false;  // its certificate may have been stopped
+  if (own.contains("stopped_by")) return true;          // an event ended the run: no step follows
+  return checkpoint.step == scenario.steps && checkpoint.steps == scenario.steps;
 }
 
 void check_summary(const std::string& own, const fs::path& folder) {

@@ -68,7 +68,7 @@ void restore(Simulation& simulation, const Checkpoint& checkpoint) {
   }
 }
 
-constexpr double patience = 5;  // seconds that somebody waits who asked to stop
+constexpr double patience = 0.4;  // seconds that the certificate, and then the figures, may take after Ctrl-C
 
 /// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
 /// stop.
@@ -156,10 +156,13 @@ class ScenarioRun {
 
   RunReport carry_out() {
     const auto begin = std::chrono::steady_clock::now();
+    const std::int64_t first = simulation_->step();
     RunResult result = take_steps();
     result.wall_seconds =
         seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.steps_taken = simulation_->step();
+    step_seconds_ = (result.wall_seconds - seconds_before_) /
+                    static_cast<double>(std::max<std::int64_t>(1, result.steps_taken - first));
     // Behind the last checkpoint: a run that goes on does not stop here.
     Frame end;
     simulation_->look(end);
@@ -204,11 +207,13 @@ class ScenarioRun {
   }
 
  private:
-  /// What comes after the steps. Who has asked to stop before waits for it no longer than `patience`.
+  /// What comes after the steps. Who has asked to stop before waits for it no longer than `patience`: no step begins
+  /// that would take longer.
   GoOn going_on(bool asked_before, std::int64_t step) const {
     if (!asked_before) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
-    return [begin = std::chrono::steady_clock::now()] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
+    return [this, begin = std::chrono::steady_clock::now()] {
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      return seconds + step_seconds_ < patience;
     };
   }
   bool writes() const { return !settings_.folder.empty(); }
@@ -276,6 +281,7 @@ class ScenarioRun {
   const RunSettings& settings_;
   std::unique_ptr<Simulation> simulation_;
   double seconds_before_ = 0;
+  double step_seconds_ = 0;  // on average, with what observes a step
   std::optional<FolderLock> lock_;
   std::optional<Checkpoint> begin_;
   std::unique_ptr<Recorder> recorder_;
@@ -308,7 +314,7 @@ RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
     } else {
       note(settings, "the run is complete: its figures are drawn");
       const FolderLock lock(settings.folder);
-      draw(requested, settings, from->step, report.status == "interrupted", report);
+      draw(requested, settings, from->step, false, report);
     }
     return report;
   }

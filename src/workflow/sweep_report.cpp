@@ -135,6 +135,12 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
     const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
     json[observable.name] = x == nullptr ? Json(nullptr) : Json(*x);
   }
+  for (const NamedExpression& observable : sweep.common().observables) {  // as in the summary of the single run
+    for (const char* what : {"initial", "mean", "final"}) {
+      const auto column = json.find(observable.name + "_" + what);
+      if (column != json.end()) json[output_keys().observables.name][observable.name][what] = Json(*column);
+    }
+  }
   if (sweep.common().section) {
     json["section"] = {{"points", row.section_points()}, {"max_residual", row.section_residual}};
   }

@@ -58,6 +58,29 @@ class Compare(CompareCase):
         self.assertEqual(c["rows"][0]["max_energy_error"], s["energy"]["max_relative_error"])
         self.assertEqual(c["rows"][0]["evaluations"], s["evaluations"])
 
+    def test_a_run_of_a_comparison_is_the_single_run(self):
+        """The typed dt, not t_end / steps, which differs from it by a rounding."""
+        for arithmetic in ("double", "compensated", "double-double", "quad", "mp(40)"):
+            for dts, sets in (("0.1,0.05,0.07", ()), ("1/30", ("run.dt='1/3'",)), ("0.1", ("run.dt=-0.1",))):
+                sets = [word for one in (*sets, f"run.arithmetic='{arithmetic}'", "run.steps=70", "method={name='stv4'}")
+                        for word in ("--set", one)]
+                rows = self.compare("kepler.toml", *sets, "--methods", "stv4", "--dt", dts)["rows"]
+                self.assertEqual(len(rows), dts.count(",") + 1)
+                for row in rows:
+                    dt = min(dts.split(","), key=lambda text: abs(eval(text) - abs(row["dt"])))
+                    sign = "-" if row["dt"] < 0 else ""
+                    own = self.summary("kepler.toml", *sets, "--set", f"run.dt='{sign}({dt})'", "--set", f"run.steps={row['steps']}")
+                    with self.subTest(arithmetic=arithmetic, dt=dt, sets=sets):
+                        self.assertEqual(row["dt"], own["dt"])
+                        self.assertEqual(row["max_energy_error"], own["energy"]["max_relative_error"])
+
+    def test_without_dt_each_run_of_a_comparison_is_the_single_run(self):
+        sets = ("--set", "run.arithmetic='double-double'", "--set", "run.steps=30", "--set", "method={name='stv4'}")
+        for row in self.compare("kepler.toml", *sets, "--methods", "stv4")["rows"]:
+            own = self.summary("kepler.toml", *sets, "--set", f"run.dt='0.1*{30 / row['steps']}'",
+                               "--set", f"run.steps={row['steps']}")
+            self.assertEqual(row["max_energy_error"], own["energy"]["max_relative_error"])
+
     def test_the_method_of_the_file_is_not_run(self):
         """Only the methods compared have to fit the problem."""
         self.write("rod.toml", """

@@ -294,8 +294,23 @@ steps = 333
                 for row in json.loads(done.stdout)["rows"]:
                     self.assertEqual((row["status"], row["steps"]), (status, 0))
                     self.assertEqual([row["o_" + what] for what in ("initial", "mean", "final")], 3 * [0.25])
+                    self.assertEqual(row["observables"], own["observables"])
                     self.assertEqual(row["eigenvalues_norm"], own["eigenvalues"]["norm"])
                     self.assertEqual([row["lyapunov1"], row["lyapunov2"]], own["lyapunov"]["exponents"])
+
+    def test_rows_have_the_observables_of_single_runs(self):
+        for name, more, q, p in (("fput", "n = 4", "[1, 0, 0, 0.02]", "[1, 0, 0, 1]"), ("sextic", "", "[0.6]", "[0.9]"),
+                                 ("magnetic", "", "[1, 0, 0]", "[0.1, 1, 0.2]")):
+            x, p_x = {"fput": ("q1", "p1"), "sextic": ("q", "p"), "magnetic": ("x", "p_x")}[name]
+            method = "cg" if name == "magnetic" else "verlet"
+            for keys in ("", "record_every = 7\n", f"events = [{{ expression = '{x} - 0.3' }}]\nsection = {{ expression = '{p_x}' }}\n"):
+                self.write("o.toml", f"[problem]\nname = '{name}'\n{more}\ninitial = {{ q = {q}, p = {p} }}\n[method]\n"
+                           f"name = '{method}'\n[run]\ndt = 0.01\nsteps = 300\n{keys}[output]\nobservables = {{ ob = '{x}^2' }}\n")
+                own = self.summary("o.toml")
+                done = self.hamflow("sweep", "o.toml", "--vary", "run.dt=0.01,0.02", "--out", "none", "--json")
+                row = json.loads(done.stdout)["rows"][0]
+                with self.subTest(name=name, keys=keys):
+                    self.assertEqual(row["observables"], own["observables"])
 
     def test_every_method_notes_what_it_does_without(self):
         self.write("gauss.toml", "[problem]\nname='pendulum'\ninitial={q=[0.5],p=[0.1]}\n[method]\nname='gauss'\nstages=2\n"

@@ -117,6 +117,26 @@ TEST_F(Workflow, AReportHoldsTheNumbersOfItsSummary) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+TEST_F(Workflow, ACertificateThatWasStoppedBehindAnEventIsMadeUpFor) {
+  const Scenario short_run = scenario({R"(run.events=[{ expression = "t - 120.05", action = "stop" }])"});
+  const RunReport wanted = run_scenario(short_run, in("whole"));
+  ASSERT_EQ(wanted.status, "done");
+  ASSERT_NE(wanted.json.find("\"stopped_by\""), std::string::npos);
+  ASSERT_EQ(wanted.final.step, 1201);
+
+  RunSettings settings = in("part");
+  settings.pulse = [](std::int64_t step) { return step < 1201; };  // asked at the last step by the certificate alone
+  const RunReport stopped = run_scenario(short_run, settings);
+  ASSERT_EQ(stopped.status, "interrupted");
+  ASSERT_TRUE(stopped.certificate->reversal->was_stopped);
+
+  const RunReport found = run_scenario(short_run, in("part", Existing::resume));
+  EXPECT_FALSE(found.was_complete);
+  EXPECT_EQ(without_seconds(found.json), without_seconds(wanted.json));
+  EXPECT_EQ(content(folder_ / "part" / "trajectory.csv"), content(folder_ / "whole" / "trajectory.csv"));
+  EXPECT_TRUE(run_scenario(short_run, in("part", Existing::resume)).was_complete);
+}
+
 TEST_F(Workflow, StoppedByAnObserverAndResumed) {
   Counter whole;
   RunSettings settings = in("whole");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,7 +23,13 @@ struct ComparisonRequest {
   double t_end = 0;
   std::vector<std::int64_t> steps;  // to t_end, one for each dt
   std::string t_end_text{};         // with all its digits, a number expression; empty: that of t_end
+  /// The dt of a number of steps, as a single run reads it. Those without an entry have t_end / steps, which another
+  /// rounding separates from the number that was typed.
+  std::map<std::int64_t, std::string> dts{};
 };
+
+/// Whether `steps` steps of length `dt` make t_end in every digit of the arithmetic; number expressions.
+bool divides_exactly(const std::string& dt, std::int64_t steps, const std::string& t_end, const std::string& arithmetic);
 
 /// One method with one dt, or one tolerance.
 struct ComparisonPoint {
