@@ -11,7 +11,6 @@
 
 #include "hamflow/core/inverse_cube.hpp"
 #include "hamflow/core/text.hpp"
-#include "hamflow/methods/tao.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/section.hpp"
 #include "hamflow/run/state_names.hpp"
@@ -113,8 +112,11 @@ void add_fast_springs(const Scenario& scenario, Json& all) {
   constexpr double most = 0.25;
   const MethodSpec& method = scenario.request.method;
   if (!describe(method).carries_copy) return;
-  const auto given = method.options.find("omega");
-  const double omega = given == method.options.end() ? TaoOptions().omega : evaluate_number<double>(given->second);
+  const std::vector<OptionInfo>& options = find_method(method.name).family->options;
+  const auto springs =
+      std::find_if(options.begin(), options.end(), [](const OptionInfo& o) { return o.position == 1; });
+  const auto given = method.options.find(springs->name);
+  const double omega = evaluate_number<double>(given == method.options.end() ? springs->default_value : given->second);
   const double product = omega * std::abs(scenario.dt);
   if (!(product > most)) return;
   all.push_back(
