@@ -259,6 +259,13 @@ std::vector<Series> printed(const Panel& panel, Series series, const PrintedBox&
   for (const Places& branch : branches) {
     for (std::size_t k = 1; k < branch.size(); ++k) coverage.add(pixels[branch[k - 1]], pixels[branch[k]]);
   }
+  std::size_t points = 0;
+  for (const Places& branch : branches) points += branch.size();
+  constexpr std::size_t few = 1000;  // a path drawn once may have gaps of a pixel
+  if (points <= few) {
+    series.curve = joined_branches(series.curve, branches);
+    return {series};
+  }
   Series once = series;
   once.curve = drawn_once(series.curve, pixels, branches, box);
   if (!coverage.fills_an_area()) return {once};

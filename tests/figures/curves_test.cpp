@@ -326,7 +326,7 @@ TEST(Printed, DotsOnOnePlaceAreOne) {
 TEST(Printed, APathOverItselfIsDrawnOnceAndAnAreaIsTintedBelowItsFirstTurns) {
   Curve circle;
   Curve ring;
-  for (int k = 0; k < 20000; ++k) {
+  for (int k = 0; k < 100000; ++k) {
     const double phi = 0.0628 * k;
     circle.add(0.5 + 0.3 * std::cos(phi), 0.5 + 0.3 * std::sin(phi));
     const double r = 0.3 + 0.05 * std::sin(0.617 * phi);
