@@ -1,7 +1,6 @@
 // Which method comes to an error most cheaply, between the steps of each.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "hamflow/verify/comparison.hpp"
 
@@ -36,20 +35,13 @@ std::optional<double> work_for(const Curve& method, double level, bool by_time, 
 /// 10^level, as a text where the doubles end.
 Magnitude power_of_ten(int level) { return Magnitude("1e" + std::to_string(level)); }
 
-/// log10 of the largest coordinate or momentum of the reference at the end: a larger error is no approximation of it.
-double log_of_solution_size(const ReferenceSolution& reference) {
-  double most = 0;
-  for (const double x : reference.end) most = std::max(most, std::abs(x));
-  return most > 0 ? std::log10(most) : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 std::vector<ComparisonWinner> winners(const Comparison& comparison) {
   // An error that is not well above the uncertainty of the reference is none.
   const double floor = comparison.reference.uncertainty.log10;
   const double told = floor + std::log10(4.0);
-  const double size = std::min(400.0, log_of_solution_size(comparison.reference));
+  constexpr double size = 0;  // errors are relative: what is as large as the motion itself approximates nothing
   std::vector<Curve> methods;
   // Powers of ten, within what mp(100000) can hold: an error of exactly 0 is none of them.
   constexpr int least = -100000;

@@ -200,10 +200,9 @@ steps = 400
     def test_winners_are_within_the_size_of_the_solution(self):
         found = json.loads(self.hamflow("compare", "kepler.toml", "--out", "none", "--json", "--methods", "verlet,euler,stv4",
                                         "--dt", "0.5,0.25,0.1").stdout)
-        most = max(abs(float(x)) for x in found["reference"]["q"] + found["reference"]["p"])
         self.assertTrue(found["winners"])
         for winner in found["winners"]:
-            self.assertLessEqual(float(winner["error"]), most)
+            self.assertLess(float(winner["error"]), 1)
 
     def test_names_of_others_lead_to_methods(self):
         for name, meant in (("generalized-leapfrog", "lobatto-3a-3b"), ("symplectic4", "stv4")):
