@@ -1,5 +1,7 @@
 #include "hamflow/verify/certificate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -266,7 +268,9 @@ double roundings_of(const Simulation& simulation) {
   return std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
 }
 
-/// The slowest of what has turned back. An angle that has gone round is no oscillation, whatever it did before.
+/// The slowest of what has turned back. An angle that has gone round is no oscillation, whatever it did before. A
+/// momentum counts where its coordinate has not turned: that of an eccentric orbit has a peak at each pericentre that
+/// lasts too short a time to be met by every sample, and its coordinate has the same period.
 void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings, std::int64_t steps_taken,
                   EnergySeries& series) {
   const std::vector<std::string>& names = problem.info.coordinates;
@@ -278,7 +282,10 @@ void find_periods(const ProblemEntry& problem, const std::vector<Swings>& swings
     const bool angle =
         i < names.size() && 2 * i < swings.size() && std::find(angles.begin(), angles.end(), names[i]) != angles.end();
     if (angle && swings[i].range() > 2 * std::numbers::pi) continue;
+    const std::size_t half = swings.size() / 2;
+    const auto of_coordinate = i < half ? std::nullopt : swings[i - half].seen(steps_taken);
     const auto seen = swings[i].seen(steps_taken);
+    if (seen && of_coordinate && of_coordinate->periods > seen->periods && !of_coordinate->is_over) continue;
     if (seen) {
       series.periods = std::min(series.periods.value_or(seen->periods), seen->periods);
       goes_on = goes_on || !seen->is_over;
@@ -318,11 +325,9 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
                                                const Simulation& simulation, const EnergyBlockState& state,
                                                const RunEnds& ends, double size) {
   EnergySeries series;
-  // Of rounding it is the scale that tells, unless T and V cancel at the start: beside more than that errors of a step
-  // would pass for roundings.
-  constexpr double cancelled = 0x1p-10;
+  // Of rounding it is the scale that tells, unless terms cancel at the start: these are rounded, too.
   const double scale = std::max(simulation.energy_scale(), state.exchange.largest().value_or(0));
-  const double rounded = std::max(scale > cancelled * size ? scale : size,
+  const double rounded = std::max(size > scale ? virial_per_size * size : scale,
                                   rounding_of_state(request, problem, ends, evaluate_number<double>(request.dt)));
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
@@ -341,6 +346,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
   series.roundings = roundings_of(simulation);
   series.symplectic = keeps_an_energy(request, simulation.method());
   series.bounces = walks_at_walls(request, simulation);
+  series.copies = simulation.method().carries_copy;
   find_periods(problem, state.swings, simulation.step(), series);
   return {series, unit};
 }
@@ -369,6 +375,15 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   }
   found.mean_increment = times(found.drift.mean_increment, unit);
   found.mean_increment_error = times(found.drift.mean_increment_error, unit);
+  const auto block_steps = static_cast<double>(blocks.state().block_steps);
+  found.trend_not_excluded = scale > 0 ? quotient(times(found.drift.trend_not_excluded / block_steps, unit), scale)
+                                       : LongNumber(std::numeric_limits<double>::quiet_NaN());
+  if (found.drift.drift == DriftClass::random_walk && scale > 0) {
+    const LongNumber& least = found.trend_not_excluded;
+    found.drift.reason +=
+        fmt::format("; up to {} steps: a trend below {} of the scale per step is not excluded", steps_taken,
+                    least.text.empty() ? fmt::format("{:.1e}", least.value) : least.text);
+  }
   LongNumber error = simulation.energy().max_error;
   // No double is so small: as the samples saw it.
   if (error.value == 0 && !blocks.state().digits.empty()) error = times(1, unit);

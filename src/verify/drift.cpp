@@ -13,6 +13,10 @@ double student_p_value(double t, int degrees_of_freedom) {
   return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(degrees_of_freedom), std::abs(t)));
 }
 
+double student_quantile(double p_value, int degrees_of_freedom) {
+  return boost::math::quantile(boost::math::complement(boost::math::students_t(degrees_of_freedom), p_value / 2));
+}
+
 double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) {
   const double count = static_cast<double>(x.size());
   double mean_x = 0;

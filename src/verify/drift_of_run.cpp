@@ -222,6 +222,22 @@ bool stays_away(const std::vector<double>& deviations, double largest) {
                      [&](double x) { return std::abs(x) > largest / 2; });
 }
 
+/// Whether a trend goes on in both halves of the run, in one direction. What a single close encounter leaves is a step,
+/// and the rest of the run is level.
+bool goes_on_throughout(const std::vector<double>& x) {
+  constexpr double least = 1.0 / 8;  // of the slope of the whole: a drift may slow down
+  const auto slope = [&](std::size_t begin, std::size_t end) {
+    std::vector<double> time(end - begin);
+    std::iota(time.begin(), time.end(), 0.0);
+    return fitted_slope(time,
+                        {x.begin() + static_cast<std::ptrdiff_t>(begin), x.begin() + static_cast<std::ptrdiff_t>(end)});
+  };
+  const double whole = slope(0, x.size());
+  const double sign = whole < 0 ? -1 : 1;
+  const std::size_t middle = x.size() / 2;
+  return std::min(sign * slope(0, middle), sign * slope(middle, x.size())) > least * sign * whole;
+}
+
 /// Whether a trend contradicts what the method is: too large for roundings to one side, one in each action, and too
 /// small for a step with which nothing is kept.
 bool must_turn_back(const EnergySeries& series, double largest) {
@@ -250,6 +266,9 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return undecided(
         "the energy goes one way over the run, but the method is symplectic: a slow oscillation that nothing has shown "
         "begins like a drift");
+  }
+  if ((rejected || stands_out) && !goes_on_throughout(series.deviations)) {
+    return undecided("a trend is seen that did not go on: in one half of the run the energy stays where it is");
   }
   if (rejected) {
     return {DriftClass::linear,
@@ -292,8 +311,9 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   if (!grows_not) {
     return undecided(grows + fmt::format(" +- {:.2f}, between the classes", found.growth_uncertainty));
   }
-  if (largest <= 16 * series.rounding) {
-    return undecided("errors of a few roundings: what they sum up to would show in a longer run only");
+  // Beneath an error of this size a walk of the roundings, or a trend of them, would not be seen.
+  if (largest <= std::max(32 * series.rounding, walk / 4)) {
+    return undecided("errors of the size of roundings: what they sum up to would show in a longer run only");
   }
   if (series.still > 0) {
     return undecided(
@@ -302,6 +322,9 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
                     rounded_down(100 * series.still, 0.1)));
   }
   if (series.bounces) return undecided("no drift is seen, but from bounce to bounce the energy of this method walks");
+  if (series.copies) {
+    return undecided("no drift is seen, but the state may part from the copy that the method carries in a longer run");
+  }
   if (!series.steady) return undecided("the motion has outgrown the oscillations that were seen");
   if (*found.periods < RunDrift::periods_to_be_bounded) {
     return undecided(
@@ -349,6 +372,9 @@ RunDrift classify_run(const EnergySeries& series) {
     const double per_block = largest / static_cast<double>(stride);
     found.mean_increment = mean * per_block;
     found.mean_increment_error = std::sqrt(squares / (tested - 1) / tested) * per_block;
+    found.trend_not_excluded =
+        std::abs(found.mean_increment) +
+        student_quantile(DriftStatistics::level, static_cast<int>(tested) - 1) * found.mean_increment_error;
     found.p_value = increments_p_value(ends);
     found.sign_p_value = sign_test(x);
     const Growth g = growth(x);

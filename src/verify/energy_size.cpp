@@ -39,7 +39,7 @@ double size_of_energy(const Request& request, const ProblemEntry& problem, const
   if (ends.start.q.empty()) return scale;
   const Texts all = complete(problem.info, request.parameters);
   const Virial start = virial(problem, all, ends.start.q, ends.start.p);
-  const double size = (start.of_q + start.of_p) / 16;
+  const double size = (start.of_q + start.of_p) / virial_per_size;
   return size > scale && std::isfinite(size) ? size : scale;
 }
 

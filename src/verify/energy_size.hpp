@@ -11,6 +11,9 @@ struct RunEnds {
 };
 RunEnds ends_of(const Request& request, const Simulation& simulation);
 
+/// What the forces make of an energy, the virial, is many times an energy of high powers of r: a sixteenth counts.
+constexpr double virial_per_size = 16;
+
 /// The size of the energy: its scale, but where T and V cancel or are 0 at the start (a pendulum held level) what the
 /// forces there make of it.
 double size_of_energy(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double scale);

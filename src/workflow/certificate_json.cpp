@@ -37,6 +37,7 @@ Json certificate_json(const RunCertificate& c) {
   all["growth_uncertainty"] = known(d.growth_uncertainty);
   all["mean_increment"] = known(c.mean_increment);
   all["mean_increment_error"] = known(c.mean_increment_error);
+  all["trend_not_excluded"] = known(c.trend_not_excluded);
   all["blocks"] = d.blocks;
   all["periods"] = d.periods ? Json(*d.periods) : Json(nullptr);
   all["energy_level"] = json_of(c.energy_level);

@@ -19,7 +19,7 @@ class Certificate(CommandCase):
         c, s = self.certificate("{name='stv4'}", steps=4000)
         self.assertEqual(set(c), {"drift", "reason", "p_value", "sign_p_value", "growth_exponent",
                                   "growth_uncertainty", "blocks", "periods", "mean_increment", "mean_increment_error",
-                                  "energy_level", "momentum_maps", "reversal_distance"})
+                                  "trend_not_excluded", "energy_level", "momentum_maps", "reversal_distance"})
         self.assertGreaterEqual(c["blocks"], 128)
         self.assertEqual(c["energy_level"], s["energy"]["max_relative_error"])
         self.assertEqual(c["momentum_maps"]["angular_momentum"]["max_error"],
@@ -214,6 +214,30 @@ class Certificate(CommandCase):
         self.assertLess(c["p_value"], 1e-20)
         self.assertEqual(c["drift"], "undecided")
         self.assertIn("symplectic", c["reason"])
+
+    def test_a_revolution_of_an_eccentric_orbit_is_one_oscillation(self):
+        """The momenta have a peak at each pericentre that samples far apart miss."""
+        for e in (0.5, 0.9):
+            start = f"q=[{1 + e}, 0.0], p=[0.0, {math.sqrt((1 - e) / (1 + e))!r}]"
+            self.write("eccentric.toml", "[problem]\nname='central-force'\npotential='kepler'\nk=1.0\nmass=1.0\n"
+                       f"initial={{{start}}}\n[method]\nname='stv4'\n[run]\ndt={2 * math.pi / 3000!r}\nsteps=3000\n")
+            for revolutions in (5, 50, 200):
+                c = self.summary("eccentric.toml", "--set", f"run.steps={3000 * revolutions}")["certificate"]
+                self.assertAlmostEqual(c["periods"], revolutions, delta=1 + 0.02 * revolutions, msg=e)
+
+    def test_a_walk_says_which_trend_it_may_hide(self):
+        c, s = self.certificate("{name='cg', quadrature=12}", steps=20000)
+        self.assertEqual(c["drift"], "random walk", c["reason"])
+        self.assertIn("up to 20000 steps: a trend below", c["reason"])
+        self.assertGreater(c["trend_not_excluded"], 0)
+        self.assertLess(20000 * c["trend_not_excluded"], 100 * s["energy"]["max_relative_error"])
+
+    def test_errors_of_summed_roundings_are_not_bounded(self):
+        """Over 16 times as many steps the error is 85 times as large."""
+        self.write("cancel.toml", "[problem]\nname='formula'\nhamiltonian='s + 0.3*sqrt(2*s)*cos(th)'\n"
+                   "coordinates=['th']\nmomenta=['s']\ninitial={q=['pi'], p=[0.1806005]}\n"
+                   "[method]\nname='discrete-gradient'\n[run]\ndt=0.01\nsteps=100000\n")
+        self.assertNotEqual(self.summary("cancel.toml")["certificate"]["drift"], "bounded")
 
     def test_the_units_of_a_lattice_are_its_rounding(self):
         self.write("coarse.toml", "[problem]\nname='pendulum'\ninitial={q=[1],p=[0]}\n[method]\nname='kahan-li8'\n"

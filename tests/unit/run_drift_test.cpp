@@ -229,6 +229,41 @@ TEST(RunDrift, OffWallsThatTheEnergyWalksAtNothingIsBounded) {
   EXPECT_FALSE(classify_run(wave).drift);
 }
 
+TEST(RunDrift, AMethodWithACopyIsNotBounded) {
+  EnergySeries wave = series([](int b, double) { return std::sin(2.4 * b); });
+  wave.copies = true;
+  EXPECT_FALSE(classify_run(wave).drift);
+}
+
+TEST(RunDrift, OneStepOfTheEnergyIsNoDrift) {
+  // A close encounter in an otherwise quiet run: level before it, and level after it.
+  for (const int at : {blocks / 8, blocks / 3, blocks / 2, 2 * blocks / 3}) {
+    const auto found = classify_run(
+        series([&](int b, double) { return (b > at ? 1.0 : 0.0) + 1e-3 * noise(7, static_cast<std::uint64_t>(b)); }));
+    EXPECT_EQ(found.drift, std::nullopt) << at << found.reason;
+  }
+}
+
+TEST(RunDrift, ErrorsOfTheSizeOfSummedRoundingsAreNotBounded) {
+  EnergySeries wave = rounded([](int b, double) { return 100 * std::sin(2.4 * b); });
+  EXPECT_FALSE(classify_run(wave).drift);  // 10^4 roundings of 1 walk as far
+  wave.rounding = 1e-3;
+  EXPECT_EQ(classify_run(wave).drift, DriftClass::bounded);
+}
+
+TEST(RunDrift, ATrendBelowAWalkIsNotExcluded) {
+  // A trend of half a deviation of the walk over the run: no test sees it, and the bound has to be above it.
+  int below = 0;
+  for (std::uint64_t s = 0; s < 200; ++s) {
+    const double trend = 0.5 * 10 / std::sqrt(static_cast<double>(blocks));
+    const auto found = classify_run(
+        rounded([&](int b, double before) { return before + trend + 10 * noise(s, static_cast<std::uint64_t>(b)); }));
+    below += found.trend_not_excluded < trend ? 1 : 0;
+    EXPECT_LT(found.trend_not_excluded, 100 * trend);
+  }
+  EXPECT_EQ(below, 0);  // 1 in 10^4 is expected
+}
+
 TEST(RunDrift, HugeAndBrokenEnergies) {
   EXPECT_EQ(classify_run(series([](int b, double) { return 1e300 * b; })).drift, DriftClass::linear);
   EXPECT_FALSE(classify_run(series([](int b, double) { return b == 70 ? std::nan("") : 0; })).drift ==

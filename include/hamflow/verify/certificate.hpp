@@ -193,6 +193,7 @@ std::vector<MomentumMap> momentum_maps(const Simulation& simulation, const Probl
 struct RunCertificate {
   RunDrift drift;                                   // increments in units of the largest deviation seen
   LongNumber mean_increment, mean_increment_error;  // of the energy, over a block
+  LongNumber trend_not_excluded;                    // of the energy over scale, per step
   LongNumber energy_level;                          // max |H - H0|/scale over every step; NaN: H is 0 at the start
   std::optional<double> exchanged{};                // EnergyExchange::largest()
   std::optional<double> typically_exchanged{};      // EnergyExchange::typical()

@@ -43,6 +43,7 @@ struct EnergySeries {
   double still = 0;         // the last part of the run in which nothing turned back, where oscillations are over
   bool symplectic = false;  // with equal steps: its energy has no drift over any run [HLW2006, Thm. IX.8.1]
   bool bounces = false;     // off walls that its energy walks at
+  bool copies = false;      // the method carries a copy of the state, from which the state may part
   double rounding = 0;      // of one energy: the rounding unit times its scale
   double roundings = 0;     // how many rounded actions were taken, of which each may leave one
   double scale = 1;         // of the energy itself
@@ -64,7 +65,11 @@ struct RunDrift {
   double growth_uncertainty = 0;    // its standard error
   double mean_increment = 0;        // of the energy, over a block
   double mean_increment_error = 0;  // its standard error
+  double trend_not_excluded = 0;    // over a block: no steady drift above it is compatible with the t-test
 };
+
+/// The t that |T| exceeds with this probability.
+double student_quantile(double p_value, int degrees_of_freedom);
 
 /// P(|T| >= |t|) for Student's t with a whole number of degrees of freedom, from 1.   [AbramowitzStegun1964, 26.7]
 double student_p_value(double t, int degrees_of_freedom);
