@@ -21,9 +21,9 @@ volatile sig_atomic_t asked_to_stop = 0;
 volatile sig_atomic_t answered = 0;       // somebody has seen asked_to_stop
 volatile sig_atomic_t stops_at_once = 0;  // at the next signal
 volatile sig_atomic_t preparing = 0;
-constexpr double grace = 0.8;       // seconds from Ctrl-C to the line that says what is waited for
-constexpr double long_start = 20;   // seconds until a preparation says what it does
-constexpr double long_silence = 20; // seconds until a run without a terminal says how long it will take
+constexpr double grace = 0.8;        // seconds from Ctrl-C to the line that says what is waited for
+constexpr double long_start = 20;    // seconds until a preparation says what it does
+constexpr double long_silence = 20;  // seconds until a run without a terminal says how long it will take
 
 // Written while no timer runs, read by the timer's handler.
 std::string long_start_text;
@@ -148,8 +148,9 @@ void Progress::show(std::int64_t step) {
   const double rate = static_cast<double>(step - first_) / seconds;
   const double part = static_cast<double>(step) / static_cast<double>(steps_);
   // Before the first step there is no rate to tell the time left from.
-  draw(part, rate > 0 ? fmt::format("{:.3g} steps/s  {} left", rate, duration(static_cast<double>(steps_ - step) / rate))
-                      : std::string("before the first step"));
+  draw(part, rate > 0
+                 ? fmt::format("{:.3g} steps/s  {} left", rate, duration(static_cast<double>(steps_ - step) / rate))
+                 : std::string("before the first step"));
 }
 
 void Progress::show(double part, std::optional<double> seconds_left, const std::string& what) {

@@ -1,5 +1,5 @@
-// A progress line on stderr when it is a terminal, one note about a long run when it is not; and Ctrl-C, which stops at a
-// step boundary.
+// A progress line on stderr when it is a terminal, one note about a long run when it is not; and Ctrl-C, which stops at
+// a step boundary.
 #pragma once
 
 #include <chrono>

@@ -28,7 +28,8 @@ struct ComparisonRequest {
 };
 
 /// Whether `steps` steps of length `dt` make t_end in every digit of the arithmetic; number expressions.
-bool divides_exactly(const std::string& dt, std::int64_t steps, const std::string& t_end, const std::string& arithmetic);
+bool divides_exactly(const std::string& dt, std::int64_t steps, const std::string& t_end,
+                     const std::string& arithmetic);
 
 /// One method with one dt, or one tolerance.
 struct ComparisonPoint {
