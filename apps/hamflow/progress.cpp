@@ -84,7 +84,9 @@ std::string duration(double seconds) {
 }  // namespace
 
 void catch_interrupts() {
-  asked_to_stop = answered = stops_at_once = 0;
+  asked_to_stop = 0;
+  answered = 0;
+  stops_at_once = 0;
   handle(SIGALRM, note_time);
   handle(SIGINT, note_interrupt);
   handle(SIGTERM, note_interrupt);
