@@ -106,7 +106,7 @@ class PageWriter {
       }
       panel.series = std::move(all);
     }
-    if (any_area) page_.notes.emplace_back("light: the whole path; dark: its first turns");
+    if (any_area) page_.notes.emplace_back("light: the whole line; dark: its first turns");
   }
   /// Notes begin below the box and end at the border of the page.
   void wrap_notes() {
