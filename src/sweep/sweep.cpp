@@ -10,6 +10,7 @@
 #include <system_error>
 #include <thread>
 
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/run/section.hpp"
 #include "lane_run.hpp"
 #include "on_threads.hpp"
