@@ -196,6 +196,8 @@ class TaylorMethod {
         least = std::fmin(least, radius_by(last, j, sizes));
       }
     }
+    // Last coefficients that vanish by a symmetry tell nothing about the reach.
+    if (last_two > 3 * second_half) return second_half * share;
     return std::fmin(last_two * share, second_half * most);
   }
   /// Behind the last entry of a block that is one of the motion.
