@@ -74,6 +74,13 @@ class Compare(CompareCase):
                         self.assertEqual(row["dt"], own["dt"])
                         self.assertEqual(row["max_energy_error"], own["energy"]["max_relative_error"])
 
+    def test_a_small_energy_error_of_a_comparison_has_the_digits_of_the_single_run(self):
+        """0.01*70/70 in double-double is another number than 0.01."""
+        self.write("k.toml", "[problem]\nname='central-force'\npotential='kepler'\ninitial={q=[1,0],p=[0,1.1]}\n"
+                   "[method]\nname='kahan-li8'\n[run]\ndt=0.01\nsteps=70\narithmetic='double-double'\n")
+        row = self.compare("k.toml", "--methods", "kahan-li8", "--dt", "0.01")["rows"][0]
+        self.assertEqual(row["max_energy_error"], self.summary("k.toml")["energy"]["max_relative_error"])
+
     def test_without_dt_each_run_of_a_comparison_is_the_single_run(self):
         sets = ("--set", "run.arithmetic='double-double'", "--set", "run.steps=30", "--set", "method={name='stv4'}")
         for row in self.compare("kepler.toml", *sets, "--methods", "stv4")["rows"]:
