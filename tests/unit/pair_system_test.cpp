@@ -40,7 +40,6 @@ System system_of(const Case& c, std::size_t space) {
   model->container = c.container;
   model->wall = SoftWall<double>(4, c.exponent, 1.25);
   model->edges.assign(space, 3.1);
-  model->half_edges.assign(space, 1.55);
   return System(model);
 }
 
