@@ -82,6 +82,12 @@ std::optional<double> EnergyExchange::typical() const {
   return std::max(first_kinetic, std::min(sum_of_kinetic, sum_of_change) / static_cast<double>(samples));
 }
 
+double scale_beside(double scale, std::optional<double> exchanged) {
+  constexpr double rounding = 0x1p-30;
+  const bool vanishes = exchanged && std::isfinite(*exchanged) && scale < rounding * *exchanged;
+  return vanishes ? *exchanged : scale;
+}
+
 EnergyBlocks::Energy energy_for_blocks(const Request& request, const ProblemEntry& problem, std::size_t coordinates) {
   constexpr std::size_t most_coordinates = 200;
   if (coordinates > most_coordinates || depends_on_time(problem) || !problem.energy) return {};
@@ -326,7 +332,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
                                                const RunEnds& ends, double size) {
   EnergySeries series;
   // Of rounding it is the scale that tells, unless terms cancel at the start: these are rounded, too.
-  const double scale = std::max(simulation.energy_scale(), state.exchange.largest().value_or(0));
+  const double scale = scale_beside(simulation.energy_scale(), state.exchange.largest());
   const double rounded = std::max(size > scale ? virial_per_size * size : scale,
                                   rounding_of_state(request, problem, ends, evaluate_number<double>(request.dt)));
   const int digits = digits_beyond_double(request.arithmetic);
@@ -359,7 +365,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   RunCertificate found;
   found.exchanged = blocks.state().exchange.largest();
   found.typically_exchanged = blocks.state().exchange.typical();
-  const double scale = std::max(simulation.energy_scale(), found.exchanged.value_or(0));
+  const double scale = scale_beside(simulation.energy_scale(), found.exchanged);
   const RunEnds ends = ends_of(request, simulation);
   // A constant in H changes what is concluded of it no more than the motion.
   const double exchanged = found.typically_exchanged.value_or(0);

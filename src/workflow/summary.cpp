@@ -307,8 +307,8 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   simulation.look(frame);
   const Effort effort = simulation.effort();
   const Excursion energy = simulation.energy();
-  const double exchanged = certificate != nullptr ? certificate->exchanged.value_or(0) : 0;
-  const double scale = std::max(simulation.energy_scale(), std::isfinite(exchanged) ? exchanged : 0);
+  const double scale =
+      scale_beside(simulation.energy_scale(), certificate != nullptr ? certificate->exchanged : std::nullopt);
   Json s;
   s["status"] = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
   s["problem"] = scenario.request.problem;

@@ -174,6 +174,7 @@ steps = 20000
         self.assertEqual(found[0][0], "bounded")
         self.write("level.toml", level % "0")
         self.assertGreater(self.summary("level.toml")["energy"]["scale"], 9)
+        self.assertLess(self.summary("level.toml")["energy"]["max_relative_error"], 1e-6)
 
     def test_nonsense_is_seen_beside_a_constant(self):
         kepler = """

@@ -325,7 +325,7 @@ class Problems(CommandCase):
             self.write("s.toml", text)
             aborted = self.summary("s.toml", "--set", "method.criterion=seed", status=1)
             self.assertEqual(aborted["error"]["kind"], "not_converged", problem)
-            self.assertIn("residual", aborted["error"]["message"])
+            self.assertIn("residual", aborted["error"]["details"])
             done = self.summary("s.toml")
             # On the hyperbola T and V grow without bound and H is their difference.
             size = max(done["energy"]["scale"], *(x * x for x in done["final"]["q"] + done["final"]["p"]))

@@ -43,7 +43,6 @@ SystemIn<R> system_of(const Arena& arena, const std::shared_ptr<NearPairs>& near
   model->container = arena.periodic ? ContainerKind::periodic : ContainerKind::none;
   if (arena.periodic) {
     model->edges.assign(arena.space, R(arena.edge()));
-    model->half_edges.assign(arena.space, R(arena.edge() / 2));
   }
   model->near = near;
   return SystemIn<R>(model);
