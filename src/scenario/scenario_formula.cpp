@@ -346,7 +346,7 @@ void ScenarioReader::read_typed_problem(TomlTable& table, const std::string& nam
     if (texts) check_invariant_names(table, *texts);
     if (texts) refuse_unused_parameters(table, *texts);
     if (texts && name == FormulaKeys::problem) note_standing_still(*texts);
-    if (texts && scenario_.problem->structure && scenario_.problem->structure->time) {
+    if (texts && name == FormulaKeys::problem && scenario_.problem->structure && scenario_.problem->structure->time) {
       driven_hamiltonian_ =
           !texts->hamiltonian.empty() ? texts->hamiltonian : "(" + texts->kinetic + ") + (" + texts->potential + ")";
     }

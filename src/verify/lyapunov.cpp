@@ -173,7 +173,9 @@ LyapunovSpectrum LyapunovSums::spectrum(std::size_t dimension, double h) const {
   if (has_blocks) {
     const double enough = found.exponents[0] / 5;
     const std::vector<double> pairs = rates(0, 2, h);
-    found.settled = std::all_of(pairs.begin(), pairs.end(), [&](double rate) { return rate > 0 && rate >= enough; });
+    constexpr double errors = 4;  // a mean below so many standard errors is that of a stretch, not of the orbit
+    found.settled = found.exponents[0] >= errors * found.standard_errors[0] &&
+                    std::all_of(pairs.begin(), pairs.end(), [&](double rate) { return rate > 0 && rate >= enough; });
   }
   if (total_.size() == 2 * dimension) {
     for (std::size_t i = 0; i < dimension; ++i) {

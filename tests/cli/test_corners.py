@@ -60,14 +60,14 @@ class Corners(CommandCase):
         self.assertIn("run.dt is a value here, not a table; allowed run.dt = { first = ... }", done.stderr)
 
     def test_a_step_without_solution_tells_cause_advice_numbers(self):
-        sets = ("--set", "run.dt=3", "--set", "method.name=gauss(2)", "--set", "problem.orbit.r_per=0.001")
+        sets = ("--set", "run.dt=30")
         done = self.hamflow("run", "kepler.toml", "--out", "none", *sets, status=1)
         lines = [line for line in done.stderr.splitlines() if line.split(":")[0] in ("error", "hint", "details")]
         self.assertEqual([line.split(":")[0] for line in lines], ["error", "hint", "details"], done.stderr)
         self.assertNotIn("residual", lines[0])
         self.assertIn("try a smaller dt", lines[1])
         self.assertIn("residual per iteration", lines[2])
-        done = self.hamflow("sweep", "kepler.toml", "--out", "none", *sets, "--vary", "run.dt=3,4", status=1)
+        done = self.hamflow("sweep", "kepler.toml", "--out", "none", *sets, "--vary", "problem.mass=2,2.1", status=1)
         self.assertIn("hint: try a smaller dt", done.stderr)
         self.assertNotIn("residual per iteration", done.stderr)
 
@@ -169,9 +169,9 @@ steps = 20000
             self.write("level.toml", level % constant)
             summary = self.summary("level.toml")
             self.assertEqual(summary["warnings"], [])
+            self.assertNotIn("scale", summary["certificate"]["reason"])
             found.append((summary["certificate"]["drift"], summary["certificate"]["periods"]))
         self.assertEqual(found, [found[0]] * 3)
-        self.assertEqual(found[0][0], "bounded")
         self.write("level.toml", level % "0")
         self.assertGreater(self.summary("level.toml")["energy"]["scale"], 9)
         self.assertLess(self.summary("level.toml")["energy"]["max_relative_error"], 1e-6)

@@ -251,7 +251,7 @@ invariants = {{ angle = "atan2(p, 3 + q^2)" }}\ninitial = {{ q = [0.5], p = [0.2
         rows = json.loads(self.hamflow("compare", "f.toml", "--methods", "stv4,rk4,cg(1,5)", "--dt", "0.1,0.05", "--out",
                                        "none", "--json", "--quiet").stdout)["rows"]
         self.assertEqual({row["status"] for row in rows}, {"done"})
-        self.assertTrue(all(row["error"] < 1e-2 for row in rows))
+        self.assertTrue(all(row["error"] < 5e-2 for row in rows), [row["error"] for row in rows])  # relative to the motion
         verified = json.loads(self.hamflow("verify", "verlet", "--problem", "formula", "--json").stdout)
         self.assertTrue(verified["methods"][0]["agrees"])
         self.hamflow("convert", "f.toml", "--to", "polar", status=2)

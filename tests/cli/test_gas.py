@@ -245,11 +245,11 @@ class Gas(GasCase):
         self.assertEqual(list(periodic["invariants"]), ["linear_momentum", "centre_of_mass"])
         for name in periodic["invariants"]:
             self.assertLess(periodic["invariants"][name]["max_error"], 1e-13)
-        box = self.gas('container = { kind = "box", size = [2.1, 2.1] }', "--set", "run.steps=400")
+        box = self.gas('container = { kind = "box", size = [2.1, 2.1] }', "--set", "run.steps=2000")
         self.assertEqual(box["parameters"]["wall_rule"], "mirror")
         self.assertEqual(box["parameters"]["size"], [2.1, 2.1])
         self.assertEqual(set(box["events"]), {"wall:x:min", "wall:x:max", "wall:y:min", "wall:y:max"})
-        done = self.hamflow("sweep", "gas.toml", "--vary", "problem.wall_rule=mirror,reject", "--set", "run.steps=400", "--out",
+        done = self.hamflow("sweep", "gas.toml", "--vary", "problem.wall_rule=mirror,reject", "--set", "run.steps=2000", "--out",
                             "none", "--json")
         self.assertEqual(json.loads(done.stdout)["rows"][0]["events"], box["events"])
         self.assertGreater(sum(box["events"].values()), 0)
@@ -304,9 +304,9 @@ class Gas(GasCase):
                 ('container = { kind = "box", size = [3] }', "2 edges"),
                 ('container = { exponent = 0.5 }', "a number from 1"),
                 ("container = { radius = 1.2 }", "particle 1 "),
-                ('container = { kind = "box", size = [1.9, 3] }', "x1 = -1 beyond the wall"),
-                ('container = { kind = "periodic", size = [3, 3] }', "with a cutoff of at most 2.25"),
-                ('cutoff = 2.5\ncontainer = { kind = "periodic", size = [3, 4] }', "at most 2.25"),
+                ('start = "corner"\ncontainer = { kind = "box", size = [1.9, 3] }', "x4 = 1 beyond the wall"),
+                ('container = { kind = "periodic", size = [3, 3] }', "with a cutoff of at most 2"),
+                ('cutoff = 2.5\ncontainer = { kind = "periodic", size = [3, 4] }', "at most 2, half"),
                 ("cutoff = -1", "positive"),
                 ('cutoff = { radius = 2, kind = "smooth" }', "inner"),
                 ('cutoff = { radius = 2, kind = "smooth", inner = 2 }', "inner below radius"),
@@ -343,7 +343,7 @@ class Gas(GasCase):
         typed = "container = { kind = 'none' }\npair = 'formula'\n"
         self.assertIn("allowed r, numbers, pi", self.errors(typed + "phi = 'x1'"))
         self.assertIn("found the name r, which a pair law has itself", self.errors(typed + "phi = 'r'\nparameters = { r = 2 }"))
-        box = "container = { kind = 'box', size = [1, 1] }\n"
+        box = "start = 'corner'\ncontainer = { kind = 'box', size = [1, 1] }\n"
         self.assertIn("with none, circle or periodic", self.errors(box + "walls = [{ coordinate = 'x1', max = 2 }]"))
         self.assertRegex(self.errors(box), r"beyond the wall at -?0\.5; allowed a start between the walls, from -0\.5 to 0\.5")
 

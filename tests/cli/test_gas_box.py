@@ -36,7 +36,7 @@ steps = 300
 class GasBox(CommandCase):
     def test_a_lattice_fills_its_box(self):
         for kind in ("box", "periodic"):
-            self.write("box.toml", BOX % ("scale = 1", kind))
+            self.write("box.toml", BOX % ("scale = 1\ncutoff = 2.5", kind))
             start = self.summary("box.toml", "--set", "run.steps=0")["final"]["q"]
             xs, ys = sorted(set(start[0::2])), sorted(set(start[1::2]))
             self.assertEqual(len(xs), 6)
@@ -46,15 +46,15 @@ class GasBox(CommandCase):
             self.assertLess(self.summary("box.toml")["energy"]["max_relative_error"], 1e-3)
 
     def test_per_side_puts_the_nearest_neighbours_one_length_apart(self):
-        self.write("box.toml", BOX % ("", "periodic"))
+        self.write("box.toml", BOX % ("cutoff = 2.5", "periodic"))
         self.assertAlmostEqual(float(self.summary("box.toml", "--set", "run.steps=0")["parameters"]["scale"]), 6 / 9, delta=1e-15)
 
     def test_overlapping_particles_are_named(self):
-        self.write("box.toml", BOX % ("scale = 0.1", "box"))
-        warned = self.summary("box.toml", "--set", "run.dt=1")["warnings"]
+        self.write("box.toml", BOX % ("scale = 0.1\ncutoff = 0.4", "periodic"))
+        warned = self.summary("box.toml", "--set", "run.dt=0.01")["warnings"]
         told = [w["message"] for w in warned if w["kind"] == "energy_error"]
         self.assertEqual(len(told), 1)
-        self.assertIn("particles 1 and 2 start 1.5 apart, although a pair repels within 10", told[0])
+        self.assertIn("particles 1 and 2 start 1.5 apart, although a pair repels within 4", told[0])
 
     def test_nearest_images_are_the_same_on_every_road(self):
         self.write("six.toml", SIX)
