@@ -66,10 +66,10 @@ class Corners(CommandCase):
         self.assertEqual([line.split(":")[0] for line in lines], ["error", "hint", "details"], done.stderr)
         self.assertNotIn("residual", lines[0])
         self.assertIn("try a smaller dt", lines[1])
-        self.assertIn("residual per iteration", lines[2])
+        self.assertIn("per iteration", lines[2])
         done = self.hamflow("sweep", "kepler.toml", "--out", "none", *sets, "--vary", "problem.mass=2,2.1", status=1)
         self.assertIn("hint: try a smaller dt", done.stderr)
-        self.assertNotIn("residual per iteration", done.stderr)
+        self.assertNotIn("per iteration", done.stderr)
 
     def test_indices_of_an_empty_array(self):
         done = self.hamflow("run", "kepler.toml", "--set", "problem.orbit={}", "--set", "problem.initial={q=[],p=[]}",

@@ -315,7 +315,7 @@ class Gas(GasCase):
                 ("masses = [1, 2, 3]", "problem.masses: found 3 numbers; allowed one, or 16"),
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
-                ('scale = 1\ncutoff = 1\ncontainer = { kind = "periodic", size = [3, 2] }',
+                ('start = "corner"\nscale = 1\ncutoff = 0.4\ncontainer = { kind = "periodic", size = [2, 1] }',
                  "particles 1 and 13 at images of one point"),
                 ('wall_rule = "mirror"', "walls"),
                 ("initial = { q = [0, 0, 0, 0], p = [0, 0, 0, 0] }", "particles 1 and 2 at one point"),

@@ -50,11 +50,11 @@ class GasBox(CommandCase):
         self.assertAlmostEqual(float(self.summary("box.toml", "--set", "run.steps=0")["parameters"]["scale"]), 6 / 9, delta=1e-15)
 
     def test_overlapping_particles_are_named(self):
-        self.write("box.toml", BOX % ("scale = 0.1\ncutoff = 0.4", "periodic"))
-        warned = self.summary("box.toml", "--set", "run.dt=0.01")["warnings"]
+        self.write("box.toml", BOX % ("scale = 0.3\ncutoff = 1", "periodic"))
+        warned = self.summary("box.toml", "--set", "run.dt=0.01", status=1)["warnings"]
         told = [w["message"] for w in warned if w["kind"] == "energy_error"]
         self.assertEqual(len(told), 1)
-        self.assertIn("particles 1 and 2 start 1.5 apart, although a pair repels within 4", told[0])
+        self.assertIn("particles 1 and 2 start 1.5 apart, although a pair repels within 3.33", told[0])
 
     def test_nearest_images_are_the_same_on_every_road(self):
         self.write("six.toml", SIX)

@@ -83,8 +83,9 @@ class EnergyBlocks final : public Observer {
   EnergyBlockState state_;
 };
 
-/// The scale of a simulation's energy; where it is 0 or a rounding beside what the motion exchanges, that.
-double scale_beside(double scale, std::optional<double> exchanged);
+/// The scale of a simulation's energy; where it is 0 or a rounding beside what the motion exchanges, that. A run whose
+/// error is as large as what it exchanges is no motion, and tells no scale.
+double scale_beside(double scale, std::optional<double> exchanged, double max_error);
 
 /// H of a problem for EnergyBlocks; empty of large systems, whose energy takes long, and where H depends on t.
 EnergyBlocks::Energy energy_for_blocks(const Request& request, const ProblemEntry& problem, std::size_t coordinates);
