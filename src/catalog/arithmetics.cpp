@@ -41,8 +41,7 @@ std::string refusal(const MethodSpec& spec, const std::string& arithmetic) {
   const int known = family.digits ? family.digits(entry.index) : unlimited_digits;
   if (digits > known) {
     return "the coefficients of " + spec.name + " are known here to " + std::to_string(known) +
-           " digits; allowed up to mp(" + std::to_string(known) +
-           ")";
+           " digits; allowed up to mp(" + std::to_string(known) + ")";
   }
   return arithmetic == "lattice" ? family.not_on_lattice : "";
 }

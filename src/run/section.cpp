@@ -239,8 +239,7 @@ void SectionSearch::see_between(const Simulation& before_step, const Piece& piec
   int nearest = 0;
   double least = left.x * sign;
   for (int i = 1; i <= points; ++i) {
-    const double x =
-        i < points ? polynomial(static_cast<double>(k) + i / static_cast<double>(points)) : right.x * sign;
+    const double x = i < points ? polynomial(static_cast<double>(k) + i / static_cast<double>(points)) : right.x * sign;
     if (x < least) {
       least = x;
       nearest = i;
@@ -340,7 +339,8 @@ void SectionSearch::locate_all(const Simulation& before_step, double before, con
       if (!crosses(change.before, 0)) continue;
       const double x = sample(before_step, change.from).x;
       if (!failed_) take({partial_.time, partial_.q, partial_.p, std::abs(x)});
-    } else if (crosses(change.before, change.now) || passes_an_edge(change.before, change.now)) locate(before_step, change);
+    } else if (crosses(change.before, change.now) || passes_an_edge(change.before, change.now))
+      locate(before_step, change);
   }
 }
 

@@ -116,7 +116,8 @@ double LaneRun::section_distance(std::size_t lane) {
 void LaneRun::look_for_sections() {
   const Section& first = observers_[0].section->section();
   const std::size_t size = frame_.q.size();
-  const double* const x = first.expression || first.every_step ? nullptr : block_.numbers(first.coordinate + (first.momentum ? size : 0));
+  const double* const x =
+      first.expression || first.every_step ? nullptr : block_.numbers(first.coordinate + (first.momentum ? size : 0));
   for (std::size_t lane = 0; lane < observers_.size(); ++lane) {
     SectionSearch& search = *observers_[lane].section;
     const double now = x == nullptr ? section_distance(lane) : x[lane] - first.value;

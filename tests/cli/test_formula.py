@@ -289,6 +289,28 @@ invariants = {{ angle = "atan2(p, 3 + q^2)" }}\ninitial = {{ q = [0.5], p = [0.2
         two = self.summary("b.toml", "--set", 'problem.initial={ q = [0, 0.1], p = ["+", 0.1], energy = 0.125 }')
         self.assertAlmostEqual(one["start"]["p"][0], two["start"]["p"][0], delta=2.0**-51)
 
+    def test_velocities_with_masses_far_apart(self):
+        """A pendulum of mass 1e-8 below one of mass 1: the determinant of its mass matrix is 1e-8; p = M v."""
+        text = '''[problem]
+name = "formula"
+coordinates = ["a", "b"]
+hamiltonian = "(p_a^2 - 2*p_a*p_b*cos(a-b) + (1+m)*p_b^2)/(2*(m + sin(a-b)^2)) - (1+m)*cos(a) - cos(b)"
+parameters = { m = "1e-8" }
+initial = { q = [1, 1], v = [1, 1] }
+[method]
+name = "gauss"
+[run]
+dt = 1e-5
+steps = 0
+'''
+        self.write("v.toml", text)
+        found = self.summary("v.toml")["final"]["p"]
+        self.assertAlmostEqual(found[0], 2 + 1e-8, delta=1e-7)
+        self.assertAlmostEqual(found[1], 2, delta=1e-7)
+        self.write("v.toml", text.replace("1e-8", "1e-17"))
+        said = self.hamflow("run", "v.toml", "--out", "none", status=2).stderr
+        self.assertIn("the mass matrix is singular at this start", said)
+
     def test_figures(self):
         self.hamflow("run", "f.toml", "--set", 'output.figures=["orbit","time","energy","energy-error","phase"]', "--out",
                      "f.run", "--quiet")

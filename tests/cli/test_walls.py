@@ -115,6 +115,61 @@ class Walls(WallCase):
         self.hamflow("run", "tube.toml", "--out", "few", "--set", "run.record_events=5")
         self.assertEqual(len(self.column("few", "t")), 5)
 
+    FREE = '''[problem]
+name = "formula"
+coordinates = ["q"]
+hamiltonian = "p^2/2"
+initial = { q = [0], p = [1] }
+[method]
+name = "verlet"
+[run]
+dt = 0.25
+steps = 12
+'''
+
+    def test_zeros_and_touches_within_a_step(self):
+        """x = t: two zeros between 1 and 1.25, a touch at 1.1 and one on a step, three zeros in one step."""
+        self.write("free.toml", self.FREE)
+        expressions = {"two": "(q - 1.05)*(q - 1.2)", "touch": "(q - 1.1)^2", "on_step": "(q - 1.25)^2",
+                       "three": "(q - 1.05)*(q - 1.1)*(q - 1.2)", "never": "(q - 1.1)^2 + 1e-6", "late": "(q - 2.3)*(q - 2.4)",
+                       "first": "(q - 0.1)*(q - 0.2)"}
+        events = ", ".join(f"{{name='{name}', expression='{x}', direction=0}}" for name, x in expressions.items())
+        found = json.loads(self.hamflow("run", "free.toml", "--out", "e", "--json", "--set", f"run.events=[{events}]").stdout)
+        self.assertEqual(found["events"], {"user:two": 2, "user:touch": 1, "user:on_step": 1, "user:three": 3,
+                                           "user:never": 0, "user:late": 2, "user:first": 2})
+        self.assertEqual([round(t, 9) for t in self.column("e", "t", "user/two")], [1.05, 1.2])
+        tenth = json.loads(self.hamflow("run", "free.toml", "--out", "e", "--force", "--json", "--set", "run.dt=0.1", "--set",
+                                        "run.steps=30", "--set", f"run.events=[{events}]").stdout)
+        self.assertEqual(tenth["events"]["user:touch"], 1)  # on a step, up to rounding
+        self.assertEqual(tenth["events"]["user:two"], 2)
+
+    def test_a_stop_event_before_the_step_fails(self):
+        self.write("edge.toml", self.FREE.replace("p^2/2", "p^2/2 - sqrt(q)").replace("q = [0], p = [1]", "q = [1], p = [-1.5]")
+                   .replace("verlet", "rk4").replace("0.25", "0.5"))
+        events = "run.events=[{name='near', expression='q - 0.1', action='stop', direction=-1}]"
+        self.hamflow("run", "edge.toml", "--out", "none", status=1)
+        found = json.loads(self.hamflow("run", "edge.toml", "--out", "e", "--json", "--set", events).stdout)
+        self.assertEqual(found["status"], "done")
+        self.assertEqual(found["stopped_by"]["event"], "near")
+        self.assertAlmostEqual(found["stopped_by"]["q"][0], 0.1, delta=1e-12)
+        self.assertEqual(found["events"], {"user:near": 1})
+
+    def test_rows_of_mirrors_lie_on_the_walls(self):
+        self.write("mirror.toml", self.FREE.replace("q = [0]", "q = [0.5]").replace("0.25", "1.7").replace(
+            "[method]", 'wall_rule = "mirror"\nwalls = [{ coordinate = "q", min = 0, max = 1 }]\n[method]'))
+        self.hamflow("run", "mirror.toml", "--out", "m")
+        self.assertEqual({*self.column("m", "q")}, {0.0, 1.0})
+
+    def test_advice_is_one_that_runs(self):
+        text = self.FREE.replace("p^2/2", "p^2*(1 + q^2)/2").replace("verlet", "tao4").replace(
+            "[method]", 'walls = [{ coordinate = "q", min = -1, max = 1 }]\n[method]')
+        self.write("tao.toml", text)
+        said = self.hamflow("run", "tao.toml", "--out", "none", status=2).stderr
+        self.assertIn("another method, e.g. cg, rk4", said)
+        self.assertNotIn("stv4", said)
+        for method in ("cg", "rk4"):
+            self.hamflow("run", "tao.toml", "--out", "none", "--set", f"method.name={method}")
+
     def test_walls_of_any_problem(self):
         for method in ("stv4", "cg(1,auto)", "cg(1,3)", "cg(2,auto)", "rk4", "gauss(2)", "dop853", "taylor"):
             walls = '[{ coordinate = "q1", min = -0.3, max = "1/3" }, { coordinate = "q2", max = 0.25 }]'
@@ -204,11 +259,8 @@ class Walls(WallCase):
                         time = dt * steps
                         falls = int((time - down) / (2 * math.pi)) + 1
                         rises = int((time + down) / (2 * math.pi))
-                        if dt > 1:  # two crossings within a short step are not seen
-                            self.assertEqual(found["events"], {"user:any": falls + rises, "user:up": rises})
-                            self.assertEqual(found["section"]["points"], falls)
-                        elif value == 0:
-                            self.assertEqual(found["events"], {"user:any": falls + rises, "user:up": rises})
+                        self.assertEqual(found["events"], {"user:any": falls + rises, "user:up": rises})
+                        self.assertEqual(found["section"]["points"], falls)
                         self.assertNotIn("message", found["section"])
 
     def test_long_steps_are_seen_alike_in_a_sweep_and_after_a_stop(self):
