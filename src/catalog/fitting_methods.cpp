@@ -21,7 +21,7 @@ std::string or_fitting_method(const std::string& before, const std::string& what
                               const std::string& arithmetic) {
   const std::string names = fitting_methods(candidates, problem, arithmetic);
   if (names.empty()) return before;
-  return before + (before.empty() ? "" : " or ") + what + ", e.g. " + names;
+  return before + (before.empty() ? "" : ", or ") + what + ", e.g. " + names;
 }
 
 std::string refusal_with_advice(const MethodSpec& spec, const ProblemEntry* problem, const std::string& arithmetic) {

@@ -167,7 +167,7 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
   const MethodInfo info = describe(request.method);
   if (walls->hard() && info.varies_steps) {
     const std::string soft = rules_taken(request, *walls, {WallRule::soft});
-    return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : " or ") +
+    return "with steps of varying length, which walls would cut; allowed " + soft + (soft.empty() ? "" : ", or ") +
            "step_control = \"fixed\"";
   }
   if (info.carries_copy && walls->hard()) {

@@ -130,16 +130,24 @@ double spread(const std::vector<double>& xs) {
   return std::sqrt(sum / static_cast<double>(xs.size() - 1));
 }
 
+struct ErrorOfMean {
+  double independent = 0;  // as if the blocks were
+  double joined = 0;       // the largest of those of one, two and four joined blocks
+  double continued = 0;    // with the power with which these fall
+};
+
 /// Of the mean of correlated blocks.   @param by_level their rates, one, two and four joined
-double error_of_mean(const std::array<std::vector<double>, 3>& by_level) {
+ErrorOfMean error_of_mean(const std::array<std::vector<double>, 3>& by_level) {
   const auto blocks = static_cast<double>(by_level[0].size());
-  double largest = 0;
+  ErrorOfMean error;
   std::array<double, 3> logs{};  // of the spread, by log2 of how many are joined
   std::array<double, 3> weights{};
   for (std::size_t level = 0; level < by_level.size(); ++level) {
     const double s = spread(by_level[level]);
-    if (!(s > 0)) return s;  // 0 or no number
-    largest = std::max(largest, s / std::sqrt(blocks / std::exp2(level)));
+    if (!(s > 0)) return {s, s, s};  // 0 or no number
+    const double of_level = s / std::sqrt(blocks / std::exp2(level));
+    if (level == 0) error.independent = of_level;
+    error.joined = std::max(error.joined, of_level);
     logs[level] = std::log2(s);
     weights[level] = static_cast<double>(by_level[level].size() - 1);
   }
@@ -155,7 +163,8 @@ double error_of_mean(const std::array<std::vector<double>, 3>& by_level) {
     variance += weights[level] * from_mean * from_mean;
   }
   const double slope = std::clamp(covariance / variance, -0.5, 0.0);
-  return std::max(largest, std::exp2(y + slope * (std::log2(blocks) - x)));
+  error.continued = std::max(error.joined, std::exp2(y + slope * (std::log2(blocks) - x)));
+  return error;
 }
 
 }  // namespace
@@ -167,15 +176,17 @@ LyapunovSpectrum LyapunovSums::spectrum(std::size_t dimension, double h) const {
   const bool has_blocks = blocks_.size() >= fewest_blocks;
   for (std::size_t i = 0; i < total_.size(); ++i) {
     found.exponents.push_back(total_[i] / found.time);
-    found.standard_errors.push_back(has_blocks ? error_of_mean({rates(i, 1, h), rates(i, 2, h), rates(i, 4, h)})
-                                               : std::numeric_limits<double>::quiet_NaN());
-  }
-  if (has_blocks) {
+    if (!has_blocks) {
+      found.standard_errors.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
+    const std::vector<double> pairs = rates(i, 2, h);
+    const ErrorOfMean error = error_of_mean({rates(i, 1, h), pairs, rates(i, 4, h)});
+    found.standard_errors.push_back(error.continued);
+    if (i > 0) continue;
     const double enough = found.exponents[0] / 5;
-    const std::vector<double> pairs = rates(0, 2, h);
-    constexpr double errors = 4;  // a mean below so many standard errors is that of a stretch, not of the orbit
-    found.settled = found.exponents[0] >= errors * found.standard_errors[0] &&
-                    std::all_of(pairs.begin(), pairs.end(), [&](double rate) { return rate > 0 && rate >= enough; });
+    found.steady = error.joined < 1.5 * error.independent &&
+                   std::all_of(pairs.begin(), pairs.end(), [&](double rate) { return rate > 0 && rate >= enough; });
   }
   if (total_.size() == 2 * dimension) {
     for (std::size_t i = 0; i < dimension; ++i) {

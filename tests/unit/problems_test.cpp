@@ -273,5 +273,25 @@ TEST(OwnProblem, SeparableIsNotNatural) {
   EXPECT_TRUE(test::same_to_rounding(v[0], 0.6, 4.0));  // p/sqrt(1 + p^2)
 }
 
+TEST(OwnProblem, NaturalNeedsAQuadraticKineticEnergy) {
+  const auto spring = [](const auto& q) { return q[0] * q[0]; };
+  EXPECT_THROW((void)natural<1>([](const auto& p) { return p[0] * p[0] * p[0] * p[0]; }, spring), Error);
+  EXPECT_THROW((void)natural<1>([](const auto& p) { return p[0] * p[0] / 2.0 + p[0]; }, spring), Error);
+  EXPECT_THROW((void)natural<2>([](const auto& p) { return abs(p[0] * p[1]); }, spring), Error);
+  (void)natural<2>([](const auto& p) { return p[0] * p[0] / 1e7 + p[1] * p[1] + 1e-5 * (p[0] * p[1]); }, spring);
+}
+
+TEST(OwnTable, KicksAndDriftsAddUpToOne) {
+  static constexpr SplittingTable nine_tenths{.name = "nine-tenths",
+                                              .order = 2,
+                                              .reference = "none",
+                                              .starts_with = StartsWith::kick,
+                                              .symmetric = true,
+                                              .coefficients = {"0.45", "1"}};
+  static_assert(!nine_tenths.is_consistent() && plain_number("-1/8") == -0.125);
+  const TableRecipe<Shape::any> recipe{AnySplitting(nine_tenths)};
+  EXPECT_THROW((void)simulate(Pendulum<double>(), recipe, {2.0}, {0.5}, 0.1), Error);
+}
+
 }  // namespace
 }  // namespace hamflow

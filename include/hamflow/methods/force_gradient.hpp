@@ -57,6 +57,9 @@ class ForceGradientStep {
   static constexpr bool sums_integers = PairwiseGradients<P> && IntegerSums<A>;
 
   explicit ForceGradientStep(const ForceGradientTable& table) : table_(&table), keeps_(keeps_last_kick(table)) {
+    if (!table.is_consistent()) {
+      throw Error("hamflow: the kicks or the drifts of the table " + std::string(table.name) + " do not add up to 1");
+    }
     for (int i = 0; i < table.count(); ++i) {
       const ForceGradientAction& from = table.action(i);
       Action& to = actions_[count_++];

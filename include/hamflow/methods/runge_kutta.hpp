@@ -32,6 +32,30 @@ struct ButcherTableau {
   std::string_view reference;
   std::array<std::array<Ratio, S>, S> a{};
   std::array<Ratio, S> b{};
+
+  /// Whether no stage needs a later one.
+  constexpr bool is_explicit() const {
+    for (std::size_t i = 0; i < S; ++i) {
+      for (std::size_t j = i; j < S; ++j) {
+        if (!a[i][j].is_zero()) return false;
+      }
+    }
+    return true;
+  }
+  /// Whether the conditions of the first two orders hold, as far as the tableau claims them: sum b_i = 1 and
+  /// sum b_i c_i = 1/2, c_i = sum a_ij.   [HLW2006, Sect. II.1.1]
+  constexpr bool is_consistent() const {
+    double weights = 0;
+    double moments = 0;
+    for (std::size_t i = 0; i < S; ++i) {
+      double c = 0;
+      for (std::size_t j = 0; j < i; ++j) c += a[i][j].template as<double>();
+      weights += b[i].template as<double>();
+      moments += b[i].template as<double>() * c;
+    }
+    const auto is = [](double sum, double wanted) { return sum > wanted - 1e-12 && sum < wanted + 1e-12; };
+    return is(weights, 1) && (order < 2 || is(moments, 0.5));
+  }
 };
 
 template <std::size_t S>
@@ -51,6 +75,12 @@ class RungeKutta {
   static_assert(Differentiable<P>,
                 "hamflow: a Runge-Kutta method needs a Differentiable problem; one of dynamic size gives "
                 "velocity and force, or gradient, by hand");
+  static_assert(Tableau.is_explicit(),
+                "hamflow: the matrix of an explicit Runge-Kutta tableau is strictly lower triangular");
+  static_assert(
+      Tableau.is_consistent(),
+      "hamflow: the weights of a Runge-Kutta tableau add up to 1, those of order 2 and more times their nodes "
+      "to 1/2");
   static constexpr std::size_t n = P::dimension;
   static constexpr std::size_t stages = std::remove_cvref_t<decltype(Tableau)>::stages;
   using Real = typename A::Real;

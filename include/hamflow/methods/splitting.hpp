@@ -433,6 +433,13 @@ class AnySplitting {
   }
   /// Whether its order holds for quadratic T only.
   bool nystroem() const { return splitting_ != nullptr && splitting_->nystroem; }
+  /// Whether kicks and drifts add up to 1 each.
+  bool is_consistent() const {
+    std::array<double, 2> sums{};
+    const std::vector<double> c = sequence<double>().coefficients;
+    for (std::size_t i = 0; i < c.size(); ++i) sums[i % 2] += c[i];
+    return adds_up_to_one(sums[0], sums[1]);
+  }
 
  private:
   const CompositionTable* composition_ = nullptr;
@@ -456,6 +463,10 @@ struct TableRecipe {
   using Stepper = Splitting<P, A, shape>;
   template <class P, class A>
   Stepper<P, A> bind(const P& problem) const {
+    if (!method.is_consistent()) {
+      throw Error("hamflow: the kicks or the drifts of the table " + method.describe()(method.table()).name +
+                  " do not add up to 1");
+    }
     Stepper<P, A> stepper{method.sequence<typename Stepper<P, A>::Base>(), method.describe(), method.table()};
     stepper.ask(problem);
     return stepper;
@@ -502,6 +513,7 @@ struct SplittingBy {
   Stepper<P, A> bind(const P& problem) const {
     static_assert(accepts<P>,
                   "hamflow: this table has its order for a QuadraticKinetic problem only, T = p^T M^-1 p/2");
+    static_assert(Table.is_consistent(), "hamflow: the kicks and the drifts of a splitting table add up to 1 each");
     Stepper<P, A> stepper{sequence_of<typename Stepper<P, A>::Base>(Table), detail::describe_splitting, &Table};
     stepper.ask(problem);
     return stepper;

@@ -5,9 +5,47 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 
 namespace hamflow {
+
+/// The value of a plain decimal ("-0.39") or of a fraction of two ("1/6"), to some roundings of double; NaN of any
+/// other expression, which only evaluate_number reads.
+constexpr double plain_number(std::string_view text) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (const std::size_t slash = text.find('/'); slash != std::string_view::npos) {
+    return plain_number(text.substr(0, slash)) / plain_number(text.substr(slash + 1));
+  }
+  const bool negative = text.starts_with('-');
+  if (negative) text.remove_prefix(1);
+  double digits = 0;
+  double unit = 0;  // of the last digit behind the point; 0 before the point
+  bool any = false;
+  for (const char c : text) {
+    if (c == '.' && unit == 0) {
+      unit = 1;
+    } else if (c >= '0' && c <= '9') {
+      any = true;
+      if (unit == 0) {
+        digits = 10 * digits + (c - '0');
+      } else {
+        unit /= 10;
+        digits += unit * (c - '0');
+      }
+    } else {
+      return unknown;
+    }
+  }
+  return !any ? unknown : negative ? -digits : digits;
+}
+
+/// Whether the kicks and the drifts of a step each add up to 1, which every consistent method needs; true where a
+/// coefficient is an expression that cannot be read here.
+constexpr bool adds_up_to_one(double kicks, double drifts) {
+  const auto is_one = [](double sum) { return !(sum < 1 - 1e-12 || sum > 1 + 1e-12); };  // true of NaN
+  return is_one(kicks) && is_one(drifts);
+}
 
 /// What `list methods` and `show` say of a table, where there is more to say than of all of its kind.
 struct TableAdvice {
@@ -62,6 +100,11 @@ struct SplittingTable {
   constexpr std::string_view coefficient(int i) const {
     return coefficients[static_cast<std::size_t>(i < listed() ? i : count() - 1 - i)];
   }
+  constexpr bool is_consistent() const {
+    std::array<double, 2> sums{};
+    for (int i = 0; i < count(); ++i) sums[static_cast<std::size_t>(i % 2)] += plain_number(coefficient(i));
+    return adds_up_to_one(sums[0], sums[1]);
+  }
 };
 
 /// One action of a step with force gradient. A kick is p <- p - h b V'(q) + h^3 g (|V'|^2)'(q), |V'|^2 = V'^T M^-1 V'.
@@ -90,6 +133,15 @@ struct ForceGradientTable {
   constexpr int count() const { return 2 * listed() - 1; }
   constexpr const ForceGradientAction& action(int i) const {
     return half[static_cast<std::size_t>(i < listed() ? i : count() - 1 - i)];
+  }
+  constexpr bool is_consistent() const {
+    double kicks = 0;
+    double drifts = 0;
+    for (int i = 0; i < count(); ++i) {
+      if (!action(i).kick.empty()) kicks += plain_number(action(i).kick);
+      if (!action(i).drift.empty()) drifts += plain_number(action(i).drift);
+    }
+    return adds_up_to_one(kicks, drifts);
   }
 };
 

@@ -15,7 +15,7 @@ namespace hamflow {
 /// @param problem null: not known, any may take it
 std::string fitting_methods(std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
                             const std::string& arithmetic);
-/// The same as the end of "allowed ...": " or another method, e.g. stv4"; empty where none fits.
+/// The same as the end of "allowed ...": "soft", or another method, e.g. stv4; empty where none fits.
 /// @param what "another method"   @param before what else is allowed; decides on the "or"
 std::string or_fitting_method(const std::string& before, const std::string& what,
                               std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,

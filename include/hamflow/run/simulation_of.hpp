@@ -1,6 +1,7 @@
 // The typed simulation behind the type-erased one: a problem, a method bound to it, an arithmetic and a probe.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -262,6 +263,21 @@ auto simulate(const P& problem, const Method& recipe, const Vector<typename A::R
   using M = typename Method::template Stepper<P, A>;
   using Probe = std::conditional_t<Watch, ConservationProbe<P, typename A::Real>, NoProbe>;
   return SimulationOf<P, M, A, Probe>(problem, recipe.template bind<P, A>(problem), q, p, h, arithmetic);
+}
+
+/// The same with a start in braces, whose numbers are counted: a vector would be filled up with 0.
+template <bool Watch = true, class P, MethodRecipe Method, std::size_t of_q, std::size_t of_p,
+          class A = DefaultArithmetic<P, Method>>
+requires(P::dimension != dynamic) auto simulate(const P& problem, const Method& recipe,
+                                                const typename A::Real (&q)[of_q], const typename A::Real (&p)[of_p],
+                                                typename A::Real h, A arithmetic = {}) {
+  static_assert(of_q == P::dimension && of_p == P::dimension,
+                "hamflow: a start has as many coordinates, and as many momenta, as the problem has degrees of freedom");
+  Vector<typename A::Real, P::dimension> at_q{};
+  Vector<typename A::Real, P::dimension> at_p{};
+  std::copy(q, q + of_q, at_q.begin());
+  std::copy(p, p + of_p, at_p.begin());
+  return simulate<Watch>(problem, recipe, at_q, at_p, h, arithmetic);
 }
 
 }  // namespace hamflow

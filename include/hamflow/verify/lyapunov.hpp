@@ -50,11 +50,10 @@ struct LyapunovSpectrum {
   /// than any of these three. NaN before there are 16 blocks. They belong to this stretch of the orbit: where it is
   /// trapped near regular orbits before or later, the exponent of a longer run differs by more.
   std::vector<double> standard_errors;
-  /// Whether the largest exponent has settled: it is above four standard errors, and every two joined
-  /// blocks have at least a fifth of it. On regular
-  /// motion, where the exponents go to 0 like log(t)/t, and on sticky orbits it is false: neither value nor error tell
-  /// what a longer run would show.
-  bool settled = false;
+  /// Whether the largest exponent grew steadily: every two joined blocks have at least a fifth of its mean, and joining
+  /// blocks raises its error by less than a half. On regular motion, where the exponents go to 0 like log(t)/t, and on
+  /// most sticky orbits it is false: neither value nor error tell what a longer run would show.
+  bool steady = false;
   std::vector<double> pair_sums;  // lambda_i + lambda_(2n+1-i), i = 1 .. n, where all 2n are known
   double time = 0;
   std::int64_t renormalisations = 0;

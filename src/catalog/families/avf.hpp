@@ -27,7 +27,7 @@ struct Avf {
             .options = declarations_of(options()),
             .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 2,
-            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+            .not_on_lattice = "an implicit step is no bijection of the lattice",
             .not_fast = "an energy-conserving element needs the exact force",
             .representatives = {"avf(1)", "avf(4)", "avf(auto)"},
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },

@@ -29,7 +29,7 @@ struct Lobatto {
             .options = declarations_of(options()),
             .read = [](const Texts& given) { return std::any(read(given)); },
             .rank = 2,
-            .not_on_lattice = "an implicit step is no bijection of the lattice; use a splitting method, e.g. stv4",
+            .not_on_lattice = "an implicit step is no bijection of the lattice",
             .not_fast = "an implicit step needs the exact force",
             .representatives = {"lobatto-3a-3b(2)", "lobatto-3a-3b(3)", "lobatto-3a-3b(4)"},
             .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },

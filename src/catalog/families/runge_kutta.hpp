@@ -15,7 +15,7 @@ struct RungeKutta {
         .meaning = "explicit Runge-Kutta methods with fixed steps, to compare with; their energy drifts",
         .not_on_lattice =
             "an explicit Runge-Kutta step is no bijection of the lattice, so nothing would "
-            "come back exactly; use a splitting method, e.g. stv4"};
+            "come back exactly"};
 #define HAMFLOW_DECLARE_TABLEAU(table) family.methods.emplace_back(tableaus::table.name);
     HAMFLOW_FOR_EACH_TABLEAU(HAMFLOW_DECLARE_TABLEAU)
 #undef HAMFLOW_DECLARE_TABLEAU

@@ -29,9 +29,7 @@ struct Tao {
             .options = declarations_of(options()),
             .read = [](const Texts& given) { return std::any(read_options(options(), given)); },
             .rank = 1,
-            .not_on_lattice =
-                "the two copies of its state turn about each other, which is no bijection of the lattice; "
-                "use a splitting method, e.g. stv4",
+            .not_on_lattice = "the two copies of its state turn about each other, which is no bijection of the lattice",
             .describe =
                 [](std::size_t method, const Texts& given) {
                   return describe_tao(method == 0 ? 2 : 4, read_options(options(), given));

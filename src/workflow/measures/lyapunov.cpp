@@ -29,7 +29,7 @@ class LyapunovMeasure final : public Measure {
     const LyapunovSpectrum found = spectrum();
     Json all{{"exponents", found.exponents},
              {"standard_errors", found.standard_errors},
-             {"verdict", found.settled ? "settled" : "undecided"},
+             {"verdict", found.steady ? "steady" : "undecided"},
              {"pair_sums", found.pair_sums},
              {"time", found.time},
              {"renormalisations", found.renormalisations}};
@@ -65,7 +65,7 @@ std::string lyapunov_text(const Json& found) {
             number_text(found["standard_errors"][i], "{:.2g}");
   }
   if (found["exponents"].size() > most_shown) line += ", ...";
-  if (found.value("verdict", "settled") == "undecided") {
+  if (found.value("verdict", "steady") == "undecided") {
     line += "; undecided: the growth is not steady, as on regular and on sticky orbits; try a longer run";
   }
   if (!found["pair_sums"].empty()) line += fmt::format("; pairs sum to at most {:.2g}", largest_of(found["pair_sums"]));

@@ -79,12 +79,12 @@ inline Sequence verlet_claiming(const std::string& what, void (*change)(MethodIn
   return {{"1/2", "1", "1/2"}, claims};
 }
 
-/// rk4 with the weights of the last two stages exchanged.
+/// rk4 with equal weights, which meet the conditions of order 2 that the compiler checks.
 inline constexpr ButcherTableau<4> rk4_wrong_weight{
     .name = "rk4, wrong weight",
     .order = 4,
     .reference = "",
     .a = {{{}, {Ratio{1, 2}}, {Ratio{0, 1}, Ratio{1, 2}}, {Ratio{0, 1}, Ratio{0, 1}, Ratio{1, 1}}}},
-    .b = {Ratio{1, 6}, Ratio{1, 3}, Ratio{1, 6}, Ratio{1, 3}}};
+    .b = {Ratio{1, 4}, Ratio{1, 4}, Ratio{1, 4}, Ratio{1, 4}}};
 
 }  // namespace hamflow::mutants
