@@ -220,7 +220,7 @@ TEST(Declarations, MomentumMapsAreJudgedByTheirTerms) {
   }
   for (InvariantInfo& invariant : problem.info.invariants) invariant.terms = Terms::other;
   for (const MomentumMap& map : momentum_maps(*simulation, problem, magnitudes, request)) {
-    EXPECT_FALSE(map.conserved().has_value());
+    EXPECT_EQ(map.conserved(), true) << map.name;  // by how a rounding of each coordinate moves it
   }
 }
 

@@ -328,6 +328,11 @@ TEST(StepDensity, ComesBack) {
         const ProblemEntry& problem = find_problem(request.problem, request.variant);
         const std::int64_t steps = digits_beyond_double(arithmetic) > 0 ? 60 : 300;
         const ReversalEvidence evidence = reversal_evidence(request, problem, steps, 300);
+        if (describe(spec)
+                .carries_copy) {  // its two copies may part, so that nothing is known of what rounding becomes
+          EXPECT_NE(evidence.proves, ReversalProof::not_reversible) << evidence.reason;
+          continue;
+        }
         EXPECT_EQ(evidence.proves, arithmetic == "lattice" ? ReversalProof::every_bit : ReversalProof::to_rounding)
             << evidence.reason;
       }
