@@ -316,7 +316,7 @@ class Gas(GasCase):
                 ("masses = -1", "positive"),
                 ("seed = -1", "whole number"),
                 ('start = "corner"\nscale = 1\ncutoff = 0.4\ncontainer = { kind = "periodic", size = [2, 1] }',
-                 "particles 1 and 13 at images of one point"),
+                 "particles 4 and 16 at images of one point"),
                 ('wall_rule = "mirror"', "walls"),
                 ("initial = { q = [0, 0, 0, 0], p = [0, 0, 0, 0] }", "particles 1 and 2 at one point"),
                 ("particle = 3", "did you mean")):

@@ -207,7 +207,7 @@ class Told(CommandCase):
         for container, place in (('{ kind = "circle", radius = 1.2 }', "gas.toml:4:41: error: problem.container.radius: found particle 1 at"),
                                  ('{ kind = "box", size = [1, 1] }\nstart = "corner"', "gas.toml:5:9: error: problem.start: found x3 = 1 beyond the wall"),
                                  ('{ kind = "periodic", size = [1, 1] }\nstart = "corner"\ncutoff = 0.5',
-                                  "gas.toml:5:9: error: problem.start: found particles 1 and 3 at images")):
+                                  "gas.toml:5:9: error: problem.start: found particles 2 and 8 at images")):
             self.write("gas.toml", BOX.replace('{ kind = "box", size = [4, 4] }', container))
             told = self.told("gas.toml")
             self.assertIn(place, told)
