@@ -344,7 +344,7 @@ steps = 12
         said = self.refused(str(EXAMPLES / "magnetic.toml"), "--set", "problem.wall_rule=soft", "--set",
                             'problem.walls=[{coordinate="x",min=-5,max=5}]')
         self.assertIn('problem.wall_rule: found "soft" with boris', said)
-        self.assertIn('allowed "event", "reject" or another method', said)
+        self.assertIn('allowed "event", "reject", or another method', said)
         self.assertNotIn("method.name", said)
 
     def test_refusals(self):
