@@ -14,19 +14,6 @@ from command import EXAMPLES, CommandCase
 
 DOCUMENT = (EXAMPLES.parent / "docs" / "files.md").read_text()
 COMPARE = os.environ["COMPARE_RUNS"]
-
-
-def python_with_h5py():
-    """This interpreter, or the system's, for which Debian's python3-h5py is; None where neither has it."""
-    for python in (sys.executable, "/usr/bin/python3"):
-        if not pathlib.Path(python).exists():
-            continue
-        if subprocess.run([python, "-c", "import h5py"], capture_output=True).returncode == 0:
-            return python
-    return None
-
-
-PYTHON = python_with_h5py()
 # Takes the place of matplotlib, installed or not: it keeps the points that the document's lines
 # draw as a text, in which the test looks for the orbit.
 PLOT_AS_TEXT = '''
@@ -52,14 +39,13 @@ def savefig(name):
 '''
 
 
-@unittest.skipUnless(PYTHON, "python3-h5py is not installed")
 class FilesDocument(CommandCase):
     def python(self, text):
         package = self.folder / "modules" / "matplotlib"
         package.mkdir(parents=True, exist_ok=True)
         (package / "__init__.py").write_text("")
         (package / "pyplot.py").write_text(PLOT_AS_TEXT)
-        done = subprocess.run([PYTHON, "-c", text], cwd=self.folder, capture_output=True, text=True, timeout=120,
+        done = subprocess.run([sys.executable, "-c", text], cwd=self.folder, capture_output=True, text=True, timeout=120,
                               env={**os.environ, "PYTHONPATH": str(self.folder / "modules")})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout

@@ -8,12 +8,9 @@ import time
 import unittest
 from decimal import Decimal
 
-from command import HAMFLOW, CommandCase
+import h5py
 
-try:
-    import h5py
-except ImportError:  # the tests that need it are left out
-    h5py = None
+from command import HAMFLOW, CommandCase
 
 HENON = """
 [problem]
@@ -155,13 +152,12 @@ parameters = { w = 1 }\ninitial = { q = [0], p = [0] }\n[method]\nname = "kahan-
         self.assertEqual(summary["section"]["points"], 5)  # t = 0.5 + 2 pi k < 28
         self.assertLess(summary["section"]["max_residual"], 1e-13)
         self.assertTrue((self.folder / "s.run/figures/section.svg").is_file())
-        if h5py is not None:
-            with h5py.File(self.folder / "s.run/run.h5") as file:
-                times, q, p = (file["section"][name][...] for name in ("t", "q", "p"))
-            for k, (t, x, v) in enumerate(zip(times, q[:, 0], p[:, 0], strict=True)):
-                self.assertAlmostEqual(t, 0.5 + 2 * math.pi * k, delta=1e-12)
-                self.assertAlmostEqual(x, 1 - math.cos(t), delta=1e-9)
-                self.assertAlmostEqual(v, math.sin(t), delta=1e-9)
+        with h5py.File(self.folder / "s.run/run.h5") as file:
+            times, q, p = (file["section"][name][...] for name in ("t", "q", "p"))
+        for k, (t, x, v) in enumerate(zip(times, q[:, 0], p[:, 0], strict=True)):
+            self.assertAlmostEqual(t, 0.5 + 2 * math.pi * k, delta=1e-12)
+            self.assertAlmostEqual(x, 1 - math.cos(t), delta=1e-9)
+            self.assertAlmostEqual(v, math.sin(t), delta=1e-9)
         both = self.summary("s.toml", "--set", "run.section.direction=0", "--set", "output.figures=[]")
         self.assertEqual(both["section"]["points"], 9)
         # Partial steps, of any problem: t is known everywhere.
@@ -239,8 +235,6 @@ invariants = {{ angle = "atan2(p, 3 + q^2)" }}\ninitial = {{ q = [0.5], p = [0.2
         self.hamflow("plot", "c.run", "--kind", "time", "--y", "u[1],w[2]", "-o", "c.svg")
         wrong = self.hamflow("plot", "c.run", "--kind", "time", "--y", "u[3]", "-o", "c.svg", status=2)
         self.assertIn("u[1], u[2], w[1], w[2]", wrong.stderr)
-        if h5py is None:
-            self.skipTest("h5py is not installed")
         with h5py.File(self.folder / "c.run/run.h5") as file:
             self.assertEqual([name.decode() for name in file.attrs["coordinates"]], ["u[1]", "u[2]"])
             self.assertEqual([name.decode() for name in file.attrs["momenta"]], ["w[1]", "w[2]"])

@@ -4,12 +4,9 @@ computed here."""
 import math
 import unittest
 
-from command import EXAMPLES, CommandCase
+import h5py
 
-try:
-    import h5py
-except ImportError:  # the test that needs it is left out
-    h5py = None
+from command import EXAMPLES, CommandCase
 
 
 def example(name):
@@ -77,8 +74,6 @@ class FormulaExamples(CommandCase):
         found = self.run_example("driven_duffing", "run.steps=6400", "output.figures=[]")
         self.assertIn(found["section"]["points"], (99, 100))  # the last one is the end of the run, to rounding
         self.assertLess(found["section"]["max_residual"], 1e-10)
-        if h5py is None:
-            return
         self.hamflow("run", example("driven_duffing"), "--set", "problem.parameters.f=0", "--set", "run.steps=6400", "--out",
                      "free.run", "--quiet")
         with h5py.File(self.folder / "free.run/run.h5") as file:

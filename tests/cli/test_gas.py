@@ -6,13 +6,10 @@ import math
 import time
 import unittest
 
+import h5py
+
 from command import EXAMPLES
 from gas_case import GAS, GasCase
-
-try:
-    import h5py
-except ImportError:  # what needs it is left out
-    h5py = None
 
 START_OF = """
 [problem]
@@ -177,14 +174,14 @@ class Gas(GasCase):
         s = self.summary("on.toml", *quad)
         self.assertGreater(len(end["q"][0]), 30)
         self.assertEqual((s["final"]["q"], s["final"]["p"]), (end["q"], end["p"]))
-        if h5py is not None:  # of a run that was killed digits may be a row behind: the last whole frame counts
-            with h5py.File(self.folder / "gas.run/run.h5", "r+") as file:
-                for name in ("q", "p"):
-                    rows = file["digits/" + name]
-                    before = [text.decode().strip(" \0") for text in rows[-2]]
-                    rows.resize(len(rows) - 1, axis=0)
-                    self.assertEqual(len(before), len(end[name]))
-            self.assertEqual(self.summary("on.toml", *quad)["final"]["p"], before)
+        # of a run that was killed digits may be a row behind: the last whole frame counts
+        with h5py.File(self.folder / "gas.run/run.h5", "r+") as file:
+            for name in ("q", "p"):
+                rows = file["digits/" + name]
+                before = [text.decode().strip(" \0") for text in rows[-2]]
+                rows.resize(len(rows) - 1, axis=0)
+                self.assertEqual(len(before), len(end[name]))
+        self.assertEqual(self.summary("on.toml", *quad)["final"]["p"], before)
         self.hamflow("run", "gas.toml", "--force")
         self.write("on.toml", GAS % 'start = "file"\nfile = "gas.run/run.h5"\ndimension = 3')
         self.assertIn("found particles in 2 dimensions", self.hamflow("run", "on.toml", "--out", "none", status=2).stderr)

@@ -11,7 +11,6 @@ import time
 import unittest
 
 from command import EXAMPLES, HAMFLOW, CommandCase
-from test_files_document import PYTHON
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 from kill_and_resume import differences  # noqa: E402
@@ -33,7 +32,6 @@ PERIODIC = ('dimension = 3\ncutoff = 1.4\nmasses = [' + ", ".join(str(1 + i % 3)
             ']\ncontainer = { kind = "periodic", size = [3, 3, 3.5] }')
 
 
-@unittest.skipUnless(PYTHON, "python3-h5py is not installed")
 class H5md(CommandCase):
     def run_gas(self, keys="", *arguments):
         self.write("gas.toml", GAS % keys)
@@ -41,12 +39,12 @@ class H5md(CommandCase):
 
     def faults(self, *files):
         """A list for each file: one interpreter looks at all."""
-        done = subprocess.run([PYTHON, "-B", CHECK, *files], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, "-B", CHECK, *files], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual(done.stderr, "")
         return [json.loads(line) for line in done.stdout.splitlines()]
 
     def python(self, text):
-        done = subprocess.run([PYTHON, "-c", "import h5py, json\n" + text], cwd=self.folder, capture_output=True, text=True,
+        done = subprocess.run([sys.executable, "-c", "import h5py, json\n" + text], cwd=self.folder, capture_output=True, text=True,
                               timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout) if done.stdout else None

@@ -8,11 +8,11 @@ import shutil
 import signal
 import stat
 import subprocess
+import sys
 import time
 import unittest
 
 from command import HAMFLOW, CommandCase
-from test_files_document import PYTHON
 
 SCENARIO = """
 [problem]
@@ -268,7 +268,6 @@ class OwnFiles(CommandCase):
         self.hamflow("convert", "r", "--to", "polar", "-o", "x.h5")  # cut short
         self.hamflow("convert", "x.h5", "--to", "cartesian", "-o", "y.csv")
 
-    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
     def test_what_a_user_adds_to_a_run_neither_breaks_nor_shortens_it(self):
         self.run_to("r", "--set", "output.observables={ r = 'sqrt(x^2 + y^2)' }")
         self.hamflow("convert", "r", "--to", "polar", "-o", "before.csv")
@@ -288,7 +287,7 @@ f['observables/short'] = [1., 2.]
 f['observables/text'] = 'a text'
 f['invariants/soft'] = h5py.SoftLink('/nowhere')
 """
-        subprocess.run([PYTHON, "-c", add], cwd=self.folder, check=True)
+        subprocess.run([sys.executable, "-c", add], cwd=self.folder, check=True)
         said = self.hamflow("convert", "r", "--to", "polar", "-o", "x.h5").stderr
         for words in ("attribute root refers to objects of its file", "/mine/self (", "/mine/soft (a link)", "/invariants/soft (a link)"):
             self.assertIn(words, said)
@@ -301,7 +300,7 @@ assert f.attrs['note'] == 'x' and f['q'].attrs['mine'] == 'text of q' and f['min
 assert list(f['mine/x']) == [1, 2, 3] and list(f['mine/names']) == [b'a', b'bc'] and len(f['mine/lists']) == 2
 assert [len(f[name]) for name in ('t', 'q', 'energy', 'observables/r', 'observables/short')] == [601, 601, 601, 601, 2]
 """
-        subprocess.run([PYTHON, "-c", look], cwd=self.folder, check=True)
+        subprocess.run([sys.executable, "-c", look], cwd=self.folder, check=True)
         for file in ("r", "x.h5"):
             said = self.hamflow("plot", file, "-o", "x.svg").stderr
             self.assertIn("/observables/short is left out: it has 2 rows, the run 601 samples", said)

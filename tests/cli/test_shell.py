@@ -2,6 +2,7 @@
 
 import json
 import os
+import sys
 import pty
 import select
 import signal
@@ -11,7 +12,6 @@ import unittest
 from decimal import Decimal
 
 from command import HAMFLOW, CommandCase
-from test_files_document import PYTHON
 
 
 class Shell(CommandCase):
@@ -219,7 +219,6 @@ steps = 1000
             self.assertNotIn("first steps", text, commands)
             self.assertEqual("dt = " in text, is_one_course, commands)
 
-    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
     def test_save_has_the_bounces(self):
         self.write("tube.toml", "[problem]\nname='t-tube'\neps=-0.6\nvelocities=[6, 1]\n[method]\nname='stv4'\n"
                    "[run]\ndt=0.01\nsteps=400\n")
@@ -228,7 +227,7 @@ steps = 1000
                 "print(json.dumps({name: walls[name][:].tolist() for name in walls}))")
 
         def bounces(folder):
-            return json.loads(subprocess.run([PYTHON, "-c", look, folder], cwd=self.folder, capture_output=True, text=True,
+            return json.loads(subprocess.run([sys.executable, "-c", look, folder], cwd=self.folder, capture_output=True, text=True,
                                              check=True, timeout=60).stdout)
         wanted = bounces("r")
         self.assertGreater(len(wanted["t"]), 4)

@@ -5,12 +5,9 @@ import json
 import math
 import unittest
 
-from command import CommandCase
+import h5py
 
-try:
-    import h5py
-except ImportError:  # the tests that need it are left out
-    h5py = None
+from command import CommandCase
 
 EPSILON = 2.0**-52
 
@@ -150,11 +147,10 @@ class StartOfEnergy(CommandCase):
     def test_the_scenario_in_the_folder_keeps_it_as_typed(self):
         self.hamflow("run", "hh.toml", "--set", "run.steps=30", "--out", "a.run", "--quiet")
         done = json.loads((self.folder / "a.run/summary.json").read_text())
-        if h5py is not None:
-            with h5py.File(self.folder / "a.run/run.h5") as file:
-                text = file["scenario"][()].decode()
-            self.assertIn('p = ["+", 0.1]', text)
-            self.assertIn("energy = 0.125", text)
+        with h5py.File(self.folder / "a.run/run.h5") as file:
+            text = file["scenario"][()].decode()
+        self.assertIn('p = ["+", 0.1]', text)
+        self.assertIn("energy = 0.125", text)
         self.hamflow("run", "hh.toml", "--set", "run.steps=60", "--out", "a.run", "--resume", "--quiet")
         self.hamflow("run", "hh.toml", "--set", "run.steps=60", "--out", "b.run", "--quiet")
         resumed = json.loads((self.folder / "a.run/summary.json").read_text())
@@ -280,8 +276,6 @@ class Studies(CommandCase):
         self.assertIn("increasing", drawn)
         rows = self.sweep(*self.SECTION)["rows"]
         self.assertEqual(rows[-1]["status"], "no_start")
-        if h5py is None:
-            self.skipTest("h5py is not installed")
         with h5py.File(self.folder / "s/sweep.h5") as file:
             section = {name: file[f"section/{name}"][()] for name in ("member", "t", "q", "p")}
         for member, row in enumerate(rows):

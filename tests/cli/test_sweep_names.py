@@ -7,12 +7,9 @@ import math
 import shutil
 import unittest
 
-from command import CommandCase
+import h5py
 
-try:
-    import h5py
-except ImportError:  # the tests that need it are left out
-    h5py = None
+from command import CommandCase
 
 HARMONIC = """
 [problem]
@@ -83,8 +80,6 @@ class SweepNames(CommandCase):
                         self.assertTrue(found and all(math.isnan(x) for x in found), (column, found))
                     else:
                         self.assertEqual(found, wanted, column)
-        if h5py is None:
-            return
         with h5py.File(self.folder / "s" / "sweep.h5") as file:
             self.assertEqual(set(file.get("events", {})), set(rows[0]["events"]))
             self.assertEqual(set(file.get("invariants", {})), set(rows[0]["invariants"]))
@@ -257,7 +252,6 @@ class SweepNames(CommandCase):
         self.assertEqual([row["events"] for row in json.loads(done.stdout)["rows"]], [{"halved": 0}] * 2)
         self.assertEqual(self.summary("s.toml", "--set", "method.on_divergence=error")["events"], {})
 
-    @unittest.skipIf(h5py is None, "h5py is not there")
     def test_what_is_not_common_is_no_attribute(self):
         self.write("s.toml", HARMONIC)
         self.hamflow("sweep", "s.toml", "--vary", "run.arithmetic=double,quad", "--out", "s", "--quiet")

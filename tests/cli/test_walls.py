@@ -1,6 +1,7 @@
 """Walls: what a run counts and records, what goes on with it, and what is refused with the reason."""
 
 import json
+import sys
 import math
 import os
 import pathlib
@@ -8,7 +9,6 @@ import subprocess
 import unittest
 
 from command import EXAMPLES, CommandCase
-from test_files_document import PYTHON
 
 COMPARE = os.environ["COMPARE_RUNS"]
 DATA = pathlib.Path(__file__).parents[1] / "data"
@@ -331,10 +331,9 @@ steps = 12
                    "[method]\nname='stv4'\n[run]\ndt=0.001\nsteps=2\n")
         self.assertEqual(self.summary("gas.toml", "--set", "problem.walls=[]")["final"], self.summary("gas.toml")["final"])
 
-    @unittest.skipUnless(PYTHON, "python3-h5py is not installed")
     def test_a_scenario_with_empty_lists_is_one(self):
         self.hamflow("run", self.box("[]"), "--set", "run.events=[]", "--set", "run.steps=10", "--out", "r")
-        text = subprocess.run([PYTHON, "-c", "import h5py; print(h5py.File('r/run.h5')['scenario'][()].decode())"],
+        text = subprocess.run([sys.executable, "-c", "import h5py; print(h5py.File('r/run.h5')['scenario'][()].decode())"],
                               cwd=self.folder, capture_output=True, text=True, check=True, timeout=60).stdout
         self.assertIn("events = []", text)
         done = json.loads((self.folder / "r/summary.json").read_text())
