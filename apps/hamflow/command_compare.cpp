@@ -261,14 +261,18 @@ int compare(const CompareOptions& options) {
   require_folder_of(options.figure);
   require_folder_of(options.csv);
   const bool writes = !options.out.empty() && options.out != "none";
-  const auto alone = writes ? make_comparison_folder(options.out, options.force) : nullptr;
+  std::optional<WorkFolder> folder;
+  if (writes) {
+    folder.emplace(options.out, comparison_folder(), options.force ? Existing::replace : Existing::refuse);
+    folder->prepare();
+  }
   const ComparisonReport report = carry_out(reader.request, options);
   std::cout << (options.json ? report.json : report.text);
   print_warnings(report.warnings);
   if (report.status == "failed") print_error(report.message, report.hint);
   const int written = written_behind_report([&] {
     if (!options.csv.empty()) write_file(options.csv, report.csv);
-    if (writes) write_comparison(report, options.out);
+    if (folder) write_comparison(report, *folder);
     if (report.status == "done" && !options.figure.empty()) draw_comparison(report.comparison, options.figure);
   });
   if (written != exit_done) return written;

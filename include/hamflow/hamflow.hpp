@@ -294,3 +294,4 @@
 #include "hamflow/workflow/run.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "hamflow/workflow/sweep.hpp"
+#include "hamflow/workflow/work_folder.hpp"

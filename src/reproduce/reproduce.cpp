@@ -15,7 +15,6 @@
 #include "hamflow/core/error.hpp"
 #include "hamflow/reproduce/kept_experiment.hpp"
 #include "report.hpp"
-#include "run_folder.hpp"
 #include "shared_work.hpp"
 #include "store.hpp"
 
@@ -32,27 +31,25 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
-/// Nobody looks at a folder before it is locked.   @throws FileError
-void make(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+/// Each experiment has a folder of its own, which is replaced when it is carried out again.
+const FolderKind& reproduction_folder() {
+  static const FolderKind kind{
+      .name = "reproduction", .signs = {"reproduction"}, .files = {}, .goes_on_from = "reproduction"};
+  return kind;
 }
 
 /// @throws FileError
-void prepare(const ReproduceRequest& request) {
+WorkFolder prepared(const ReproduceRequest& request) {
+  WorkFolder folder(request.folder, reproduction_folder(), request.existing);
+  folder.prepare();
   std::error_code error;
-  const bool is_empty = fs::is_empty(request.folder, error);
-  if (request.existing == Existing::refuse && !is_empty) {
-    throw FileError("found " + request.folder.string() +
-                    ", which exists; allowed --resume, which does only what is not done, --force, or --out another");
-  }
-  if (!is_there(request.folder / "verdicts.json") && !is_empty && !is_there(request.folder / "reproduction")) {
+  if (!fs::is_empty(request.folder, error) && !is_there(folder / "reproduction")) {
     throw FileError("found in " + request.folder.string() +
                     " no reproduction; allowed the folder of one, or a new one");
   }
-  fs::create_directories(request.folder / "reproduction", error);
+  fs::create_directories(folder / "reproduction", error);
   if (error) throw FileError("cannot make the folder " + request.folder.string() + ": " + error.message());
+  return folder;
 }
 
 /// A folder of an experiment holds nothing but its own files: it can be made anew. One without the mark is as a kill
@@ -278,9 +275,7 @@ std::optional<ExperimentReport> kept_experiment(const fs::path& folder, const st
 
 ReproduceReport reproduce(const ReproduceRequest& request,
                           const std::function<bool(std::size_t done, std::size_t all)>& pulse) {
-  make(request.folder);
-  const FolderLock lock(request.folder);
-  prepare(request);
+  const WorkFolder folder = prepared(request);
   return Run(request, pulse).all();
 }
 

@@ -15,7 +15,6 @@
 #include "hamflow/core/text.hpp"
 #include "hdf5_text.hpp"
 #include "json_text.hpp"
-#include "run_folder.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow::reproduction {

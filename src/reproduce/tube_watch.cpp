@@ -13,7 +13,6 @@
 #include "hamflow/run/ensemble.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "json_text.hpp"
-#include "run_folder.hpp"
 
 namespace hamflow::reproduction {
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "hamflow/run/gas.hpp"
-#include "run_folder.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
 #include "warnings.hpp"
@@ -178,24 +177,16 @@ void draw_comparison(const Comparison& c, const fs::path& file) {
 
 std::string refused_comparison_figure(const fs::path& file) { return refused_figure_file(file); }
 
-std::shared_ptr<const void> make_comparison_folder(const fs::path& folder, bool replace) {
-  make_folder(folder, FolderOf::comparison, replace);
-  return std::make_shared<FolderLock>(folder);
-}
-
-void write_comparison(const ComparisonReport& report, const fs::path& folder) {
-  write_text(folder / "compare.json", report.json);
-  write_text(folder / "compare.csv", report.csv);
+void write_comparison(const ComparisonReport& report, const WorkFolder& folder) {
+  folder.write("compare.json", report.json);
+  folder.write("compare.csv", report.csv);
   const std::vector<ComparisonPoint>& points = report.comparison.points;
   const bool any_error =
       std::any_of(points.begin(), points.end(), [](const ComparisonPoint& p) { return p.done() && p.error.value > 0; });
   if (report.status != "done" || !any_error) return;
-  const fs::path figures = folder / "figures";
-  std::error_code error;
-  fs::create_directories(figures, error);
-  if (error) throw FileError("cannot make the folder " + figures.string() + ": " + error.message());
+  const fs::path figures = folder.figures();
   for (const char* format : {".svg", ".pdf", ".png"}) {
-    draw_comparison(report.comparison, figures / (std::string(comparison_figure) + format));
+    draw_comparison(report.comparison, figures / (comparison_folder().figures.front() + format));
   }
 }
 

@@ -16,7 +16,6 @@
 #include "reversal_measures.hpp"
 #include "reverse_file.hpp"
 #include "run_description.hpp"
-#include "run_folder.hpp"
 #include "summary.hpp"
 #include "wall_checks.hpp"
 #include "warnings.hpp"
@@ -348,22 +347,10 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
     if (settings.note) settings.note(text);
   };
   std::optional<Checkpoint> from;
-  if (settings.existing == Existing::resume && std::filesystem::exists(settings.folder)) {
-    from = kept_reversal(scenario, settings.folder);
-    if (!from) refuse_other_kind(settings.folder, FolderOf::reversal);
-    if (const std::string left = left_in(settings.folder, FolderOf::reversal); !from && !left.empty()) {
-      throw FileError("there is no checkpoint in " + settings.folder.string() + " to go on from, but " + left +
-                      "; give --out another folder, or --force to replace what is there");
-    }
-    if (!from)
-      note("there is no checkpoint in " + settings.folder.string() + ": the reversal starts from the beginning");
-  } else {
-    if (settings.existing == Existing::resume)
-      note("there is no folder " + settings.folder.string() + " to go on from: the reversal starts from the beginning");
-    if (settings.existing == Existing::replace) refuse_own_input(scenario, settings.folder, FolderOf::reversal);
-    make_folder(settings.folder, FolderOf::reversal, settings.existing != Existing::refuse);
-  }
-  const FolderLock lock(settings.folder);
+  WorkFolder folder(settings.folder, reversal_folder(), settings.existing);
+  if (!folder.note().empty()) note(folder.note());
+  if (folder.goes_on()) from = kept_reversal(scenario, settings.folder);
+  folder.prepare(scenario);
   if (from) {
     if (const auto kept = complete_reversal(*from, settings.folder)) {
       note("the reversal is complete: there is nothing to do");
@@ -397,7 +384,7 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
   write_reverse_file(settings.folder / "reverse.h5", scenario.text, r.start, r.turn,
                      r.outcome == Outcome::done ? &r.end : nullptr);
   if (r.outcome == Outcome::done) checkpoints.complete(report.json);
-  write_text(settings.folder / "reverse.json", report.json);
+  folder.write("reverse.json", report.json);
   return report;
 }
 

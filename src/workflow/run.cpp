@@ -12,7 +12,6 @@
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "json_text.hpp"
 #include "resume.hpp"
-#include "run_folder.hpp"
 #include "run_keys.hpp"
 #include "run_mark.hpp"
 #include "scenario_edit.hpp"
@@ -28,24 +27,6 @@ using Json = nlohmann::ordered_json;
 
 void note(const RunSettings& settings, const std::string& text) {
   if (settings.note) settings.note(text);
-}
-
-/// What the run in the folder left to go on from, if there is one.
-std::optional<Checkpoint> checkpoint_in(const RunSettings& settings) {
-  const fs::path& folder = settings.folder;
-  if (folder.empty() || settings.existing != Existing::resume) return std::nullopt;
-  if (!fs::exists(folder)) {
-    note(settings, "there is no folder " + folder.string() + " to go on from: the run starts from the beginning");
-    return std::nullopt;
-  }
-  if (fs::exists(folder / "checkpoint.bin")) return read_checkpoint(folder / "checkpoint.bin");
-  refuse_other_kind(folder, FolderOf::run);
-  if (const std::string left = left_in(folder, FolderOf::run); !left.empty()) {
-    throw FileError("there is no checkpoint in " + folder.string() + " to go on from, but " + left +
-                    "; give --out another folder, or --force to replace what is there");
-  }
-  note(settings, "there is no checkpoint in " + folder.string() + ": the run starts from the beginning");
-  return std::nullopt;
 }
 
 /// The scenario with the samples as they were spaced when the run began.
@@ -98,10 +79,11 @@ bool has_its_figures(const Scenario& scenario, const fs::path& folder) {
 /// One run, from where it begins or goes on to where it ends.
 class ScenarioRun {
  public:
-  /// @param last what the folder's checkpoint says; null: the folder is to be made
-  ScenarioRun(const Scenario& scenario, const RunSettings& settings, const Checkpoint* last)
+  /// @param folder null: nothing is written   @param last what its checkpoint says; null: the folder is to be made
+  ScenarioRun(const Scenario& scenario, const RunSettings& settings, WorkFolder* folder, const Checkpoint* last)
       : scenario_(scenario),
         settings_(settings),
+        folder_(folder),
         simulation_(make_simulation(scenario.request)),
         turns_(scenario.dt, takes_equal_steps(simulation_->method())) {
     const Checkpoint* const from = last != nullptr && !has_only_begun(*last) ? last : nullptr;
@@ -114,9 +96,7 @@ class ScenarioRun {
         Writer probe;
         observer->archive(probe);
       }
-      if (settings.existing == Existing::replace) refuse_own_input(scenario, settings.folder, FolderOf::run);
-      if (last == nullptr) make_folder(settings.folder, FolderOf::run, settings.existing != Existing::refuse);
-      lock_.emplace(settings.folder);
+      folder_->prepare(scenario);
       if (last == nullptr) {  // from here on the folder is known as this run's, however early it is killed
         begin_.emplace(beginning_of(scenario_, new_identity()));
         write_checkpoint(settings.folder / "checkpoint.bin", *begin_);
@@ -137,7 +117,7 @@ class ScenarioRun {
     if (from != nullptr) restore_observers(*from, archived);
     for (const NamedObserver& each : archived) observers_.push_back(each.observer);
     if (!writes()) return;
-    fs::remove(settings.folder / "summary.json");  // of the part before
+    folder_->remove("summary.json");  // of the part before
     checkpoints_ = std::make_unique<CheckpointWriter>(scenario_, *simulation_, *recorder_, std::move(archived),
                                                       settings.folder, *last);
     observers_.push_back(recorder_.get());
@@ -216,7 +196,7 @@ class ScenarioRun {
       return seconds + step_seconds_ < patience;
     };
   }
-  bool writes() const { return !settings_.folder.empty(); }
+  bool writes() const { return folder_ != nullptr; }
 
   RunResult take_steps() {
     RunResult result;
@@ -265,7 +245,7 @@ class ScenarioRun {
   void finish_folder(RunReport& report) {
     try {
       checkpoints_->expect_summary(report.json);
-      write_text(settings_.folder / "summary.json", report.json);
+      folder_->write("summary.json", report.json);
       checkpoints_.reset();
       recorder_.reset();  // closes run.h5, from which the figures are drawn
       if (report.status != "failed") {
@@ -279,10 +259,10 @@ class ScenarioRun {
 
   const Scenario& scenario_;
   const RunSettings& settings_;
+  WorkFolder* folder_;
   std::unique_ptr<Simulation> simulation_;
   double seconds_before_ = 0;
   double step_seconds_ = 0;  // on average, with what observes a step
-  std::optional<FolderLock> lock_;
   std::optional<Checkpoint> begin_;
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<CheckpointWriter> checkpoints_;
@@ -296,30 +276,31 @@ class ScenarioRun {
 }  // namespace
 
 RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
-  const std::optional<Checkpoint> from = checkpoint_in(settings);
-  if (!from) return ScenarioRun(requested, settings, nullptr).carry_out();
+  std::optional<WorkFolder> place;
+  if (!settings.folder.empty()) place.emplace(settings.folder, run_folder(), settings.existing);
+  WorkFolder* const folder = place ? &*place : nullptr;
+  if (folder != nullptr && !folder->note().empty()) note(settings, folder->note());
+  if (folder == nullptr || !folder->goes_on()) return ScenarioRun(requested, settings, folder, nullptr).carry_out();
+  const std::optional<Checkpoint> from = read_checkpoint(*folder / "checkpoint.bin");
   if (auto complaints = differences(requested, *from); !complaints.empty()) throw Rejection(std::move(complaints));
   check_samples(requested, *from, settings.folder);
   if (has_only_begun(*from)) {
     note(settings, "the run was stopped before its first checkpoint: it starts from the beginning");
-    return ScenarioRun(requested, settings, &*from).carry_out();
+    return ScenarioRun(requested, settings, folder, &*from).carry_out();
   }
   const auto summary = own_summary(*from, settings.folder);
   if (summary && is_complete(requested, *from, *summary)) {
-    RunSettings to_look = settings;
-    to_look.folder.clear();
-    RunReport report = ScenarioRun(requested, to_look, &*from).complete(*summary);
+    RunReport report = ScenarioRun(requested, settings, nullptr, &*from).complete(*summary);
     if (has_its_figures(requested, settings.folder)) {
       note(settings, "the run is complete: there is nothing to do");
     } else {
       note(settings, "the run is complete: its figures are drawn");
-      const FolderLock lock(settings.folder);
       draw(requested, settings, from->step, false, report);
     }
     return report;
   }
   const Scenario scenario = with_spacing_of(*from, requested, settings);
-  return ScenarioRun(scenario, settings, &*from).carry_out();
+  return ScenarioRun(scenario, settings, folder, &*from).carry_out();
 }
 
 fs::path folder_of(const Scenario& scenario, const std::string& out) {

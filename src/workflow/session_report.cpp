@@ -4,8 +4,8 @@
 
 #include "csv_file.hpp"
 #include "hamflow/workflow/session.hpp"
+#include "hamflow/workflow/work_folder.hpp"
 #include "run_description.hpp"
-#include "run_folder.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
 #include "whole_file.hpp"
@@ -52,9 +52,9 @@ std::pair<std::string, std::string> session_failure(const Session& session, cons
 }
 
 void save_session(const Session& session, const SampleKeeper& samples, const SessionOutcome& last,
-                  const std::filesystem::path& folder, bool replace) {
-  make_folder(folder, FolderOf::run, replace);
-  const FolderLock lock(folder);
+                  const std::filesystem::path& path, bool replace) {
+  WorkFolder folder(path, run_folder(), replace ? Existing::replace : Existing::refuse);
+  folder.prepare();
   const Scenario present = session.present();
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
@@ -79,7 +79,7 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
     csv.flush();
     text.put_in_place();
   }
-  write_text(folder / "summary.json", session_summary(session, last));
+  folder.write("summary.json", session_summary(session, last));
 }
 
 }  // namespace hamflow

@@ -61,35 +61,19 @@ std::vector<std::string> differences_of(const Sweep& sweep, const SweepHead& now
 }  // namespace
 
 SweepFolder::SweepFolder(Sweep& sweep, const SweepRequest& request, fs::path folder, Existing existing)
-    : sweep_(sweep), folder_(std::move(folder)) {
+    : sweep_(sweep), folder_(std::move(folder), sweep_folder(), existing) {
   SweepPast past;
   past.head = head_of(sweep, request);
-  const bool goes_on = existing == Existing::resume && fs::exists(folder_);
-  if (goes_on) lock_.emplace(folder_);
-  if (goes_on && fs::exists(folder_ / journal_name)) {
+  if (!folder_.note().empty()) notes_.push_back(folder_.note());
+  if (folder_.goes_on()) {
     SweepPast found = read_journal(folder_ / journal_name);
     wrong_ = differences_of(sweep, past.head, found.head);
     if (!wrong_.empty()) return;
     past.members = std::move(found.members);
     restore(past);
-    fs::remove(folder_ / "summary.json");  // of the part before
-  } else {
-    if (goes_on) refuse_other_kind(folder_, FolderOf::sweep);
-    if (existing == Existing::resume) {
-      if (const std::string left = left_in(folder_, FolderOf::sweep); !left.empty()) {
-        throw FileError(
-            fmt::format("there is no {} in {} to go on from, but {}; give --out another folder, or --force "
-                        "to replace what is there",
-                        journal_name, folder_.string(), left));
-      }
-      notes_.push_back(fmt::format("there is no {} in {} to go on from: the sweep starts from the beginning",
-                                   journal_name, folder_.string()));
-    }
-    lock_.reset();
-    if (existing == Existing::replace) refuse_own_input(sweep_.common(), folder_, FolderOf::sweep);
-    make_folder(folder_, FolderOf::sweep, existing != Existing::refuse);
-    lock_.emplace(folder_);
+    folder_.remove("summary.json");  // of the part before
   }
+  folder_.prepare(sweep_.common());
   journal_.emplace(folder_ / journal_name, past);
 }
 
@@ -98,7 +82,7 @@ void SweepFolder::restore(SweepPast& past) {
   std::size_t shorter = 0;
   for (const auto& [member, finished] : past.members) {
     seconds_before_ = std::max(seconds_before_, finished.seconds);
-    if (member >= sweep_.members()) throw FileError(folder_.string() + ": members.bin is of another sweep");
+    if (member >= sweep_.members()) throw FileError(folder_.path().string() + ": members.bin is of another sweep");
     if (finished.steps != sweep_.steps_of(member)) ++shorter;
   }
   std::erase_if(past.members, [&](const auto& each) { return each.second.steps != sweep_.steps_of(each.first); });
@@ -145,12 +129,12 @@ void SweepFolder::write_table(const SweepTable& table) const {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
   };
   if (is_wanted("h5")) write_sweep_h5(folder_ / "sweep.h5", sweep_, table, {HAMFLOW_VERSION, host_name()});
-  if (is_wanted("csv")) write_sweep_csv(folder_, table);
+  if (is_wanted("csv")) write_sweep_csv(folder_.path(), table);
 }
 
 void SweepFolder::save(const std::string& summary) {
   write_table(table_of(sweep_));
-  write_text(folder_ / "summary.json", summary);
+  folder_.write("summary.json", summary);
 }
 
 }  // namespace hamflow

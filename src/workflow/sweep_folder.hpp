@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hamflow/workflow/sweep.hpp"
-#include "run_folder.hpp"
 #include "sweep_journal.hpp"
 #include "sweep_table.hpp"
 
@@ -43,10 +42,9 @@ class SweepFolder {
   void write_table(const SweepTable& table) const;
 
   Sweep& sweep_;
-  std::filesystem::path folder_;
+  WorkFolder folder_;
   std::vector<std::string> wrong_;
   std::vector<std::string> notes_;
-  std::optional<FolderLock> lock_;
   std::optional<SweepJournal> journal_;
   double seconds_before_ = 0;
   Clock::time_point begin_ = Clock::now();

@@ -1,5 +1,6 @@
 """What is not this run's is neither removed nor mixed: --force, --resume and files of others in the folder."""
 
+import fcntl
 import json
 import os
 import pathlib
@@ -148,19 +149,47 @@ class OwnFiles(CommandCase):
         self.assertIn("found a run", self.hamflow(*compare, "r", "--force", status=3).stderr)
         self.assertEqual(self.contents("r"), before)
 
-    def test_one_writer_in_a_folder_of_a_sweep_or_a_comparison(self):
-        for name, command in (("w", ("sweep", "s.toml", "--vary", "run.dt=0.01,0.02")),
-                              ("c", ("compare", "s.toml", "--methods", "stv4", "--dt", "0.01"))):
+    def is_locked(self, name):
+        folder = os.open(self.folder / name, os.O_RDONLY)
+        try:
+            fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return False
+        except BlockingIOError:
+            return True
+        finally:
+            os.close(folder)
+
+    def test_one_writer_in_a_folder(self):
+        steps = ("--set", "run.steps=1_000_000_000")
+        for command, others in ((("run", "s.toml", *steps), ("--resume", "--force")),
+                                (("sweep", "s.toml", "--vary", "run.dt=0.01,0.02", *steps), ("--resume", "--force")),
+                                (("compare", "s.toml", "--methods", "stv4", "--dt", "0.01", *steps), ("--force",)),
+                                (("reverse", "s.toml", *steps), ("--resume", "--force")),
+                                (("reproduce", "all"), ("--resume", "--force"))):
+            name = command[0] + ".d"
             with self.subTest(command[0]):
-                long = subprocess.Popen([HAMFLOW, *command, "--out", name, "--set", "run.steps=100_000_000", "--quiet"],
-                                        cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                while not (self.folder / name).exists():
-                    time.sleep(0.01)
-                time.sleep(0.1)
-                said = self.hamflow(*command, "--out", name, "--force", status=3).stderr
-                long.kill()
-                long.wait()
-                self.assertIn("is writing into the folder", said)
+                long = subprocess.Popen([HAMFLOW, *command, "--out", name], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL)
+                try:
+                    while not ((self.folder / name).exists() and self.is_locked(name)):
+                        self.assertIsNone(long.poll())
+                        time.sleep(0.01)
+                    for other in others:
+                        said = self.hamflow(*command, "--out", name, other, status=3).stderr
+                        self.assertIn("another process is writing into the folder " + name, said)
+                finally:
+                    long.kill()
+                    long.wait()
+
+    def test_what_a_session_saves_goes_into_no_folder_that_is_written(self):
+        (self.folder / "a").mkdir()
+        folder = os.open(self.folder / "a", os.O_RDONLY)
+        self.addCleanup(os.close, folder)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        done = subprocess.run([HAMFLOW, "shell", "s.toml"], cwd=self.folder, input="step 3\nsave! a\nquit\n",
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(list((self.folder / "a").iterdir()), [])
+        self.assertIn("another process is writing into the folder a", done.stderr)
 
     def test_files_of_another_run_are_not_gone_on_with(self):
         self.run_to("a")

@@ -297,16 +297,6 @@ class Resume(CommandCase):
             del summary["wall_seconds"], summary["steps_per_second"]
         self.assertEqual(first, again)
 
-    def test_two_runs_in_one_folder(self):
-        self.scenario(run="dt = 0.01\nsteps = 1_000_000_000")
-        process = subprocess.Popen([HAMFLOW, "run", "s.toml", "--out", "r"], cwd=self.folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.5)
-        for option in ("--resume", "--force"):
-            self.assertIn("another run", self.run_to("r", option, status=3).stderr)
-        process.send_signal(signal.SIGINT)
-        process.wait()
-
     def test_fast_kernel(self):
         self.scenario(run='dt = 0.01\nsteps = 1000\nkernel = "fast"')
         self.run_to("r")

@@ -177,7 +177,7 @@ class Reverse(CommandCase):
         more = self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--set", "run.steps=301", status=2).stderr
         self.assertIn("the 300 after which the momenta were negated", more)
         (self.folder / "r" / "reversal.bin").unlink()
-        self.assertIn("no checkpoint", self.hamflow("reverse", "kepler.toml", *sets, "--resume", status=3).stderr)
+        self.assertIn("no reversal.bin", self.hamflow("reverse", "kepler.toml", *sets, "--resume", status=3).stderr)
         self.assertIn("--force", self.hamflow("reverse", "kepler.toml", *sets, "--resume", "--force", status=2).stderr)
         self.assertIn("--out DIR", self.hamflow("reverse", "kepler.toml", "--resume", status=2).stderr)
 

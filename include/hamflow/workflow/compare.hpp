@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 
 #include "hamflow/verify/comparison.hpp"
+#include "hamflow/workflow/work_folder.hpp"
 
 namespace hamflow {
 
@@ -28,11 +28,8 @@ void draw_comparison(const Comparison& comparison, const std::filesystem::path& 
 /// Empty if the file's extension is that of a figure, else what is wrong with it.
 std::string refused_comparison_figure(const std::filesystem::path& file);
 
-/// Makes the folder for a comparison; `replace` removes what an earlier comparison left in it, and nothing else.
-/// Nobody else writes into it while what is returned lives.
-/// @throws FileError when it exists and `replace` is false, is that of a run or a sweep, or cannot be made
-[[nodiscard]] std::shared_ptr<const void> make_comparison_folder(const std::filesystem::path& folder, bool replace);
-/// Writes compare.json, compare.csv and, where there is something to draw, figures/ into it.   @throws FileError
-void write_comparison(const ComparisonReport& report, const std::filesystem::path& folder);
+/// Writes compare.json, compare.csv and, where there is something to draw, figures/ into a comparison_folder().
+/// @throws FileError
+void write_comparison(const ComparisonReport& report, const WorkFolder& folder);
 
 }  // namespace hamflow

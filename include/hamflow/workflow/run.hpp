@@ -11,15 +11,9 @@
 #include "hamflow/run/observer.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/verify/certificate.hpp"
+#include "hamflow/workflow/work_folder.hpp"
 
 namespace hamflow {
-
-/// What to do with a folder that exists.
-enum class Existing {
-  refuse,   // FileError
-  replace,  // what an earlier run left in it is removed, nothing else
-  resume    // the run in it goes on, bit for bit as if it had never stopped; FileError where the files are not its own
-};
 
 /// How a scenario is carried out. None of it changes a bit of the trajectory.
 struct RunSettings {

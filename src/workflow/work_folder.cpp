@@ -1,0 +1,254 @@
+#include "hamflow/workflow/work_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <toml++/toml.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "figure_kinds.hpp"
+#include "gas_options.hpp"
+#include "hamflow/core/error.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/scenario/rejection.hpp"
+#include "whole_file.hpp"
+
+namespace hamflow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Names = std::vector<fs::path>;
+
+std::vector<std::string> names_of_figures() {
+  std::vector<std::string> names;
+  for (const FigureKindInfo& kind : figure_kinds()) names.push_back(kind.name);
+  return names;
+}
+
+}  // namespace
+
+// The file from which work goes on is the last to be removed: what a kill interrupts on the way is still a run, or a
+// sweep.
+const FolderKind& run_folder() {
+  static const FolderKind kind{.name = "run",
+                               .signs = {"run.h5"},
+                               .files = {"run.h5", "trajectory.csv", "summary.json", "checkpoint.bin"},
+                               .figures = names_of_figures(),
+                               .goes_on_from = "checkpoint.bin"};
+  return kind;
+}
+
+const FolderKind& sweep_folder() {
+  static const FolderKind kind{.name = "sweep",
+                               .signs = {"sweep.h5", "members.bin"},
+                               .files = {"sweep.h5", "sweep.csv", "section.csv", "summary.json", "members.bin"},
+                               .goes_on_from = "members.bin"};
+  return kind;
+}
+
+const FolderKind& comparison_folder() {
+  static const FolderKind kind{.name = "comparison",
+                               .signs = {"compare.json"},
+                               .files = {"compare.json", "compare.csv"},
+                               .figures = {"work-precision"}};
+  return kind;
+}
+
+const FolderKind& reversal_folder() {
+  static const FolderKind kind{.name = "reversal",
+                               .signs = {"reverse.h5", "reversal.bin"},
+                               .files = {"reverse.h5", "reverse.json", "reversal.bin"},
+                               .goes_on_from = "reversal.bin"};
+  return kind;
+}
+
+namespace {
+
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(fs::symlink_status(file, none));
+}
+
+/// What a command has left under the names of its kind, those included that a kill leaves half written.
+Names found_in(const fs::path& folder, const FolderKind& kind) {
+  Names names;
+  std::error_code none;
+  if (fs::is_directory(fs::symlink_status(folder / "figures", none))) {
+    for (const std::string& figure : kind.figures) {
+      for (const char* format : {".svg", ".pdf", ".png"}) names.push_back(fs::path("figures") / (figure + format));
+    }
+  }
+  for (const std::string& name : kind.files) {
+    names.push_back(next_name(next_name(name)));
+    names.push_back(next_name(name));
+    names.emplace_back(name);
+  }
+  std::erase_if(names, [&](const fs::path& name) { return !is_there(folder / name); });
+  return names;
+}
+
+/// The names of what was finished, e.g. "run.h5, figures/orbit.svg"; empty if there is nothing.
+std::string left_in(const fs::path& folder, const FolderKind& kind) {
+  Names found = found_in(folder, kind);
+  std::erase_if(found, [](const fs::path& name) { return name.extension() == ".new"; });
+  return joined(found, [](const fs::path& name) { return name.string(); });
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(fs::symlink_status(file, error))) {
+    throw FileError(file.string() + " is a folder, which hamflow leaves under no such name: it is not removed; " +
+                    "give --out another");
+  }
+  fs::remove(file, error);
+  if (error) throw FileError("cannot remove " + file.string() + ": " + error.message());
+}
+
+/// The name of another kind whose folder it is; empty: none.
+std::string other_kind_in(const fs::path& folder, const FolderKind& kind) {
+  for (const FolderKind* other : {&run_folder(), &sweep_folder(), &comparison_folder(), &reversal_folder()}) {
+    const bool is_other = std::any_of(other->signs.begin(), other->signs.end(),
+                                      [&](const std::string& sign) { return is_there(folder / sign); });
+    if (other->name != kind.name && is_other) return other->name;
+  }
+  return {};
+}
+
+/// Both as a name in its folder and as what a link leads to: either may be removed.
+bool is_among(const fs::path& file, const fs::path& folder, const Names& names) {
+  std::error_code none;
+  const fs::path there = fs::weakly_canonical(fs::absolute(folder), none);
+  const fs::path whole = fs::absolute(file);
+  const fs::path spellings[] = {fs::weakly_canonical(whole, none),
+                                fs::weakly_canonical(whole.parent_path(), none) / whole.filename()};
+  return std::any_of(names.begin(), names.end(), [&](const fs::path& name) {
+    return std::any_of(std::begin(spellings), std::end(spellings),
+                       [&](const fs::path& spelling) { return spelling == there / name; });
+  });
+}
+
+/// @throws Rejection when the file from which particles start is among those names
+void refuse_own_input(const Scenario& scenario, const fs::path& folder, const Names& removed) {
+  const std::string key = "problem." + gas_options().file.name;
+  const auto given = scenario.settings.find(key);
+  if (given == scenario.settings.end()) return;
+  // A setting is kept as it would stand in a file: with quotes.
+  const toml::table read = toml::parse("file = " + given->second.text);
+  const auto file = read["file"].value<std::string>();
+  if (!file || !is_among(fs::path(scenario.file).parent_path() / *file, folder, removed)) return;
+  throw Rejection({{scenario.file, given->second.line, given->second.column, key,
+                    "found \"" + *file + "\", which --force would remove with what is in " + folder.string() +
+                        "; allowed another --out, or a copy of the file elsewhere"}});
+}
+
+}  // namespace
+
+WorkFolder::WorkFolder(fs::path folder, const FolderKind& kind, Existing existing)
+    : path_(std::move(folder)), kind_(&kind), existing_(existing), is_there_(is_there(path_)) {
+  std::error_code error;
+  if (!is_there_) {
+    if (existing == Existing::resume) {
+      note_ =
+          "there is no folder " + path_.string() + " to go on from: the " + kind.name + " starts from the beginning";
+    }
+    return;
+  }
+  if (!fs::is_directory(path_, error)) throw FileError(path_.string() + " exists and is no folder");
+  const std::string other = other_kind_in(path_, kind);
+  if (existing == Existing::refuse) {
+    if (!other.empty()) {
+      throw FileError("the folder " + path_.string() + " exists, with a " + other + " in it; give --out another");
+    }
+    throw FileError("the folder " + path_.string() + " exists; give " +
+                    (kind.goes_on_from.empty() ? "" : "--resume to go on with the " + kind.name + " in it, ") +
+                    "--force to replace it, or --out another");
+  }
+  lock();
+  goes_on_ = existing == Existing::resume && is_there(path_ / kind.goes_on_from);
+  if (goes_on_) return;
+  if (!other.empty()) {
+    throw FileError(
+        "found a " + other + " in " + path_.string() +
+        (existing == Existing::replace ? ", which is not replaced" : ", from which no " + kind.name + " goes on") +
+        "; allowed a folder of a " + kind.name + ", or --out another");
+  }
+  if (existing == Existing::replace) return;
+  if (const std::string left = left_in(path_, kind); !left.empty()) {
+    throw FileError("there is no " + kind.goes_on_from + " in " + path_.string() + " to go on from, but " + left +
+                    "; give --out another folder, or --force to replace what is there");
+  }
+  note_ = "there is no " + kind.goes_on_from + " in " + path_.string() + " to go on from: the " + kind.name +
+          " starts from the beginning";
+}
+
+WorkFolder::~WorkFolder() { unlock(); }
+
+WorkFolder::WorkFolder(WorkFolder&& other) noexcept
+    : path_(std::move(other.path_)),
+      kind_(other.kind_),
+      existing_(other.existing_),
+      is_there_(other.is_there_),
+      goes_on_(other.goes_on_),
+      note_(std::move(other.note_)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+void WorkFolder::lock() {
+  descriptor_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  // Where files cannot be locked (some network folders) nobody is kept out.
+  if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    unlock();
+    throw FileError("another process is writing into the folder " + path_.string());
+  }
+}
+
+void WorkFolder::unlock() {
+  if (descriptor_ >= 0) close(descriptor_);
+  descriptor_ = -1;
+}
+
+void WorkFolder::prepare() {
+  if (goes_on_) return;
+  std::error_code error;
+  if (!is_there_) {
+    const bool made = fs::create_directories(path_, error);
+    if (error) throw FileError("cannot make the folder " + path_.string() + ": " + error.message());
+    if (!made)
+      throw FileError("another process has made the folder " + path_.string() + " meanwhile; give --out another");
+    lock();
+    is_there_ = true;
+    return;
+  }
+  for (const fs::path& name : found_in(path_, *kind_)) remove_file(path_ / name);
+  const fs::path figures = path_ / "figures";
+  if (!kind_->figures.empty() && fs::is_directory(fs::symlink_status(figures, error)) && fs::is_empty(figures, error)) {
+    fs::remove(figures, error);
+  }
+}
+
+void WorkFolder::prepare(const Scenario& scenario) {
+  if (is_there_ && !goes_on_) refuse_own_input(scenario, path_, found_in(path_, *kind_));
+  prepare();
+}
+
+void WorkFolder::write(const fs::path& name, const std::string& text) const { write_text(path_ / name, text); }
+
+void WorkFolder::remove(const fs::path& name) const { fs::remove(path_ / name); }
+
+fs::path WorkFolder::figures() const {
+  std::error_code error;
+  fs::create_directories(path_ / "figures", error);
+  if (error) throw FileError("cannot make the folder " + (path_ / "figures").string() + ": " + error.message());
+  return path_ / "figures";
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  WholeFile whole(file, next_name(file));
+  write_whole(whole, text);
+}
+
+}  // namespace hamflow
