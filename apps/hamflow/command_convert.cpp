@@ -29,8 +29,8 @@ std::vector<double> numbers_of(const std::string& option, const std::string& tex
   try {
     for (const std::string& part : list_parts("[" + text + "]")) numbers.push_back(evaluate_number<double>(part));
   } catch (const Error& error) {
-    throw Error(option + ": found '" + text + "'; allowed numbers with commas between, e.g. 1,0 (" + error.what() +
-                ")");
+    throw Rejection(option,
+                    "found '" + text + "'; allowed numbers with commas between, e.g. 1,0 (" + error.what() + ")");
   }
   return numbers;
 }
@@ -41,7 +41,7 @@ void convert_given_state(const ConvertOptions& options) {
     throw Error(
         "found neither INPUT nor a whole state; allowed INPUT --to ..., or --from ... --to ... --q ... --p ...");
   }
-  if (!options.sets.empty()) throw Error("found --set beside a state; allowed with a scenario");
+  if (!options.sets.empty()) throw Rejection("--set", "found --set beside a state; allowed with a scenario");
   const CanonicalState given{numbers_of("--q", options.q), numbers_of("--p", options.p)};
   StateConverter convert(options.from, options.to, given.q.size());
   const CanonicalState state = convert(given);
@@ -56,8 +56,8 @@ void note_left_out(const std::string& keys, const std::string& of_what) {
 void convert_scenario(const ConvertOptions& options) {
   const std::string extension = fs::path(options.output).extension().string();
   if (extension == ".h5" || extension == ".csv") {
-    throw Error("-o: found '" + options.output + "'; allowed a file .toml, or .json with --json: " + options.input +
-                " is a scenario");
+    throw Rejection("-o", "found '" + options.output +
+                              "'; allowed a file .toml, or .json with --json: " + options.input + " is a scenario");
   }
   // The method set is that of the converted scenario: with constraints none is allowed in both coordinates.
   std::vector<std::string> of_problem = options.sets;
@@ -83,7 +83,7 @@ void convert_scenario(const ConvertOptions& options) {
 }
 
 void convert_run(const ConvertOptions& options) {
-  if (!options.sets.empty()) throw Error("found --set beside a run; allowed with a scenario");
+  if (!options.sets.empty()) throw Rejection("--set", "found --set beside a run; allowed with a scenario");
   const std::string extension = fs::path(options.output).extension().string();
   const bool known = options.json ? extension == ".json" : extension == ".h5" || extension == ".csv";
   if (!options.output.empty() && !known) {
@@ -120,11 +120,12 @@ int convert_command(const ConvertOptions& options) {
       convert_given_state(options);
       return exit_done;
     }
-    if (!options.q.empty() || !options.p.empty()) throw Error("found --q or --p beside INPUT; allowed with --from");
+    if (!options.q.empty() || !options.p.empty())
+      throw Rejection("--q", "found --q or --p beside INPUT; allowed with --from");
     require_folder_of(options.output);
     std::error_code none;
     if (!options.output.empty() && fs::equivalent(options.input, options.output, none)) {
-      throw Error("-o: found the input itself; allowed another file");
+      throw Rejection("-o", "found the input itself; allowed another file");
     }
     if (is_run(options.input)) {
       convert_run(options);

@@ -80,28 +80,39 @@ std::string key_for_option(const std::string& option) {
 }
 }  // namespace
 
-std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
-  std::string message;
-  for (const CLI::App* sub : app.get_subcommands()) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : sub->get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-    for (const std::string& word : sub->remaining()) {
-      if (!word.starts_with("-") && sub->get_name() == "compare") {
-        message += (message.empty() ? "" : "\n") + sub->get_name() + ": found " + word +
-                   " behind a blank; allowed one list with commas between, e.g. --methods 'verlet," + word + "'";
+std::vector<Complaint> complaints_of(const CLI::App& app, const CLI::ParseError& error) {
+  std::vector<Complaint> all;
+  const auto complain = [&](const std::string& key, const std::string& message) {
+    all.push_back({"", 0, 0, key, message});
+  };
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    for (const CLI::App* sub : app.get_subcommands()) {
+      std::vector<std::string> names;
+      for (const CLI::Option* option : sub->get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
       }
-      if (!word.starts_with("-")) continue;
-      const std::string name = word.substr(0, word.find('='));
-      const bool sets = std::find(names.begin(), names.end(), "--set") != names.end();
-      const std::string key = sets ? key_for_option(name) : "";
-      message += (message.empty() ? "" : "\n") + sub->get_name() + ": found the option " + name + "; allowed " +
-                 joined(names) + (key.empty() ? suggestion(name, names) : "; did you mean --set " + key + "=...?");
+      for (const std::string& word : sub->remaining()) {
+        if (!word.starts_with("-") && sub->get_name() == "compare") {
+          complain("--methods", "found " + word +
+                                    " behind a blank; allowed one list with commas between, e.g. --methods 'verlet," +
+                                    word + "'");
+        }
+        if (!word.starts_with("-")) continue;
+        const std::string name = word.substr(0, word.find('='));
+        const bool sets = std::find(names.begin(), names.end(), "--set") != names.end();
+        const std::string key = sets ? key_for_option(name) : "";
+        complain(name, "found the option " + name + "; allowed " + joined(names) +
+                           (key.empty() ? suggestion(name, names) : "; did you mean --set " + key + "=...?"));
+      }
     }
+    if (!all.empty()) return all;
   }
-  return message.empty() || error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) ? error.what()
-                                                                                                   : message;
+  // CLI11 puts the name of the option before what its validator says.
+  const std::string text = error.what();
+  const std::size_t colon = text.find(": ");
+  const bool has_name = colon != std::string::npos && text.find_first_of(" '\"") > colon;
+  complain(has_name ? text.substr(0, colon) : "", has_name ? text.substr(colon + 2) : text);
+  return all;
 }
 
 }  // namespace hamflow::app

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/complaint.hpp"
 #include "hamflow/core/option_info.hpp"
 
 namespace hamflow::app {
@@ -19,6 +20,6 @@ void reject_unknown_command(const CLI::App& app, int argc, char** argv);
 /// @throws CLI::ValidationError when an option that needs a value is followed by none
 void reject_missing_value(const CLI::App& app, int argc, char** argv);
 /// What is wrong with the command line: for options that do not exist with those that do.
-std::string message_of(const CLI::App& app, const CLI::ParseError& error);
+std::vector<Complaint> complaints_of(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace hamflow::app

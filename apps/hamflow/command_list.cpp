@@ -361,7 +361,7 @@ int show_command(const std::string& name, const std::string& folder) {
   return guarded(false, [&] {
     if (show_experiment(name, folder)) return exit_done;
     if (!folder.empty())
-      throw Error("found --out with " + name + "; allowed with an experiment (hamflow list experiments)");
+      throw Rejection("--out", "found --out with " + name + "; allowed with an experiment (hamflow list experiments)");
     if (name.ends_with(".toml")) {
       show_scenario(accepted(read_scenario(name, {})));
       return exit_done;

@@ -47,12 +47,12 @@ const ProblemEntry& chosen(const NewOptions& options) {
     if (!choices.contains(key)) {
       std::string allowed;
       for (const auto& choice : choices) allowed += (allowed.empty() ? "--" : ", --") + choice.first;
-      throw Error(fmt::format("--{}: {} has no choice of {}; allowed {}", key, options.problem, key,
-                              allowed.empty() ? "no choice here" : allowed));
+      throw Rejection("--" + key, fmt::format("{} has no choice of {}; allowed {}", options.problem, key,
+                                              allowed.empty() ? "no choice here" : allowed));
     }
     const std::vector<std::string>& all = choices[key];
     if (std::find(all.begin(), all.end(), value) == all.end()) {
-      throw Error(fmt::format("--{}: found {}; allowed {}{}", key, value, joined(all), suggestion(value, all)));
+      throw Rejection("--" + key, fmt::format("found {}; allowed {}{}", value, joined(all), suggestion(value, all)));
     }
     variant[key] = value;
   }
@@ -75,8 +75,9 @@ const ProblemEntry& chosen(const NewOptions& options) {
   for (const ProblemEntry& entry : problems()) {
     if (entry.info.name == options.problem && lacking(entry) == variant.end()) return entry;
   }
-  throw Error(fmt::format("--{}: found {}, of which there is no choice beside the others; allowed without it",
-                          lacks->first, lacks->second));
+  throw Rejection(
+      "--" + lacks->first,
+      fmt::format("found {}, of which there is no choice beside the others; allowed without it", lacks->second));
 }
 
 /// What the problem declares; else where `hamflow verify` measures, since a run is bounded and regular there.

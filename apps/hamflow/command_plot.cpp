@@ -14,7 +14,7 @@ std::vector<double> times_of(const std::string& texts) {
   std::vector<double> times;
   if (texts.empty()) return times;
   for (const std::string& text : split_list(texts)) {
-    if (const std::string wrong = refused_value({.name = "--at"}, text); !wrong.empty()) throw Error("--at: " + wrong);
+    if (const std::string wrong = refused_value({.name = "--at"}, text); !wrong.empty()) throw Rejection("--at", wrong);
     times.push_back(number_value(text));
   }
   return times;

@@ -26,22 +26,23 @@ std::filesystem::path folder_for(const ReproduceCommandOptions& options) {
 }
 
 void check_together(const ReproduceCommandOptions& options) {
-  if (options.quick && options.full) throw Error("found --quick with --full; allowed one of them");
-  if (options.out == "none") throw Error("found --out none; allowed a folder: the page is what reproduce is for");
-  if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
+  if (options.quick && options.full) throw Rejection("--quick", "found --quick with --full; allowed one of them");
+  if (options.out == "none")
+    throw Rejection("--out", "found --out none; allowed a folder: the page is what reproduce is for");
+  if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
 }
 
 /// All that is wrong with them is told at once.
 std::vector<std::string> ids_of(const std::vector<std::string>& words) {
-  RejectedOption unknown{"ID", {}};
+  std::vector<Complaint> unknown;
   for (const std::string& word : words) {
     try {
       (void)named_experiments({word});
     } catch (const Error& error) {
-      unknown.messages.emplace_back(error.what());
+      unknown.push_back({"", 0, 0, "ID", error.what()});
     }
   }
-  if (!unknown.messages.empty()) throw unknown;
+  if (!unknown.empty()) throw Rejection(std::move(unknown));
   return named_experiments(words);
 }
 

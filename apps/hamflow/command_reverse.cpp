@@ -15,7 +15,7 @@ int reverse_command(const ReverseOptions& options) {
   const auto reverse = [&] {
     const bool writes = !options.out.empty() && options.out != "none";
     if (options.resume && !writes)
-      throw Error("found --resume without a folder; allowed with --out DIR, where the reversal is");
+      throw Rejection("--resume", "found --resume without a folder; allowed with --out DIR, where the reversal is");
     const Scenario scenario = accepted(read_scenario(options.scenario, options.sets));
     print_notes(scenario.notes, options.quiet);
     note_unused_measures(scenario, "a reversal takes every step and asks what came back", options.quiet);

@@ -15,8 +15,9 @@ namespace {
 
 /// What is wrong with the options together.
 void check_together(const RunOptions& options) {
-  if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
-  if (options.resume && options.out == "none") throw Error("found --resume with --out none; allowed with a folder");
+  if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
+  if (options.resume && options.out == "none")
+    throw Rejection("--resume", "found --resume with --out none; allowed with a folder");
 }
 
 RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWork& kept) {

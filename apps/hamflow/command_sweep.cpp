@@ -23,15 +23,16 @@ fs::path folder_for(const SweepCommandOptions& options) {
 
 /// What is wrong with the options together.
 void check_together(const SweepCommandOptions& options) {
-  if (options.resume && options.force) throw Error("found --resume with --force; allowed one of them");
-  if (options.resume && options.out == "none") throw Error("found --resume with --out none; allowed with a folder");
+  if (options.resume && options.force) throw Rejection("--resume", "found --resume with --force; allowed one of them");
+  if (options.resume && options.out == "none")
+    throw Rejection("--resume", "found --resume with --out none; allowed with a folder");
 }
 
 void open_folder(ScenarioSweep& sweep, const SweepCommandOptions& options) {
   const std::size_t told = sweep.notes().size();
   const Existing existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
-  const std::vector<std::string> wrong = sweep.keep_in(folder_for(options), existing);
-  if (!wrong.empty()) throw RejectedLines{wrong};
+  const std::vector<Complaint> wrong = sweep.keep_in(folder_for(options), existing);
+  if (!wrong.empty()) throw Rejection(wrong);
   print_notes({sweep.notes().begin() + static_cast<std::ptrdiff_t>(told), sweep.notes().end()}, options.quiet);
 }
 
@@ -58,9 +59,10 @@ void print(const ScenarioSweep& sweep, const SweepReport& report, bool writes, c
 }
 
 /// Without a figure there is nothing to colour.
-std::string refused_colour(const std::string& colour, bool mean) {
-  if (mean) return "--mean: error: found --mean without --figure; allowed beside --figure FILE";
-  return colour.empty() ? "" : "--colour: error: found " + colour + " without --figure; allowed beside --figure FILE";
+void refuse_colour(const std::string& colour, bool mean) {
+  if (mean) throw Rejection("--mean", "found --mean without --figure; allowed beside --figure FILE");
+  if (!colour.empty())
+    throw Rejection("--colour", "found " + colour + " without --figure; allowed beside --figure FILE");
 }
 
 }  // namespace
@@ -77,11 +79,13 @@ int sweep_command(const SweepCommandOptions& options) {
                          .threads = options.threads,
                          .lanes = options.lanes});
     print_notes(sweep.notes(), options.quiet);
-    if (!sweep.complaints().empty()) throw RejectedLines{sweep.complaints()};
+    if (!sweep.complaints().empty()) throw Rejection(sweep.complaints());
     const bool draws = !options.figure.empty();
-    const std::string wrong = draws ? sweep.refused_figure(options.figure, options.colour, options.mean)
-                                    : refused_colour(options.colour, options.mean);
-    if (!wrong.empty()) throw RejectedLines{{wrong}};
+    if (draws) {
+      sweep.check_figure(options.figure, options.colour, options.mean);
+    } else {
+      refuse_colour(options.colour, options.mean);
+    }
     require_folder_of(options.figure);
     const bool writes = options.out != "none";
     catch_interrupts();

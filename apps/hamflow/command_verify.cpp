@@ -21,15 +21,15 @@ namespace hamflow::app {
 namespace {
 std::vector<MethodSpec> methods_of(const VerifyOptions& options) {
   std::vector<MethodSpec> specs;
-  RejectedOption unknown{"METHOD", {}};
+  std::vector<Complaint> unknown;
   for (const std::string& text : options.methods) {
     try {
       specs.push_back(parse_method(text));
     } catch (const Error& error) {
-      unknown.messages.emplace_back(error.what());
+      unknown.push_back({"", 0, 0, "METHOD", error.what()});
     }
   }
-  if (!unknown.messages.empty()) throw unknown;
+  if (!unknown.empty()) throw Rejection(std::move(unknown));
   if (!options.all) return specs;
   for (const MethodEntry& entry : methods()) {
     if (entry.family->representatives.empty()) specs.push_back(parse_method(entry.name));
@@ -133,14 +133,15 @@ class Measuring {
 
 int verify_command(const VerifyOptions& options) {
   return guarded(options.json, [&] {
-    if (options.all && !options.methods.empty()) throw Error("found METHOD beside --all; allowed one of them");
+    if (options.all && !options.methods.empty())
+      throw Rejection("METHOD", "found METHOD beside --all; allowed one of them");
     const std::vector<MethodSpec> specs = methods_of(options);
     if (specs.empty()) throw Error("verify needs at least one METHOD, or --all");
     std::vector<Region> regions;
     try {
       if (!options.problem.empty()) regions = {region_for(options.problem, specs)};
     } catch (const Error& error) {
-      throw RejectedOption{"--problem", {error.what()}};
+      throw Rejection("--problem", error.what());
     }
     for (const Region& region : regions) {
       for (const MethodSpec& spec : specs) (void)step_map_on(region, spec);  // throws where refused

@@ -18,9 +18,9 @@ namespace hamflow::app {
 
 namespace {
 
-int rejected(bool json, const std::string& lines, const std::string& as_json) {
-  std::cerr << lines << '\n';
-  if (json) std::cout << as_json;
+int rejected(bool json, const std::vector<Complaint>& complaints) {
+  for (const Complaint& complaint : complaints) std::cerr << complaint.text() << '\n';
+  if (json) std::cout << rejection_json(complaints);
   return exit_rejected;
 }
 
@@ -28,23 +28,6 @@ int failed(bool json, const std::string& kind, const std::string& message, int s
   print_error(message);
   if (json) std::cout << failure_json(kind, message);
   return status;
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string all;
-  for (const std::string& line : lines) all += (all.empty() ? "" : "\n") + line;
-  return all;
-}
-
-int rejected_option(bool json, const RejectedOption& rejection) {
-  const bool is_option = rejection.option.starts_with("-");
-  std::vector<std::string> lines;
-  std::vector<Complaint> complaints;
-  for (const std::string& message : rejection.messages) {
-    lines.push_back((is_option ? rejection.option + ": " : "") + "error: " + message);
-    complaints.push_back({"", 0, 0, rejection.option, message});
-  }
-  return rejected(json, joined(lines), rejection_json(complaints));
 }
 
 /// Libraries that read and write crash where a small allocation fails. A command begins only with so much at hand that
@@ -64,11 +47,7 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     require_memory();
     return body();
   } catch (const Rejection& rejection) {
-    return rejected(json, rejection.what(), rejection_json(rejection.complaints));
-  } catch (const RejectedLines& rejection) {
-    return rejected(json, joined(rejection.lines), rejection_json(rejection.lines));
-  } catch (const RejectedOption& rejection) {
-    return rejected_option(json, rejection);
+    return rejected(json, rejection.complaints);
   } catch (const figures::DrawingStopped& error) {
     return failed(json, "interrupted", error.what(), exit_interrupted);
   } catch (const FileError& error) {
@@ -77,8 +56,7 @@ int guarded(bool json, const std::function<int()>& body, const std::string& fail
     return failed(json, "file", error.what(), exit_file);
   } catch (const Error& error) {
     if (!failure.empty()) return failed(json, failure, error.what(), exit_failed);
-    const std::string line = std::string("error: ") + error.what();
-    return rejected(json, line, rejection_json(std::vector<std::string>{line}));
+    return rejected(json, {{"", 0, 0, "", error.what()}});
   } catch (const std::bad_alloc&) {
     const std::string more = kept != nullptr ? kept->sentence() : "";
     return failed(json, "memory", "out of memory" + (more.empty() ? "" : "; " + more), exit_failed);
@@ -116,7 +94,7 @@ void note_unused_measures(const Scenario& scenario, const std::string& why, bool
   if (scenario.section) unused.push_back(run_path(keys.section));
   if (!scenario.events.empty()) unused.push_back(run_path(keys.events));
   if (unused.empty()) return;
-  print_notes({hamflow::joined(unused) + (unused.size() == 1 ? " is" : " are") + " not used: " + why}, quiet);
+  print_notes({joined(unused) + (unused.size() == 1 ? " is" : " are") + " not used: " + why}, quiet);
 }
 
 void note_unused_figures(const Scenario& scenario, const std::string& why, bool quiet) {

@@ -12,19 +12,8 @@
 
 namespace hamflow::app {
 
-/// A request that is wrong beside its scenario: a line each, printed as they are.
-struct RejectedLines {
-  std::vector<std::string> lines;
-};
-
-/// What is wrong with an option, "--problem", or with words that stand by themselves, "METHOD".
-struct RejectedOption {
-  std::string option;
-  std::vector<std::string> messages;
-};
-
 /// Runs the body of a command and returns its status. An exception is printed on stderr, with `json` on stdout too:
-/// Rejection, RejectedLines, RejectedOption: 2; FileError and errors of std::filesystem: 3; Error: 2, the request was
+/// Rejection: 2; FileError and errors of std::filesystem: 3; Error: 2, the request was
 /// wrong, unless `failure` names what fails of requests that were right, e.g. "comparison": then 1; anything else: 1.
 /// @param kept of work that is gone on with by --resume: what is said behind "out of memory"
 int guarded(bool json, const std::function<int()>& body, const std::string& failure = {},

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
-#include <sstream>
 
 #include "command_line.hpp"
 #include "commands.hpp"
@@ -306,16 +305,14 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11's own statuses start at 100: help is 0, everything else a wrong request.
-    const std::string message = message_of(app, error);
-    const bool wrong = app.exit(message == error.what() ? error : CLI::ParseError(message, error.get_exit_code())) != 0;
-    status = wrong ? exit_rejected : exit_done;
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return written_out(app.exit(error));
+    const std::vector<hamflow::Complaint> complaints = complaints_of(app, error);
+    status = exit_rejected;
+    for (const hamflow::Complaint& one : complaints) std::cerr << one.text() << '\n';
+    std::cerr << "Run with --help for more information.\n";
     const std::vector<std::string> words(argv, argv + argc);
-    if (status == exit_rejected && std::find(words.begin(), words.end(), "--json") != words.end()) {
-      std::vector<std::string> lines;  // one for each option
-      std::istringstream text(message);
-      for (std::string line; std::getline(text, line);) lines.push_back(line);
-      std::cout << hamflow::rejection_json(lines);
-    }
+    if (std::find(words.begin(), words.end(), "--json") != words.end())
+      std::cout << hamflow::rejection_json(complaints);
   }
   return written_out(status);
 }

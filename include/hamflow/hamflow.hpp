@@ -11,6 +11,7 @@
 #include "hamflow/core/archive.hpp"
 #include "hamflow/core/bulk_forces.hpp"
 #include "hamflow/core/capability.hpp"
+#include "hamflow/core/complaint.hpp"
 #include "hamflow/core/concepts.hpp"
 #include "hamflow/core/constrained_motion.hpp"
 #include "hamflow/core/constraints.hpp"

@@ -31,7 +31,7 @@ std::vector<TubeMember> members_of(Study& study, SweepRequest request) {
   ScenarioSweep sweep(request);
   if (!sweep.complaints().empty()) {
     throw Error(joined(
-        sweep.complaints(), [](const std::string& complaint) { return complaint; }, "; "));
+        sweep.complaints(), [](const Complaint& complaint) { return complaint.text(); }, "; "));
   }
   const SweepReport report = sweep.run([&](std::int64_t) { return study.goes_on(); });
   if (report.status == "interrupted") throw Stopped{};

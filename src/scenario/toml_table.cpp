@@ -52,26 +52,6 @@ std::string shown(const toml::node& node) {
 toml::source_region place_of(const toml::node& node) { return touched(node) ? toml::source_region{} : node.source(); }
 }  // namespace
 
-std::string Complaint::text() const {
-  // One line each, whatever a key or a string holds; and nothing that a terminal would obey.
-  const auto plain = [](const std::string& raw) {
-    std::string out;
-    for (const char c : raw) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte >= 0x20 && byte != 0x7f) {
-        out += c;
-      } else {
-        constexpr const char* digits = "0123456789abcdef";
-        out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : std::string("\\x") + digits[byte >> 4] + digits[byte & 15];
-      }
-    }
-    return out;
-  };
-  if (key.starts_with("--")) return plain(key + ": error: " + message);  // an option of the command
-  const std::string where = line > 0 ? file + ":" + std::to_string(line) + ":" + std::to_string(column) : "--set";
-  return plain(where + ": error: " + key + ": " + message);
-}
-
 TomlTable::TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints)
     : table_(table), path_(std::move(path)), file_(std::move(file)), complaints_(&complaints) {}
 

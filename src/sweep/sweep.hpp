@@ -111,7 +111,7 @@ class Sweep {
         SweepOptions options);
 
   /// One line each, at most ten.
-  const std::vector<std::string>& complaints() const { return complaints_; }
+  const std::vector<Complaint>& complaints() const { return complaints_; }
   std::size_t members() const { return rows_.size(); }
   const Varied& varied() const { return varied_; }
   const std::vector<MemberRow>& rows() const { return rows_; }
@@ -182,7 +182,7 @@ class Sweep {
   void leave_without_start(std::size_t member, const Reading& reading);
   void add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths);
   void put(std::size_t member, MemberRow row);
-  void report(const std::map<std::string, std::vector<std::size_t>>& found);
+  void report(const std::map<Complaint, std::vector<std::size_t>>& found);
 
   Varied varied_;
   SweepOptions options_;
@@ -199,7 +199,7 @@ class Sweep {
   std::map<std::pair<std::string, std::size_t>, std::size_t> first_of_kind_;  // problem and size: its first member
   std::optional<std::uint64_t> start_contents_;                               // of the files of all members
   bool common_has_start_ = false;
-  std::vector<std::string> complaints_;
+  std::vector<Complaint> complaints_;
   std::vector<MemberStart> starts_;  // of members in lanes
   std::vector<MemberRow> rows_;
   std::vector<std::int64_t> steps_;
@@ -208,7 +208,7 @@ class Sweep {
   std::function<void(std::size_t)> finished_;
   std::map<std::string, Group> groups_;
   std::mutex mutex_;
-  std::map<std::string, std::vector<std::size_t>> found_;  // complaint -> members
+  std::map<Complaint, std::vector<std::size_t>> found_;  // and the members
   int threads_ = 1;
   std::size_t in_lanes_ = 0;
   std::size_t lane_count_ = 0;

@@ -24,12 +24,12 @@ Sweep::Sweep(const std::string& text, const std::string& name, const std::vector
     : varied_(std::move(varied)), options_(std::move(options)), raw_text_(text), name_(name), sets_(sets) {
   MemberReader reader(varied_, text, name, sets);
   text_ = reader.family().text();
-  for (const Complaint& complaint : reader.family().complaints()) complaints_.push_back(complaint.text());
+  complaints_ = reader.family().complaints();
   if (!complaints_.empty()) return;
   const std::size_t members = varied_.members();
   if (const std::string wrong = refused_members(members, coordinates_of_first(reader), available_memory());
       !wrong.empty()) {
-    complaints_.push_back("--vary: error: " + wrong);
+    complaints_.push_back({"", 0, 0, "--vary", wrong});
     return;
   }
   rows_.resize(members);
@@ -84,9 +84,9 @@ void Sweep::refuse_different_kinds() {
   std::vector<std::size_t> firsts;
   for (const auto& [kind, first] : first_of_kind_) firsts.push_back(first);
   std::sort(firsts.begin(), firsts.end());
-  found_
-      ["--vary: error: problem: found members of different problems or numbers of coordinates; allowed one table, "
-       "that is one problem of one size"] = {firsts[1]};
+  found_[{"--vary", 0, 0, "problem",
+          "found members of different problems or numbers of coordinates; allowed one table, that is one problem of "
+          "one size"}] = {firsts[1]};
 }
 
 MemberObservables Sweep::observables_of(const Scenario& scenario) const {
@@ -101,19 +101,20 @@ void Sweep::unite_names() {
     return std::to_string(clash.sizes[i]) + (clash.sizes[i] == 1 ? " number in " : " numbers in ") +
            varied_.described(clash.members[i]);
   };
-  complaints_.push_back("--vary: error: problem: found " + clash.name + " of " + part(0) + ", and of " + part(1) +
-                        "; allowed one table, that is invariants that have one size where they have one name");
+  complaints_.push_back({"--vary", 0, 0, "problem",
+                         "found " + clash.name + " of " + part(0) + ", and of " + part(1) +
+                             "; allowed one table, that is invariants that have one size where they have one name"});
 }
 
 void Sweep::add_complaints(std::size_t member, const Reading& reading, const std::vector<std::string>& paths) {
   const std::lock_guard lock(mutex_);
-  for (const Complaint& complaint : reading.complaints) {
-    std::string text = varied_.as_typed(complaint.text(), member);
+  for (Complaint complaint : reading.complaints) {
+    complaint.message = varied_.as_typed(complaint.message, member);
     const bool of_vary = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
       return leads_to(path, complaint.key) || leads_to(complaint.key, path);
     });
-    if (complaint.line == 0 && of_vary) text = "--vary" + text.substr(std::string("--set").size());
-    found_[text].push_back(member);
+    if (complaint.line == 0) complaint.file = of_vary ? "--vary" : "--set";
+    found_[complaint].push_back(member);
   }
 }
 
@@ -126,21 +127,20 @@ void Sweep::leave_without_start(std::size_t member, const Reading& reading) {
   rows_[member].message = reading.no_start;
 }
 
-void Sweep::report(const std::map<std::string, std::vector<std::size_t>>& found) {
+void Sweep::report(const std::map<Complaint, std::vector<std::size_t>>& found) {
   constexpr std::size_t most = 10;
-  std::vector<std::pair<std::size_t, std::string>> lines;
-  for (const auto& [text, members] : found) {
+  std::vector<std::pair<std::size_t, Complaint>> all;
+  for (const auto& [complaint, members] : found) {
     const std::size_t first = *std::min_element(members.begin(), members.end());
-    const bool all = members.size() == rows_.size();
-    lines.emplace_back(first, all ? text
-                                  : text + " (" + varied_.described(first) +
-                                        (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") +
-                                        ")");
+    all.emplace_back(first, complaint);
+    if (members.size() == rows_.size()) continue;
+    all.back().second.message += " (" + varied_.described(first) +
+                                 (members.size() > 1 ? "; " + std::to_string(members.size()) + " members" : "") + ")";
   }
-  std::sort(lines.begin(), lines.end());
-  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) complaints_.push_back(lines[i].second);
-  if (lines.size() > most) {
-    complaints_.push_back("error: and " + std::to_string(lines.size() - most) + " more of this kind");
+  std::sort(all.begin(), all.end());
+  for (std::size_t i = 0; i < std::min(all.size(), most); ++i) complaints_.push_back(all[i].second);
+  if (all.size() > most) {
+    complaints_.push_back({"", 0, 0, "", "and " + std::to_string(all.size() - most) + " more of this kind"});
   }
 }
 

@@ -270,19 +270,19 @@ std::string whole_name(const Sweep& sweep, const std::vector<DrawnColumn>& all, 
   return ends == 1 ? found : name;
 }
 
-/// What is wrong with a column; empty if nothing is.
-std::string refused_column(const Sweep& sweep, const std::string& colour) {
+/// @throws Rejection where there is no such column
+void check_column(const Sweep& sweep, const std::string& colour) {
   const std::vector<DrawnColumn> all = drawn_columns(sweep);
   const std::string name = whole_name(sweep, all, colour);
   std::vector<std::string> columns;
   for (const DrawnColumn& column : all) columns.push_back(column.name);
-  if (colour.empty() || std::find(columns.begin(), columns.end(), name) != columns.end()) return {};
+  if (colour.empty() || std::find(columns.begin(), columns.end(), name) != columns.end()) return;
   const auto whole = std::find_if(columns.begin(), columns.end(),
                                   [&](const std::string& column) { return column.ends_with("/" + colour); });
   const std::string meant = whole == columns.end() ? suggestion(colour, columns) : "; did you mean " + *whole + "?";
   const bool exponent = colour.find("lyapunov") != std::string::npos && meant.empty();
-  return "--colour: error: found " + colour + "; allowed " + joined(columns) + meant +
-         (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : "");
+  throw Rejection("--colour", "found " + colour + "; allowed " + joined(columns) + meant +
+                                  (exponent ? "; with run.lyapunov = 1 there is observables/lyapunov1" : ""));
 }
 
 std::vector<std::string> columns_to_average(const std::string& columns) {
@@ -308,18 +308,14 @@ struct MeanOfMembers {
 
 }  // namespace
 
-std::string refused_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns) {
-  const std::string wrong = refused_figure_file(file);
-  if (!wrong.empty()) return "--figure: error: " + wrong;
+void check_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns) {
+  if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Rejection("--figure", wrong);
   const std::vector<std::size_t> free = sweep.varied().free_keys();
   if (free.size() < 2) {
-    return "--mean: error: found one key that is varied by itself; allowed two or more: the mean is over all but the "
-           "first";
+    throw Rejection("--mean",
+                    "found one key that is varied by itself; allowed two or more: the mean is over all but the first");
   }
-  for (const std::string& column : columns_to_average(columns)) {
-    if (const std::string refused = refused_column(sweep, column); !refused.empty()) return refused;
-  }
-  return {};
+  for (const std::string& column : columns_to_average(columns)) check_column(sweep, column);
 }
 
 void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns) {
@@ -374,30 +370,31 @@ void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, con
   write_parameter_map(figure, file);
 }
 
-std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour) {
-  const std::string wrong = refused_figure_file(file);
-  if (!wrong.empty()) return "--figure: error: " + wrong;
+void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour) {
+  if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Rejection("--figure", wrong);
   if (draws_section(sweep, colour)) {
     if (!sweep.names().have_same_state()) {
-      return "--figure: error: found a section of members with different coordinates; allowed members with the same "
-             "coordinates, or --colour COLUMN";
+      throw Rejection("--figure",
+                      "found a section of members with different coordinates; allowed members with the same "
+                      "coordinates, or --colour COLUMN");
     }
     const FigureFacts facts{.degrees_of_freedom = sweep.common().start_q.size(),
                             .section = true,
                             .stroboscopic = sweep.common().section->by_time_alone};
     const std::string refused = refused_figure("section", facts);
-    return refused.empty() ? "" : "--figure: error: " + refused;
+    if (!refused.empty()) throw Rejection("--figure", refused);
+    return;
   }
   const FigureKeys keys = figure_keys(sweep.varied());
   if (keys.free.size() > 2) {
-    return "--figure: error: found " + std::to_string(keys.free.size()) + " varied keys; allowed one or two";
+    throw Rejection("--figure", "found " + std::to_string(keys.free.size()) + " varied keys; allowed one or two");
   }
   if (keys.has_lines && sweep.varied().keys()[keys.lines].texts.size() > most_map_lines) {
     const Vary& lines = sweep.varied().keys()[keys.lines];
-    return fmt::format("--figure: error: found {} values of {}, a line each; allowed up to {}", lines.texts.size(),
-                       lines.path, most_map_lines);
+    throw Rejection("--figure", fmt::format("found {} values of {}, a line each; allowed up to {}", lines.texts.size(),
+                                            lines.path, most_map_lines));
   }
-  return refused_column(sweep, colour);
+  check_column(sweep, colour);
 }
 
 void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& column) {

@@ -9,13 +9,13 @@
 namespace hamflow {
 
 /// Empty if the figure can be drawn, else what is wrong with the request for it.
-std::string refused_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
+void check_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
 
 /// @throws Error, FileError
 void draw_sweep_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& colour);
 
 /// The same of the means of columns, commas between, over all varied keys but the first, with their standard errors.
-std::string refused_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);
+void check_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);
 /// @throws Error, FileError
 void draw_mean_figure(const Sweep& sweep, const std::filesystem::path& file, const std::string& columns);
 

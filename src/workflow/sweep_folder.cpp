@@ -34,27 +34,26 @@ SweepHead head_of(const Sweep& sweep, const SweepRequest& request) {
           .in_step = request.zip};
 }
 
-/// What differs from the sweep that began, a line each.
-std::vector<std::string> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
+/// What differs from the sweep that began.
+std::vector<Complaint> differences_of(const Sweep& sweep, const SweepHead& now, const SweepHead& before) {
   Checkpoint began;
   began.version = before.version;
   began.instruction_set = before.instruction_set;
   began.keys = before.keys;
   began.values = before.values;
-  std::vector<std::string> all;
-  for (const Complaint& complaint : differences(scenario_in_common(sweep), began)) all.push_back(complaint.text());
-  const std::string what_to_do = ", as when the sweep began; give --out another folder, or --force to begin anew";
+  std::vector<Complaint> all = differences(scenario_in_common(sweep), began);
+  const auto complain = [&](const char* option, const std::string& found, const std::string& allowed) {
+    all.push_back({"", 0, 0, option,
+                   "found " + found + "; allowed with --resume " + allowed +
+                       ", as when the sweep began; give --out another folder, or --force to begin anew"});
+  };
   for (std::size_t i = 0; i < std::max(now.varied.size(), before.varied.size()); ++i) {
     const std::string found = i < now.varied.size() ? now.varied[i] : "nothing";
     const std::string allowed = i < before.varied.size() ? before.varied[i] : "nothing";
-    if (found == allowed) continue;
-    all.push_back("--vary: error: found " + found + "; allowed with --resume " + allowed + what_to_do);
+    if (found != allowed) complain("--vary", found, allowed);
   }
-  if (now.in_step != before.in_step) {
-    const auto name = [](bool in_step) { return in_step ? "--zip" : "no --zip"; };
-    all.push_back(std::string("--zip: error: found ") + name(now.in_step) + "; allowed with --resume " +
-                  name(before.in_step) + what_to_do);
-  }
+  const auto name = [](bool in_step) { return in_step ? "--zip" : "no --zip"; };
+  if (now.in_step != before.in_step) complain("--zip", name(now.in_step), name(before.in_step));
   return all;
 }
 

@@ -20,8 +20,7 @@ class SweepFolder {
   /// Makes the folder; with Existing::resume reads what is there and restores the members that are finished, unless
   /// wrong() says why the sweep cannot go on: then nothing was touched.   @throws FileError
   SweepFolder(Sweep& sweep, const SweepRequest& request, std::filesystem::path folder, Existing existing);
-  /// A line each.
-  const std::vector<std::string>& wrong() const { return wrong_; }
+  const std::vector<Complaint>& wrong() const { return wrong_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Of the sweep, all its parts together.
@@ -43,7 +42,7 @@ class SweepFolder {
 
   Sweep& sweep_;
   WorkFolder folder_;
-  std::vector<std::string> wrong_;
+  std::vector<Complaint> wrong_;
   std::vector<std::string> notes_;
   std::optional<SweepJournal> journal_;
   double seconds_before_ = 0;

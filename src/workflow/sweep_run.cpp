@@ -33,8 +33,7 @@ LaneSet lanes_named(const std::string& name) {
   std::vector<std::string> allowed{"auto", "none", "generic"};
   if (widest_lanes() >= LaneSet::avx2) allowed.emplace_back("avx2");
   if (widest_lanes() >= LaneSet::avx512) allowed.emplace_back("avx512");
-  throw Error("--lanes: found \"" + name + "\"; allowed on this machine: " + joined(allowed) +
-              suggestion(name, allowed));
+  throw Error("found \"" + name + "\"; allowed on this machine: " + joined(allowed) + suggestion(name, allowed));
 }
 
 /// Whether a key decides nothing but what a run writes, and when.
@@ -85,66 +84,66 @@ void add_passing(const Sweep& sweep, const SweepRequest& request, Json& warnings
        {"message", fmt::format("in {} of {} members, first in member {}, {}", count, sweep.members(), first, told)}});
 }
 
-/// What is wrong with the request beside its scenario goes into `wrong`, a line each.
-Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<std::string>& wrong) {
+/// What is wrong with the request beside its scenario goes into `wrong`.
+Varied varied_of(const SweepRequest& request, SweepOptions& how, std::vector<Complaint>& wrong) {
   std::vector<Vary> varied;
-  if (request.varied.empty())
-    wrong.emplace_back("--vary: error: found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
+  const auto complain = [&](const char* option, std::string message) {
+    wrong.push_back({"", 0, 0, option, std::move(message)});
+  };
+  if (request.varied.empty()) complain("--vary", "found none; allowed PATH=a:b:n, PATH=v1,v2,... or PATH=FORMULA");
   if (request.threads < 0 || request.threads > most_sweep_threads) {
-    wrong.push_back("--threads: error: found " + std::to_string(request.threads) + "; allowed 1 to " +
-                    std::to_string(most_sweep_threads) + ", 0 for all");
+    complain("--threads", "found " + std::to_string(request.threads) + "; allowed 1 to " +
+                              std::to_string(most_sweep_threads) + ", 0 for all");
   }
-  const auto try_to = [&](const char* prefix, const auto& action) {
+  const auto try_to = [&](const char* option, const auto& action) {
     try {
       action();
     } catch (const Error& error) {
-      wrong.push_back(prefix + std::string(error.what()));
+      complain(option, error.what());
     }
   };
   // Ranges are counted before their values are made, which take memory.
   double members = 1;
   for (const std::string& vary : request.varied) members *= static_cast<double>(count_of_range(vary));
   if (!request.zip && members > static_cast<double>(most_members)) {
-    wrong.push_back("--vary: error: found more than 10000000 members; allowed fewer values for each key");
+    complain("--vary", "found more than 10000000 members; allowed fewer values for each key");
     return {};
   }
   for (const std::string& vary : request.varied) {
-    try_to("--vary: error: ", [&] { varied.push_back(parse_vary(vary)); });
+    try_to("--vary", [&] { varied.push_back(parse_vary(vary)); });
   }
   for (const Vary& vary : varied) {
     if (decides_columns(vary.path)) {
-      wrong.push_back("--vary: error: found " + vary.path +
-                      ", which all members of a sweep have in common; allowed --set " + vary.path +
-                      "=..., a sweep for each value");
+      complain("--vary", "found " + vary.path + ", which all members of a sweep have in common; allowed --set " +
+                             vary.path + "=..., a sweep for each value");
     }
     if (!belongs_to_single_runs(vary.path)) continue;
-    wrong.push_back("--vary: error: found " + vary.path +
-                    (is_part_of_other(output_path(output_keys().observables), vary.path)
-                         ? ", which all members of a sweep have in common; allowed --set " + vary.path + "=..., "
-                         : ", on which no number of a sweep depends; allowed ") +
-                    "keys of [problem], [method] and the others of [run]");
+    complain("--vary", "found " + vary.path +
+                           (is_part_of_other(output_path(output_keys().observables), vary.path)
+                                ? ", which all members of a sweep have in common; allowed --set " + vary.path + "=..., "
+                                : ", on which no number of a sweep depends; allowed ") +
+                           "keys of [problem], [method] and the others of [run]");
   }
   for (std::size_t i = 0; i < varied.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (varied[i].path == varied[j].path) {
-        wrong.push_back("--vary: error: found " + varied[i].path + " twice");
+        complain("--vary", "found " + varied[i].path + " twice");
       } else if (is_part_of_other(varied[i].path, varied[j].path)) {
-        wrong.push_back("--vary: error: found " + varied[j].path + " beside " + varied[i].path +
-                        ", of which one replaces the other; allowed one of them");
+        complain("--vary", "found " + varied[j].path + " beside " + varied[i].path +
+                               ", of which one replaces the other; allowed one of them");
       }
     }
     for (const std::string& set : request.sets) {
       const std::string path = parsed_set(set).first;
       if (!is_part_of_other(path, varied[i].path) || path.size() < varied[i].path.size()) continue;
-      wrong.push_back("--set: error: found " + path + ", which --vary " + varied[i].path +
-                      " replaces; allowed one of them");
+      complain("--set", "found " + path + ", which --vary " + varied[i].path + " replaces; allowed one of them");
     }
   }
   Varied all;
   if (wrong.empty()) {
-    try_to(request.zip ? "--zip: error: " : "--vary: error: ", [&] { all = Varied(std::move(varied), request.zip); });
+    try_to(request.zip ? "--zip" : "--vary", [&] { all = Varied(std::move(varied), request.zip); });
   }
-  try_to("", [&] { how.lanes = lanes_named(request.lanes); });
+  try_to("--lanes", [&] { how.lanes = lanes_named(request.lanes); });
   return all;
 }
 
@@ -175,7 +174,7 @@ class ScenarioSweep::Impl {
   }
 
   SweepRequest request;
-  std::vector<std::string> complaints;
+  std::vector<Complaint> complaints;
   std::vector<std::string> notes;
   std::optional<Sweep> sweep;
   std::optional<SweepFolder> folder;
@@ -183,13 +182,13 @@ class ScenarioSweep::Impl {
 
 ScenarioSweep::ScenarioSweep(const SweepRequest& request) : impl_(std::make_unique<Impl>(request)) {}
 ScenarioSweep::~ScenarioSweep() = default;
-const std::vector<std::string>& ScenarioSweep::complaints() const { return impl_->complaints; }
+const std::vector<Complaint>& ScenarioSweep::complaints() const { return impl_->complaints; }
 const std::vector<std::string>& ScenarioSweep::notes() const { return impl_->notes; }
 std::int64_t ScenarioSweep::total_steps() const { return impl_->sweep->total_steps(); }
 std::int64_t ScenarioSweep::steps_before() const { return impl_->sweep->steps_before(); }
 
-std::string ScenarioSweep::refused_figure(const fs::path& file, const std::string& column, bool mean) const {
-  return mean ? refused_mean_figure(*impl_->sweep, file, column) : refused_sweep_figure(*impl_->sweep, file, column);
+void ScenarioSweep::check_figure(const fs::path& file, const std::string& column, bool mean) const {
+  (mean ? check_mean_figure : check_sweep_figure)(*impl_->sweep, file, column);
 }
 
 SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
@@ -227,7 +226,7 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
   return report;
 }
 
-std::vector<std::string> ScenarioSweep::keep_in(const fs::path& folder, Existing existing) {
+std::vector<Complaint> ScenarioSweep::keep_in(const fs::path& folder, Existing existing) {
   impl_->folder.emplace(*impl_->sweep, impl_->request, folder, existing);
   const std::vector<std::string>& notes = impl_->folder->notes();
   impl_->notes.insert(impl_->notes.end(), notes.begin(), notes.end());

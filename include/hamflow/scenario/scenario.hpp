@@ -8,23 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/complaint.hpp"
 #include "hamflow/problems/support/two_bodies.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/section.hpp"
 
 namespace hamflow {
-
-/// One thing wrong with a scenario. `line` 0: the value came from --set.
-struct Complaint {
-  std::string file;
-  int line = 0;
-  int column = 0;
-  std::string key;      // dotted path, e.g. "problem.orbit.r_per"
-  std::string message;  // "found ...; allowed ...; did you mean ...?"
-
-  /// FILE:LINE:COL: error: KEY: message
-  std::string text() const;
-};
 
 /// What was given for a key, and where; line 0: with --set.
 struct Setting {

@@ -43,13 +43,13 @@ class ScenarioSweep {
   ScenarioSweep(const ScenarioSweep&) = delete;
   ScenarioSweep& operator=(const ScenarioSweep&) = delete;
 
-  /// A line each.
-  const std::vector<std::string>& complaints() const;
+  const std::vector<Complaint>& complaints() const;
   const std::vector<std::string>& notes() const;
-  /// What is wrong with a figure of this sweep: with the file's name, the keys varied or the column; empty if nothing
-  /// is. Without a column: the section of all members, where one is asked for, else energy/max_error.
+  /// Whether a figure of this sweep can be drawn. Without a column: the section of all members, where one is asked for,
+  /// else energy/max_error.
   /// @param column also several, commas between, with `mean`: their means over all keys but the first one varied
-  std::string refused_figure(const std::filesystem::path& file, const std::string& column, bool mean = false) const;
+  /// @throws Rejection for the file's name, the keys varied or the column
+  void check_figure(const std::filesystem::path& file, const std::string& column, bool mean = false) const;
   /// Of all members together.
   std::int64_t total_steps() const;
   /// Of members that were finished before.
@@ -60,10 +60,10 @@ class ScenarioSweep {
   /// the table becomes, bit for bit, that of a sweep that was never stopped; of the scenario only what may change when
   /// a run goes on may have changed. To be called once, before run(). Nobody else writes into the folder while this
   /// lives.
-  /// @return what is wrong with going on, a line each: then nothing was touched, and nothing can be run
+  /// @return what is wrong with going on: then nothing was touched, and nothing can be run
   /// @throws FileError when the folder exists and is not to be used, is that of a run or a comparison, or cannot be
   /// made
-  [[nodiscard]] std::vector<std::string> keep_in(const std::filesystem::path& folder, Existing existing);
+  [[nodiscard]] std::vector<Complaint> keep_in(const std::filesystem::path& folder, Existing existing);
 
   /// Runs all members that are not finished, and writes the folder, if there is one, also where it was stopped.
   /// @throws FileError   @param pulse called several times a second with the steps taken by all; returns false to stop
