@@ -270,7 +270,7 @@ observables = { d = "sqrt(x^2 + y^2)" }
             (["--from", "cartesian", "--to", "polar", "--q", "0,0", "--p", "0,1"], "r = 0"),
             (["--from", "polar", "--to", "cartesian", "--q", "0,1", "--p", "0,1"], "r = 0"),
             (["--from", "cartesian", "--to", "polar", "--q", "1", "--p", "0,1"], "1 coordinates and 2 momenta"),
-            (["--from", "cartesian", "--to", "polar", "--q", "1,x", "--p", "0,1"], "--q: found '1,x'"),
+            (["--from", "cartesian", "--to", "polar", "--q", "1,x", "--p", "0,1"], "--q: error: found '1,x'"),
             (["--from", "cartesian", "--to", "generalised", "--q", "0,-2", "--p", "1,0"], "off the constraints, |g(q)| = 3"),
             (["--from", "cartesian", "--to", "generalised", "--q", "0,-1", "--p", "1,5"], "leaves the constraints"),
             (["--from", "cartesian", "--to", "absolute", "--q", "0,-1,0,-7", "--p", "1,0,0,3"], "off the constraints"),

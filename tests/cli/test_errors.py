@@ -170,7 +170,7 @@ record_every = true
                                ("run", "kepler.toml", "--steps", "3"): "--set run.steps=...", ("run", "kepler.toml", "-o", "x"): "--out",
                                ("run", "kepler.toml", "--method=rk4"): "--set method.name=..."}.items():
             self.assertIn(f"did you mean {meant}?", self.hamflow(*command, status=2).stderr)
-        self.assertTrue(self.hamflow(status=2).stderr.startswith("found no command; allowed run, plot, "))
+        self.assertTrue(self.hamflow(status=2).stderr.startswith("error: found no command; allowed run, plot, "))
         text = self.hamflow("compare", "kepler.toml", "--methods", "leapfrog", status=2).stderr
         self.assertTrue(text.startswith("--methods: error: "), text)
 

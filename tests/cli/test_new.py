@@ -139,7 +139,7 @@ class New(CommandCase):
             self.write("new.toml", text)
             self.assertEqual(self.summary("new.toml")["status"], "done")
         done = self.hamflow("new", "double-pendulum", "--coordinates", "cartesian", "--angles", "relative", status=2)
-        self.assertIn("--angles: found relative", done.stderr)
+        self.assertIn("--angles: error: found relative", done.stderr)
 
     def test_wrong_requests(self):
         for arguments, words in (
