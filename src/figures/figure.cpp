@@ -155,19 +155,17 @@ std::string why_not(const Figure& figure, const std::string& kind) {
                         : "found " + std::to_string(figure.runs.size()) + " runs for \"" + kind + "\", but " + reason;
 }
 
-void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file) {
-  write_figure(figure, kind, std::vector<std::filesystem::path>{file});
-}
-
-void write_figure(const Figure& figure, const std::string& kind, const std::vector<std::filesystem::path>& files) {
+figures::Page page_of(const Figure& figure, const std::string& kind) {
   const std::string reason = why_not(figure, kind);
   if (!reason.empty()) throw Error(reason);
-  for (const std::filesystem::path& file : files) {
-    if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Error(wrong);
-  }
   figures::Page page = figures::find_kind(kind)->page(figure).with(figure.options.page);
   page.notes.insert(page.notes.end(), figure.notes.begin(), figure.notes.end());
-  for (const std::filesystem::path& file : files) figures::draw(page, file);
+  return page;
+}
+
+void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file) {
+  if (const std::string wrong = refused_figure_file(file); !wrong.empty()) throw Error(wrong);
+  figures::draw(page_of(figure, kind), file);
 }
 
 }  // namespace hamflow

@@ -104,10 +104,10 @@ FigureFacts facts_of(const FigureData& data);
 /// Empty if the kind can be drawn of these data, else "found ...; allowed ...".
 std::string why_not(const Figure& figure, const std::string& kind);
 
+/// A figure of that kind, laid out.   @throws Error when kind, options or data do not fit
+figures::Page page_of(const Figure& figure, const std::string& kind);
 /// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
 /// @throws Error when kind, extension, options or data do not fit   @throws FileError when gnuplot or the file fails
 void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file);
-/// The same into several files.
-void write_figure(const Figure& figure, const std::string& kind, const std::vector<std::filesystem::path>& files);
 
 }  // namespace hamflow

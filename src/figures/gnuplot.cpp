@@ -11,6 +11,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -36,6 +39,33 @@ File scratch_file() {
   if (!file) throw FileError(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));
   fcntl(fileno(file.get()), F_SETFD, FD_CLOEXEC);
   return file;
+}
+
+/// A folder of its own for what gnuplot writes.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "hamflow-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) {
+      throw FileError(fmt::format("no temporary folder for gnuplot: {}", std::strerror(errno)));
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code none;
+    std::filesystem::remove_all(path_, none);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string contents(std::FILE* file) {
@@ -169,7 +199,19 @@ WhileDrawing::WhileDrawing(std::function<bool()> go_on) : go_on_(std::move(go_on
 }
 WhileDrawing::~WhileDrawing() { asked_while_drawing = before_; }
 
-std::string run_gnuplot(const std::string& script, double longest) {
+std::vector<std::string> run_gnuplot(const std::vector<std::string>& scripts, double longest) {
+  const ScratchFolder folder;
+  std::string script;
+  for (std::size_t k = 0; k < scripts.size(); ++k) {
+    std::string name = (folder / std::to_string(k)).string();
+    replace_all(name, "'", "''");
+    const std::size_t behind_terminal = scripts[k].find('\n') + 1;
+    // The SVG terminal begins with the colour that it had last: every figure finds the same one.
+    script += "set terminal svg\nset output '/dev/null'\nplot [0:1] x\nreset session\n";
+    script += scripts[k].substr(0, behind_terminal) + "set output '" + name + "'\n" +
+              scripts[k].substr(behind_terminal) + "unset output\nreset session\n";
+  }
+  longest *= static_cast<double>(scripts.size());
   const File input = scratch_file();
   const File output = scratch_file();
   const File errors = scratch_file();
@@ -184,9 +226,12 @@ std::string run_gnuplot(const std::string& script, double longest) {
     throw FileError(
         fmt::format("gnuplot failed with status {}: {}", WEXITSTATUS(status), complaint(contents(errors.get()))));
   }
-  std::string bytes = contents(output.get());
-  if (bytes.empty()) throw FileError("gnuplot wrote nothing: " + complaint(contents(errors.get())));
-  return bytes;
+  std::vector<std::string> figures;
+  for (std::size_t k = 0; k < scripts.size(); ++k) {
+    figures.push_back(contents(folder / std::to_string(k)));
+    if (figures.back().empty()) throw FileError("gnuplot wrote nothing: " + complaint(contents(errors.get())));
+  }
+  return figures;
 }
 
 std::string finished(std::string bytes, Format format, const std::string& title) {
@@ -206,12 +251,12 @@ std::string finished(std::string bytes, Format format, const std::string& title)
   return bytes;
 }
 
-void require_font() {
-  static const bool found = [] {
-    const std::string probe = "set terminal pdfcairo size 2cm,2cm\nset label 'x' at screen 0.5,0.5\nplot [0:1] 0\n";
-    return run_gnuplot(probe).find("/FontFile") != std::string::npos;
-  }();
-  if (!found) {
+std::string font_probe() {
+  return "set terminal pdfcairo size 2cm,2cm\nset label 'x' at screen 0.5,0.5\nplot [0:1] 0\n";
+}
+
+void require_font(const std::string& probed) {
+  if (probed.find("/FontFile") == std::string::npos) {
     throw FileError("there is no font for the text of a figure; install one (Debian: apt install fonts-dejavu-core)");
   }
 }

@@ -1,9 +1,10 @@
-// The gnuplot process: a script goes in, the bytes of a figure come out.
+// The gnuplot process: scripts go in, the bytes of their figures come out.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "hamflow/core/error.hpp"
 #include "terminal.hpp"
@@ -28,15 +29,18 @@ class WhileDrawing {
   const std::function<bool()>* before_;
 };
 
-/// Runs a script and returns what gnuplot writes. @param longest seconds after which gnuplot is ended
+/// Runs scripts, whose first lines choose the terminals, in one process and returns the figures that it writes, one of
+/// each.   @param longest seconds for each of them, after which gnuplot is ended
 /// @throws FileError with gnuplot's own words, or when it takes longer   @throws DrawingStopped
-std::string run_gnuplot(const std::string& script, double longest = 300);
+std::vector<std::string> run_gnuplot(const std::vector<std::string>& scripts, double longest = 300);
 
 /// The same figure without what changes from run to run or names the program: dates, and tooltips saying "Gnuplot".
 /// @throws FileError when the bytes are not a figure of that format
 std::string finished(std::string bytes, Format format, const std::string& title);
 
-/// gnuplot draws blanks where there is no font, and says nothing. @throws FileError naming the package to install
-void require_font();
+/// A script that shows whether gnuplot finds a font: without one it draws blanks, and says nothing.
+std::string font_probe();
+/// @param probed what font_probe() drew   @throws FileError naming the package to install
+void require_font(const std::string& probed);
 
 }  // namespace hamflow::figures

@@ -1,6 +1,7 @@
 #include "page.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -339,13 +340,31 @@ Page Page::with(const PageOptions& options) && {
 
 std::string gnuplot_script(const Page& page, Format format) { return PageWriter(page, format).write(); }
 
-void draw(const Page& page, const std::filesystem::path& file) {
-  const Format format = format_of(file);
-  const std::string script = gnuplot_script(page, format);
-  if (format != Format::svg) require_font();
-  const std::string bytes = finished(run_gnuplot(script), format, page.title);
-  WholeFile whole(file);
-  write_whole(whole, bytes);
+void draw(const std::vector<Drawing>& drawings) {
+  static std::atomic<bool> font_is_known{false};
+  std::vector<std::string> scripts;
+  bool needs_font = false;  // what SVG draws with is up to whoever shows it
+  for (const Drawing& drawing : drawings) {
+    for (const std::filesystem::path& file : drawing.files) {
+      scripts.push_back(gnuplot_script(drawing.page, format_of(file)));
+      needs_font = needs_font || format_of(file) != Format::svg;
+    }
+  }
+  if (scripts.empty()) return;
+  const bool probes = needs_font && !font_is_known;
+  if (probes) scripts.push_back(font_probe());
+  const std::vector<std::string> figures = run_gnuplot(scripts);
+  if (probes) require_font(figures.back());
+  font_is_known = font_is_known || probes;
+  std::size_t next = 0;
+  for (const Drawing& drawing : drawings) {
+    for (const std::filesystem::path& file : drawing.files) {
+      WholeFile whole(file);
+      write_whole(whole, finished(figures[next++], format_of(file), drawing.page.title));
+    }
+  }
 }
+
+void draw(const Page& page, const std::filesystem::path& file) { draw({{page, {file}}}); }
 
 }  // namespace hamflow::figures

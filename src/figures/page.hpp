@@ -86,9 +86,16 @@ struct Page {
 /// @throws Error where the page has a height, and the panels do not fit into it
 std::string gnuplot_script(const Page& page, Format format);
 
-/// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
-/// @throws Error when the extension is none of these or the page too small   @throws FileError when gnuplot, its font
-/// or the file fails
+/// A page and the files into which it is drawn.
+struct Drawing {
+  Page page;
+  std::vector<std::filesystem::path> files;
+};
+
+/// Writes svg, pdf or png by the extensions of the files, all in one process; an existing file is replaced, and only by
+/// a complete one.   @throws Error when an extension is none of these or a page too small   @throws FileError when
+/// gnuplot, its font or a file fails
+void draw(const std::vector<Drawing>& drawings);
 void draw(const Page& page, const std::filesystem::path& file);
 
 }  // namespace hamflow::figures

@@ -145,6 +145,7 @@ std::string plain_label(const std::string& label) {
 std::vector<Curves> curves_of(const Study& study) {
   std::vector<Curves> all(study.curves().begin(), study.curves().end());
   if (!all.empty()) return all;
+  std::vector<figures::Drawing> drawings;
   for (const Drawn& drawn : study.drawn()) {
     Curves curves{drawn.name, {}};
     int number = 0;
@@ -232,12 +233,15 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
   const std::vector<Curves> curves = curves_of(study);
   for (const Curves& each : curves) write_csv(folder / files.emplace_back(each.name + ".csv"), each);
   if (!curves.empty()) write_h5(folder / files.emplace_back("curves.h5"), study, curves);
+  std::vector<figures::Drawing> drawings;
   for (const Drawn& drawn : study.drawn()) {
+    figures::Drawing& drawing = drawings.emplace_back(figures::Drawing{drawn.page, {}});
     for (const char* const format : {"svg", "pdf", "png"}) {
-      figures::draw(drawn.page, folder / files.emplace_back(drawn.name + "." + format));
+      drawing.files.push_back(folder / files.emplace_back(drawn.name + "." + format));
     }
     all["figures"].push_back({drawn.name, drawn.caption, words_of(drawn.page)});
   }
+  figures::draw(drawings);
   for (const Table& table : study.tables()) {
     write_table(folder / files.emplace_back(table.name + ".csv"), table);
     all["tables"].push_back(

@@ -193,8 +193,10 @@ FigureParticles particles_of(const Scenario& scenario, const fs::path& file, std
 }
 
 /// Of many particles it is the work of a step, and figures of places do without.
-bool shows_energy(const std::string& kind) {
-  return kind != "particles" && kind != "tracks" && kind != "radial" && !kind.empty();
+bool show_energy(const std::vector<std::string>& kinds) {
+  return std::any_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
+    return kind != "particles" && kind != "tracks" && kind != "radial" && !kind.empty();
+  });
 }
 
 }  // namespace
@@ -209,14 +211,15 @@ std::string problem_text(const Scenario& scenario) {
   return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
 }
 
-RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
+RunForFigure read_for_figure(const fs::path& run, const std::vector<std::string>& kinds) {
   const fs::path source = file_of(run);
   RunSamples samples = read_run_file(source, most_named_coordinates);
   if (samples.t.empty()) throw FileError(source.string() + " holds no samples");
-  const Scenario scenario = scenario_of(samples, source);
+  RunForFigure result;
+  result.scenario = scenario_of(samples, source);
+  const Scenario& scenario = result.scenario;
   const ProblemEntry& problem = *scenario.problem;
   const Texts& parameters = scenario.request.parameters;
-  RunForFigure result;
   FigureData& data = result.data;
   data.has_time = problem.structure && problem.structure->time;
   const std::size_t size = samples.description.dimension;
@@ -240,7 +243,7 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   data.every_step = !reversal && static_cast<std::int64_t>(data.t.size()) > scenario.steps;
   // Samples at given times need not reach the end.
   if (!scenario.record.empty() && !reversal) data.end = static_cast<double>(scenario.steps) * scenario.dt;
-  if (shows_energy(kind) || !data.particles.gas) {
+  if (show_energy(kinds) || !data.particles.gas) {
     data.energy_scale = make_simulation(scenario.request)->energy_scale();
   }
   if (problem.exact_radius) {
@@ -262,8 +265,6 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   if (!named.has_filename()) named = named.parent_path();
   result.name = (named.extension() == ".run" ? named.stem() : named.filename()).string();  // not "dt0" of dt0.1
   result.facts = facts_of(scenario);
-  result.start_q = scenario.start_q;
-  result.start_p = scenario.start_p;
   return result;
 }
 
@@ -278,21 +279,22 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   begin_with(data.t, 0);
   for (std::size_t i = 0; i < data.q.size(); ++i) {
-    begin_with(data.q[i], run.start_q[i]);
-    begin_with(data.p[i], run.start_p[i]);
+    begin_with(data.q[i], run.scenario.start_q[i]);
+    begin_with(data.p[i], run.scenario.start_p[i]);
   }
   for (auto* list : {&data.energy, &data.energy_difference}) begin_with(*list, unknown);
   for (auto* columns : {&data.observables, &data.invariants, &data.diagnostics}) {
     for (auto& column : *columns) begin_with(column.second, unknown);
   }
-  data.particles.positions = [start = run.start_q, later = data.particles.positions](std::size_t sample) {
+  data.particles.positions = [start = run.scenario.start_q, later = data.particles.positions](std::size_t sample) {
     return sample == 0 ? start : later(sample - 1);
   };
 }
 
-FigureSamples opening_of(const fs::path& run) {
-  const RunSamples samples = read_run_file(file_of(run));
-  const Scenario scenario = scenario_of(samples, file_of(run));
+FigureSamples opening_of(const RunForFigure& run) {
+  const FigureData& samples = run.data;
+  const Scenario& scenario = run.scenario;
+  if (samples.q.empty()) return {};                           // those of many particles are not read one by one
   if (!changes_on_the_way(scenario.text).empty()) return {};  // the first steps of other settings
   const double forward = scenario.dt < 0 ? -1 : 1;
   const std::size_t n = samples.q.size();

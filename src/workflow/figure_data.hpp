@@ -20,19 +20,19 @@ struct RunForFigure {
   /// What it is a run of, e.g. {"method", "stv4"}, {"dt", "0.1"}: keys and values in the order in which titles have
   /// them.
   std::vector<std::pair<std::string, std::string>> facts;
-  std::vector<std::string> notes;        // on what the file has among its samples and is left out
-  std::vector<double> start_q, start_p;  // where the run began, at t = 0; with or without a sample there
+  std::vector<std::string> notes;  // on what the file has among its samples and is left out
+  Scenario scenario;
 };
 
-/// @param run a folder or run.h5   @param kind of the figure; empty: not chosen yet   @throws FileError
-RunForFigure read_for_figure(const std::filesystem::path& run, const std::string& kind = {});
+/// @param run a folder or run.h5   @param kinds of the figures; none: not chosen yet   @throws FileError
+RunForFigure read_for_figure(const std::filesystem::path& run, const std::vector<std::string>& kinds = {});
 
 /// Where samples begin later than the run, and a time before them is asked for, the start becomes one of them; what
 /// else a sample has is not known there.
 void add_start(RunForFigure& run, const std::vector<double>& times);
 
 /// The first steps of the run once more, every one of them; nothing where they do not meet its samples to the bit.
-FigureSamples opening_of(const std::filesystem::path& run);
+FigureSamples opening_of(const RunForFigure& run);
 
 /// Gives the runs their titles, of what they have in common, and their labels, of what differs; where nothing does,
 /// their names.

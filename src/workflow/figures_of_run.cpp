@@ -1,5 +1,7 @@
 #include "hamflow/workflow/figures_of_run.hpp"
 
+#include <algorithm>
+
 #include "figure.hpp"
 #include "figure_data.hpp"
 #include "page_size.hpp"
@@ -23,30 +25,30 @@ FigureOptions options_of(const FigureRequest& request) {
 
 namespace {
 
-/// The same figure in several files: a run of many particles is read once.
-void draw_into(const FigureRequest& request, const std::vector<std::filesystem::path>& files) {
+/// Whether the kind draws a path, of which the first steps tell more than samples far apart.
+bool draws_path(const std::string& kind) { return kind == "orbit" || kind == "phase"; }
+
+}  // namespace
+
+void draw_figure(const FigureRequest& request) {
   Figure figure{{}, options_of(request)};
   std::vector<RunForFigure> runs;
-  for (const std::filesystem::path& run : request.runs) runs.push_back(read_for_figure(run, request.kind));
+  for (const std::filesystem::path& run : request.runs) runs.push_back(read_for_figure(run, {request.kind}));
   for (std::size_t i = 0; request.note && i < runs.size(); ++i) {
     for (const std::string& note : runs[i].notes) request.note(request.runs[i].string() + ": " + note);
   }
   tell_apart(runs);
-  for (RunForFigure& run : runs) add_start(run, figure.options.at);
-  for (RunForFigure& run : runs) figure.runs.push_back(std::move(run.data));
-  const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(figure.runs.at(0)));
-  for (std::size_t i = 0; i < request.runs.size(); ++i) {
-    if (kind == "orbit" || kind == "phase") figure.runs[i].opening = opening_of(request.runs[i]);
+  const std::string kind = !request.kind.empty() ? request.kind : usual_figure(facts_of(runs.at(0).data));
+  for (RunForFigure& run : runs) {
+    if (draws_path(kind)) run.data.opening = opening_of(run);
+    add_start(run, figure.options.at);
+    figure.runs.push_back(std::move(run.data));
   }
-  write_figure(figure, kind, files);
+  write_figure(figure, kind, request.file);
   for (const std::string& note : notes_on_times(figure)) {
     if (request.note) request.note(note);
   }
 }
-
-}  // namespace
-
-void draw_figure(const FigureRequest& request) { draw_into(request, {request.file}); }
 
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file) {
   draw_figure({.runs = {run}, .kind = kind, .file = file});
@@ -54,21 +56,29 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
 
 std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
   std::vector<std::string> missing;
-  if (!scenario.figures.empty()) std::filesystem::create_directories(folder / "figures");
+  if (scenario.figures.empty()) return missing;
+  std::filesystem::create_directories(folder / "figures");
+  std::vector<RunForFigure> run{read_for_figure(folder, scenario.figures)};
+  tell_apart(run);
+  const bool has_path = std::any_of(scenario.figures.begin(), scenario.figures.end(), draws_path);
+  const FigureSamples opening = has_path ? opening_of(run[0]) : FigureSamples{};
+  Figure figure{{std::move(run[0].data)}};
+  std::vector<figures::Drawing> drawings;
   for (const std::string& kind : scenario.figures) {
-    std::vector<std::filesystem::path> files;
-    for (const char* format : {".svg", ".pdf", ".png"}) files.push_back(folder / "figures" / (kind + format));
     try {
-      // In the folder of a run a link is replaced, and what it leads to stays.
-      for (const std::filesystem::path& file : files) {
+      figure.runs[0].opening = draws_path(kind) ? opening : FigureSamples{};
+      figures::Drawing& drawing = drawings.emplace_back(figures::Drawing{page_of(figure, kind), {}});
+      for (const char* format : {".svg", ".pdf", ".png"}) {
+        const std::filesystem::path& file = drawing.files.emplace_back(folder / "figures" / (kind + format));
+        // In the folder of a run a link is replaced, and what it leads to stays.
         std::error_code none;
         if (std::filesystem::is_symlink(file, none)) std::filesystem::remove(file, none);
       }
-      draw_into({.runs = {folder}, .kind = kind, .file = files.front()}, files);
     } catch (const Error& error) {  // the run is done all the same, and so are the others
       missing.push_back("a figure is not drawn: " + std::string(error.what()));
     }
   }
+  figures::draw(drawings);
   return missing;
 }
 
