@@ -31,6 +31,9 @@ class MpSimulation final : public Simulation {
   Excursion energy() const override {
     return in_scope([&] { return inner_->energy(); });
   }
+  void restart_energy_range() override {
+    in_scope([&] { inner_->restart_energy_range(); });
+  }
   double energy_scale() const override {
     return in_scope([&] { return inner_->energy_scale(); });
   }

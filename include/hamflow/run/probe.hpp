@@ -103,8 +103,10 @@ class ConservationProbe {
   template <std::size_t N>
   [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
                              [[maybe_unused]] const R& t) {
-    const R error = abs(hamflow::energy(problem, q, p) - initial_energy_);
-    worst_energy_ = larger(worst_energy_, error);
+    difference_ = hamflow::energy(problem, q, p) - initial_energy_;
+    above_ = larger(above_, difference_);
+    below_ = larger(below_, R(-difference_));
+    const R error = abs(difference_);
     if constexpr (watches_invariants) {
       const auto values = problem.invariants(q, p, t);
       if constexpr (HasInvariantSizes<P>) {
@@ -118,13 +120,21 @@ class ConservationProbe {
     return error <= std::numeric_limits<R>::max();  // false for NaN and infinity
   }
   R initial_energy() const { return initial_energy_; }
-  R worst_energy_error() const { return worst_energy_; }
+  R worst_energy_error() const { return larger(worst_energy_, larger(above_, below_)); }
+  /// The least and the largest H - H0 since restart_range(), the state there included; since start() before.
+  R least_difference() const { return R(R(0) - below_); }
+  R largest_difference() const { return above_; }
+  void restart_range() {
+    worst_energy_ = worst_energy_error();
+    above_ = difference_;
+    below_ = -difference_;
+  }
   const Invariants& initial() const { return initial_; }
   /// Of the k-th invariant.
   R worst(std::size_t k) const { return worst_[k]; }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(initial_energy_, worst_energy_);
+    ar(initial_energy_, worst_energy_, difference_, above_, below_);
     if constexpr (watches_invariants) ar(initial_, worst_);
   }
 
@@ -170,7 +180,10 @@ class ConservationProbe {
   }
 
   R initial_energy_{};
-  R worst_energy_{};
+  R worst_energy_{};  // before the present range
+  R difference_{};    // H - H0 when it was looked at last
+  R above_{};         // largest H - H0 of the present range
+  R below_{};         // largest H0 - H of it
   Invariants initial_{};
   Invariants worst_{};
 };

@@ -27,6 +27,12 @@ struct FrameDigits {
 struct NamedExpression;
 struct StepSum;
 
+/// The least and the largest H - H0 at the ends of some steps.
+struct EnergyRange {
+  double least = 0;
+  double largest = 0;
+};
+
 /// A look at the state, in double. Buffers are reused from call to call.
 struct Frame {
   std::int64_t step = 0;
@@ -34,6 +40,7 @@ struct Frame {
   std::vector<double> q;
   std::vector<double> p;
   double energy = 0;
+  EnergyRange energy_range;  // since Simulation::restart_energy_range(), the state there included
   std::vector<double> invariants;
   Effort effort;                // totals since the start
   StepDiagnostics diagnostics;  // of the last step, on request
@@ -98,6 +105,8 @@ class Simulation {
   /// Energy over every step since the start, with scale = max(|H0|, |T0| + |V0|).
   virtual Excursion energy() const = 0;
   virtual double energy_scale() const = 0;
+  /// Begins the range of energies that look() shows anew, from the state of the present step on.
+  virtual void restart_energy_range() = 0;
   /// In the order of the problem's invariants.
   virtual std::vector<InvariantExcursion> invariants() const = 0;
   /// Without value where there are no constraints.

@@ -104,6 +104,9 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     return e;
   }
   double energy_scale() const final { return static_cast<double>(scale_); }
+  void restart_energy_range() final {
+    if constexpr (requires { probe_.restart_range(); }) probe_.restart_range();
+  }
   std::vector<InvariantExcursion> invariants() const final {
     std::vector<InvariantExcursion> all;
     if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
@@ -243,6 +246,10 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       frame.p[i] = static_cast<double>(p[i]);
     }
     frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
+    if constexpr (requires { probe_.least_difference(); }) {
+      frame.energy_range = {static_cast<double>(probe_.least_difference()),
+                            static_cast<double>(probe_.largest_difference())};
+    }
     frame.invariants.clear();
     if constexpr (HasInvariants<P, Real>) {
       for (const Real& value : problem_.invariants(q, p, time)) frame.invariants.push_back(static_cast<double>(value));

@@ -60,6 +60,8 @@ class Session final : public Simulation {
   Excursion energy() const override;
   std::optional<ConstraintResiduals> constraints() const override;
   double energy_scale() const override { return scale_; }
+  /// Of the present part.
+  void restart_energy_range() override { simulation_->restart_energy_range(); }
   std::vector<InvariantExcursion> invariants() const override;
   Effort effort() const override;
   StepDiagnostics diagnostics() const override { return simulation_->diagnostics(); }
