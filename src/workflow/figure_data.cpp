@@ -235,6 +235,8 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);
   data.energy = std::move(samples.energy);
+  data.least_difference = std::move(samples.least_difference);
+  data.largest_difference = std::move(samples.largest_difference);
   data.energy_difference = energy_differences(source, data.t.size());
   const bool reversal = data.energy.empty();
   data.every_step = !reversal && static_cast<std::int64_t>(data.t.size()) > scenario.steps;
@@ -281,7 +283,8 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
     begin_with(data.q[i], run.start_q[i]);
     begin_with(data.p[i], run.start_p[i]);
   }
-  for (auto* list : {&data.energy, &data.energy_difference}) begin_with(*list, unknown);
+  for (auto* list : {&data.energy, &data.energy_difference, &data.least_difference, &data.largest_difference})
+    begin_with(*list, unknown);
   for (auto* columns : {&data.observables, &data.invariants, &data.diagnostics}) {
     for (auto& column : *columns) begin_with(column.second, unknown);
   }

@@ -327,5 +327,49 @@ TEST(Simulation, BlockIndependenceWouldNoticeAForgottenForce) {
   EXPECT_EQ(a->bits(), b->bits());
 }
 
+/// The range of H - H0 that a sample has is that of every step since the one before, on every road, after a resume too.
+TEST(Simulation, TheRangeOfEnergiesIsThatOfEveryStep) {
+  for (const char* arithmetic : {"double", "compensated", "double-double"}) {
+    for (const bool record : {true, false}) {
+      Request request;
+      request.problem = "henon-heiles";
+      request.start = {.q = {"0", "0.1"}, .p = {"0.4", "0"}};
+      request.method = parse_method("stv4");
+      request.dt = "0.1";
+      request.arithmetic = arithmetic;
+      request.record = record;
+      const auto by_blocks = make_simulation(request);
+      const auto by_steps = make_simulation(request);
+      const double start = by_steps->energy().initial;
+      Frame frame;
+      double before = 0;
+      for (int sample = 0; sample < 6; ++sample) {
+        double least = before;
+        double largest = before;
+        for (int k = 0; k < 300; ++k) {
+          ASSERT_EQ(by_steps->advance(1), Outcome::done);
+          by_steps->look(frame);
+          before = frame.energy - start;
+          least = std::min(least, before);
+          largest = std::max(largest, before);
+        }
+        ASSERT_EQ(by_blocks->advance(100), Outcome::done);
+        const auto resumed = make_simulation(request);
+        resumed->restore(by_blocks->save());
+        ASSERT_EQ(by_blocks->advance(200), Outcome::done);
+        ASSERT_EQ(resumed->advance(200), Outcome::done);
+        EXPECT_EQ(resumed->save(), by_blocks->save());
+        by_blocks->look(frame);
+        const double rounding = 4e-16 * std::abs(start);
+        EXPECT_NEAR(frame.energy_range.least, least, rounding) << arithmetic << ' ' << record << ' ' << sample;
+        EXPECT_NEAR(frame.energy_range.largest, largest, rounding) << arithmetic << ' ' << record << ' ' << sample;
+        EXPECT_LT(frame.energy_range.least, frame.energy_range.largest);
+        EXPECT_EQ(by_blocks->energy().max_error, by_steps->energy().max_error) << "over every step since the start";
+        by_blocks->restart_energy_range();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hamflow
