@@ -1,5 +1,6 @@
 // What run.h5 holds, read again: also while it grows, and after a crash.
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 

@@ -37,12 +37,25 @@ bool has_range(const FigureData& data) {
   return !data.least_difference.empty() && data.least_difference.size() == data.largest_difference.size();
 }
 
-/// The size of the error at each sample, where it is known the largest of the steps since the sample before.
+/// The range of the relative error over the steps on both sides of a sample: a stretch between two samples may be half
+/// a period, and every second one then the quiet half.
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+Range range_at(const FigureData& data, std::size_t k) {
+  const std::size_t next = std::min(k + 1, data.t.size() - 1);
+  const double scale = scale_of(data);
+  return {std::min(data.least_difference[k], data.least_difference[next]) / scale,
+          std::max(data.largest_difference[k], data.largest_difference[next]) / scale};
+}
+
+/// The size of the error at each sample, where it is known the largest of the steps beside it.
 std::vector<double> sizes_of(const FigureData& data) {
   std::vector<double> all = relative_energy_error(data);
-  const double scale = scale_of(data);
   for (std::size_t k = 0; k < all.size() && has_range(data); ++k) {
-    all[k] = std::max(std::abs(data.least_difference[k]), std::abs(data.largest_difference[k])) / scale;
+    const Range range = range_at(data, k);
+    all[k] = std::max(std::abs(range.low), std::abs(range.high));
   }
   return all;
 }
@@ -50,17 +63,13 @@ std::vector<double> sizes_of(const FigureData& data) {
 /// The field between the least and the largest error: samples alone may beat with the motion between them.
 void add_range(Panel& panel, const FigureData& data, Series how) {
   constexpr std::size_t page_columns = 400;
-  const double scale = scale_of(data);
-  const std::size_t n = data.t.size();
   Band band;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t next = std::min(k + 1, n - 1);  // at a sample two stretches of steps meet
-    const double low = std::min(data.least_difference[k], data.least_difference[next]) / scale;
-    const double high = std::max(data.largest_difference[k], data.largest_difference[next]) / scale;
-    if (!std::isfinite(low) || !std::isfinite(high)) continue;
+  for (std::size_t k = 0; k < data.t.size(); ++k) {
+    const Range range = range_at(data, k);
+    if (!std::isfinite(range.low) || !std::isfinite(range.high)) continue;
     band.x.push_back(data.t[k]);
-    band.low.push_back(low);
-    band.high.push_back(high);
+    band.low.push_back(range.low);
+    band.high.push_back(range.high);
   }
   if (band.x.size() > 2 * page_columns) {
     const Band below = envelope({band.x, band.low}, page_columns);
@@ -70,7 +79,7 @@ void add_range(Panel& panel, const FigureData& data, Series how) {
   how.curve = {band.x, band.low};
   how.value = band.high;
   panel.series.push_back(how);
-  if (n > most_separate_dots) return;
+  if (data.t.size() > most_separate_dots) return;
   how.ink = Ink::dots;
   how.name.clear();
   how.value.clear();
@@ -173,8 +182,8 @@ Page page(const Figure& figure) {
   }
   Page all{figure.runs.front().title, {panel}};
   if (std::any_of(figure.runs.begin(), figure.runs.end(), has_range)) {
-    all.notes.emplace_back(logarithmic ? "largest of every step, not of the samples alone"
-                                       : "band: least and largest of every step");
+    all.notes.emplace_back(logarithmic ? "the largest of all steps, not of the samples alone"
+                                       : "band: smallest to largest of all steps, not of the samples alone");
   }
   return all;
 }
