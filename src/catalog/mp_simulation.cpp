@@ -34,9 +34,6 @@ class MpSimulation final : public Simulation {
   void restart_energy_range() override {
     in_scope([&] { inner_->restart_energy_range(); });
   }
-  double energy_scale() const override {
-    return in_scope([&] { return inner_->energy_scale(); });
-  }
   std::vector<InvariantExcursion> invariants() const override {
     return in_scope([&] { return inner_->invariants(); });
   }

@@ -243,7 +243,7 @@ RunForFigure read_for_figure(const fs::path& run, const std::string& kind) {
   // Samples at given times need not reach the end.
   if (!scenario.record.empty() && !reversal) data.end = static_cast<double>(scenario.steps) * scenario.dt;
   if (shows_energy(kind) || !data.particles.gas) {
-    data.energy_scale = make_simulation(scenario.request)->energy_scale();
+    data.energy_scale = make_simulation(scenario.request)->energy().scale_at_start;
   }
   if (problem.exact_radius) {
     const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);

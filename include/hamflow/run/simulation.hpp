@@ -52,6 +52,10 @@ struct Excursion {
   double initial = 0;
   double final = 0;
   double max_error = 0;
+  double scale_at_start = 0;  // max(|H0|, |T0| + |V0|); |H0| where H is not T + V
+  double exchanged = 0;       // T at the start, or the largest so far; |p . dH/dp| where H is not T + V
+  /// A part of this is the relative error.
+  double scale() const { return scale_at_start < exchanged ? exchanged : scale_at_start; }
 };
 
 /// The same for an invariant, with as many numbers as it has components. max_error is the length of the deviation.
@@ -102,9 +106,9 @@ class Simulation {
   virtual void negate_momenta() = 0;
   /// The stored bits of q and p, for tests of exact return.
   virtual std::vector<std::byte> bits() const = 0;
-  /// Energy over every step since the start, with scale = max(|H0|, |T0| + |V0|).
+  /// Energy over every step since the start.
   virtual Excursion energy() const = 0;
-  virtual double energy_scale() const = 0;
+  double energy_scale() const { return energy().scale(); }
   /// Begins the range of energies that look() shows anew, from the state of the present step on.
   virtual void restart_energy_range() = 0;
   /// In the order of the problem's invariants.
