@@ -60,7 +60,6 @@ class IteratedBlock final : public EnsembleBlock {
     end.q = frame.q;
     end.p = frame.p;
     end.energy = member.simulation->energy();
-    end.energy_scale = member.simulation->energy_scale();
     end.invariants = member.simulation->invariants();
     end.walls = member.simulation->wall_counts();
     end.halved = member.simulation->effort().halved;

@@ -31,8 +31,8 @@ class MpSimulation final : public Simulation {
   Excursion energy() const override {
     return in_scope([&] { return inner_->energy(); });
   }
-  double energy_scale() const override {
-    return in_scope([&] { return inner_->energy_scale(); });
+  void restart_energy_range() override {
+    in_scope([&] { inner_->restart_energy_range(); });
   }
   std::vector<InvariantExcursion> invariants() const override {
     return in_scope([&] { return inner_->invariants(); });

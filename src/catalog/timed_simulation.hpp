@@ -22,7 +22,7 @@ class TimedSimulation final : public Simulation, public RecordedMember {
   void negate_momenta() override { extended_->negate_momenta(); }
   std::vector<std::byte> bits() const override { return extended_->bits(); }
   Excursion energy() const override { return extended_->energy(); }
-  double energy_scale() const override { return extended_->energy_scale(); }
+  void restart_energy_range() override { extended_->restart_energy_range(); }
   std::vector<InvariantExcursion> invariants() const override { return extended_->invariants(); }
   std::optional<ConstraintResiduals> constraints() const override { return extended_->constraints(); }
   Effort effort() const override { return extended_->effort(); }

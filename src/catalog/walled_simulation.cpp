@@ -66,7 +66,7 @@ class WalledSimulation : public Simulation {
   void negate_momenta() override { inner_->negate_momenta(); }
   std::vector<std::byte> bits() const override { return inner_->bits(); }
   Excursion energy() const override { return inner_->energy(); }
-  double energy_scale() const override { return inner_->energy_scale(); }
+  void restart_energy_range() override { inner_->restart_energy_range(); }
   std::vector<InvariantExcursion> invariants() const override { return inner_->invariants(); }
   std::optional<ConstraintResiduals> constraints() const override { return inner_->constraints(); }
   Effort effort() const override {

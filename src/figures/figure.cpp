@@ -28,6 +28,9 @@ std::string inconsistency(const FigureData& data) {
   if (!data.energy_difference.empty() && differs(data.energy_difference)) {
     return "differences of energy and t have different numbers of samples";
   }
+  for (const auto* range : {&data.least_difference, &data.largest_difference}) {
+    if (!range->empty() && differs(*range)) return "ranges of energy and t have different numbers of samples";
+  }
   if (data.curve_x.size() != data.curve_y.size()) return "the exact curve has more numbers on one axis than the other";
   return "";
 }

@@ -47,6 +47,9 @@ struct FigureData : FigureSamples {
   std::vector<double> energy;            // H at each sample
   /// H - H0 at each sample, where it was formed with more digits than those of `energy`; else empty.
   std::vector<double> energy_difference{};
+  /// The least and the largest H - H0 over the steps since the sample before, both included; empty where unknown.
+  std::vector<double> least_difference{};
+  std::vector<double> largest_difference{};
   double energy_scale = 1;      // max(|H0|, |T0| + |V0|)
   bool has_time = false;        // of H(q, p, t): the energies are H less the integral of dH/dt
   std::vector<double> curve_x;  // exact orbit, empty if unknown; NaN separates branches

@@ -31,6 +31,11 @@ inline constexpr NamedColumn diagnostic_columns[] = {
     {"solver/determinant_tangent", "of the tangent matrix of the last step"},
     {"solver/condition_inverse_mass", "of the inverse mass matrix at the last step"}};
 
+/// H - H0 over the steps from one sample to the next, both included.
+inline constexpr NamedColumn energy_range_columns[] = {
+    {"energy_error_min", "least H - H0 at the end of a step since the sample before, both samples included"},
+    {"energy_error_max", "largest H - H0 at the end of a step since the sample before, both samples included"}};
+
 class Column {
  public:
   /// @param type of a number: H5T_IEEE_F64LE, H5T_STD_I64LE or digits_type()

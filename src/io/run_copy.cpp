@@ -26,6 +26,8 @@ bool is_one_of(const auto& names, const std::string& path) {
 bool is_of_samples(const std::string& path) {
   constexpr std::string_view folders[] = {"invariants/", "observables/", "solver/"};
   return path == "t" || path == "step" || path == "energy" || path == "events/halved" ||
+         std::any_of(std::begin(energy_range_columns), std::end(energy_range_columns),
+                     [&](const NamedColumn& column) { return path == column.name; }) ||
          std::any_of(std::begin(folders), std::end(folders),
                      [&](std::string_view folder) { return path.starts_with(folder); });
 }

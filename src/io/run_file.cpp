@@ -43,6 +43,7 @@ struct RunFile::Impl {
   std::vector<std::vector<Column>> events;  // of the user
   std::vector<std::size_t> invariant_sizes;
   bool diagnostics = false;
+  bool energy_range = false;
   bool digits = false;
   std::vector<double> edges;            // of the box; none: they are not written
   std::vector<double> velocity_masses;  // one for each number of p; none: velocities are not written
@@ -110,6 +111,9 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
     all.emplace_back(file, "p", H5T_IEEE_F64LE, n, rows, ColumnText{run.momenta, "canonical momenta", unit.p});
   }
   number("energy", H5T_IEEE_F64LE, "H(q, p); of H(q, p, t) less the integral of dH/dt, which is constant", unit.energy);
+  for (const auto& [name, meaning] : energy_range_columns) {
+    if (run.energy_range) number(name, H5T_IEEE_F64LE, meaning, unit.energy);
+  }
   for (const InvariantColumn& each : run.invariants) {
     all.emplace_back(file, "invariants/" + each.name, H5T_IEEE_F64LE, each.size == 1 ? 0 : each.size, rows,
                      ColumnText{component_names(each), each.meaning, each.unit});
@@ -187,6 +191,7 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   for (const char* group : {"invariants", "solver", "events"}) (void)make_group(id, group);
   impl->digits = description.digits_length > 0;
   impl->diagnostics = description.diagnostics;
+  impl->energy_range = description.energy_range;
   for (const InvariantColumn& each : description.invariants) impl->invariant_sizes.push_back(each.size);
   const H5mdParticles& particles = description.particles;
   if (!description.observables.empty() || particles.space > 0) (void)make_group(id, "observables");
@@ -291,6 +296,10 @@ void RunFile::append(const Frame& frame, std::span<const double> observables) {
   }
   if (!impl_->edges.empty()) numbers(impl_->edges);
   number(frame.energy);
+  if (impl_->energy_range) {
+    number(frame.energy_range.least);
+    number(frame.energy_range.largest);
+  }
   std::size_t at = 0;
   for (const std::size_t size : impl_->invariant_sizes) {
     numbers(std::span(frame.invariants).subspan(at, size));

@@ -47,6 +47,7 @@ struct RunDescription {
   std::vector<InvariantColumn> invariants;
   std::vector<InvariantColumn> observables{};  // expressions of the user, whose text is the meaning
   bool diagnostics = false;                    // of implicit steps
+  bool energy_range = false;                   // of the steps between samples
   bool section = false;                        // points of one are written
   bool walls = false;                          // bounces are
   std::vector<std::string> events{};           // those of the user, by name
@@ -102,6 +103,8 @@ struct RunSamples {
   std::vector<std::vector<double>> q;  // q[i][k]: coordinate i at sample k
   std::vector<std::vector<double>> p;
   std::vector<double> energy;
+  std::vector<double> least_difference;  // of H - H0 since the sample before; empty unless the run has them
+  std::vector<double> largest_difference;
   std::vector<std::pair<std::string, std::vector<double>>> observables;  // by name
   std::vector<std::pair<std::string, std::vector<double>>>
       invariants;  // NAME, or NAME_1, NAME_2, ... of several numbers

@@ -1,5 +1,6 @@
 // What run.h5 holds, read again: also while it grows, and after a crash.
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 
@@ -163,6 +164,14 @@ RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coor
     if (has_object(file, name)) {
       add_other_column(file, {name + std::string("solver/").size(), name, &run.diagnostics}, run);
     }
+  }
+  std::vector<std::pair<std::string, std::vector<double>>> range;
+  for (const auto& [name, meaning] : energy_range_columns) {
+    if (has_object(file, name)) add_other_column(file, {name, name, &range}, run);
+  }
+  if (range.size() == std::size(energy_range_columns)) {  // both of them, with a number a row
+    run.least_difference = std::move(range[0].second);
+    run.largest_difference = std::move(range[1].second);
   }
   const auto names_of_group = [&](const char* name) {
     if (!has_object(file, name)) return std::vector<std::string>();

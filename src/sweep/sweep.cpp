@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <limits>
@@ -129,8 +130,7 @@ class Sweep::Worker {
     row.t = 0.0 + static_cast<double>(taken) * sweep_.starts_[member].h;
     row.q = std::move(end.q);
     row.p = std::move(end.p);
-    row.energy = end.energy;
-    row.energy_scale = sweep_.common().map ? std::numeric_limits<double>::quiet_NaN() : end.energy_scale;
+    row.energy = energy_of(end.energy, sweep_.common());
     row.invariants = std::move(end.invariants);
     row.walls = std::move(end.walls);
     row.halved = end.halved;
@@ -186,8 +186,7 @@ class Sweep::Worker {
     row.q = frame.q;
     row.p = frame.p;
     row.digits = frame.digits;
-    row.energy = simulation->energy();
-    row.energy_scale = scenario.map ? std::numeric_limits<double>::quiet_NaN() : simulation->energy_scale();
+    row.energy = energy_of(simulation->energy(), scenario);
     row.invariants = simulation->invariants();
     row.walls = simulation->wall_counts();
     row.halved = simulation->effort().halved;
@@ -201,8 +200,15 @@ class Sweep::Worker {
     sweep_.put(member, std::move(row));
   }
 
+  /// What a map keeps is no energy, and has no scale.
+  static Excursion energy_of(Excursion energy, const Scenario& scenario) {
+    if (scenario.map) energy.scale_at_start = std::numeric_limits<double>::quiet_NaN();
+    return energy;
+  }
+
   bool is_suspect(const MemberRow& row) const {
-    return sweep_.options_.is_nonsense && row.energy.max_error > row.energy_scale;
+    if (!sweep_.options_.is_nonsense || std::isnan(row.energy.scale())) return false;
+    return row.energy.max_error > (row.energy.exchanged > 0 ? row.energy.exchanged : row.energy.scale());
   }
 
   /// Read anew: 10^5 scenarios at once would fill the memory.

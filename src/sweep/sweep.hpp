@@ -41,8 +41,7 @@ struct MemberRow {
   std::vector<double> q;
   std::vector<double> p;
   FrameDigits digits;  // the same with all digits, in arithmetic beyond double
-  Excursion energy;
-  double energy_scale = 0;
+  Excursion energy;    // of a map its scale is no number
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
   std::vector<WallCount> walls;
@@ -232,7 +231,7 @@ void MemberRow::archive(Archive& ar) {
     for (auto& one : all) fields(one);
   };
   ar(status, no_start, steps, t, q, p, digits.time, digits.q, digits.p, digits.energy, digits.initial_energy);
-  ar(energy.initial, energy.final, energy.max_error, energy_scale);
+  ar(energy.initial, energy.final, energy.max_error, energy.scale_at_start, energy.exchanged);
   list(invariants, [&ar](InvariantExcursion& one) {
     ar(one.initial, one.final, one.max_error, one.initial_digits, one.final_digits, one.max_error_digits);
   });

@@ -189,7 +189,7 @@ std::vector<SweepColumn> columns_of(const Sweep& sweep) {
   columns.push_back(numbers(sweep, "energy/initial", [](const MemberRow& row) { return row.energy.initial; }));
   columns.push_back(numbers(sweep, "energy/final", [](const MemberRow& row) { return row.energy.final; }));
   columns.push_back(numbers(sweep, "energy/max_error", [](const MemberRow& row) { return row.energy.max_error; }));
-  columns.push_back(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy_scale; }));
+  columns.push_back(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy.scale(); }));
   add_invariants(sweep, columns);
   add_events(sweep, columns);
   add_stops(sweep, columns);

@@ -67,25 +67,13 @@ void EnergyExchange::look(double kinetic, double potential) {
     first_potential = potential;
   }
   const double change = std::abs(potential - first_potential);
-  most_kinetic = std::max(most_kinetic, std::abs(kinetic));
-  most_change = std::max(most_change, change);
   sum_of_kinetic += std::abs(kinetic);
   sum_of_change += change;
   ++samples;
 }
-std::optional<double> EnergyExchange::largest() const {
-  if (samples == 0) return std::nullopt;
-  return std::max(first_kinetic, std::min(most_kinetic, most_change));
-}
 std::optional<double> EnergyExchange::typical() const {
   if (samples == 0) return std::nullopt;
   return std::max(first_kinetic, std::min(sum_of_kinetic, sum_of_change) / static_cast<double>(samples));
-}
-
-double scale_beside(double scale, std::optional<double> exchanged, double max_error) {
-  constexpr double rounding = 0x1p-30;
-  const bool vanishes = exchanged && max_error < *exchanged / 2 && scale < rounding * *exchanged;
-  return vanishes ? *exchanged : scale;
 }
 
 EnergyBlocks::Energy energy_for_blocks(const Request& request, const ProblemEntry& problem, std::size_t coordinates) {
@@ -332,7 +320,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
                                                const RunEnds& ends, double size) {
   EnergySeries series;
   // Of rounding it is the scale that tells, unless terms cancel at the start: these are rounded, too.
-  const double scale = scale_beside(simulation.energy_scale(), state.exchange.largest(), simulation.energy().max_error);
+  const double scale = simulation.energy_scale();
   const double rounded = std::max(size > scale ? virial_per_size * size : scale,
                                   rounding_of_state(request, problem, ends, evaluate_number<double>(request.dt)));
   const int digits = digits_beyond_double(request.arithmetic);
@@ -363,15 +351,14 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
                        const EnergyBlocks& blocks, std::int64_t steps_taken, const GoOn& go_on) {
   const Simulation& simulation = *of_the_run;
   RunCertificate found;
-  found.exchanged = blocks.state().exchange.largest();
   found.typically_exchanged = blocks.state().exchange.typical();
-  const double scale = scale_beside(simulation.energy_scale(), found.exchanged, simulation.energy().max_error);
+  const double scale = simulation.energy_scale();
   const RunEnds ends = ends_of(request, simulation);
   // A constant in H changes what is concluded of it no more than the motion.
   const double exchanged = found.typically_exchanged.value_or(0);
   const bool is_motion = simulation.energy().max_error < exchanged && std::isfinite(exchanged);
-  const double energy_size = is_motion ? std::max(exchanged, 0x1p-40 * simulation.energy_scale())
-                                       : size_of_energy(request, problem, ends, scale);
+  const double energy_size =
+      is_motion ? std::max(exchanged, 0x1p-40 * scale) : size_of_energy(request, problem, ends, scale);
   const auto [series, unit] = series_of(request, problem, simulation, blocks.state(), ends, energy_size);
   found.drift = classify_run(series);
   const std::size_t size = request.start.q.size();

@@ -238,13 +238,15 @@ RunForFigure read_for_figure(const fs::path& run, const std::vector<std::string>
   data.q = std::move(samples.q);
   data.p = std::move(samples.p);
   data.energy = std::move(samples.energy);
+  data.least_difference = std::move(samples.least_difference);
+  data.largest_difference = std::move(samples.largest_difference);
   data.energy_difference = energy_differences(source, data.t.size());
   const bool reversal = data.energy.empty();
   data.every_step = !reversal && static_cast<std::int64_t>(data.t.size()) > scenario.steps;
   // Samples at given times need not reach the end.
   if (!scenario.record.empty() && !reversal) data.end = static_cast<double>(scenario.steps) * scenario.dt;
   if (show_energy(kinds) || !data.particles.gas) {
-    data.energy_scale = make_simulation(scenario.request)->energy_scale();
+    data.energy_scale = make_simulation(scenario.request)->energy().scale_at_start;
   }
   if (problem.exact_radius) {
     const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);
@@ -282,7 +284,8 @@ void add_start(RunForFigure& run, const std::vector<double>& times) {
     begin_with(data.q[i], run.scenario.start_q[i]);
     begin_with(data.p[i], run.scenario.start_p[i]);
   }
-  for (auto* list : {&data.energy, &data.energy_difference}) begin_with(*list, unknown);
+  for (auto* list : {&data.energy, &data.energy_difference, &data.least_difference, &data.largest_difference})
+    begin_with(*list, unknown);
   for (auto* columns : {&data.observables, &data.invariants, &data.diagnostics}) {
     for (auto& column : *columns) begin_with(column.second, unknown);
   }

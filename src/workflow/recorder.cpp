@@ -8,8 +8,8 @@
 namespace hamflow {
 
 Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder, const std::string& identity,
-                   const Checkpoint* from)
-    : scenario_(scenario), folder_(folder) {
+                   const Checkpoint* from, std::function<void()> restart_range)
+    : scenario_(scenario), folder_(folder), restart_range_(std::move(restart_range)) {
   const auto wants = [&](const char* format) {
     return std::find(scenario.formats.begin(), scenario.formats.end(), format) != scenario.formats.end();
   };
@@ -55,10 +55,12 @@ std::span<const std::string> Recorder::times(std::int64_t step) const {
 }
 
 Verdict Recorder::observe(const Frame& frame) {
-  if (!by_times() && frame.step % scenario_.record_every != 0) before_the_end_ = sizes();
+  const bool is_for_the_end = !by_times() && frame.step % scenario_.record_every != 0;
+  if (is_for_the_end) before_the_end_ = sizes();
   const std::vector<double> observables = observable_values(scenario_, frame);
   if (h5_) h5_->append(frame, observables);
   if (csv_) csv_->append(frame, observables);
+  if (!is_for_the_end) restart_range_();  // a longer run has no such sample, and goes on with the range
   last_ = frame.step;
   ++written_;
   return Verdict::go_on;

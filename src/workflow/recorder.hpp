@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -15,9 +16,11 @@ namespace hamflow {
 
 class Recorder final : public Observer {
  public:
-  /// @param identity of the run   @param from where the run goes on; null: at its start   @throws FileError
+  /// @param identity of the run   @param from where the run goes on; null: at its start
+  /// @param restart_range Simulation::restart_energy_range(): a sample has the range since the one before
+  /// @throws FileError
   Recorder(const Scenario& scenario, const std::filesystem::path& folder, const std::string& identity,
-           const Checkpoint* from);
+           const Checkpoint* from, std::function<void()> restart_range);
 
   std::int64_t next_due(std::int64_t step) const override;
   std::span<const std::string> times(std::int64_t step) const override;
@@ -50,6 +53,7 @@ class Recorder final : public Observer {
 
   const Scenario& scenario_;
   std::filesystem::path folder_;
+  std::function<void()> restart_range_;
   std::unique_ptr<RunFile> h5_;
   std::unique_ptr<CsvFile> csv_;
   std::int64_t first_ = 0;               // step from which samples are still to be written

@@ -37,7 +37,7 @@ ReversalProgress progress_in(const Checkpoint& checkpoint) {
 template <class Archive>
 void archive_there(Archive& ar, ReversalProgress& progress, TurnWatch& turns) {
   Excursion& energy = progress.energy_there;
-  ar(energy.initial, energy.final, energy.max_error);
+  ar(energy.initial, energy.final, energy.max_error, energy.scale_at_start, energy.exchanged);
   turns.archive(ar);
 }
 

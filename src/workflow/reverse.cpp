@@ -151,8 +151,8 @@ Json warnings_about(const Scenario& scenario, const Simulation& simulation, cons
                     const Excursion& there, const TurnWatch& turns) {
   Json known = Json::object();
   if (scenario.problem->describe_orbit) known["orbit"] = orbit_of(scenario);
-  return warnings_of(scenario, known, same_motion ? simulation.energy() : there, simulation.energy_scale(), r.turn,
-                     &turns, simulation.wall_counts(), 2 * r.steps);
+  return warnings_of(scenario, known, same_motion ? simulation.energy() : there, r.turn, &turns,
+                     simulation.wall_counts(), 2 * r.steps);
 }
 
 std::string hex(std::uint64_t x) { return fmt::format("{:016x}", x); }

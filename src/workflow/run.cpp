@@ -104,7 +104,8 @@ class ScenarioRun {
       } else {
         check_summary(json_text(summary_of(scenario_, *simulation_, RunResult{})), settings.folder);
       }
-      recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, last->identity, from);
+      recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, last->identity, from,
+                                             [this] { simulation_->restart_energy_range(); });
     }
     if (recorder_) simulation_->tell_bounces([this](const Bounce& bounce) { recorder_->append(bounce); });
     measures_.emplace(scenario_, *simulation_, recorder_.get());

@@ -152,6 +152,7 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .invariants = invariant_columns(scenario),
           .observables = observable_columns(scenario),
           .diagnostics = method.diagnostics,
+          .energy_range = scenario.record_every > 1 || !scenario.record.empty(),
           .section = scenario.section.has_value(),
           .walls = has_hard_walls(request),
           .events = event_names(scenario),

@@ -82,7 +82,6 @@ void Session::restart() {
   bounces_.clear();
   listen();
   initial_energy_ = simulation_->energy().initial;
-  scale_ = simulation_->energy_scale();
   worst_energy_ = 0;
   worst_residuals_.reset();
   Frame start;
@@ -316,7 +315,12 @@ void Session::negate_momenta() {
 
 Excursion Session::energy() const {
   const Excursion part = simulation_->energy();
-  return {initial_energy_, part.final, one_part_ ? part.max_error : worst_energy_};
+  if (one_part_) return part;
+  Excursion all = first_part_;
+  all.final = part.final;
+  all.max_error = worst_energy_;
+  all.exchanged = std::max(first_part_.exchanged, part.exchanged);
+  return all;
 }
 
 std::optional<ConstraintResiduals> Session::constraints() const {
@@ -352,7 +356,8 @@ Effort Session::effort() const { return sum(effort_before_, simulation_->effort(
 
 void Session::watch_from_here() {
   if (!one_part_) return;
-  worst_energy_ = simulation_->energy().max_error;
+  first_part_ = simulation_->energy();
+  worst_energy_ = first_part_.max_error;
   const std::vector<InvariantExcursion> seen = simulation_->invariants();
   for (std::size_t k = 0; k < seen.size(); ++k) worst_invariants_[k] = seen[k].max_error;
   one_part_ = false;

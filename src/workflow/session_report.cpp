@@ -59,7 +59,8 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   const std::vector<Frame> kept = samples.with_present(session);
   RunDescription description = description_of(present, kept.size());
   description.events.clear();
-  description.section = false;  // a session looks for none
+  description.section = false;       // a session looks for none
+  description.energy_range = false;  // its parts have energies of their own
   const auto falls = [](const Frame& a, const Frame& b) { return !(a.time < b.time); };
   description.particles.time_grows = std::adjacent_find(kept.begin(), kept.end(), falls) == kept.end();
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));

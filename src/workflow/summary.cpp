@@ -307,8 +307,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   simulation.look(frame);
   const Effort effort = simulation.effort();
   const Excursion energy = simulation.energy();
-  const double scale = scale_beside(simulation.energy_scale(),
-                                    certificate != nullptr ? certificate->exchanged : std::nullopt, energy.max_error);
+  const double scale = energy.scale();
   Json s;
   s["status"] = result.file_trouble.empty() ? status_of(result.outcome) : "failed";
   s["problem"] = scenario.request.problem;

@@ -54,9 +54,10 @@ Json sweep_warnings(const Sweep& sweep) {
   if (count == 0) return all;
   all.push_back(
       {{"kind", "energy_error"},
-       {"message", fmt::format("the energy of {} of {} members was off by more than its scale, first of member "
-                               "{}: they are done, but no motion of {}; try a smaller dt",
-                               count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}});
+       {"message",
+        fmt::format("the energy of {} of {} members was off by more than the motion exchanges, first of member "
+                    "{}: they are done, but no motion of {}; try a smaller dt",
+                    count, sweep.members(), first - sweep.rows().begin(), sweep.common().request.problem)}});
   return all;
 }
 
@@ -109,7 +110,7 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   json["energy"] = {{"initial", row.energy.initial},
                     {"final", row.energy.final},
                     {"max_error", row.energy.max_error},
-                    {"scale", row.energy_scale}};
+                    {"scale", row.energy.scale()}};
   if (!row.digits.q.empty()) {  // more digits than a JSON number may be read with: texts
     json["final"] = {{"t", row.digits.time}, {"q", row.digits.q}, {"p", row.digits.p}};
     json["energy"]["initial"] = row.digits.initial_energy;

@@ -160,7 +160,7 @@ class ScenarioSweep::Impl {
       Frame end;
       end.q = row.q;
       end.p = row.p;
-      return is_energy_nonsense(scenario, row.energy, row.energy_scale, end);
+      return is_energy_nonsense(scenario, row.energy, end);
     };
     sweep.emplace(request.text, request.name, request.sets, std::move(varied), how);
     complaints = sweep->complaints();

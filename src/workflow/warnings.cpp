@@ -317,13 +317,13 @@ bool has_fallen(const Scenario& scenario, double period, double t) {
 
 }  // namespace
 
-bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end,
-                        std::optional<double> exchanged) {
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
+                        std::optional<double> typically_exchanged) {
   if (scenario.map) return false;
+  const double scale = energy.scale_at_start;
   // Of what is exchanged by a motion that stands still rounding is left.
-  if (exchanged && *exchanged > 0 && std::isfinite(*exchanged)) {
-    return energy.max_error > std::max(*exchanged, 0x1p-40 * scale);
-  }
+  const double exchanged = typically_exchanged.value_or(energy.exchanged);
+  if (exchanged > 0 && std::isfinite(exchanged)) return energy.max_error > std::max(exchanged, 0x1p-40 * scale);
   if (!(energy.max_error > scale)) return false;
   // Of a pendulum held level T and V are nothing but rounding: there the virial at the start says what is large, and an
   // error that is small beside the kinetic part of that at the end is none. Its other part says nothing where a motion
@@ -339,31 +339,32 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Simulation
                  std::optional<double> exchanged) {
   Frame end;
   simulation.look(end);
-  Json all = warnings_of(scenario, summary, simulation.energy(), simulation.energy_scale(), end, turns,
-                         simulation.wall_counts(), end.step, exchanged);
+  Json all =
+      warnings_of(scenario, summary, simulation.energy(), end, turns, simulation.wall_counts(), end.step, exchanged);
   if (!scenario.map && !flies_freely(scenario, end)) add_long_search(scenario, simulation, all);
   add_no_numbers(summary, all);
   return all;
 }
 
-Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, double scale, const Frame& end,
+Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion& energy, const Frame& end,
                  const TurnWatch* turns, std::span<const WallCount> walls, std::int64_t steps,
                  std::optional<double> exchanged) {
   Json all = Json::array();
   if (scenario.map) return all;  // they compare steps with the flow of H
-  if (is_energy_nonsense(scenario, energy, scale, end, exchanged)) {
-    all.push_back(warning(
-        "energy_error",
-        fmt::format("the energy was off by {:.3g}, {}: this is "
-                    "no motion of {}; try a smaller dt{}",
-                    energy.max_error,
-                    scale > 0 && !(energy.max_error > scale)
-                        ? fmt::format("more than the motion exchanges between T and V, {:.3g}", exchanged.value_or(0))
-                    : scale > 0 ? fmt::format("more than its scale, {:.3g}", scale)
-                                : std::string("and is 0 at the start"),
-                    scenario.request.problem,
-                    describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
-            overlap_at_start(scenario)));
+  if (is_energy_nonsense(scenario, energy, end, exchanged)) {
+    const double scale = energy.scale_at_start;
+    all.push_back(
+        warning("energy_error", fmt::format("the energy was off by {:.3g}, {}: this is "
+                                            "no motion of {}; try a smaller dt{}",
+                                            energy.max_error,
+                                            scale > 0 && !(energy.max_error > scale)
+                                                ? fmt::format("more than the motion exchanges between T and V, {:.3g}",
+                                                              exchanged.value_or(energy.exchanged))
+                                            : scale > 0 ? fmt::format("more than its scale, {:.3g}", scale)
+                                                        : std::string("and is 0 at the start"),
+                                            scenario.request.problem,
+                                            describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
+                                    overlap_at_start(scenario)));
   }
   const bool exact = flies_freely(scenario, end);
   if (turns != nullptr && !exact) add_long_step(scenario, summary, *turns, walls, steps, all);

@@ -26,7 +26,7 @@ nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ord
 /// @param summary its orbit   @param end where it ended
 /// @param walls how often they were met   @param steps in how many steps
 nlohmann::ordered_json warnings_of(const Scenario& scenario, const nlohmann::ordered_json& summary,
-                                   const Excursion& energy, double scale, const Frame& end, const TurnWatch* turns,
+                                   const Excursion& energy, const Frame& end, const TurnWatch* turns,
                                    std::span<const WallCount> walls = {}, std::int64_t steps = 0,
                                    std::optional<double> exchanged = {});
 /// What is said of steps in which particles of a gas may pass through each other unseen; empty where it is nothing.
@@ -36,10 +36,11 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
 /// "kind: message" of each, for the terminal; none of a summary without the key.
 std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 
-/// Whether an energy error is more than the energy can account for: above its scale, and not only because the scale is
-/// that of a start at which T and V vanish by chance.   @param end the last state
-/// @param exchanged EnergyExchange::typical(), which decides where it is known: no constant in H changes it
-bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, double scale, const Frame& end,
+/// Whether an energy error is more than the energy can account for: above what the motion exchanges, so that no
+/// constant in H changes it. Where nothing is exchanged, or nobody has watched: above the scale at the start, and not
+/// only because T and V vanish there by chance.   @param end the last state
+/// @param exchanged EnergyExchange::typical(), which is less than Excursion::exchanged, and decides where it is known
+bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
                         std::optional<double> exchanged = {});
 
 }  // namespace hamflow

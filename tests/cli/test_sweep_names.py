@@ -252,6 +252,27 @@ class SweepNames(CommandCase):
         self.assertEqual([row["events"] for row in json.loads(done.stdout)["rows"]], [{"halved": 0}] * 2)
         self.assertEqual(self.summary("s.toml", "--set", "method.on_divergence=error")["events"], {})
 
+    def test_the_scale_is_that_of_the_run(self):
+        """It grows with what the motion exchanges: of starts without energy, eccentric orbits, H that is not T + V, driven ones."""
+        from_rest = FREE.replace("steps = 40", "steps = 400").replace("[0, 0.5], p = [1, 2]", "[0, 0], p = [0, 0]")
+        for h, methods in (("(p_x^2 + p_y^2)/2 + 9.81*sin(x) + y", ("stv4", "rk4", "gauss(4)", "cg")),
+                           ("(p_x^2 + p_y^2)/(2 + x^2) + 9.81*sin(x) + y", ("rk4", "gauss(4)", "tao4")),
+                           ("(p_x^2 + p_y^2)/2 + 9.81*sin(x) - y*cos(t)", ("stv4", "rk4"))):
+            text = from_rest.replace("(p_x^2 + p_y^2)/2", h).replace('invariants = { px = "p_x", py = "p_y" }\n', "")
+            for method in methods:
+                rows = self.check(text.replace('"stv4"', f'"{method}"'), "run.dt", ("0.01", "0.005", "0.02", "0.0125", "0.001"))
+                for row in rows:
+                    self.assertGreater(row["energy"]["scale"], 1e-3, (h, method))
+                self.assertGreater(rows[0]["energy"]["scale"], rows[-1]["energy"]["scale"], (h, method))
+
+    def test_nonsense_is_seen_beside_a_constant(self):
+        text = FREE.replace("(p_x^2 + p_y^2)/2", "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2) + 1000000").replace('"stv4"', '"euler"')
+        text = text.replace('invariants = { px = "p_x", py = "p_y" }\n', "").replace("steps = 40", "steps = 400")
+        text = text.replace("[0, 0.5], p = [1, 2]", "[1, 0], p = [0, 0.3]")
+        self.write("s.toml", text)
+        done = self.hamflow("sweep", "s.toml", "--vary", "run.dt=0.2,0.201", "--out", "none")
+        self.assertIn("energy_error: the energy of 2 of 2 members", done.stderr)
+
     def test_what_is_not_common_is_no_attribute(self):
         self.write("s.toml", HARMONIC)
         self.hamflow("sweep", "s.toml", "--vary", "run.arithmetic=double,quad", "--out", "s", "--quiet")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 
 #include "../support/allocations.hpp"
@@ -325,6 +326,112 @@ TEST(Simulation, BlockIndependenceWouldNoticeAForgottenForce) {
   (void)b->advance(1);
   EXPECT_EQ(a->effort().force, forces + 2) << "not the kept force but a new one";
   EXPECT_EQ(a->bits(), b->bits());
+}
+
+/// The range of H - H0 that a sample has is that of every step since the one before, in every loop, after a resume too.
+TEST(Simulation, TheRangeOfEnergiesIsThatOfEveryStep) {
+  for (const char* arithmetic : {"double", "compensated", "double-double"}) {
+    for (const bool record : {true, false}) {
+      Request request;
+      request.problem = "henon-heiles";
+      request.start = {.q = {"0", "0.1"}, .p = {"0.4", "0"}};
+      request.method = parse_method("stv4");
+      request.dt = "0.1";
+      request.arithmetic = arithmetic;
+      request.record = record;
+      const auto by_blocks = make_simulation(request);
+      const auto by_steps = make_simulation(request);
+      const double start = by_steps->energy().initial;
+      Frame frame;
+      double before = 0;
+      for (int sample = 0; sample < 6; ++sample) {
+        double least = before;
+        double largest = before;
+        for (int k = 0; k < 300; ++k) {
+          ASSERT_EQ(by_steps->advance(1), Outcome::done);
+          by_steps->look(frame);
+          before = frame.energy - start;
+          least = std::min(least, before);
+          largest = std::max(largest, before);
+        }
+        ASSERT_EQ(by_blocks->advance(100), Outcome::done);
+        const auto resumed = make_simulation(request);
+        resumed->restore(by_blocks->save());
+        ASSERT_EQ(by_blocks->advance(200), Outcome::done);
+        ASSERT_EQ(resumed->advance(200), Outcome::done);
+        EXPECT_EQ(resumed->save(), by_blocks->save());
+        by_blocks->look(frame);
+        const double rounding = 4e-16 * std::abs(start);
+        EXPECT_NEAR(frame.energy_range.least, least, rounding) << arithmetic << ' ' << record << ' ' << sample;
+        EXPECT_NEAR(frame.energy_range.largest, largest, rounding) << arithmetic << ' ' << record << ' ' << sample;
+        EXPECT_LT(frame.energy_range.least, frame.energy_range.largest);
+        EXPECT_EQ(by_blocks->energy().max_error, by_steps->energy().max_error) << "over every step since the start";
+        by_blocks->restart_energy_range();
+      }
+    }
+  }
+}
+
+/// Of T + V the largest T of every step, of another H the largest |p . dH/dp|, with the bits of single steps.
+TEST(Simulation, TheScaleOfTheEnergyIsWhatTheMotionExchanges) {
+  const auto squared = [](const std::vector<double>& p) { return p[0] * p[0]; };
+  struct Case {
+    const char* hamiltonian;
+    const char* method;
+    std::function<double(const Frame&)> exchanged;
+  };
+  const Case cases[] = {
+      {"p_a^2/2 + 9.81*sin(a)", "stv4", [&](const Frame& at) { return squared(at.p) / 2; }},
+      {"p_a^2/2 + 9.81*sin(a) + 1000", "gauss(4)", [&](const Frame& at) { return squared(at.p) / 2; }},
+      {"p_a^2/(2 + a^2) + 9.81*sin(a)", "rk4",
+       [&](const Frame& at) { return 2 * squared(at.p) / (2 + at.q[0] * at.q[0]); }},
+      {"p_a^2/2 + 9.81*sin(a) - a*cos(t)", "stv4", [&](const Frame& at) { return squared(at.p) / 2; }},
+  };
+  for (const Case& each : cases) {
+    for (const char* arithmetic : {"double", "compensated", "double-double"}) {
+      for (const bool record : {true, false}) {
+        Request request;
+        request.problem = FormulaKeys::problem;
+        request.variant = formula_choices({.coordinates = {"a"}, .hamiltonian = each.hamiltonian});
+        request.start = {.q = {"0"}, .p = {"0"}};
+        request.method = parse_method(each.method);
+        request.dt = "0.01";
+        request.arithmetic = arithmetic;
+        request.record = record;
+        const auto by_blocks = make_simulation(request);
+        const auto by_steps = make_simulation(request);
+        const double at_start = by_steps->energy().scale_at_start;
+        double most = 0;
+        Frame frame;
+        for (int k = 0; k < 1000; ++k) {
+          ASSERT_EQ(by_steps->advance(1), Outcome::done);
+          by_steps->look(frame);
+          most = std::max(most, each.exchanged(frame));
+        }
+        ASSERT_EQ(by_blocks->advance(600), Outcome::done);
+        const auto resumed = make_simulation(request);
+        resumed->restore(by_blocks->save());
+        ASSERT_EQ(resumed->advance(400), Outcome::done);
+        EXPECT_NEAR(resumed->energy().exchanged, most, 1e-14 * most) << each.hamiltonian << ' ' << arithmetic;
+        EXPECT_EQ(resumed->energy().exchanged, by_steps->energy().exchanged);
+        EXPECT_EQ(resumed->energy_scale(), std::max(at_start, by_steps->energy().exchanged));
+      }
+    }
+  }
+}
+
+/// A run that blows up has a large T, and its error is no part of that.
+TEST(Simulation, ARunThatBlowsUpTellsNoScale) {
+  Request request;
+  request.problem = "henon-heiles";
+  request.start = {.q = {"0", "0.1"}, .p = {"0.4", "0"}};
+  request.method = parse_method("euler");
+  request.dt = "0.5";
+  const auto simulation = make_simulation(request);
+  ASSERT_EQ(simulation->advance(12), Outcome::done);
+  const Excursion energy = simulation->energy();
+  ASSERT_GT(energy.max_error, 10 * energy.scale_at_start);
+  EXPECT_EQ(energy.scale(), energy.scale_at_start);
 }
 
 }  // namespace

@@ -71,6 +71,35 @@ TEST_F(RunFileTest, RoundTrip) {
   EXPECT_EQ(run.description.method, "m");
 }
 
+TEST_F(RunFileTest, RangesOfTheEnergyAreThereWhereTheyAreWritten) {
+  RunDescription with_range = description;
+  with_range.energy_range = true;
+  const auto ranged = [](std::int64_t k) {
+    Frame frame = row(k);
+    frame.energy_range = {-0.25 * static_cast<double>(k), 0.5 * static_cast<double>(k)};
+    return frame;
+  };
+  {
+    RunFile file(file_, with_range);
+    for (std::int64_t k = 0; k < 700; ++k) file.append(ranged(k));
+  }
+  {
+    RunFile file(file_, with_range, 500);  // goes on behind them
+    for (std::int64_t k = 500; k < 600; ++k) file.append(ranged(k));
+  }
+  const RunSamples run = read_run_file(file_);
+  expect_rows(run, 600);
+  ASSERT_EQ(run.least_difference.size(), 600U);
+  ASSERT_EQ(run.largest_difference.size(), 600U);
+  for (std::size_t k = 0; k < 600; ++k) {
+    EXPECT_EQ(run.least_difference[k], -0.25 * static_cast<double>(k));
+    EXPECT_EQ(run.largest_difference[k], 0.5 * static_cast<double>(k));
+  }
+  { RunFile(file_, description).append(row(0)); }  // as files of older versions are
+  EXPECT_EQ(read_run_file(file_).t.size(), 1U);
+  EXPECT_TRUE(read_run_file(file_).least_difference.empty());
+}
+
 TEST_F(RunFileTest, PointsOfASectionHaveRowsOfTheirOwn) {
   RunDescription with_section = description;
   with_section.section = true;

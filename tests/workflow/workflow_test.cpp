@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -11,6 +12,7 @@
 #include "hamflow/workflow/run.hpp"
 #include "hamflow/workflow/session.hpp"
 #include "hamflow/workflow/sweep.hpp"
+#include "run_file.hpp"
 
 namespace hamflow {
 namespace {
@@ -168,6 +170,58 @@ TEST_F(Workflow, StoppedByAnObserverAndResumed) {
   EXPECT_EQ(third.count, 3001);
   settings.observers = {};  // the checkpoint has one more
   EXPECT_THROW(run_scenario(scenario({"run.steps=4000"}), settings), FileError);
+}
+
+/// Samples about half a period apart show a modulation that is not there; the range of the steps between them does not.
+TEST_F(Workflow, RangesOfTheEnergyErrorDoNotBeatWithTheOrbit) {
+  constexpr const char* orbit = R"(
+[problem]
+name = "central-force"
+potential = "kepler"
+orbit = { kind = "ellipse", r_per = 0.5, r_aph = 1.5 }
+[method]
+name = "verlet"
+[run]
+dt = "2*pi/1000"
+steps = 5_050_505
+)";
+  const Scenario whole = accepted(read_scenario_text(orbit, "orbit", {}));
+  ASSERT_GT(whole.record_every, 500);
+  ASSERT_EQ(run_scenario(whole, in("whole")).status, "done");
+  const RunSamples run = read_run_file(folder_ / "whole" / "run.h5");
+  ASSERT_EQ(run.least_difference.size(), run.t.size());
+  ASSERT_EQ(run.largest_difference.size(), run.t.size());
+  const auto heights = [](std::size_t rows, const auto& low_at, const auto& high_at) {
+    constexpr std::size_t together = 20;
+    std::vector<double> all;
+    for (std::size_t k = 1; k + together < rows; k += together) {
+      double low = low_at(k), high = high_at(k);
+      for (std::size_t i = k; i < k + together; ++i) low = std::min(low, low_at(i)), high = std::max(high, high_at(i));
+      all.push_back(high - low);
+    }
+    return std::pair(*std::min_element(all.begin(), all.end()), *std::max_element(all.begin(), all.end()));
+  };
+  const auto sampled = [&](std::size_t k) { return run.energy[k]; };
+  const auto [least_sampled, largest_sampled] = heights(run.t.size(), sampled, sampled);
+  EXPECT_LT(least_sampled, 0.1 * largest_sampled) << "this case shows nothing";
+  const auto [least, largest] = heights(
+      run.t.size(), [&](std::size_t k) { return run.least_difference[k]; },
+      [&](std::size_t k) { return run.largest_difference[k]; });
+  EXPECT_GT(least, 0.99 * largest);
+  for (std::size_t k = 0; k < run.t.size(); ++k) {
+    const double difference = run.energy[k] - run.energy[0];
+    ASSERT_LE(run.least_difference[k], difference) << k;
+    ASSERT_GE(run.largest_difference[k], difference) << k;
+  }
+
+  RunSettings settings = in("part");
+  settings.pulse = [](std::int64_t step) { return step < 1'234'567; };
+  ASSERT_EQ(run_scenario(whole, settings).status, "interrupted");
+  ASSERT_EQ(run_scenario(whole, in("part", Existing::resume)).status, "done");
+  const RunSamples part = read_run_file(folder_ / "part" / "run.h5");
+  EXPECT_EQ(part.energy, run.energy);
+  EXPECT_EQ(part.least_difference, run.least_difference);
+  EXPECT_EQ(part.largest_difference, run.largest_difference);
 }
 
 TEST_F(Workflow, AnObserverWithoutArchiveIsRefusedBeforeAnythingIsWritten) {

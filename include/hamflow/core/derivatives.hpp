@@ -151,6 +151,24 @@ void gradient(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p, Ve
   }
 }
 
+/// T of H = T(p) + V(q), else p . dH/dp: how much of H a motion exchanges. A problem behind virtual calls, which knows
+/// at run time whether H is T + V, says it itself.
+template <class P, class S, std::size_t N>
+S kinetic_part(const P& problem, const Vector<S, N>& q, const Vector<S, N>& p) {
+  if constexpr (requires { problem.kinetic_part(q, p); }) {
+    return problem.kinetic_part(q, p);
+  } else if constexpr (Separable<P>) {
+    return problem.kinetic(p);
+  } else {
+    Vector<S, N> dq = zeros_like(q);
+    Vector<S, N> dp = zeros_like(p);
+    gradient(problem, q, p, dq, dp);
+    S sum(0);
+    for (std::size_t i = 0; i < p.size(); ++i) sum += p[i] * dp[i];
+    return sum;
+  }
+}
+
 /// Hamilton's equations: dq = q' = dH/dp, dp = p' = -dH/dq. Inlined by force, as it belongs into loops over steps,
 /// where the state would otherwise go through memory.
 template <class P, class S, std::size_t N>

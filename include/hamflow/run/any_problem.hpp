@@ -11,6 +11,7 @@
 #include "hamflow/core/capability.hpp"
 #include "hamflow/core/derivatives.hpp"
 #include "hamflow/core/pool.hpp"
+#include "hamflow/core/step_clock.hpp"
 #include "hamflow/core/tape.hpp"
 #include "hamflow/methods/implicit/points.hpp"
 #include "hamflow/run/probe.hpp"
@@ -449,6 +450,24 @@ class AnyProblem {
   /// |T| + |V| where H is their sum, which is known at run time also where the type does not promise it; else 0.
   R size_of_parts(const Vector<R, dynamic>& q, const Vector<R, dynamic>& p) const {
     return on<R>().has_parts() ? R(abs(on<R>().kinetic(p)) + abs(on<R>().potential(q))) : R(0);
+  }
+  /// T where H = T + V, else p . dH/dp, both without the momentum of the time.
+  template <class S>
+  S kinetic_part(const Vector<S, dynamic>& q, const Vector<S, dynamic>& p) const {
+    const Functions<S>& functions = on<S>();
+    const std::size_t moving = p.size() - clocks_of(*this);
+    if (functions.has_parts()) {
+      if (!has_clock_) return functions.kinetic(p);
+      Vector<S, dynamic> of_motion = p;
+      for (std::size_t i = moving; i < p.size(); ++i) of_motion[i] = S(0);
+      return functions.kinetic(of_motion);
+    }
+    Vector<S, dynamic> dq = zeros_like(q);
+    Vector<S, dynamic> dp = zeros_like(p);
+    functions.gradient(q, p, dq, dp);
+    S sum(0);
+    for (std::size_t i = 0; i < moving; ++i) sum += p[i] * dp[i];
+    return sum;
   }
   /// Whether the functions of a factor are there, which is known at run time only; their bits are not those of
   /// products.

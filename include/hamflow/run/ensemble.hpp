@@ -35,7 +35,6 @@ struct MemberEnd {
   std::vector<double> q;
   std::vector<double> p;
   Excursion energy;
-  double energy_scale = 0;
   std::vector<InvariantExcursion> invariants;
   std::vector<WallCount> walls;
   std::int64_t halved = 0;  // steps

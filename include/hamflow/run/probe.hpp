@@ -82,16 +82,19 @@ struct NoProbe {
 };
 
 /// The largest deviation of the energy and of each invariant from its start; of an invariant with several components,
-/// the length of the deviation.
+/// the length of the deviation. And the largest kinetic part of H, beside which an error of the energy is large or
+/// small whatever constant H has.
 template <class P, class R>
 class ConservationProbe {
  public:
   static constexpr bool watches_invariants = HasInvariants<P, R>;
+  static constexpr bool watches_kinetic_part = Differentiable<P>;
   using Invariants = typename detail::InvariantsOf<P, R>::type;
 
   template <std::size_t N>
   void start(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p, const R& t) {
     initial_energy_ = hamflow::energy(problem, q, p);
+    if constexpr (watches_kinetic_part) initial_kinetic_ = most_kinetic_ = abs(kinetic_part(problem, q, p));
     if constexpr (watches_invariants) {
       initial_ = problem.invariants(q, p, t);
       worst_ = zeros_like(initial_);
@@ -103,8 +106,10 @@ class ConservationProbe {
   template <std::size_t N>
   [[gnu::flatten]] bool look(const P& problem, const Vector<R, N>& q, const Vector<R, N>& p,
                              [[maybe_unused]] const R& t) {
-    const R error = abs(hamflow::energy(problem, q, p) - initial_energy_);
-    worst_energy_ = larger(worst_energy_, error);
+    const R difference = hamflow::energy(problem, q, p) - initial_energy_;
+    above_ = larger(above_, difference);
+    below_ = larger(below_, R(-difference));
+    if constexpr (watches_kinetic_part) most_kinetic_ = larger(most_kinetic_, R(abs(kinetic_part(problem, q, p))));
     if constexpr (watches_invariants) {
       const auto values = problem.invariants(q, p, t);
       if constexpr (HasInvariantSizes<P>) {
@@ -115,16 +120,32 @@ class ConservationProbe {
         }
       }
     }
-    return error <= std::numeric_limits<R>::max();  // false for NaN and infinity
+    return abs(difference) <= std::numeric_limits<R>::max();  // false for NaN and infinity
   }
   R initial_energy() const { return initial_energy_; }
-  R worst_energy_error() const { return worst_energy_; }
+  R worst_energy_error() const { return larger(worst_energy_, larger(above_, below_)); }
+  /// The least and the largest H - H0 since restart_range(), the state there included; since start() before.
+  R least_difference() const { return R(R(0) - below_); }
+  R largest_difference() const { return above_; }
+  /// @param difference H - H0 of the present state
+  void restart_range(const R& difference) {
+    worst_energy_ = worst_energy_error();
+    above_ = difference;
+    below_ = -difference;
+  }
+  /// How much of H the motion has exchanged: the largest kinetic part so far. A run whose error is more than half of
+  /// that is no motion: there only the kinetic part at the start counts.
+  R exchanged_energy() const {
+    const bool is_motion = R(2) * worst_energy_error() <= most_kinetic_;
+    return is_motion && most_kinetic_ <= std::numeric_limits<R>::max() ? most_kinetic_ : initial_kinetic_;
+  }
   const Invariants& initial() const { return initial_; }
   /// Of the k-th invariant.
   R worst(std::size_t k) const { return worst_[k]; }
   template <class Archive>
   void archive(Archive& ar) {
-    ar(initial_energy_, worst_energy_);
+    ar(initial_energy_, worst_energy_, above_, below_);
+    if constexpr (watches_kinetic_part) ar(initial_kinetic_, most_kinetic_);
     if constexpr (watches_invariants) ar(initial_, worst_);
   }
 
@@ -170,7 +191,11 @@ class ConservationProbe {
   }
 
   R initial_energy_{};
-  R worst_energy_{};
+  R worst_energy_{};     // before the present range
+  R above_{};            // largest H - H0 of the present range
+  R below_{};            // largest H0 - H of it
+  R initial_kinetic_{};  // size of the kinetic part
+  R most_kinetic_{};
   Invariants initial_{};
   Invariants worst_{};
 };

@@ -27,6 +27,12 @@ struct FrameDigits {
 struct NamedExpression;
 struct StepSum;
 
+/// The least and the largest H - H0 at the ends of some steps.
+struct EnergyRange {
+  double least = 0;
+  double largest = 0;
+};
+
 /// A look at the state, in double. Buffers are reused from call to call.
 struct Frame {
   std::int64_t step = 0;
@@ -34,6 +40,7 @@ struct Frame {
   std::vector<double> q;
   std::vector<double> p;
   double energy = 0;
+  EnergyRange energy_range;  // since Simulation::restart_energy_range(), the state there included
   std::vector<double> invariants;
   Effort effort;                // totals since the start
   StepDiagnostics diagnostics;  // of the last step, on request
@@ -45,6 +52,10 @@ struct Excursion {
   double initial = 0;
   double final = 0;
   double max_error = 0;
+  double scale_at_start = 0;  // max(|H0|, |T0| + |V0|); |H0| where H is not T + V
+  double exchanged = 0;       // T at the start, or the largest so far; |p . dH/dp| where H is not T + V
+  /// A part of this is the relative error.
+  double scale() const { return scale_at_start < exchanged ? exchanged : scale_at_start; }
 };
 
 /// The same for an invariant, with as many numbers as it has components. max_error is the length of the deviation.
@@ -95,9 +106,11 @@ class Simulation {
   virtual void negate_momenta() = 0;
   /// The stored bits of q and p, for tests of exact return.
   virtual std::vector<std::byte> bits() const = 0;
-  /// Energy over every step since the start, with scale = max(|H0|, |T0| + |V0|).
+  /// Energy over every step since the start.
   virtual Excursion energy() const = 0;
-  virtual double energy_scale() const = 0;
+  double energy_scale() const { return energy().scale(); }
+  /// Begins the range of energies that look() shows anew, from the state of the present step on.
+  virtual void restart_energy_range() = 0;
   /// In the order of the problem's invariants.
   virtual std::vector<InvariantExcursion> invariants() const = 0;
   /// Without value where there are no constraints.

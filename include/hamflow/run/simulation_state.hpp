@@ -101,9 +101,15 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     Excursion e{static_cast<double>(initial_energy_), static_cast<double>(now), 0};
     if constexpr (requires { probe_.worst_energy_error(); })
       e.max_error = static_cast<double>(probe_.worst_energy_error());
+    e.scale_at_start = static_cast<double>(scale_);
+    if constexpr (requires { probe_.exchanged_energy(); }) e.exchanged = static_cast<double>(probe_.exchanged_energy());
     return e;
   }
-  double energy_scale() const final { return static_cast<double>(scale_); }
+  void restart_energy_range() final {
+    if constexpr (requires { probe_.least_difference(); }) {
+      probe_.restart_range(Real(hamflow::energy(problem_, z_.positions(), z_.momenta()) - initial_energy_));
+    }
+  }
   std::vector<InvariantExcursion> invariants() const final {
     std::vector<InvariantExcursion> all;
     if constexpr (HasInvariants<P, Real> && requires { probe_.worst(0); }) {
@@ -242,7 +248,13 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
       frame.q[i] = static_cast<double>(q[i]);
       frame.p[i] = static_cast<double>(p[i]);
     }
-    frame.energy = static_cast<double>(hamflow::energy(problem_, q, p));
+    const Real now = hamflow::energy(problem_, q, p);
+    frame.energy = static_cast<double>(now);
+    if constexpr (requires { probe_.least_difference(); }) {
+      const Real difference = now - initial_energy_;
+      frame.energy_range = {0.0 - static_cast<double>(larger(Real(-probe_.least_difference()), Real(-difference))),
+                            static_cast<double>(larger(probe_.largest_difference(), difference))};
+    }
     frame.invariants.clear();
     if constexpr (HasInvariants<P, Real>) {
       for (const Real& value : problem_.invariants(q, p, time)) frame.invariants.push_back(static_cast<double>(value));
@@ -252,7 +264,7 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     frame.diagnostics = diagnostics();
     if constexpr (requires(const Real& x) { written_digits(x); }) {
       frame.digits.time = written_digits(time);
-      frame.digits.energy = written_digits(hamflow::energy(problem_, q, p));
+      frame.digits.energy = written_digits(now);
       frame.digits.initial_energy = written_digits(initial_energy_);
       frame.digits.q.clear();
       frame.digits.p.clear();

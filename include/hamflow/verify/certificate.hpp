@@ -27,19 +27,16 @@ struct EnergyExchange {
   std::int64_t samples = 0;
   double first_kinetic = 0;
   double first_potential = 0;
-  double most_kinetic = 0;  // |T|
-  double most_change = 0;   // |V - V0|
   double sum_of_kinetic = 0;
   double sum_of_change = 0;
 
   void look(double kinetic, double potential);
-  /// T at the start, or the largest exchange where that is more. None: nothing is known.
-  std::optional<double> largest() const;
-  /// T at the start, or the mean exchange where that is more: close encounters and blow-ups count for little.
+  /// T at the start, or the mean exchange where that is more: close encounters and blow-ups count for little. None:
+  /// nothing is known.
   std::optional<double> typical() const;
   template <class Archive>
   void archive(Archive& ar) {
-    ar(samples, first_kinetic, first_potential, most_kinetic, most_change, sum_of_kinetic, sum_of_change);
+    ar(samples, first_kinetic, first_potential, sum_of_kinetic, sum_of_change);
   }
 };
 
@@ -82,10 +79,6 @@ class EnergyBlocks final : public Observer {
   Energy energy_;
   EnergyBlockState state_;
 };
-
-/// The scale of a simulation's energy; where it is 0 or a rounding beside what the motion exchanges, that. A run whose
-/// error is as large as what it exchanges is no motion, and tells no scale.
-double scale_beside(double scale, std::optional<double> exchanged, double max_error);
 
 /// H of a problem for EnergyBlocks; empty of large systems, whose energy takes long, and where H depends on t.
 EnergyBlocks::Energy energy_for_blocks(const Request& request, const ProblemEntry& problem, std::size_t coordinates);
@@ -199,7 +192,6 @@ struct RunCertificate {
   LongNumber mean_increment, mean_increment_error;  // of the energy, over a block
   LongNumber trend_not_excluded;                    // of the energy over scale, per step
   LongNumber energy_level;                          // max |H - H0|/scale over every step; NaN: H is 0 at the start
-  std::optional<double> exchanged{};                // EnergyExchange::largest()
   std::optional<double> typically_exchanged{};      // EnergyExchange::typical()
   std::vector<MomentumMap> momentum_maps;
   std::optional<ReversalEvidence> reversal;  // none: no step was taken

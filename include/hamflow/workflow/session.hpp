@@ -59,7 +59,8 @@ class Session final : public Simulation {
   std::vector<std::byte> bits() const override { return simulation_->bits(); }
   Excursion energy() const override;
   std::optional<ConstraintResiduals> constraints() const override;
-  double energy_scale() const override { return scale_; }
+  /// Of the present part.
+  void restart_energy_range() override { simulation_->restart_energy_range(); }
   std::vector<InvariantExcursion> invariants() const override;
   Effort effort() const override;
   StepDiagnostics diagnostics() const override { return simulation_->diagnostics(); }
@@ -103,7 +104,7 @@ class Session final : public Simulation {
   bool listens_ = false;  // to bounces
   double initial_energy_ = 0;
   std::string exact_initial_energy_;  // beyond double, with all its digits
-  double scale_ = 0;
+  Excursion first_part_;              // of the energy
   double worst_energy_ = 0;
   std::optional<ConstraintResiduals> worst_residuals_;  // before the present part
   std::vector<std::size_t> sizes_;                      // of the invariants

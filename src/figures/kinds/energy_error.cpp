@@ -33,6 +33,60 @@ bool is_logarithmic(const std::vector<std::vector<double>>& errors) {
   return early > 0 && largest({one.end() - quarter, one.end()}) > 10 * far * early;
 }
 
+bool has_range(const FigureData& data) {
+  return !data.least_difference.empty() && data.least_difference.size() == data.largest_difference.size();
+}
+
+/// The range of the relative error over the steps on both sides of a sample: a stretch between two samples may be half
+/// a period, and every second one then the quiet half.
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+Range range_at(const FigureData& data, std::size_t k) {
+  const std::size_t next = std::min(k + 1, data.t.size() - 1);
+  const double scale = scale_of(data);
+  return {std::min(data.least_difference[k], data.least_difference[next]) / scale,
+          std::max(data.largest_difference[k], data.largest_difference[next]) / scale};
+}
+
+/// The size of the error at each sample, where it is known the largest of the steps beside it.
+std::vector<double> sizes_of(const FigureData& data) {
+  std::vector<double> all = relative_energy_error(data);
+  for (std::size_t k = 0; k < all.size() && has_range(data); ++k) {
+    const Range range = range_at(data, k);
+    all[k] = std::max(std::abs(range.low), std::abs(range.high));
+  }
+  return all;
+}
+
+/// The field between the least and the largest error: samples alone may beat with the motion between them.
+void add_range(Panel& panel, const FigureData& data, Series how) {
+  constexpr std::size_t page_columns = 400;
+  Band band;
+  for (std::size_t k = 0; k < data.t.size(); ++k) {
+    const Range range = range_at(data, k);
+    if (!std::isfinite(range.low) || !std::isfinite(range.high)) continue;
+    band.x.push_back(data.t[k]);
+    band.low.push_back(range.low);
+    band.high.push_back(range.high);
+  }
+  if (band.x.size() > 2 * page_columns) {
+    const Band below = envelope({band.x, band.low}, page_columns);
+    band = {below.x, below.low, envelope({band.x, band.high}, page_columns).high};
+  }
+  how.ink = Ink::band;
+  how.curve = {band.x, band.low};
+  how.value = band.high;
+  panel.series.push_back(how);
+  if (data.t.size() > most_separate_dots) return;
+  how.ink = Ink::dots;
+  how.name.clear();
+  how.value.clear();
+  how.curve = finite_points(data.t, relative_energy_error(data));
+  panel.series.push_back(how);
+}
+
 /// The sizes; of many samples the largest in each column of the page.
 Series sizes(const std::vector<double>& t, const std::vector<double>& error, Series how) {
   constexpr std::size_t page_columns = 400;
@@ -76,9 +130,15 @@ void fit_logarithmic(Panel& panel) {
   panel.y = log_axis(range);
 }
 
-void fit_linear(Panel& panel, const std::vector<std::vector<double>>& errors, bool in_double) {
+void fit_linear(Panel& panel, const Figure& figure, bool in_double) {
   Extent range;
-  for (const std::vector<double>& error : errors) range.include(error);
+  for (const FigureData& run : figure.runs) {
+    range.include(relative_energy_error(run));
+    if (!has_range(run)) continue;
+    for (const auto* list : {&run.least_difference, &run.largest_difference}) {
+      for (const double difference : *list) range.include(difference / scale_of(run));
+    }
+  }
   range.include(0);
   constexpr double rounding = 1e-15;
   const bool at_rounding = in_double && range.largest() < rounding;
@@ -96,7 +156,7 @@ Page page(const Figure& figure) {
   Extent times;
   bool in_double = true;
   for (const FigureData& run : figure.runs) {
-    errors.push_back(relative_energy_error(run));
+    errors.push_back(sizes_of(run));
     times.include(run.t);
     in_double = in_double && run.energy_difference.empty();
   }
@@ -107,8 +167,10 @@ Page page(const Figure& figure) {
     if (!how.name.empty() && largest(errors[run]) == 0) how.name += " (0)";
     if (logarithmic) {
       panel.series.push_back(sizes(figure.runs[run].t, errors[run], how));
+    } else if (has_range(figure.runs[run])) {
+      add_range(panel, figure.runs[run], how);
     } else {
-      add_over_time(panel, figure.runs[run].t, errors[run], how);
+      add_over_time(panel, figure.runs[run].t, relative_energy_error(figure.runs[run]), how);
     }
   }
   panel.y_label = label_of(figure, logarithmic);
@@ -116,9 +178,14 @@ Page page(const Figure& figure) {
     fit_logarithmic(panel);
     panel.aspect = 0.62;
   } else {
-    fit_linear(panel, errors, in_double);
+    fit_linear(panel, figure, in_double);
   }
-  return {figure.runs.front().title, {panel}};
+  Page all{figure.runs.front().title, {panel}};
+  if (std::any_of(figure.runs.begin(), figure.runs.end(), has_range)) {
+    all.notes.emplace_back(logarithmic ? "the largest of all steps, not of the samples alone"
+                                       : "band: smallest to largest of all steps, not of the samples alone");
+  }
+  return all;
 }
 }  // namespace energy_error
 
