@@ -12,7 +12,7 @@ namespace {
 
 // The file: these words, the payload, the checksum of all that.
 constexpr std::uint64_t magic = 0x4b43'574f'4c46'4d48u;  // "HMFLOWCK", which also tells the order of bytes
-constexpr std::uint64_t format = 5;
+constexpr std::uint64_t format = 6;
 constexpr std::size_t sum_bytes = sizeof(std::uint64_t);
 
 }  // namespace

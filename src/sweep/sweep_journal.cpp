@@ -16,7 +16,7 @@ namespace {
 
 // The file: these words, then parts. A part is its length, its bytes, and the hash of both: the head, then records.
 constexpr std::uint64_t magic = 0x5045'4557'534c'4648u;  // "HFLSWEEP", which also tells the order of bytes
-constexpr std::uint64_t format = 2;
+constexpr std::uint64_t format = 3;
 constexpr std::size_t word = sizeof(std::uint64_t);
 
 template <class... T>
