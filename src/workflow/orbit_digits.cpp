@@ -1,6 +1,8 @@
 #include "orbit_digits.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,40 +15,39 @@ namespace hamflow {
 
 namespace {
 
-/// Integrals of quadratures in more digits than these take seconds.
-constexpr int most_digits = 200;
+constexpr int most_digits = 1000;
+/// Quadratures in more digits take seconds.
+constexpr int most_digits_of_integrals = 60;
 
 Mp power_of_ten(int exponent) { return parse_decimal<Mp>("1e" + std::to_string(exponent)); }
 
-/// int_0^1 f(x, 1 - x) dx by the double exponential rule, both arguments to their own relative precision; halved until
+/// int_0^1 f(x, 1 - x) dx of two functions by the double exponential rule, both arguments to their own relative precision; halved until
 /// it changes by less than `tolerance`, relative.   [TakahasiMori1974]
+/// @param nearest to an end: what lies between is nothing beside the tolerance
 template <class F>
-std::optional<Mp> integral_from_ends(const F& f, const Mp& tolerance) {
-  const Mp half_pi = pi_value<Mp>() / Mp(2);
-  // At x = e/(1 + e), e = exp(pi sinh t).
-  const auto term = [&](const Mp& t) {
-    const Mp e = exp(Mp(2) * half_pi * sinh(t));
-    const Mp sum = Mp(1) + e;
-    const Mp rest = Mp(1) / sum;
-    const Mp x = e * rest;
-    const Mp weight = Mp(2) * half_pi * cosh(t) * x * rest;
-    return Mp(f(x, rest) * weight);
-  };
+std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolerance, const Mp& nearest) {
+  const Mp pi = pi_value<Mp>();
   Mp step(1);
-  Mp sum = term(Mp(0));
-  std::optional<Mp> last;
+  std::pair<Mp, Mp> sum{0, 0};
+  std::optional<std::pair<Mp, Mp>> last;
   for (int level = 0; level < 14; ++level) {
     for (const int side : {-1, 1}) {
-      int small = 0;
-      for (int k = 1; small < 2; k += level == 0 ? 1 : 2) {
-        const Mp added = term(Mp(side * k) * step);
-        sum += added;
-        small = abs(added) > tolerance * abs(sum) * Mp(0x1p-20) ? 0 : small + 1;
+      for (int k = level == 0 && side > 0 ? 0 : 1;; k += level == 0 ? 1 : 2) {
+        const Mp t = Mp(side * k) * step;
+        const Mp e = exp(pi * sinh(t));  // x = e/(1 + e)
+        const Mp rest = Mp(1) / (Mp(1) + e);
+        const Mp x = e * rest;
+        if (x < nearest || rest < nearest) break;
+        const std::pair<Mp, Mp> here = f(x, rest);
+        const Mp weight = pi * cosh(t) * x * rest;
+        sum.first += here.first * weight;
+        sum.second += here.second * weight;
       }
     }
-    const Mp value = sum * step;
-    if (!(abs(value) <= std::numeric_limits<Mp>::max())) return std::nullopt;
-    if (last && abs(value - *last) <= tolerance * abs(value)) return value;
+    const std::pair<Mp, Mp> value{sum.first * step, sum.second * step};
+    if (!(abs(value.first) + abs(value.second) <= std::numeric_limits<Mp>::max())) return std::nullopt;
+    const auto rests = [&](const Mp& now, const Mp& before) { return abs(now - before) <= tolerance * abs(now); };
+    if (last && rests(value.first, last->first) && rests(value.second, last->second)) return value;
     last = value;
     step = step / Mp(2);
   }
@@ -114,39 +115,30 @@ class Orbit {
   /// From pericentre to apocentre: time and phase. r = r1 + (r2 - r1) sin^2(pi x/2).
   std::optional<std::pair<Mp, Mp>> between(const Mp& r1, const Mp& r2, const Mp& tolerance) {
     const Mp quarter = pi_value<Mp>() / Mp(2);
-    const auto rate = [&](const Mp& x, const Mp& rest, Mp& r) {
-      const Mp s = sin(quarter * x);
-      const Mp c = sin(quarter * rest);
-      const Mp inside = (r2 - r1) * s * s;
-      const Mp outside = (r2 - r1) * c * c;
-      r = x < rest ? Mp(r1 + inside) : Mp(r2 - outside);
-      return Mp(Mp(2) * quarter / sqrt(Mp(2) / mass_ * (energy_ - effective(r)) / (inside * outside)));
-    };
-    const auto time = integral_from_ends(
+    const Mp nearest = power_of_ten(-digits_ / 3);  // distances of radii are squares of it
+    return integral_from_ends(
         [&](const Mp& x, const Mp& rest) {
-          Mp r(0);
-          return rate(x, rest, r);
+          const Mp s = sin(quarter * x);
+          const Mp c = sin(quarter * rest);
+          const Mp inside = (r2 - r1) * s * s;
+          const Mp outside = (r2 - r1) * c * c;
+          const Mp r = x < rest ? Mp(r1 + inside) : Mp(r2 - outside);
+          const Mp dt =
+              Mp(2) * quarter / sqrt(Mp(2) / mass_ * (energy_ - effective(r)) / (inside * outside));
+          return std::pair{dt, Mp(abs(momentum_) / (mass_ * r * r) * dt)};
         },
-        tolerance);
-    const auto phase = integral_from_ends(
-        [&](const Mp& x, const Mp& rest) {
-          Mp r(0);
-          const Mp dt = rate(x, rest, r);
-          return Mp(dt * momentum_ / (mass_ * r * r));
-        },
-        tolerance);
-    if (!time || !phase) return std::nullopt;
-    return std::pair{*time, Mp(abs(*phase))};
+        tolerance, nearest);
   }
   /// From pericentre to infinity: the phase. 1/r = x/r1.
   std::optional<Mp> to_infinity(const Mp& r1, const Mp& tolerance) {
     const auto phase = integral_from_ends(
         [&](const Mp& x, const Mp&) {
-          return Mp(momentum_ / (mass_ * r1) / sqrt(Mp(2) / mass_ * (energy_ - effective(r1 / x))));
+          return std::pair{Mp(abs(momentum_) / (mass_ * r1) / sqrt(Mp(2) / mass_ * (energy_ - effective(r1 / x)))),
+                           Mp(0)};
         },
-        tolerance);
+        tolerance, power_of_ten(-2 * (digits_ / 3)));
     if (!phase) return std::nullopt;
-    return Mp(abs(*phase));
+    return phase->first;
   }
 
  private:
@@ -165,8 +157,8 @@ class Orbit {
       const Mp change = step(x);
       x = x - change;
       if (!(x > begin / Mp(2) && x < begin * Mp(2))) return std::nullopt;
-      if (!(abs(change) > settled * x)) {  // once more: the digits double
-        x = x - step(x);
+      if (!(abs(change) > settled * x)) {  // a third of the digits: twice more, and there are all of them
+        for (int more = 0; more < 2; ++more) x = x - step(x);
         return x;
       }
     }
@@ -191,7 +183,8 @@ constexpr std::pair<const char*, std::optional<Mp> Found::*> entries[] = {{"r_mi
                                                                           {"apsidal_angle", &Found::apsidal_angle},
                                                                           {"radial_period", &Found::radial_period}};
 
-Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tolerance) {
+/// @param integrals the apsidal angle and the radial period too
+Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tolerance, bool integrals) {
   const auto near = [&](const char* name) -> std::optional<double> {
     const auto& x = known[name];
     if (!x.is_number() || !std::isfinite(x.get<double>()) || !(x.get<double>() > 0)) return std::nullopt;
@@ -209,6 +202,7 @@ Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tole
   }
   if (r_min) found.r_min = orbit.turning_point(Mp(*r_min));
   if (r_max) found.r_max = orbit.turning_point(Mp(*r_max));
+  if (!integrals) return found;
   if (found.r_min && found.r_max && near("radial_period") && *found.r_min < *found.r_max) {
     if (const auto both = orbit.between(*found.r_min, *found.r_max, tolerance)) {
       found.radial_period = Mp(2) * both->first;
@@ -220,37 +214,73 @@ Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tole
   return found;
 }
 
+
+/// In so many digits: differences of V_eff near its zeros lose two thirds of more.
+class Digits {
+ public:
+  Digits(const Scenario& scenario, int digits)
+      : scope_(guarded(digits)), tolerance(power_of_ten(-digits - 3)), orbit(scenario, guarded(digits)) {}
+
+ private:
+  static int guarded(int digits) { return 3 * digits + 30; }
+  MpDigits scope_;
+
+ public:
+  Mp tolerance;
+  Orbit orbit;
+};
+
+/// What moving the energy and the angular momentum by a part of |T| + |V| and of itself makes of each entry, over that
+/// part; 0 where it is not known.
+std::array<double, std::size(entries)> changes_by_start(const Scenario& scenario, const nlohmann::ordered_json& known) {
+  Digits in(scenario, 20);
+  const Mp part = power_of_ten(-12);
+  const Found found = found_of(in.orbit, known, in.tolerance, true);
+  Orbit by_energy = in.orbit;
+  by_energy.move(part * in.orbit.size(), Mp(0));
+  const Found with_energy = found_of(by_energy, known, in.tolerance, true);
+  Orbit by_momentum = in.orbit;
+  by_momentum.move(Mp(0), part * in.orbit.momentum());
+  const Found with_momentum = found_of(by_momentum, known, in.tolerance, true);
+  std::array<double, std::size(entries)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto value = entries[i].second;
+    const auto &x = found.*value, &a = with_energy.*value, &b = with_momentum.*value;
+    if (x && a && b) all[i] = static_cast<double>((abs(*a - *x) + abs(*b - *x)) / part);
+  }
+  return all;
+}
+
 }  // namespace
 
 void add_orbit_digits(const Scenario& scenario, nlohmann::ordered_json& orbit) {
   const int digits = std::min(digits_beyond_double(scenario.request.arithmetic), most_digits);
-  // Differences of V_eff near its zeros lose two thirds of the digits.
-  const int guarded = 3 * digits + 30;
-  const MpDigits scope(guarded);
-  const Mp rounding = power_of_ten(-digits);
-  const Mp tolerance = rounding / Mp(1000);
-  Orbit motion(scenario, guarded);
-  const Found found = found_of(motion, orbit, tolerance);
-  Orbit by_energy = motion;
-  by_energy.move(rounding * motion.size(), Mp(0));
-  const Found with_energy = found_of(by_energy, orbit, tolerance);
-  Orbit by_momentum = motion;
-  by_momentum.move(Mp(0), rounding * motion.momentum());
-  const Found with_momentum = found_of(by_momentum, orbit, tolerance);
-
-  nlohmann::ordered_json uncertainty;
-  for (const auto& [name, value] : entries) {
-    uncertainty[name] = nullptr;
-    const std::optional<Mp>& x = found.*value;
-    if (!x) continue;
-    if (const auto& a = with_energy.*value, &b = with_momentum.*value; a && b) {
-      const Mp moved = abs(*a - *x) + abs(*b - *x) + rounding * abs(*x);
-      uncertainty[name] = std::max(static_cast<double>(moved), std::numeric_limits<double>::min());
+  const nlohmann::ordered_json known = orbit;
+  const auto changes = changes_by_start(scenario, known);
+  orbit["uncertainty"] = nlohmann::ordered_json::object();
+  const auto add = [&](int in_digits, bool integrals) {
+    Digits in(scenario, in_digits);
+    const Found found = found_of(in.orbit, known, in.tolerance, integrals);
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      const auto [name, value] = entries[i];
+      const std::optional<Mp>& x = found.*value;
+      if (!x || !(changes[i] > 0)) {
+        if (!orbit["uncertainty"].contains(name)) orbit["uncertainty"][name] = nullptr;
+        continue;
+      }
+      const double size = static_cast<double>(abs(*x));
+      const double moved = std::pow(10.0, -digits) * changes[i] + std::pow(10.0, -in_digits) * size;
+      orbit["uncertainty"][name] = std::max(moved, std::numeric_limits<double>::min());  // it is not 0
+      const MpDigits rounded(in_digits);
+      orbit[name] = written_digits(*x + Mp(0));
     }
-    const MpDigits rounded(digits);
-    orbit[name] = written_digits(*x + Mp(0));
+  };
+  if (digits > most_digits_of_integrals) {
+    add(most_digits_of_integrals, true);
+    add(digits, false);
+  } else {
+    add(digits, true);
   }
-  orbit["uncertainty"] = uncertainty;
 }
 
 }  // namespace hamflow
