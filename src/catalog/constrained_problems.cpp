@@ -5,6 +5,7 @@
 #include "hamflow/problems/support/double_pendulum_body.hpp"
 #include "hamflow/problems/support/generalised.hpp"
 #include "hamflow/problems/t_tube.hpp"
+#include "known_exact.hpp"
 #include "typed_problem.hpp"
 
 namespace hamflow {
@@ -153,9 +154,15 @@ std::optional<Frame> exact_pendulum(const Texts& parameters, const std::vector<d
   const auto start = Chart::read<2>(q, p);
   const auto angle =
       Chart::to_angles(given, Start<long double, 2>{cast<long double>(start.q), cast<long double>(start.p)});
-  const auto end = Pendulum<double>(Parameters<double>(parameters)).exact(angle.q, angle.p, t);
+  const Pendulum<double> problem{Parameters<double>(parameters)};
+  const LongMotion motion = [&](const LongState& z, long double time) -> std::optional<LongState> {
+    const auto at = problem.exact({z[0]}, {z[1]}, time);
+    if (!at) return std::nullopt;
+    return LongState{at->q[0], at->p[0]};
+  };
+  const auto end = known_exact(motion, {angle.q[0], angle.p[0]}, t, {});
   if (!end) return std::nullopt;
-  const auto there = Chart::from_angles(given, *end);
+  const auto there = Chart::from_angles(given, Start<long double, 1>{{(*end)[0]}, {(*end)[1]}});
   Frame frame = Chart::frame_of(Start<double, 2>{cast<double>(there.q), cast<double>(there.p)});
   frame.time = t;
   return frame;

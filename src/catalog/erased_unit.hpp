@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "erased.hpp"
+#include "hamflow/run/double_constants.hpp"
 #include "mp_simulation.hpp"
 #include "problem_facts.hpp"
 
@@ -54,7 +55,7 @@ class ErasedUnit : ProblemStart<Family> {
   template <class R>
   static std::unique_ptr<Simulation> simulate_in(const Request& request) {
     const auto s = In::template start<R>(request);
-    const Family<R> problem = In::template make<R>(In::template parameters_of<R>(request), s.q.size());
+    const Family<R> problem = problem_of<R>(request, s.q.size());
     const auto moved = [](const auto& x) {
       auto y = zeros<R, dynamic>(x.size());
       for (std::size_t i = 0; i < y.size(); ++i) y[i] = x[i];
@@ -62,6 +63,18 @@ class ErasedUnit : ProblemStart<Family> {
     };
     return simulate_erased<R>({functions_of<R>(problem), moved(s.q), moved(s.p), evaluate_number<R>(request.dt)},
                               request);
+  }
+
+  /// Constants that are made of the parameters, such as m omega^2, in the arithmetic of the run, or as it has them in
+  /// double.
+  template <class R>
+  static Family<R> problem_of(const Request& request, std::size_t size) {
+    if constexpr (!std::is_same_v<R, double> && std::is_constructible_v<Family<R>, const Family<double>&>) {
+      if (DoubleConstants::are_in_use()) {
+        return Family<R>(In::template make<double>(In::template parameters_of<double>(request), size));
+      }
+    }
+    return In::template make<R>(In::template parameters_of<R>(request), size);
   }
 
   template <class R>

@@ -3,6 +3,7 @@
 #include "hamflow/core/constrained_motion.hpp"
 #include "hamflow/problems/support/central_force.hpp"
 #include "hamflow/problems/support/polar.hpp"
+#include "hamflow/run/double_constants.hpp"
 #include "hamflow/run/formula_functions.hpp"
 #include "hamflow/run/walls.hpp"
 #include "mp_simulation.hpp"
@@ -22,8 +23,8 @@ using FormulaFace = Erased<R, Capability::smooth>;
 
 template <class R>
 ErasedFunctions<R> functions_of(const EntryModel& model, const Parameters<R>& parameters,
-                                TypedCentre centre = TypedCentre::none) {
-  const auto bound = std::make_shared<const formula::BoundModel<R>>(model.made(), parameters);
+                                TypedCentre centre = TypedCentre::none, const Parameters<double>* rounded = nullptr) {
+  const auto bound = std::make_shared<const formula::BoundModel<R>>(model.made(), parameters, rounded);
   ErasedFunctions<R> all{capabilities_of(model.structure()), model.degrees(),
                          std::make_shared<FormulaFunctions<R, R>>(bound, centre),
                          std::make_shared<FormulaFunctions<R, Trace<R>>>(bound), nullptr};
@@ -133,7 +134,10 @@ std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, cons
 template <class R>
 std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& request) {
   const EntryModel& model = typed.model;
-  const ErasedFunctions<R> functions = functions_of<R>(model, request.parameters, typed.centre());
+  const bool rounds = DoubleConstants::are_in_use();
+  const Parameters<double> rounded(rounds ? request.parameters : Texts());
+  const ErasedFunctions<R> functions =
+      functions_of<R>(model, Parameters<R>(request.parameters), typed.centre(), rounds ? &rounded : nullptr);
   const StateOf<R> s = start_of<R>(typed, functions.template as<Capability::smooth>(), request);
   const ErasedRun<R> run{functions, s.q, s.p, evaluate_number<R>(request.dt)};
   if constexpr (std::is_same_v<R, double>) return without_time(model, simulate_in_double(*model.made(), run, request));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hamflow/run/probe.hpp"
+#include "known_exact.hpp"
 #include "problem_start.hpp"
 
 namespace hamflow {
@@ -122,15 +123,30 @@ class ProblemFacts : ProblemStart<Family> {
 
   static std::optional<Frame> exact(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p,
                                     double t) {
-    const auto end = In::template make<double>(Parameters<double>(parameters), q.size())
-                         .exact(cast<long double>(vector_of(q)), cast<long double>(vector_of(p)), t);
+    const P problem = In::template make<double>(Parameters<double>(parameters), q.size());
+    const LongMotion motion = [&](const LongState& z, long double time) -> std::optional<LongState> {
+      auto at = cast<long double>(vector_of(q));
+      auto momenta = at;
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        at[i] = z[i];
+        momenta[i] = z[at.size() + i];
+      }
+      const auto end = problem.exact(at, momenta, time);
+      if (!end) return std::nullopt;
+      LongState all(end->q.begin(), end->q.end());
+      all.insert(all.end(), end->p.begin(), end->p.end());
+      return all;
+    };
+    LongState start(q.begin(), q.end());
+    start.insert(start.end(), p.begin(), p.end());
+    std::vector<bool> is_angle;
+    for (const std::string& coordinate : P::info().coordinates) is_angle.push_back(coordinate == "phi");
+    const auto end = known_exact(motion, start, t, is_angle);
     if (!end) return std::nullopt;
     Frame frame;
     frame.time = t;
-    for (const long double x : end->q) frame.q.push_back(static_cast<double>(x));
-    for (const long double x : end->p) frame.p.push_back(static_cast<double>(x));
-    const auto is_known = [](double x) { return std::isfinite(x); };  // not where rounding hides it
-    if (!std::ranges::all_of(frame.q, is_known) || !std::ranges::all_of(frame.p, is_known)) return std::nullopt;
+    frame.q.assign(end->begin(), end->begin() + static_cast<std::ptrdiff_t>(q.size()));
+    frame.p.assign(end->begin() + static_cast<std::ptrdiff_t>(q.size()), end->end());
     return frame;
   }
 };

@@ -138,6 +138,25 @@ std::vector<Column> sample_columns(hid_t file, const RunDescription& run) {
   return all;
 }
 
+/// Of a located state: q, p, t with all digits.
+void add_digits(hid_t file, const RunDescription& run, const std::string& group, std::vector<Column>& all) {
+  const Hdf5Handle type = digits_type(run.digits_length);
+  const char* const meaning = "with all digits: decimal texts that read back to the last bit";
+  all.emplace_back(file, group + "q", type, run.dimension, batch_rows,
+                   ColumnText{run.coordinates, meaning, run.units.q});
+  all.emplace_back(file, group + "p", type, run.dimension, batch_rows, ColumnText{run.momenta, meaning, run.units.p});
+  all.emplace_back(file, group + "t", type, 0, batch_rows, ColumnText{{"t"}, meaning, run.units.t});
+}
+/// In that order.
+std::vector<Column>::iterator put_digits(const FrameDigits& digits, std::vector<Column>::iterator column) {
+  for (const std::string& x : digits.q) column->add(x);
+  ++column;
+  for (const std::string& x : digits.p) column->add(x);
+  ++column;
+  column->add(digits.time);
+  return ++column;
+}
+
 std::vector<Column> section_columns(hid_t file, const RunDescription& run) {
   const std::size_t n = run.dimension;
   std::vector<Column> all;
@@ -146,6 +165,7 @@ std::vector<Column> section_columns(hid_t file, const RunDescription& run) {
   };
   add("section/q", n, {run.coordinates, "coordinates of the points of the section", run.units.q});
   add("section/p", n, {run.momenta, "canonical momenta of the points of the section", run.units.p});
+  if (run.digits_length > 0) add_digits(file, run, "digits/section/", all);
   add("section/t", 0, {{"t"}, "times of the points of the section", run.units.t});
   return all;
 }
@@ -160,6 +180,7 @@ std::vector<Column> event_columns(hid_t file, const RunDescription& run, const s
   add("q", H5T_IEEE_F64LE, n, {run.coordinates, "coordinates at the event", run.units.q});
   add("p", H5T_IEEE_F64LE, n, {run.momenta, "canonical momenta at the event", run.units.p});
   add("step", H5T_STD_I64LE, 0, {{"step"}, "at the end of which the event is behind", {}});
+  if (run.digits_length > 0) add_digits(file, run, "digits/" + group, all);
   add("t", H5T_IEEE_F64LE, 0, {{"t"}, "times of the event", run.units.t});
   return all;
 }
@@ -202,15 +223,23 @@ std::unique_ptr<RunFile::Impl> RunFile::create(const std::filesystem::path& file
   if (impl->digits) (void)make_group(id, "digits");
   if (description.section) {
     (void)make_group(id, "section");
+    if (impl->digits) (void)make_group(id, "digits/section");
     impl->section = section_columns(id, description);
   }
   if (description.walls) {
     (void)make_group(id, "events/wall");
     impl->walls = wall_columns(id, description);
   }
-  if (!description.events.empty()) (void)make_group(id, "events/user");
+  if (!description.events.empty()) {
+    (void)make_group(id, "events/user");
+    if (impl->digits) {
+      (void)make_group(id, "digits/events");
+      (void)make_group(id, "digits/events/user");
+    }
+  }
   for (const std::string& event : description.events) {
     (void)make_group(id, ("events/user/" + event).c_str());
+    if (impl->digits) (void)make_group(id, ("digits/events/user/" + event).c_str());
     impl->events.push_back(event_columns(id, description, event));
   }
   impl->events_waiting.resize(impl->events.size());
@@ -331,7 +360,9 @@ void RunFile::append(const Frame& frame, std::span<const double> observables) {
 void RunFile::append(const SectionPoint& point) {
   for (const double x : point.q) impl_->section.at(0).add(x);
   for (const double x : point.p) impl_->section[1].add(x);
-  impl_->section[2].add(point.time);
+  auto next = impl_->section.begin() + 2;
+  if (impl_->digits) next = put_digits(point.digits, next);
+  next->add(point.time);
   ++impl_->section_rows;
   if (++impl_->section_waiting == impl_->most_waiting) flush();
 }
@@ -352,7 +383,9 @@ void RunFile::append(std::size_t event, std::int64_t step, const SectionPoint& p
   for (const double x : point.q) columns.at(0).add(x);
   for (const double x : point.p) columns[1].add(x);
   columns[2].add(step);
-  columns[3].add(point.time);
+  auto next = columns.begin() + 3;
+  if (impl_->digits) next = put_digits(point.digits, next);
+  next->add(point.time);
   ++impl_->event_rows[event];
   if (++impl_->events_waiting[event] == impl_->most_waiting) flush();
 }

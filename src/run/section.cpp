@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamflow/arithmetic/mp.hpp"
 #include "hamflow/numerics/root.hpp"
 
 namespace hamflow {
@@ -93,7 +94,7 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
     failed_ = failed_ || before_step.look_part(theta, partial_) != Outcome::done;
     if (failed_) return 0.0;  // there is no state to look at
     const double x = distance(partial_);
-    if (std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x)};
+    if (std::abs(x) < best.residual) best = {partial_.time, partial_.q, partial_.p, std::abs(x), partial_.digits};
     return x;
   };
   const double theta = bracketed_root([&](double at) { return failed_ ? 0 : look(at); }, change.from, change.to,
@@ -106,7 +107,62 @@ void SectionSearch::locate(const Simulation& before_step, const Change& given) {
     ++jumps_;
     return;
   }
+  if (!best.digits.q.empty() && (!section_.expression || section_.in_digits)) refine(before_step, best);
   take(best);
+}
+
+/// Of a run beyond double: by the secant method from the zero in double, in the digits of the run, until it comes no
+/// nearer. Each step doubles the digits nearly.
+void SectionSearch::refine(const Simulation& before_step, SectionPoint& point) const {
+  constexpr int most_looks = 64;
+  std::size_t longest = point.digits.time.size();
+  for (const auto* texts : {&point.digits.q, &point.digits.p}) {
+    for (const std::string& text : *texts) longest = std::max(longest, text.size());
+  }
+  const MpDigits scope(static_cast<int>(std::clamp<std::size_t>(longest, MpDigits::fewest, MpDigits::most)));
+  const Mp value = section_.value_text.empty() ? Mp(section_.value) : evaluate_number<Mp>(section_.value_text);
+  const auto distance_of = [&](const FrameDigits& digits) {
+    if (section_.in_digits) return Mp(section_.in_digits(digits) - value);
+    return Mp(parse_decimal<Mp>((section_.momentum ? digits.p : digits.q)[section_.coordinate]) - value);
+  };
+  Frame frame;
+  before_step.look(frame);
+  Mp t = parse_decimal<Mp>(point.digits.time);
+  Mp x = distance_of(point.digits);
+  Mp least = abs(x);
+  Mp next = t - (t - parse_decimal<Mp>(frame.digits.time)) * Mp(0x1p-20);
+  int idle = 0;
+  for (int i = 0; i < most_looks && idle < 2 && least > Mp(0); ++i) {
+    if (before_step.look_ahead(written_digits(next), frame) != Outcome::done) break;
+    const Mp there = distance_of(frame.digits);
+    ++idle;
+    if (abs(there) < least) {
+      idle = 0;
+      least = abs(there);
+      point.time = frame.time;
+      point.q = frame.q;
+      point.p = frame.p;
+      point.digits = frame.digits;
+    }
+    if (there == x) break;
+    const Mp after = next - there * (next - t) / (there - x);
+    t = next;
+    x = there;
+    next = after;
+  }
+  point.residual = static_cast<double>(least);
+  if (least > Mp(0)) point.residual = std::max(point.residual, std::numeric_limits<double>::min());  // it is not 0
+}
+
+std::string jumps_text(std::int64_t jumps) {
+  return (jumps == 1 ? std::string("1 change") : std::to_string(jumps) + " changes") + " of sign " +
+         (jumps == 1 ? "was no zero" : "were no zeros") + ": the expression jumps there, or has a pole";
+}
+
+std::string SectionSearch::message() const {
+  std::string all = jumps_ > 0 ? jumps_text(jumps_) : std::string();
+  if (failed_) all += (all.empty() ? "" : "; ") + std::string("a partial step failed: no points after it were sought");
+  return all;
 }
 
 void SectionSearch::take(const SectionPoint& point) {
@@ -338,7 +394,7 @@ void SectionSearch::locate_all(const Simulation& before_step, double before, con
     if (change.from == change.to) {
       if (!crosses(change.before, 0)) continue;
       const double x = sample(before_step, change.from).x;
-      if (!failed_) take({partial_.time, partial_.q, partial_.p, std::abs(x)});
+      if (!failed_) take({partial_.time, partial_.q, partial_.p, std::abs(x), partial_.digits});
     } else if (crosses(change.before, change.now) || passes_an_edge(change.before, change.now))
       locate(before_step, change);
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hamflow/formula/formula.hpp"
+#include "hamflow/run/expression_in_digits.hpp"
 #include "hamflow/run/state_names.hpp"
 
 namespace hamflow {
@@ -15,9 +16,9 @@ void append(std::vector<std::string>& all, const StateNames& names) {
   all.insert(all.end(), names.p.begin(), names.p.end());
 }
 
-/// The names that a state has, then the time, then parameters with their values: k, masses[1].
+/// The names that a state has, then the time, then parameters with their values, and the texts of these: k, masses[1].
 FormulaSymbols symbols_of(const ProblemEntry& problem, const Texts& parameters, std::size_t size, bool& numbered,
-                          std::vector<double>& values) {
+                          std::vector<double>& values, std::vector<std::string>& texts) {
   FormulaSymbols symbols{.names = {}, .known = {}, .what = "coordinates, momenta and parameters"};
   const StateNames names = state_names(problem, parameters, size);
   append(symbols.names, names);
@@ -26,18 +27,22 @@ FormulaSymbols symbols_of(const ProblemEntry& problem, const Texts& parameters, 
   if (numbered) append(symbols.names, by_number);
   symbols.names.emplace_back("t");
   const Parameters<double> given(parameters);
-  const auto add = [&](const std::string& name, double value) {
+  const auto add = [&](const std::string& name, double value, const std::string& text) {
     if (std::find(symbols.names.begin(), symbols.names.end(), name) != symbols.names.end()) return;
     symbols.names.push_back(name);
     symbols.known[name] = value;
     values.push_back(value);
+    texts.push_back(text);
   };
   for (const ParameterInfo& parameter : problem.info.parameters) {
     if (!given.has(parameter.name)) continue;
     const std::vector<double>& list = given.list(parameter.name);
-    if (parameter.type != OptionType::list && list.size() == 1) add(parameter.name, list[0]);
+    const std::vector<std::string> parts = list_parts(parameters.at(parameter.name));
+    if (parameter.type != OptionType::list && list.size() == 1) add(parameter.name, list[0], parts.at(0));
     if (parameter.type == OptionType::number) continue;
-    for (std::size_t i = 0; i < list.size(); ++i) add(parameter.name + "[" + std::to_string(i + 1) + "]", list[i]);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      add(parameter.name + "[" + std::to_string(i + 1) + "]", list[i], parts.at(i));
+    }
   }
   return symbols;
 }
@@ -58,7 +63,8 @@ StateExpression::StateExpression(const std::string& text, const ProblemEntry& pr
   const auto read = std::make_shared<Read>();
   read->text = text;
   read->size = size;
-  const FormulaSymbols symbols = symbols_of(problem, parameters, size, read->numbered, read->parameters);
+  std::vector<std::string> texts;
+  const FormulaSymbols symbols = symbols_of(problem, parameters, size, read->numbered, read->parameters, texts);
   read->formula = parse_formula(text, symbols);
   read->code = read->formula.bind<double>();
   read_ = read;
@@ -123,6 +129,27 @@ double StateExpression::operator()(const Frame& frame) const {
   double result = 0;
   read_->code.run<double>(value_of, [&](std::size_t, double value) { result = value; });
   return result;
+}
+
+ExpressionInDigits expression_in_digits(const std::string& text, const ProblemEntry& problem, const Texts& parameters,
+                                        std::size_t size) {
+  bool numbered = false;
+  std::vector<double> rounded;
+  std::vector<std::string> texts;  // of the parameters
+  const FormulaSymbols symbols = symbols_of(problem, parameters, size, numbered, rounded, texts);
+  const std::size_t of_state = (numbered ? 4 : 2) * size;
+  return [formula = parse_formula(text, symbols), texts, of_state, size](const FrameDigits& digits) {
+    const auto value_of = [&](int symbol) -> Mp {
+      const auto k = static_cast<std::size_t>(symbol);
+      if (k > of_state) return evaluate_number<Mp>(texts[k - of_state - 1]);
+      if (k == of_state) return parse_decimal<Mp>(digits.time);
+      const std::size_t at = k % (2 * size);
+      return parse_decimal<Mp>(at < size ? digits.q[at] : digits.p[at - size]);
+    };
+    Mp result(0);
+    formula.bind<Mp>().run<Mp>(value_of, [&](std::size_t, const Mp& value) { result = value; });
+    return result;
+  };
 }
 
 }  // namespace hamflow

@@ -108,6 +108,7 @@ void ScenarioReader::read_events(TomlTable& table) {
     if (const auto direction = entry.whole(keys.direction)) event.zero.direction = static_cast<int>(*direction);
     event.stops = entry.text(keys.action).value_or("") == keys.action.words.back();
     event.zero.expression = read_changing_expression(entry, keys.expression);
+    if (event.zero.expression) event.zero.in_digits = in_digits(*event.zero.expression);
     event.zero.by_steps = scenario_.map;
     entry.finish();
     scenario_.events.push_back(std::move(event));
@@ -124,7 +125,10 @@ void ScenarioReader::read_section(TomlTable& table) {
   if (!section.exists()) return;  // complained about
   const SectionKeys& keys = section_keys();
   Section wanted;
-  if (const auto value = section.number(keys.value)) wanted.value = *value;
+  if (const auto value = section.text(keys.value)) {
+    wanted.value = number_value(*value);
+    wanted.value_text = *value;
+  }
   if (const auto direction = section.whole(keys.direction)) wanted.direction = static_cast<int>(*direction);
   wanted.by_steps = scenario_.map;
   section.know_all({keys.coordinate.name, keys.expression.name});
@@ -205,7 +209,15 @@ void ScenarioReader::read_section_expression(TomlTable& section, Section wanted)
     wanted.momentum = first >= dimension;
   }
   wanted.expression = expression;
+  wanted.in_digits = in_digits(*expression);
   scenario_.section = wanted;
+}
+
+/// The same beyond double; nothing in double.
+ExpressionInDigits ScenarioReader::in_digits(const StateExpression& expression) const {
+  if (digits_beyond_double(scenario_.request.arithmetic) == 0) return {};
+  return expression_in_digits(expression.text(), *scenario_.problem, scenario_.request.parameters,
+                              scenario_.start_q.size());
 }
 
 /// An expression of the state; where it is wrong, the complaint says at which column of it.

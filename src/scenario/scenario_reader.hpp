@@ -111,6 +111,7 @@ class ScenarioReader {
   void read_section_coordinate(TomlTable& section, Section wanted);
   void read_section_expression(TomlTable& section, Section wanted);
   std::optional<StateExpression> read_expression(TomlTable& table, const OptionInfo& key);
+  ExpressionInDigits in_digits(const StateExpression& expression) const;
   std::optional<StateExpression> read_changing_expression(TomlTable& table, const OptionInfo& key);
   void read_observables(TomlTable& table);
   void read_samples(TomlTable& table);

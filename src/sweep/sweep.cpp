@@ -115,7 +115,16 @@ class Sweep::Worker {
       row.section.push_back(point.time);
       row.section.insert(row.section.end(), point.q.begin(), point.q.end());
       row.section.insert(row.section.end(), point.p.begin(), point.p.end());
+      if (point.digits.q.empty()) return;
+      row.section_digits.push_back(point.digits.time);
+      row.section_digits.insert(row.section_digits.end(), point.digits.q.begin(), point.digits.q.end());
+      row.section_digits.insert(row.section_digits.end(), point.digits.p.begin(), point.digits.p.end());
     };
+  }
+
+  static void take_section(const SectionSearch& search, MemberRow& row) {
+    row.section_residual = search.max_residual();
+    row.section_message = search.message();
   }
 
   /// @param taken of all steps: fewer where the sweep was stopped
@@ -134,7 +143,7 @@ class Sweep::Worker {
     row.invariants = std::move(end.invariants);
     row.walls = std::move(end.walls);
     row.halved = end.halved;
-    if (watched.section) row.section_residual = watched.section->max_residual();
+    if (watched.section) take_section(*watched.section, row);
     if (row.status == Outcome::done) {
       if (watched.watch) row.observables = watched.watch->row();
       if (is_suspect(row)) row.nonsense = sweep_.options_.is_nonsense(scenario_of(member), row);
@@ -176,7 +185,7 @@ class Sweep::Worker {
     Outcome outcome = go(*simulation, scenario.steps, observers);
     if (watch) row.stopped_by = watch->stopped_by();
     if (outcome == Outcome::stopped && row.stopped_by) outcome = Outcome::done;  // by its own will
-    if (finder) row.section_residual = finder->max_residual();
+    if (finder) take_section(finder->search(), row);
     Frame frame;
     simulation->look(frame);
     if (watch) carry_to_the_end(watch->tangents(), frame);
@@ -190,7 +199,10 @@ class Sweep::Worker {
     row.invariants = simulation->invariants();
     row.walls = simulation->wall_counts();
     row.halved = simulation->effort().halved;
-    if (watch) row.events = watch->events();
+    if (watch) {
+      row.events = watch->events();
+      row.event_notes = watch->event_notes();
+    }
     row.message =
         outcome == Outcome::non_finite || outcome == Outcome::lattice_overflow ? "" : cause_of(simulation->failure());
     if (row.message.empty() || !is_failure(outcome)) row.message = message(outcome);

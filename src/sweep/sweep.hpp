@@ -30,6 +30,7 @@ struct MemberStop {
   double t = 0;
   std::vector<double> q;
   std::vector<double> p;
+  FrameDigits digits{};  // the same in arithmetic beyond double
 };
 
 /// The result of a member; of one that failed, its last good state. What its lists hold is called as SweepNames says.
@@ -45,13 +46,16 @@ struct MemberRow {
   std::vector<InvariantExcursion> invariants;
   std::vector<double> observables;
   std::vector<WallCount> walls;
-  std::vector<std::int64_t> events;      // how often each of the member's was met
-  std::optional<MemberStop> stopped_by;  // done before its last step
-  std::int64_t halved = 0;               // steps
-  std::vector<double> section;           // of each point of the section t, q, p
-  double section_residual = 0;           // the largest
-  std::string message;                   // of a failure, and why there is no start
-  bool nonsense = false;                 // done, but its energy is off by more than it can be
+  std::vector<std::int64_t> events;         // how often each of the member's was met
+  std::vector<std::string> event_notes;     // what there is to say of those counts
+  std::optional<MemberStop> stopped_by;     // done before its last step
+  std::int64_t halved = 0;                  // steps
+  std::vector<double> section;              // of each point of the section t, q, p
+  std::vector<std::string> section_digits;  // the same in arithmetic beyond double
+  double section_residual = 0;              // the largest
+  std::string section_message;              // why points may be missing
+  std::string message;                      // of a failure, and why there is no start
+  bool nonsense = false;                    // done, but its energy is off by more than it can be
 
   /// As it is called in files.
   std::string status_name() const { return no_start ? "no_start" : std::string(name(status)); }
@@ -76,6 +80,7 @@ class MemberWatch {
   virtual std::vector<double> row() const = 0;
   /// How often each event of the scenario was met, and which of them has ended the run.
   virtual std::vector<std::int64_t> events() const { return {}; }
+  virtual std::vector<std::string> event_notes() const { return {}; }
   virtual std::optional<MemberStop> stopped_by() const { return {}; }
 };
 
@@ -238,12 +243,13 @@ void MemberRow::archive(Archive& ar) {
   ar(observables);
   list(walls, [&ar](WallCount& one) { ar(one.coordinate, one.side, one.bounces); });
   bool stopped = stopped_by.has_value();
-  ar(events, stopped);
+  ar(events, event_notes, stopped);
   if (stopped) {
     if (!stopped_by) stopped_by.emplace();
-    ar(stopped_by->event, stopped_by->t, stopped_by->q, stopped_by->p);
+    FrameDigits& all = stopped_by->digits;
+    ar(stopped_by->event, stopped_by->t, stopped_by->q, stopped_by->p, all.time, all.q, all.p);
   }
-  ar(halved, section, section_residual, message, nonsense);
+  ar(halved, section, section_digits, section_residual, section_message, message, nonsense);
 }
 
 }  // namespace hamflow

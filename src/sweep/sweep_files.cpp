@@ -131,16 +131,17 @@ std::string csv_name(const SweepColumn& column, std::size_t i) {
 
 void write_sweep_csv(const std::filesystem::path& folder, SweepTable table) {
   // Each column with all its digits, where there are more than those of a double. What was varied stays a number.
-  std::vector<SweepColumn>& columns = table.members;
   const std::string beyond_double = "digits/";
-  for (SweepColumn& column : columns) {
-    for (const SweepColumn& other : columns) {
-      const bool varied = column.name.starts_with("varied/");
-      if (!varied && other.name == beyond_double + column.name) column.texts = other.texts;
+  for (std::vector<SweepColumn>* columns : {&table.members, &table.section}) {
+    for (SweepColumn& column : *columns) {
+      for (const SweepColumn& other : *columns) {
+        const bool varied = column.name.starts_with("varied/");
+        if (!varied && other.name == beyond_double + column.name) column.texts = other.texts;
+      }
     }
+    std::erase_if(*columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
   }
-  std::erase_if(columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
-  write_csv(folder / "sweep.csv", columns);
+  write_csv(folder / "sweep.csv", table.members);
   if (!table.section.empty()) write_csv(folder / "section.csv", table.section);
 }
 

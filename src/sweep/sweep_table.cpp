@@ -124,13 +124,17 @@ void add_given(const Sweep& sweep, std::vector<SweepColumn>& columns) {
   }
 }
 
+std::vector<std::string> all_shortest(const std::vector<double>& numbers) {
+  std::vector<std::string> all;
+  for (const double x : numbers) all.push_back(shortest(x));
+  return all;
+}
+
 /// All digits of a row. Of a member in double, where others have more, those that read back as the same double.
 FrameDigits digits_of(const MemberRow& row) {
   if (!row.digits.q.empty() || row.q.empty()) return row.digits;
-  FrameDigits all{shortest(row.t), {}, {}, shortest(row.energy.final), shortest(row.energy.initial)};
-  for (const double x : row.q) all.q.push_back(shortest(x));
-  for (const double x : row.p) all.p.push_back(shortest(x));
-  return all;
+  return {shortest(row.t), all_shortest(row.q), all_shortest(row.p), shortest(row.energy.final),
+          shortest(row.energy.initial)};
 }
 
 void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& columns) {
@@ -143,6 +147,29 @@ void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& col
     columns.push_back(std::move(column));
   };
   using List = std::vector<std::string>;
+  if (sweep.names().stop()) {
+    static const MemberStop none;
+    const auto stop = [&](const char* name, std::size_t width, bool scalar, const auto& value, const auto& digits) {
+      SweepColumn column{name, width, scalar};
+      for (const MemberRow& row : sweep.rows()) {
+        const MemberStop& seen = row.stopped_by ? *row.stopped_by : none;
+        List texts = digits(seen.digits);
+        if (seen.digits.q.empty() && row.stopped_by) texts = all_shortest(value(seen));  // a member in double
+        texts.resize(width);
+        column.texts.insert(column.texts.end(), texts.begin(), texts.end());
+      }
+      columns.push_back(std::move(column));
+    };
+    stop(
+        "digits/stopped_by/t", 1, true, [](const MemberStop& s) { return std::vector<double>{s.t}; },
+        [](const FrameDigits& d) { return List{d.time}; });
+    stop(
+        "digits/stopped_by/q", n, false, [](const MemberStop& s) { return s.q; },
+        [](const FrameDigits& d) { return d.q; });
+    stop(
+        "digits/stopped_by/p", n, false, [](const MemberStop& s) { return s.p; },
+        [](const FrameDigits& d) { return d.p; });
+  }
   add("digits/final/t", 1, true, [](const FrameDigits& d) { return List{d.time}; });
   add("digits/final/q", n, false, [](const FrameDigits& d) { return d.q; });
   add("digits/final/p", n, false, [](const FrameDigits& d) { return d.p; });
@@ -217,7 +244,22 @@ std::vector<SweepColumn> section_columns_of(const Sweep& sweep) {
       p.numbers.insert(p.numbers.end(), middle, middle + static_cast<std::ptrdiff_t>(n));
     }
   }
-  return {std::move(member), std::move(t), std::move(q), std::move(p)};
+  std::vector<SweepColumn> all{std::move(member), std::move(t), std::move(q), std::move(p)};
+  if (!sweep.beyond_double()) return all;
+  SweepColumn t_digits{"digits/section/t"};
+  SweepColumn q_digits{"digits/section/q", n, false};
+  SweepColumn p_digits{"digits/section/p", n, false};
+  for (const MemberRow& row : sweep.rows()) {
+    const std::vector<std::string> texts = row.section_digits.empty() ? all_shortest(row.section) : row.section_digits;
+    for (auto at = texts.begin(); at != texts.end(); at += static_cast<std::ptrdiff_t>(1 + 2 * n)) {
+      const auto middle = at + static_cast<std::ptrdiff_t>(1 + n);
+      t_digits.texts.push_back(*at);
+      q_digits.texts.insert(q_digits.texts.end(), at + 1, middle);
+      p_digits.texts.insert(p_digits.texts.end(), middle, middle + static_cast<std::ptrdiff_t>(n));
+    }
+  }
+  for (SweepColumn* column : {&t_digits, &q_digits, &p_digits}) all.push_back(std::move(*column));
+  return all;
 }
 
 }  // namespace hamflow

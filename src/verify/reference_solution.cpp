@@ -8,6 +8,7 @@
 #include "hamflow/core/counter_random.hpp"
 #include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/double_constants.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/extrapolated_midpoint.hpp"
 #include "hamflow/verify/state_units.hpp"
@@ -83,7 +84,7 @@ std::optional<ReferenceSolution> closed_form(const Request& request, const Probl
   found.digits = all_exact_digits(found.end);
   StateSizes seen;
   seen.include(start.q, start.p);
-  constexpr int looks = 64;
+  constexpr int looks = 24;
   for (int k = 1; k <= looks; ++k) {
     const auto at = problem.exact(parameters, start.q, start.p, t_end * (k - random_part(k)) / looks);
     if (at) seen.include(at->q, at->p);
@@ -134,6 +135,7 @@ class ReferenceRun::Impl {
     Request full = request;
     full.parameters = complete(problem.info, request.parameters);
     const bool beyond_double = digits_beyond_double(request.arithmetic) > 0;
+    std::optional<DoubleConstants> constants;  // while the simulations are made
     if (!beyond_double) {
       if (auto exact = closed_form(full, problem, evaluate_number<double>(t_end))) {
         solution_ = std::move(*exact);
@@ -142,6 +144,7 @@ class ReferenceRun::Impl {
       const Frame start = problem.start(full);
       full.parameters = rounded(problem.derived(full.parameters, full.start));
       full.start = {.q = all_exact_digits(start.q), .p = all_exact_digits(start.p)};
+      constants.emplace();
     }
     full.arithmetic = reference_arithmetic(request.arithmetic);
     full.kernel = "exact";

@@ -9,8 +9,12 @@
 
 namespace hamflow {
 
+struct MemberStop;
+
 /// A number too small or too large for a double is a text.
 nlohmann::ordered_json json_of(const LongNumber& x);
+/// The event that ended a run, its state in all digits where there are more than those of a double.
+nlohmann::ordered_json json_of(const std::string& event, const MemberStop& stop);
 /// A text stays as it is.
 /// @param form of fmt, e.g. "{:.6g}"   @param none in place of what is not finite
 std::string number_text(const nlohmann::ordered_json& x, const char* form, const char* none = "nan");

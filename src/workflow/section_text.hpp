@@ -29,11 +29,4 @@ inline std::string section_text(const Section& section, const StateNames& names)
   return fmt::format("section {} = {}, {}", x, figures::escaped(shortest(section.value)), way);
 }
 
-/// Of changes of sign that are no points of a section and no events.
-inline std::string jumps_text(std::int64_t jumps) {
-  return fmt::format("{} of sign {}: the expression jumps there, or has a pole",
-                     jumps == 1 ? "1 change" : fmt::format("{} changes", jumps),
-                     jumps == 1 ? "was no zero" : "were no zeros");
-}
-
 }  // namespace hamflow

@@ -19,9 +19,11 @@
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
+#include "hamflow/verify/state_units.hpp"
 #include "json_text.hpp"
 #include "measures/measures.hpp"
 #include "number_text.hpp"
+#include "orbit_digits.hpp"
 #include "run_description.hpp"
 #include "warnings.hpp"
 
@@ -165,56 +167,93 @@ std::vector<Texts> moved_parameters(const Texts& parameters) {
   return all;
 }
 
-/// How far the closed form, in double, may be off in a run of more digits: what the roundings of parameters, start and
-/// time, and of what it returns, become. Those of the parameters stand for what is made of them on the way.
-double uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact) {
+/// How far the closed form, in double, may be off in a run of more digits, of each group of numbers with one unit: what
+/// the roundings of parameters, start and time, and of what it returns, become. Those of the parameters stand for what
+/// is made of them on the way.
+std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact,
+                                         const UnitGroups& groups) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto between = [&](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p,
-                           double time) -> std::optional<double> {
+  std::vector<double> sum(2 * groups.count());
+  const auto add = [&](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p, double time,
+                       double unknown) {
     const auto moved = scenario.problem->exact(parameters, q, p, time);
-    if (!moved) return std::nullopt;
-    double most = 0;
-    for (std::size_t k = 0; k < exact.q.size(); ++k) {
-      const double at = next_to(exact.q[k], scenario, k, moved->q[k]);
-      most = std::max({most, std::abs(at - exact.q[k]), std::abs(moved->p[k] - exact.p[k])});
+    std::vector<double> most(sum.size(), moved ? 0 : unknown);
+    for (std::size_t k = 0; moved && k < exact.q.size(); ++k) {
+      double& of_q = most[groups.group(k)];
+      double& of_p = most[groups.count() + groups.group(k)];
+      of_q = std::max(of_q, std::abs(next_to(exact.q[k], scenario, k, moved->q[k]) - exact.q[k]));
+      of_p = std::max(of_p, std::abs(moved->p[k] - exact.p[k]));
     }
-    return most;
+    for (std::size_t g = 0; g < sum.size(); ++g) sum[g] += most[g];
   };
-  const auto difference = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
-    // Where it is not known a rounding away, it is not known here how well it is.
-    return between(scenario.request.parameters, q, p, time).value_or(infinity);
+  // Where it is not known a rounding away, it is not known here how well it is.
+  const auto add_moved = [&](const std::vector<double>& q, const std::vector<double>& p, double time) {
+    add(scenario.request.parameters, q, p, time, infinity);
   };
-  double sum = difference(scenario.start_q, scenario.start_p, std::nextafter(t, infinity));
+  add_moved(scenario.start_q, scenario.start_p, std::nextafter(t, infinity));
   for (std::size_t i = 0; i < exact.q.size(); ++i) {
     std::vector<double> q = scenario.start_q;
     std::vector<double> p = scenario.start_p;
     q[i] = std::nextafter(q[i], infinity);
     p[i] = std::nextafter(p[i], infinity);
-    sum += difference(q, scenario.start_p, t) + difference(scenario.start_q, p, t);
-    sum += std::numeric_limits<double>::epsilon() * (std::abs(exact.q[i]) + std::abs(exact.p[i]));
+    add_moved(q, scenario.start_p, t);
+    add_moved(scenario.start_q, p, t);
+    constexpr double rounding = std::numeric_limits<double>::epsilon();
+    sum[groups.group(i)] += rounding * std::abs(exact.q[i]);
+    sum[groups.count() + groups.group(i)] += rounding * std::abs(exact.p[i]);
   }
   for (const Texts& parameters : moved_parameters(complete(scenario.problem->info, scenario.request.parameters))) {
     // An exponent has no rounding, nor a closed form beside it.
-    sum += between(parameters, scenario.start_q, scenario.start_p, t).value_or(0);
+    add(parameters, scenario.start_q, scenario.start_p, t, 0);
   }
   return sum;
 }
 
-/// The exact state at the time reached, and how far the run is from it, coordinate by coordinate at most. It is known
+/// The sizes of the numbers of the exact motion up to a time. Where all of a kind are 0 at both ends, it is looked up
+/// at two times between them that are in step with no oscillation that both ends are in step with.
+StateSizes sizes_of_exact(const Scenario& scenario, const Frame& end) {
+  StateSizes sizes;
+  sizes.include(scenario.start_q, scenario.start_p);
+  sizes.include(end.q, end.p);
+  const auto is_0 = [](double x) { return x == 0; };
+  if (!std::ranges::all_of(sizes.q, is_0) && !std::ranges::all_of(sizes.p, is_0)) return sizes;
+  for (const double part : {0.3819660112501051, 0.7236067977499790}) {
+    const auto between =
+        scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, part * end.time);
+    if (between) sizes.include(between->q, between->p);
+  }
+  return sizes;
+}
+
+/// The exact state at the time reached, and how far the run is from it, by groups of numbers with one unit. It is known
 /// in double: of a run in more digits that is no further off nothing is said but how well it is known.
 std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
   auto exact = scenario.problem->exact(scenario.request.parameters, scenario.start_q, scenario.start_p, frame.time);
   if (!exact) return std::nullopt;
-  double distance = 0;
-  for (std::size_t i = 0; i < frame.q.size(); ++i) {
-    exact->q[i] = next_to(frame.q[i], scenario, i, exact->q[i]);
-    distance = std::max({distance, std::abs(frame.q[i] - exact->q[i]), std::abs(frame.p[i] - exact->p[i])});
+  Frame reached;  // in double
+  reached.q = frame.q;
+  reached.p = frame.p;
+  for (std::size_t i = 0; i < frame.q.size(); ++i) exact->q[i] = next_to(frame.q[i], scenario, i, exact->q[i]);
+  const UnitGroups groups = unit_groups(*scenario.problem, frame.q.size());
+  const std::vector<GroupDistance> distances =
+      group_distances(groups, sizes_of_exact(scenario, *exact), reached, *exact);
+  std::size_t furthest = 0;  // beside its size
+  Json differences = Json::object();
+  for (std::size_t g = 0; g < distances.size(); ++g) {
+    differences[distances[g].name] = distances[g].distance.value;
+    if (!(distances[g].relative.value <= distances[furthest].relative.value)) furthest = g;
   }
-  Json found{{"q", exact->q}, {"p", exact->p}, {"max_difference", distance}};
+  Json found{{"q", exact->q},
+             {"p", exact->p},
+             {"max_difference", distances[furthest].distance.value},
+             {"relative_difference", distances[furthest].relative.value},
+             {"differences", differences}};
   if (frame.digits.q.empty()) return found;
-  const double uncertainty = uncertainty_of_exact(scenario, frame.time, *exact);
-  if (!std::isfinite(uncertainty)) return std::nullopt;
-  found["uncertainty"] = uncertainty;
+  const std::vector<double> uncertainty = uncertainty_of_exact(scenario, frame.time, *exact, groups);
+  for (const double x : uncertainty) {
+    if (!std::isfinite(x)) return std::nullopt;
+  }
+  found["uncertainty"] = uncertainty[furthest];
   return found;
 }
 
@@ -298,6 +337,7 @@ Json orbit_of(const Scenario& scenario) {
     std::visit([&, key = name](const auto& x) { facts[key] = x; }, value);
     if (name == "type") facts["conic"] = nullptr;  // where none follows
   }
+  if (digits_beyond_double(scenario.request.arithmetic) > 0) add_orbit_digits(scenario, facts);
   return facts;
 }
 

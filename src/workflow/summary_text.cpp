@@ -17,6 +17,12 @@ nlohmann::ordered_json json_of(const LongNumber& x) {
   return x.text.empty() ? nlohmann::ordered_json(x.value) : nlohmann::ordered_json(x.text);
 }
 
+nlohmann::ordered_json json_of(const std::string& event, const MemberStop& stop) {
+  const FrameDigits& digits = stop.digits;
+  if (digits.q.empty()) return {{"event", event}, {"t", stop.t}, {"q", stop.q}, {"p", stop.p}};
+  return {{"event", event}, {"t", digits.time}, {"q", digits.q}, {"p", digits.p}};
+}
+
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -35,7 +41,9 @@ std::string orbit_text(const Json& orbit) {
   std::string text = orbit["type"].get<std::string>();
   if (!orbit["conic"].is_null()) text += " (" + orbit["conic"].get<std::string>() + ")";
   const auto number = [&](const char* key) { return number_text(orbit[key], "{:.6g}"); };
-  const auto is_finite = [](const Json& x) { return !x.is_null() && std::isfinite(x.get<double>()); };
+  const auto is_finite = [](const Json& x) {
+    return x.is_string() || (!x.is_null() && std::isfinite(x.get<double>()));
+  };
   const bool bounded = is_finite(orbit["r_max"]);
   text += fmt::format(", r = {} .. {}, apsidal angle {}", number("r_min"), bounded ? number("r_max") : "inf",
                       is_finite(orbit["apsidal_angle"]) ? number("apsidal_angle") : "infinite or not known");
@@ -91,7 +99,10 @@ std::string readable(const Json& s) {
   }
   if (s.contains("exact")) {
     const Json& exact = s["exact"];
-    const std::string off = number_text(exact["max_difference"], "{:.3g}");
+    std::string off;
+    for (const auto& [name, difference] : exact["differences"].items()) {
+      off += (off.empty() ? "" : ", ") + number_text(difference, "{:.3g}") + " (" + name + ")";
+    }
     const bool unknown = exact.contains("uncertainty") && !exact["max_difference"].is_null() &&
                          exact["max_difference"].get<double>() <= exact["uncertainty"].get<double>();
     text += row("exact", unknown ? fmt::format("at most {} off the closed form, which is known to {:.2g} only", off,

@@ -127,9 +127,9 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   }
   json["events"] = Json::object();
   for (const EventCount& event : events_of(sweep, member)) json["events"][event.name] = event.count;
+  if (!row.event_notes.empty()) json["event_notes"] = row.event_notes;
   if (row.stopped_by) {
-    const MemberStop& stop = *row.stopped_by;
-    json["stopped_by"] = {{"event", names.events.at(stop.event)}, {"t", stop.t}, {"q", stop.q}, {"p", stop.p}};
+    json["stopped_by"] = json_of(names.events.at(row.stopped_by->event), *row.stopped_by);
   }
   for (const UnitedName& observable : sweep.names().observables()) {
     if (row.observables.empty() && !names.observables.empty()) break;  // not done
@@ -144,6 +144,7 @@ Json sweep_row(const Sweep& sweep, std::size_t member) {
   }
   if (sweep.common().section) {
     json["section"] = {{"points", row.section_points()}, {"max_residual", row.section_residual}};
+    if (!row.section_message.empty()) json["section"]["message"] = row.section_message;
   }
   if (!row.message.empty()) json["message"] = row.message;
   return json;

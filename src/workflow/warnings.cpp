@@ -30,12 +30,17 @@ std::string name_of(const Scenario& scenario, std::uint64_t coordinate) {
   return state_names(*scenario.problem, scenario.request.parameters, scenario.start_q.size()).q.at(coordinate);
 }
 
+/// Of an entry that has all its digits beyond double.
+double rounded(const Json& number) {
+  return number.is_string() ? std::strtod(number.get<std::string>().c_str(), nullptr) : number.get<double>();
+}
+
 /// The time from one turn of a Cartesian coordinate to the next but one, or of the radius where that is longer; 0 where
 /// it is not known.
 double period_of_orbit(const Json& orbit) {
   if (orbit["falls_into_centre"].get<bool>()) return 0;
-  const double radial = orbit["radial_period"].get<double>();
-  const double angle = orbit["apsidal_angle"].get<double>();
+  const double radial = rounded(orbit["radial_period"]);
+  const double angle = rounded(orbit["apsidal_angle"]);
   const double round = angle > 0 ? radial * pi_value<double>() / angle : radial;
   return std::isfinite(round) && std::isfinite(radial) ? std::max(radial, round) : 0;
 }
@@ -371,9 +376,9 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
   if (end.step > 0) add_fast_springs(scenario, all);
   if (all.empty() && end.step > 0) add_passing(scenario, end, all);
   if (summary.contains("orbit") && summary["orbit"]["falls_into_centre"].get<bool>() &&
-      has_fallen(scenario, summary["orbit"]["radial_period"].get<double>(), end.time)) {
+      has_fallen(scenario, rounded(summary["orbit"]["radial_period"]), end.time)) {
     // The phase stands still only on a line. Who falls with angular momentum is not helped by a little more of it.
-    const bool on_line = summary["orbit"]["apsidal_angle"].get<double>() == 0;
+    const bool on_line = rounded(summary["orbit"]["apsidal_angle"]) == 0;
     all.push_back(warning("falls_into_centre",
                           std::string("the orbit ends in the centre, where H has no finite value, before the run does: "
                                       "what comes after is no motion; stop earlier, or give the start ") +

@@ -6,7 +6,12 @@ from decimal import Decimal, getcontext
 
 from command import CommandCase
 
-getcontext().prec = 60
+try:
+    import h5py
+except ImportError:  # the tests that need it are left out
+    h5py = None
+
+getcontext().prec = 70
 KEPLER = "kepler.toml"
 
 
@@ -123,6 +128,77 @@ class Arithmetic(CommandCase):
         exact = json.loads(self.hamflow("run", "linear.toml", "--out", "none", "--json").stdout)["exact"]
         self.assertLessEqual(exact["max_difference"], exact["uncertainty"])
         self.assertLess(exact["uncertainty"], 1e-12)
+
+    def test_the_orbit_is_that_of_the_run_and_not_of_its_start_in_double(self):
+        """A kinetic energy of 10^9 at the pericentre: a rounding of double in the start moves r_max by 10^-7."""
+        self.write("long.toml", '[problem]\nname = "central-force"\npotential = "kepler"\n'
+                   'orbit = { kind = "ellipse", r_per = "1e-9", r_aph = "2" }\n'
+                   '[method]\nname = "verlet"\n[run]\ndt = 1e-12\nsteps = 2\narithmetic = "mp(40)"\n')
+        orbit = self.summary("long.toml")["orbit"]
+        r_min, r_max = Decimal("1e-9"), Decimal(2)
+        axis = (r_min + r_max) / 2
+        pi = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
+        for name, right in (("r_min", r_min), ("r_max", r_max), ("apsidal_angle", pi),
+                            ("radial_period", 2 * pi * axis * axis.sqrt()),
+                            ("circular_radius", 2 * r_min * r_max / (r_min + r_max))):
+            self.assertLess(abs(Decimal(orbit[name]) - right), Decimal("1e-38") * right, name)
+            self.assertGreaterEqual(orbit["uncertainty"][name], 1e-40 * float(right))
+        self.assertGreater(orbit["uncertainty"]["r_max"], 1e-32)  # E is a difference of numbers of 10^9
+        self.assertLess(orbit["uncertainty"]["r_max"], 1e-29)
+        for arithmetic in ("double-double", "quad"):
+            orbit = self.run_with("run.steps=3", f"run.arithmetic={arithmetic}")["orbit"]
+            self.assertLess(abs(Decimal(orbit["r_max"]) - 3), Decimal("1e-29"))
+        # A strength that follows from the start, in polar coordinates; and one that runs off.
+        self.write("hooke.toml", '[problem]\nname = "central-force"\npotential = "hooke"\ncoordinates = "polar"\nmass = 3\n'
+                   'orbit = { kind = "ellipse", r_per = 0.7, r_aph = 1.9, energy = 1.1 }\n'
+                   '[method]\nname = "taylor"\n[run]\ndt = 0.1\nsteps = 2\narithmetic = "mp(30)"\n')
+        orbit = self.summary("hooke.toml")["orbit"]
+        self.assertLess(abs(Decimal(orbit["r_max"]) - Decimal("1.9")), Decimal("1e-28"))
+        self.assertLess(abs(Decimal(orbit["apsidal_angle"]) - pi / 2), Decimal("1e-28"))
+        self.write("off.toml", '[problem]\nname = "central-force"\npotential = "kepler"\n'
+                   'orbit = { kind = "parabola", r_per = 1 }\n'
+                   '[method]\nname = "verlet"\n[run]\ndt = 0.1\nsteps = 2\narithmetic = "mp(30)"\n')
+        orbit = self.summary("off.toml")["orbit"]
+        self.assertIsNone(orbit["r_max"])
+        self.assertLess(abs(Decimal(orbit["r_min"]) - 1), Decimal("1e-28"))
+
+    def test_sections_and_events_are_located_in_the_digits_of_the_run(self):
+        """x = cos t: its zeros and the values 0.1, where 0.1 is the decimal."""
+        self.write("o.toml", '''
+[problem]
+name = "formula"
+coordinates = ["x"]
+parameters = { c = "1/3" }
+hamiltonian = "p_x^2/2 + x^2/2"
+initial = { q = [1], p = [0] }
+[method]
+name = "taylor"
+tolerance = 1e-58
+[run]
+dt = 0.25
+steps = 40
+arithmetic = "mp(60)"
+section = { coordinate = "x", value = 0.1, direction = 0 }
+events = [{ name = "third", expression = "x - c" }, { name = "stop", expression = "p_x - x*t", action = "stop" }]
+''')
+        self.hamflow("run", "o.toml", "--quiet")
+        s = json.loads((self.folder / "o.run/summary.json").read_text())
+        self.assertGreater(s["section"]["points"], 0)
+        self.assertLess(s["section"]["max_residual"], 1e-58)
+        stop = s["stopped_by"]
+        self.assertIsInstance(stop["t"], str)
+        residual = Decimal(stop["p"][0]) - Decimal(stop["q"][0]) * Decimal(stop["t"])
+        self.assertLess(abs(residual), Decimal("1e-57"))
+        if h5py is None:
+            return
+        with h5py.File(self.folder / "o.run/run.h5") as file:
+            for group, value in (("section", Decimal("0.1")), ("events/user/third", Decimal(1) / 3)):
+                rows = [Decimal(row[0].decode()) for row in file["digits/" + group + "/q"][()]]
+                self.assertEqual(len(rows), len(file[group + "/t"][()]))
+                for row, rounded in zip(rows, file[group + "/q"][()]):
+                    self.assertLess(abs(row - value), Decimal("1e-58"), group)
+                    self.assertEqual(float(row), rounded[0])
+                self.assertEqual(file["digits/" + group + "/t"].shape, (len(rows),))
 
     def test_unknown_arithmetic(self):
         for name in ("quadd", "mp(x)", "mp(0)", "mp", "mp()", "mp(-3)", "mp(1e9)"):

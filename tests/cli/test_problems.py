@@ -125,6 +125,25 @@ class Problems(CommandCase):
             if fine > 1e-12:  # an element of order 2; free fall is exact
                 self.assertAlmostEqual(coarse / fine, 4, delta=0.1, msg=problem)
 
+    def test_there_is_no_exact_state_where_the_closed_form_is_not_known_well(self):
+        """V = -1/(2 r^2) at l = 1: V_eff is 0 everywhere, and a quadrature over r is lost in rounding."""
+        for slow in ("1e-6", "1e-3"):
+            s = self.field('potential="power"\na=-0.5\nn=-3', [1, 0], [float(slow), 1])
+            if "exact" in s:
+                self.assertLess(s["exact"]["max_difference"], 1e-12, slow)
+
+    def test_differences_from_the_exact_state_do_not_mix_units(self):
+        """The same oscillator in units of 10^12: momenta are 10^-12 of the coordinates or 10^12 of them."""
+        found = []
+        for mass, omega, q in (("1", "1", 1), ("1e12", "1", 1), ("1e-12", "1", 1)):
+            s = self.run_text(f'name="harmonic"\nmass={mass}\nomega={omega}\ninitial={{q=[{q}],p=[{float(mass) / 2}]}}',
+                              dt=0.1, steps=33)["exact"]
+            self.assertEqual(set(s["differences"]), {"q", "p"})
+            self.assertIn(s["max_difference"], s["differences"].values())
+            found.append(s["relative_difference"])
+        for relative in found[1:]:
+            self.assertAlmostEqual(relative / found[0], 1, delta=1e-6)
+
     def test_two_bodies(self):
         bodies = 'bodies=[{mass=2,position=[0,0,1],velocity=[0,0.1,0]},{mass=0.5,position=[1,0,1],velocity=[0,1,0.5]}]'
         s = self.run_text(f'name="central-force"\npotential="kepler"\nk=1\n{bodies}', dt=0.001, steps=1000)

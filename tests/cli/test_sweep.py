@@ -63,6 +63,60 @@ steps = 100
         self.assertEqual(found["none"], found["auto"])
 
 
+class NotesOfRows(CommandCase):
+    def test_a_row_says_of_events_and_sections_what_the_run_says(self):
+        self.write("o.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2 + x^2/2"
+initial = { q = [2], p = [0] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 100
+section = { expression = "1/x", direction = 0 }
+""")
+        events = 'run.events=[{name="pole",expression="1/x"}]'
+        for sets in ([], ["--set", events]):  # in lanes, and one by one
+            rows = json.loads(self.hamflow("sweep", "o.toml", *sets, "--vary", "problem.initial.q[0]=1,2", "--out", "none",
+                                           "--json", "--quiet").stdout)["rows"]
+            for row, q in zip(rows, (1, 2)):
+                single = self.summary("o.toml", *sets, "--set", f"problem.initial.q[0]={q}")
+                self.assertIn("were no zeros", single["section"]["message"])
+                self.assertEqual(row["section"], single["section"])
+                self.assertEqual(row.get("event_notes"), single.get("event_notes"))
+        self.assertIn("were no zeros", rows[0]["event_notes"][0])
+
+    def test_what_ended_a_member_has_the_digits_of_its_run(self):
+        self.write("o.toml", """
+[problem]
+name = "formula"
+coordinates = ["x"]
+hamiltonian = "p_x^2/2 + x^2/2"
+initial = { q = [2], p = [0] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 100
+arithmetic = "quad"
+section = { coordinate = "x", value = 0.5 }
+events = [{ name = "half", expression = "x + 0.5", direction = 1, action = "stop" }]
+""")
+        self.hamflow("sweep", "o.toml", "--vary", "problem.initial.q[0]=1,2", "--set", 'output.formats=["h5","csv"]', "--quiet")
+        rows = json.loads(self.hamflow("sweep", "o.toml", "--vary", "problem.initial.q[0]=1,2", "--out", "none", "--json",
+                                       "--quiet").stdout)["rows"]
+        for row, q in zip(rows, (1, 2)):
+            single = self.summary("o.toml", "--set", f"problem.initial.q[0]={q}")
+            self.assertIsInstance(row["stopped_by"]["t"], str)
+            self.assertEqual(row["stopped_by"], single["stopped_by"])
+            self.assertLess(row["section"]["max_residual"], 1e-32)
+        table = list(csv.DictReader((self.folder / "o.sweep/sweep.csv").open()))
+        self.assertEqual([row["stopped_by/t"] for row in table], [row["stopped_by"]["t"] for row in rows])
+
+
 class Sweep(CommandCase):
     def sweep(self, *arguments, status=0):
         done = self.hamflow("sweep", *arguments, "--out", "none", "--json", "--quiet", status=status)

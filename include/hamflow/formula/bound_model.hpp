@@ -14,12 +14,12 @@ namespace hamflow::formula {
 template <class R>
 class BoundModel {
  public:
-  /// @throws Error naming a constant part that is not finite with these values
-  BoundModel(std::shared_ptr<const Model> model, const Parameters<R>& values)
-      : model_(std::move(model)), value_of_([values, m = model_](int symbol) {
-          const Model::ParameterPlace& place = m->parameter(symbol);
-          return values.list(place.name).at(place.index);
-        }) {
+  /// @param rounded not null: constants are computed in double from these values, and are the numbers that a run in
+  /// double has   @throws Error naming a constant part that is not finite with these values
+  BoundModel(std::shared_ptr<const Model> model, const Parameters<R>& values,
+             const Parameters<double>* rounded = nullptr)
+      : model_(std::move(model)), value_of_(lookup(values)) {
+    if (rounded != nullptr) rounded_value_of_ = lookup(*rounded);
     energy_ = bound(model_->energy);
     gradient_ = bound(model_->gradient);
     invariants_ = bound(model_->invariant_values);
@@ -139,7 +139,19 @@ class BoundModel {
   }
 
  private:
-  BoundCode<R> bound(const std::shared_ptr<const Code>& code) const { return BoundCode<R>(code, value_of_); }
+  template <class S>
+  std::function<S(int)> lookup(const Parameters<S>& values) const {
+    return [values, m = model_](int symbol) {
+      const Model::ParameterPlace& place = m->parameter(symbol);
+      return values.list(place.name).at(place.index);
+    };
+  }
+  BoundCode<R> bound(const std::shared_ptr<const Code>& code) const {
+    if (!rounded_value_of_) return BoundCode<R>(code, value_of_);
+    std::vector<R> constants;
+    for (const double c : constants_of<double>(*code, rounded_value_of_)) constants.push_back(R(c));
+    return BoundCode<R>(code, std::move(constants));
+  }
 
   template <class S, class Put>
   void run(const BoundCode<R>& code, const V<S>& q, const V<S>& p, const S& t, const Put& put,
@@ -197,6 +209,7 @@ class BoundModel {
 
   std::shared_ptr<const Model> model_;
   std::function<R(int)> value_of_;
+  std::function<double(int)> rounded_value_of_;
   BoundCode<R> energy_, kinetic_, potential_, velocity_, force_, gradient_, invariants_;
   BoundCode<R> scaled_force_, scaled_velocity_;
   BoundCode<R> constraints_, constraint_gradients_, constraint_bends_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <concepts>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -77,6 +78,30 @@ S applied(const CodeStep& step, const S* values) {
   return applied(step.op, values[step.a], values[step.b < 0 ? step.a : step.b]);
 }
 
+/// The constants of a code, computed in R.   @param value_of(symbol) the value of a fixed symbol
+template <class R, class ValueOf>
+std::vector<R> constants_of(const Code& code, const ValueOf& value_of) {
+  std::vector<R> constants;
+  constants.reserve(code.constants.size());
+  for (const Code::Constant& c : code.constants) {
+    switch (c.kind) {
+      case Code::Constant::Kind::number:
+        constants.push_back(parse_decimal<R>(c.text));
+        break;
+      case Code::Constant::Kind::pi:
+        constants.push_back(pi_value<R>());
+        break;
+      case Code::Constant::Kind::symbol:
+        constants.push_back(value_of(c.symbol));
+        break;
+      case Code::Constant::Kind::result:
+        constants.push_back(applied(c.step, constants.data()));
+        break;
+    }
+  }
+  return constants;
+}
+
 /// Code whose constants are numbers of type R. Copies share the code.
 template <class R>
 class BoundCode {
@@ -84,25 +109,10 @@ class BoundCode {
   BoundCode() = default;
   /// @param value_of(symbol) the value of a fixed symbol
   template <class ValueOf>
-  BoundCode(std::shared_ptr<const Code> code, const ValueOf& value_of) : code_(std::move(code)) {
-    constants_.reserve(code_->constants.size());
-    for (const Code::Constant& c : code_->constants) {
-      switch (c.kind) {
-        case Code::Constant::Kind::number:
-          constants_.push_back(parse_decimal<R>(c.text));
-          break;
-        case Code::Constant::Kind::pi:
-          constants_.push_back(pi_value<R>());
-          break;
-        case Code::Constant::Kind::symbol:
-          constants_.push_back(value_of(c.symbol));
-          break;
-        case Code::Constant::Kind::result:
-          constants_.push_back(applied(c.step, constants_.data()));
-          break;
-      }
-    }
-  }
+  requires std::invocable<const ValueOf&, int> BoundCode(std::shared_ptr<const Code> code, const ValueOf& value_of)
+      : code_(std::move(code)), constants_(constants_of<R>(*code_, value_of)) {}
+  BoundCode(std::shared_ptr<const Code> code, std::vector<R> constants)
+      : code_(std::move(code)), constants_(std::move(constants)) {}
 
   const Code& code() const { return *code_; }
   const std::vector<R>& constants() const { return constants_; }

@@ -44,6 +44,13 @@ class Duffing : public OneDimensional<R> {
  public:
   explicit Duffing(R mass = R(1), R alpha = R(-1), R beta = R(1), R gamma = R(0))
       : OneDimensional<R>(R(1) / mass), alpha_(alpha), beta_(beta), gamma_(gamma) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit Duffing(const Duffing<Q>& other)
+      : OneDimensional<R>(R(other.inverse_mass())),
+        alpha_(R(other.alpha_)),
+        beta_(R(other.beta_)),
+        gamma_(R(other.gamma_)) {}
   /// From alpha and beta, or else from k and lambda.
   explicit Duffing(const Parameters<R>& given) : Duffing(given["mass"]) {
     if (given.has("alpha") || given.has("beta")) {
@@ -154,6 +161,8 @@ class Duffing : public OneDimensional<R> {
     return given.has(name) ? given[name] : otherwise;
   }
 
+  template <class>
+  friend class Duffing;
   R alpha_;
   R beta_;
   R gamma_;

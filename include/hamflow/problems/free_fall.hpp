@@ -14,6 +14,9 @@ class FreeFall : public OneDimensional<R> {
  public:
   explicit FreeFall(R mass = R(1), R gravity = R(1)) : OneDimensional<R>(R(1) / mass), weight_(mass * gravity) {}
   explicit FreeFall(const Parameters<R>& given) : FreeFall(given["mass"], given["gravity"]) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit FreeFall(const FreeFall<Q>& other) : OneDimensional<R>(R(other.inverse_mass())), weight_(R(other.weight_)) {}
 
   static ProblemInfo info() {
     return {.name = "free-fall",
@@ -47,6 +50,8 @@ class FreeFall : public OneDimensional<R> {
   }
 
  private:
+  template <class>
+  friend class FreeFall;
   R weight_;  // m g
 };
 

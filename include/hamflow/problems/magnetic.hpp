@@ -26,6 +26,10 @@ class Magnetic {
 
   /// @param strength charge times field
   Magnetic(R mass, Vector<R, 3> strength) : mass_(mass), strength_(strength) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit Magnetic(const Magnetic<Q>& other)
+      : Magnetic(R(other.mass_), {R(other.strength_[0]), R(other.strength_[1]), R(other.strength_[2])}) {}
   explicit Magnetic(const Parameters<R>& given)
       : Magnetic(given["mass"], {given["charge"] * given.list("field")[0], given["charge"] * given.list("field")[1],
                                  given["charge"] * given.list("field")[2]}) {}

@@ -12,8 +12,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "hamflow/run/expression_in_digits.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/state_expression.hpp"
 
@@ -23,6 +25,8 @@ struct Section {
   std::size_t coordinate = 0;  // of q, or of p; beside an expression the first of which it is made, if it is
   bool momentum = false;
   double value = 0;
+  std::string value_text{};                     // of the value, for runs beyond double; empty: the double
+  ExpressionInDigits in_digits{};               // the expression, for runs beyond double
   int direction = 1;                            // 1: x increases along the run, -1: it decreases, 0: both
   std::optional<StateExpression> expression{};  // x, in place of the coordinate
   bool by_time_alone = false;                   // x is an expression of t, and the points are stroboscopic
@@ -34,8 +38,12 @@ struct SectionPoint {
   double time = 0;
   std::vector<double> q;
   std::vector<double> p;
-  double residual = 0;  // |x - value|
+  double residual = 0;   // |x - value|
+  FrameDigits digits{};  // time, q and p in arithmetic beyond double; else empty
 };
+
+/// Of changes of sign that are no points of a section and no events.
+std::string jumps_text(std::int64_t jumps);
 
 /// Finds the points of a section between steps that it is told. A start on the section is not counted as a point. A
 /// touch, x = value without a change of sign, is a point that is approached from its own side: with direction 1 from
@@ -59,7 +67,7 @@ class SectionSearch {
   /// Of a map: takes the state behind a step, if it is a point.
   void take_step(double before, double now, const Frame& behind) {
     if (section_.every_step || crosses(before, now)) {
-      take({behind.time, behind.q, behind.p, section_.every_step ? 0 : std::abs(now)});
+      take({behind.time, behind.q, behind.p, section_.every_step ? 0 : std::abs(now), behind.digits});
     }
   }
   /// Finds it.   @param before_step as it is before the step   @param before, now x - value before the step and behind
@@ -85,6 +93,8 @@ class SectionSearch {
   std::int64_t jumps() const { return jumps_; }
   /// Whether a step of the search failed: no points are sought after that.
   bool failed() const { return failed_; }
+  /// What is to be said of changes of sign that were no points, and of a search that has failed; empty: nothing.
+  std::string message() const;
   /// Long steps into which nobody could look closely enough: even numbers of crossings in them may have been missed.
   std::int64_t unseen() const { return unseen_; }
   template <class Archive>
@@ -120,6 +130,7 @@ class SectionSearch {
   void note_touch(double theta, double before) { changes_.push_back({theta, theta, before, 0}); }
   void take(const SectionPoint& point);
   void locate(const Simulation& before_step, const Change& change);
+  void refine(const Simulation& before_step, SectionPoint& point) const;
 
   Section section_;
   std::function<void(const SectionPoint&)> found_;
@@ -160,6 +171,7 @@ class SectionFinder final : public Observer {
   std::int64_t jumps() const { return search_.jumps(); }
   bool failed() const { return search_.failed(); }
   std::int64_t unseen() const { return search_.unseen(); }
+  const SectionSearch& search() const { return search_; }
 
  private:
   template <class Archive>

@@ -68,11 +68,11 @@ class EventsMeasure final : public Measure, public Observer {
   }
   std::optional<MemberStop> stopped_by() const override {
     if (!by_) return std::nullopt;
-    return MemberStop{*by_, where_.time, where_.q, where_.p};
+    return MemberStop{*by_, where_.time, where_.q, where_.p, where_.digits};
   }
   Json summary() const override {
     if (!by_) return nullptr;
-    return {{"event", events_[*by_].name}, {"t", where_.time}, {"q", where_.q}, {"p", where_.p}};
+    return json_of(events_[*by_].name, *stopped_by());
   }
 
  private:
@@ -86,7 +86,7 @@ class EventsMeasure final : public Measure, public Observer {
   }
   template <class Archive>
   void fields(Archive& ar) {
-    ar(step_, by_, where_.time, where_.q, where_.p);
+    ar(step_, by_, where_.time, where_.q, where_.p, where_.digits.time, where_.digits.q, where_.digits.p);
     for (const auto& finder : finders_) finder->archive(ar);
   }
 

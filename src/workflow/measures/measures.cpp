@@ -111,6 +111,14 @@ class MeasuredMember final : public MemberWatch {
     }
     return all;
   }
+  std::vector<std::string> event_notes() const override {
+    std::vector<std::string> all;
+    for (const auto& measure : measures_) {
+      const std::vector<std::string> part = measure->event_notes();
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
   std::optional<MemberStop> stopped_by() const override {
     for (const auto& measure : measures_) {
       if (auto stop = measure->stopped_by()) return stop;

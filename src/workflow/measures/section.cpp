@@ -8,7 +8,6 @@
 #include "number_text.hpp"
 #include "recorder.hpp"
 #include "run_keys.hpp"
-#include "section_text.hpp"
 
 namespace hamflow {
 
@@ -26,14 +25,7 @@ class SectionMeasure final : public Measure {
   std::int64_t unseen_steps() const override { return finder_.unseen(); }
   Json summary() const override {
     Json all{{"points", finder_.points()}, {"max_residual", finder_.max_residual()}};
-    std::string message;
-    if (finder_.jumps() > 0) {
-      message = jumps_text(finder_.jumps());
-    }
-    if (finder_.failed()) {
-      message += (message.empty() ? "" : "; ") + std::string("a partial step failed: no points after it were sought");
-    }
-    if (!message.empty()) all["message"] = message;
+    if (const std::string message = finder_.search().message(); !message.empty()) all["message"] = message;
     return all;
   }
 

@@ -12,6 +12,9 @@ class Binomial {
  public:
   explicit Binomial(R k = R(1), R lambda = R(1)) : k_(k), lambda_(lambda) {}
   explicit Binomial(const Parameters<R>& given) : Binomial(given["k"], given["lambda"]) {}
+  /// With the constants of the same potential in another number type.
+  template <class Q>
+  explicit Binomial(const Binomial<Q>& other) : k_(R(other.k_)), lambda_(R(other.lambda_)) {}
 
   static ProblemInfo info() {
     return {.name = "binomial",
@@ -62,6 +65,8 @@ class Binomial {
   }
 
  private:
+  template <class>
+  friend class Binomial;
   R k_;
   R lambda_;
 };

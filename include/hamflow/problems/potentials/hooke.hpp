@@ -13,6 +13,9 @@ class Hooke {
  public:
   explicit Hooke(R k = R(-1)) : k_(k) {}
   explicit Hooke(const Parameters<R>& given) : Hooke(given["k"]) {}
+  /// With the constants of the same potential in another number type.
+  template <class Q>
+  explicit Hooke(const Hooke<Q>& other) : k_(R(other.k_)) {}
 
   static ProblemInfo info() {
     return {.name = "hooke",
@@ -128,6 +131,8 @@ class Hooke {
   }
 
  private:
+  template <class>
+  friend class Hooke;
   R k_;
 };
 

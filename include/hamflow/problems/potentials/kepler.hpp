@@ -16,6 +16,9 @@ class Kepler {
 
   explicit Kepler(R k = R(1)) : k_(k) {}
   explicit Kepler(const Parameters<R>& given) : Kepler(given["k"]) {}
+  /// With the constants of the same potential in another number type.
+  template <class Q>
+  explicit Kepler(const Kepler<Q>& other) : k_(R(other.k_)) {}
 
   static ProblemInfo info() {
     return {.name = "kepler",
@@ -125,6 +128,8 @@ class Kepler {
   }
 
  private:
+  template <class>
+  friend class Kepler;
   R k_;
 };
 

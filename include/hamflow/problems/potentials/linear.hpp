@@ -11,6 +11,9 @@ class Linear {
  public:
   explicit Linear(R k = R(1)) : k_(k) {}
   explicit Linear(const Parameters<R>& given) : Linear(given["k"]) {}
+  /// With the constants of the same potential in another number type.
+  template <class Q>
+  explicit Linear(const Linear<Q>& other) : k_(R(other.k_)) {}
 
   static ProblemInfo info() {
     return {.name = "linear",
@@ -79,6 +82,8 @@ class Linear {
   }
 
  private:
+  template <class>
+  friend class Linear;
   R k_;
 };
 

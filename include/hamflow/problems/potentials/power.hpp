@@ -17,6 +17,11 @@ class Power {
     for (std::size_t i = 0; i < a.size(); ++i) terms_.push_back(Term(a[i], n[i]));
   }
   explicit Power(const Parameters<R>& given) : Power(given.list("a"), given.list("n")) {}
+  /// With the constants of the same potential in another number type.
+  template <class Q>
+  explicit Power(const Power<Q>& other) {
+    for (const auto& term : other.terms_) terms_.push_back(Term(R(term.a), R(term.twice) - R(1)));
+  }
 
   static ProblemInfo info() {
     return {
@@ -78,6 +83,8 @@ class Power {
   }
 
  private:
+  template <class>
+  friend class Power;
   /// a u^(twice/2), `whole` where twice is a small whole number.
   struct Term {
     Term(R strength, R n) : a(strength), twice(n + R(1)) {

@@ -89,7 +89,8 @@ bool near_separatrix(const RadialMotion<Potential>& motion) {
 }  // namespace detail
 
 /// The state after time t; empty where there is none (the motion ends in a singular centre, or at infinity), on a
-/// separatrix or an unstable circle, where rounding decides, and close to one.
+/// separatrix or an unstable circle, where rounding decides, and close to one; and where a quadrature does not come to
+/// rest, because V_eff cancels to rounding, as -1/r^2 can.
 template <class Potential>
 std::optional<Start<long double, 2>> central_flow(const Potential& potential, long double mass,
                                                   const Vector<long double, 2>& q, const Vector<long double, 2>& p,
@@ -109,6 +110,7 @@ std::optional<Start<long double, 2>> central_flow(const Potential& potential, lo
     const bool centre_is_regular = l == 0 && isfinite(potential.value(L(0)));
     if (!centre_is_regular && detail::meets_centre(motion, clock, t)) return std::nullopt;
     now = detail::after(motion, clock, t);
+    if (!clock.settled()) return std::nullopt;
   }
   if (!isfinite(now.r) || !isfinite(now.phase)) return std::nullopt;
 

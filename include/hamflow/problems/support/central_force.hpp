@@ -40,6 +40,10 @@ class CentralForce {
 
   CentralForce(R mass, Potential<R> potential) : mass_(mass), inverse_mass_(R(1) / mass), potential_(potential) {}
   explicit CentralForce(const Parameters<R>& given) : CentralForce(given["mass"], Potential<R>(given)) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit CentralForce(const CentralForce<Q, Potential>& other)
+      : mass_(R(other.mass_)), inverse_mass_(R(other.inverse_mass_)), potential_(other.potential_) {}
 
   static ProblemInfo info() {
     ProblemInfo of_potential = Potential<R>::info();
@@ -162,7 +166,7 @@ class CentralForce {
   std::optional<Start<long double, 2>> exact(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                              long double t) const {
     if constexpr (potentials::HasExact<Potential<R>>) {
-      return potential_.exact(static_cast<long double>(mass_), q, p, t);
+      return potential_.exact(1 / static_cast<long double>(inverse_mass_), q, p, t);
     } else {
       return std::nullopt;
     }
@@ -183,6 +187,8 @@ class CentralForce {
     return q[0] * q[0] + q[1] * q[1];
   }
 
+  template <class, template <class> class>
+  friend class CentralForce;
   R mass_;
   R inverse_mass_;
   Potential<R> potential_;

@@ -67,6 +67,9 @@ class DoublePendulumNonlinear : public PendulumChart<R, angles> {
                                    const Vector<R, 2>& inertias = {R(0), R(0)}, R gravity = parse_decimal<R>("9.81"))
       : body_(masses, half_lengths, inertias, gravity) {}
   explicit DoublePendulumNonlinear(const Parameters<R>& given) : body_(given) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit DoublePendulumNonlinear(const DoublePendulumNonlinear<Q, angles>& other) : body_(other.body_) {}
 
   static ProblemInfo info() {
     ProblemInfo all = detail::double_pendulum_info("nonlinear", angles, "H = p^T M(q)^-1 p/2 + V(q)",
@@ -191,6 +194,8 @@ class DoublePendulumNonlinear : public PendulumChart<R, angles> {
       return v;
   }
 
+  template <class, Angles>
+  friend class DoublePendulumNonlinear;
   DoublePendulumBody<R> body_;
 };
 
@@ -206,6 +211,15 @@ class DoublePendulumLinear : public PendulumChart<R, angles> {
                                 const Vector<R, 2>& inertias = {R(0), R(0)}, R gravity = parse_decimal<R>("9.81"))
       : DoublePendulumLinear(DoublePendulumBody<R>(masses, half_lengths, inertias, gravity)) {}
   explicit DoublePendulumLinear(const Parameters<R>& given) : DoublePendulumLinear(DoublePendulumBody<R>(given)) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit DoublePendulumLinear(const DoublePendulumLinear<Q, angles>& other) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      mass_[i] = cast<R>(other.mass_[i]);
+      inverse_mass_[i] = cast<R>(other.inverse_mass_[i]);
+      stiffness_[i] = cast<R>(other.stiffness_[i]);
+    }
+  }
 
   static ProblemInfo info() {
     return detail::double_pendulum_info("linear", angles, "H = p^T M^-1 p/2 + q^T C q/2, M and C = V'' at rest",
@@ -282,6 +296,8 @@ class DoublePendulumLinear : public PendulumChart<R, angles> {
     return (x[0] * x[0] * m[0][0] + x[0] * x[1] * (R(2) * m[0][1]) + x[1] * x[1] * m[1][1]) / R(2);
   }
 
+  template <class, Angles>
+  friend class DoublePendulumLinear;
   Matrix<R, 2> mass_;
   Matrix<R, 2> inverse_mass_;
   Matrix<R, 2> stiffness_{};

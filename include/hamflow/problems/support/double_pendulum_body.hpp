@@ -29,6 +29,15 @@ struct DoublePendulumBody {
         least_determinant(m[0] * l[0] * l[0] * c + R(4) * m[1] * l[0] * l[0] * theta[1] + theta[0] * c),
         w1((m[0] + R(2) * m[1]) * gravity * l[0]),
         w2(m[1] * gravity * l[1]) {}
+  /// With the constants of the same problem in another number type.
+  template <class Q>
+  explicit DoublePendulumBody(const DoublePendulumBody<Q>& other)
+      : a(R(other.a)),
+        b(R(other.b)),
+        c(R(other.c)),
+        least_determinant(R(other.least_determinant)),
+        w1(R(other.w1)),
+        w2(R(other.w2)) {}
   explicit DoublePendulumBody(const Parameters<R>& given)
       : DoublePendulumBody(two(given.list("masses")), two(given.list("half_lengths")), two(given.list("inertias")),
                            given["gravity"]) {}

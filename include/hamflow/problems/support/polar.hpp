@@ -175,7 +175,7 @@ class PolarCentralForce {
     if (p[1] == 0) return exact_on_line(q, p, t);
     if (!(q[0] > 0)) return std::nullopt;
     const Start<long double, 2> s = to_cartesian(Start<long double, 2>{q, p});
-    const auto end = cartesian().exact(s.q, s.p, t);
+    const auto end = exact_in_plane(s.q, s.p, t);
     if (!end) return std::nullopt;
     return to_polar(*end);
   }
@@ -199,9 +199,18 @@ class PolarCentralForce {
   /// l = 0: phi stays, and r goes through zero where the potential lets it.
   std::optional<Start<long double, 2>> exact_on_line(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
                                                      long double t) const {
-    const auto end = cartesian().exact({q[0], 0}, {p[0], 0}, t);
+    const auto end = exact_in_plane({q[0], 0}, {p[0], 0}, t);
     if (!end) return std::nullopt;
     return Start<long double, 2>{{end->q[0], q[1]}, {end->p[0], 0}};
+  }
+  /// With the mass itself, by which this H divides; the Cartesian one multiplies by its rounded inverse.
+  std::optional<Start<long double, 2>> exact_in_plane(const Vector<long double, 2>& q, const Vector<long double, 2>& p,
+                                                      long double t) const {
+    if constexpr (potentials::HasExact<Potential<R>>) {
+      return potential_.exact(static_cast<long double>(mass_), q, p, t);
+    } else {
+      return std::nullopt;
+    }
   }
   /// mu phi' = p_phi/r^2; at the centre, where only p_phi = 0 can be, 0.
   template <class S>

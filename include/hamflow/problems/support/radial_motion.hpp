@@ -296,6 +296,8 @@ class RadialClock {
   From from() const { return from_; }
   /// x at the other end.
   R end() const { return end_; }
+  /// Whether every integral so far has come to rest: E - V_eff is no rounding anywhere on the way.
+  bool settled() const { return settled_; }
   /// @param to_end end() - x, to its own relative precision
   At at(R x, R to_end) const {
     const R r1 = motion_.r_min();
@@ -353,7 +355,7 @@ class RadialClock {
   }
   /// The phase between two radii of a motion without apsis.
   R phase(R x, R y) const {
-    return integrate([this](R z) { return at(z).phase; }, x, y).value;
+    return noted(integrate([this](R z) { return at(z).phase; }, x, y));
   }
   /// The phase from pericentre to infinity: r = r1/(1 - z^2).
   R phase_to_infinity() const {
@@ -392,7 +394,12 @@ class RadialClock {
   R integral(R x, F&& part) const {
     if (!(x > R(0))) return R(0);
     const R rest = end_ < motion_.infinity ? end_ - x : R(0);
-    return integrate_from_ends([&](R left, R right) { return part(at(left, rest + right)); }, x).value;
+    return noted(integrate_from_ends([&](R left, R right) { return part(at(left, rest + right)); }, x));
+  }
+  R noted(const Integral& found) const {
+    constexpr R small = R(64) * std::numeric_limits<R>::epsilon();
+    settled_ = settled_ && found.error <= small * abs(found.value);
+    return found.value;
   }
 
   const RadialMotion<Potential>& motion_;
@@ -400,6 +407,7 @@ class RadialClock {
   R mass_;
   R end_ = 0;
   From from_{};
+  mutable bool settled_ = true;
 };
 
 }  // namespace hamflow

@@ -1,0 +1,286 @@
+#include "orbit_digits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/core/problem_info.hpp"
+#include "hamflow/formula/problem_texts.hpp"
+#include "hamflow/run/catalog.hpp"
+
+namespace hamflow {
+
+namespace {
+
+constexpr int most_digits = 1000;
+/// Quadratures in more digits take seconds.
+constexpr int most_digits_of_integrals = 60;
+
+Mp power_of_ten(int exponent) { return parse_decimal<Mp>("1e" + std::to_string(exponent)); }
+
+/// int_0^1 f(x, 1 - x) dx of two functions by the double exponential rule, both arguments to their own relative precision; halved until
+/// it changes by less than `tolerance`, relative.   [TakahasiMori1974]
+/// @param nearest to an end: what lies between is nothing beside the tolerance
+template <class F>
+std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolerance, const Mp& nearest) {
+  const Mp pi = pi_value<Mp>();
+  Mp step(1);
+  std::pair<Mp, Mp> sum{0, 0};
+  std::optional<std::pair<Mp, Mp>> last;
+  for (int level = 0; level < 14; ++level) {
+    for (const int side : {-1, 1}) {
+      for (int k = level == 0 && side > 0 ? 0 : 1;; k += level == 0 ? 1 : 2) {
+        const Mp t = Mp(side * k) * step;
+        const Mp e = exp(pi * sinh(t));  // x = e/(1 + e)
+        const Mp rest = Mp(1) / (Mp(1) + e);
+        const Mp x = e * rest;
+        if (x < nearest || rest < nearest) break;
+        const std::pair<Mp, Mp> here = f(x, rest);
+        const Mp weight = pi * cosh(t) * x * rest;
+        sum.first += here.first * weight;
+        sum.second += here.second * weight;
+      }
+    }
+    const std::pair<Mp, Mp> value{sum.first * step, sum.second * step};
+    if (!(abs(value.first) + abs(value.second) <= std::numeric_limits<Mp>::max())) return std::nullopt;
+    const auto rests = [&](const Mp& now, const Mp& before) { return abs(now - before) <= tolerance * abs(now); };
+    if (last && rests(value.first, last->first) && rests(value.second, last->second)) return value;
+    last = value;
+    step = step / Mp(2);
+  }
+  return std::nullopt;
+}
+
+/// The radial motion with energy E and angular momentum l. H is evaluated by the problem itself, in the digits of the
+/// scope.
+class Orbit {
+ public:
+  Orbit(const Scenario& scenario, int digits) : digits_(digits), at_(scenario.request) {
+    const bool polar = static_cast<bool>(scenario.problem->to_reference);
+    at_.arithmetic = "mp(" + std::to_string(digits) + ")";
+    at_.method = {.name = "rk4"};
+    at_.kernel = "exact";
+    at_.threads = 1;
+    Frame start;
+    make_simulation(at_)->look(start);
+    const auto number = [](const std::string& text) { return parse_decimal<Mp>(text); };
+    const FrameDigits& z = start.digits;
+    energy_ = number(z.energy);
+    mass_ = evaluate_number<Mp>(complete(scenario.problem->info, at_.parameters).at(CentralKeys::mass));
+    const Mp x = number(z.q.at(0)), y = number(z.q.at(1)), px = number(z.p.at(0)), py = number(z.p.at(1));
+    radius_ = polar ? x : sqrt(x * x + y * y);
+    momentum_ = polar ? py : x * py - y * px;
+    const Mp around = momentum_ / radius_;
+    const Mp kinetic = (polar ? px * px + around * around : px * px + py * py) / (Mp(2) * mass_);
+    size_ = kinetic + abs(energy_ - kinetic);
+    polar_ = polar;
+    at_.start = {};
+    // A strength of V that follows from the start has the digits of double among the parameters.
+    const Mp given = energy_ - kinetic;
+    const Mp found = potential(radius_);
+    if (!(found == Mp(0))) strength_ = given / found;
+  }
+
+  const Mp& radius() const { return radius_; }
+  const Mp& energy() const { return energy_; }
+  const Mp& momentum() const { return momentum_; }
+  /// |T| + |V| at the start.
+  const Mp& size() const { return size_; }
+  void move(const Mp& energy, const Mp& momentum) {
+    energy_ += energy;
+    momentum_ += momentum;
+  }
+
+  Mp effective(const Mp& r) { return strength_ * potential(r) + momentum_ * momentum_ / (Mp(2) * mass_ * r * r); }
+  Mp slope(const Mp& r) {
+    const Mp h = r * power_of_ten(-digits_ / 3);
+    return (effective(r + h) - effective(r - h)) / (Mp(2) * h);
+  }
+  Mp curvature(const Mp& r) {
+    const Mp h = r * power_of_ten(-digits_ / 4);
+    return (effective(r + h) - Mp(2) * effective(r) + effective(r - h)) / (h * h);
+  }
+  /// The zero of E - V_eff near r, by Newton's method.
+  std::optional<Mp> turning_point(const Mp& r) {
+    return newton(r, [&](const Mp& x) { return Mp((effective(x) - energy_) / slope(x)); });
+  }
+  /// The zero of V_eff' near r.
+  std::optional<Mp> circular_radius(const Mp& r) {
+    return newton(r, [&](const Mp& x) { return Mp(slope(x) / curvature(x)); });
+  }
+
+  /// From pericentre to apocentre: time and phase. r = r1 + (r2 - r1) sin^2(pi x/2).
+  std::optional<std::pair<Mp, Mp>> between(const Mp& r1, const Mp& r2, const Mp& tolerance) {
+    const Mp quarter = pi_value<Mp>() / Mp(2);
+    const Mp nearest = power_of_ten(-digits_ / 3);  // distances of radii are squares of it
+    return integral_from_ends(
+        [&](const Mp& x, const Mp& rest) {
+          const Mp s = sin(quarter * x);
+          const Mp c = sin(quarter * rest);
+          const Mp inside = (r2 - r1) * s * s;
+          const Mp outside = (r2 - r1) * c * c;
+          const Mp r = x < rest ? Mp(r1 + inside) : Mp(r2 - outside);
+          const Mp dt =
+              Mp(2) * quarter / sqrt(Mp(2) / mass_ * (energy_ - effective(r)) / (inside * outside));
+          return std::pair{dt, Mp(abs(momentum_) / (mass_ * r * r) * dt)};
+        },
+        tolerance, nearest);
+  }
+  /// From pericentre to infinity: the phase. 1/r = x/r1.
+  std::optional<Mp> to_infinity(const Mp& r1, const Mp& tolerance) {
+    const auto phase = integral_from_ends(
+        [&](const Mp& x, const Mp&) {
+          return std::pair{Mp(abs(momentum_) / (mass_ * r1) / sqrt(Mp(2) / mass_ * (energy_ - effective(r1 / x)))),
+                           Mp(0)};
+        },
+        tolerance, power_of_ten(-2 * (digits_ / 3)));
+    if (!phase) return std::nullopt;
+    return phase->first;
+  }
+
+ private:
+  /// As the parameters have it.
+  Mp potential(const Mp& r) {
+    at_.start.q = {written_digits(r), "0"};
+    at_.start.p = {"0", "0"};
+    make_simulation(at_)->look(frame_);
+    return parse_decimal<Mp>(frame_.digits.energy);
+  }
+  template <class Step>
+  std::optional<Mp> newton(Mp x, const Step& step) {
+    const Mp begin = x;
+    const Mp settled = power_of_ten(-digits_ / 3);
+    for (int i = 0; i < 40; ++i) {
+      const Mp change = step(x);
+      x = x - change;
+      if (!(x > begin / Mp(2) && x < begin * Mp(2))) return std::nullopt;
+      if (!(abs(change) > settled * x)) {  // a third of the digits: twice more, and there are all of them
+        for (int more = 0; more < 2; ++more) x = x - step(x);
+        return x;
+      }
+    }
+    return std::nullopt;
+  }
+
+  int digits_;
+  Request at_;
+  Frame frame_;
+  bool polar_ = false;
+  Mp energy_, mass_, radius_, momentum_, size_;
+  Mp strength_{1};
+};
+
+/// The entries that have a value in more digits.
+struct Found {
+  std::optional<Mp> r_min, r_max, circular_radius, apsidal_angle, radial_period;
+};
+constexpr std::pair<const char*, std::optional<Mp> Found::*> entries[] = {{"r_min", &Found::r_min},
+                                                                          {"r_max", &Found::r_max},
+                                                                          {"circular_radius", &Found::circular_radius},
+                                                                          {"apsidal_angle", &Found::apsidal_angle},
+                                                                          {"radial_period", &Found::radial_period}};
+
+/// @param integrals the apsidal angle and the radial period too
+Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tolerance, bool integrals) {
+  const auto near = [&](const char* name) -> std::optional<double> {
+    const auto& x = known[name];
+    if (!x.is_number() || !std::isfinite(x.get<double>()) || !(x.get<double>() > 0)) return std::nullopt;
+    return x.get<double>();
+  };
+  Found found;
+  const auto r_min = near("r_min"), r_max = near("r_max"), circle = near("circular_radius");
+  if (circle) found.circular_radius = orbit.circular_radius(Mp(*circle));
+  if (known["type"] == "circle" || orbit.momentum() == Mp(0)) {
+    // A circle, to the digits of the run, where V_eff has its extremum at the start.
+    if (found.circular_radius && abs(*found.circular_radius - orbit.radius()) <= tolerance * orbit.radius()) {
+      found.r_min = found.r_max = orbit.radius();
+    }
+    return found;
+  }
+  if (r_min) found.r_min = orbit.turning_point(Mp(*r_min));
+  if (r_max) found.r_max = orbit.turning_point(Mp(*r_max));
+  if (!integrals) return found;
+  if (found.r_min && found.r_max && near("radial_period") && *found.r_min < *found.r_max) {
+    if (const auto both = orbit.between(*found.r_min, *found.r_max, tolerance)) {
+      found.radial_period = Mp(2) * both->first;
+      found.apsidal_angle = both->second;
+    }
+  } else if (found.r_min && !r_max && near("apsidal_angle")) {
+    found.apsidal_angle = orbit.to_infinity(*found.r_min, tolerance);
+  }
+  return found;
+}
+
+
+/// In so many digits: differences of V_eff near its zeros lose two thirds of more.
+class Digits {
+ public:
+  Digits(const Scenario& scenario, int digits)
+      : scope_(guarded(digits)), tolerance(power_of_ten(-digits - 3)), orbit(scenario, guarded(digits)) {}
+
+ private:
+  static int guarded(int digits) { return 3 * digits + 30; }
+  MpDigits scope_;
+
+ public:
+  Mp tolerance;
+  Orbit orbit;
+};
+
+/// What moving the energy and the angular momentum by a part of |T| + |V| and of itself makes of each entry, over that
+/// part; 0 where it is not known.
+std::array<double, std::size(entries)> changes_by_start(const Scenario& scenario, const nlohmann::ordered_json& known) {
+  Digits in(scenario, 20);
+  const Mp part = power_of_ten(-12);
+  const Found found = found_of(in.orbit, known, in.tolerance, true);
+  Orbit by_energy = in.orbit;
+  by_energy.move(part * in.orbit.size(), Mp(0));
+  const Found with_energy = found_of(by_energy, known, in.tolerance, true);
+  Orbit by_momentum = in.orbit;
+  by_momentum.move(Mp(0), part * in.orbit.momentum());
+  const Found with_momentum = found_of(by_momentum, known, in.tolerance, true);
+  std::array<double, std::size(entries)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto value = entries[i].second;
+    const auto &x = found.*value, &a = with_energy.*value, &b = with_momentum.*value;
+    if (x && a && b) all[i] = static_cast<double>((abs(*a - *x) + abs(*b - *x)) / part);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_orbit_digits(const Scenario& scenario, nlohmann::ordered_json& orbit) {
+  const int digits = std::min(digits_beyond_double(scenario.request.arithmetic), most_digits);
+  const nlohmann::ordered_json known = orbit;
+  const auto changes = changes_by_start(scenario, known);
+  orbit["uncertainty"] = nlohmann::ordered_json::object();
+  const auto add = [&](int in_digits, bool integrals) {
+    Digits in(scenario, in_digits);
+    const Found found = found_of(in.orbit, known, in.tolerance, integrals);
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      const auto [name, value] = entries[i];
+      const std::optional<Mp>& x = found.*value;
+      if (!x || !(changes[i] > 0)) {
+        if (!orbit["uncertainty"].contains(name)) orbit["uncertainty"][name] = nullptr;
+        continue;
+      }
+      const double size = static_cast<double>(abs(*x));
+      const double moved = std::pow(10.0, -digits) * changes[i] + std::pow(10.0, -in_digits) * size;
+      orbit["uncertainty"][name] = std::max(moved, std::numeric_limits<double>::min());  // it is not 0
+      const MpDigits rounded(in_digits);
+      orbit[name] = written_digits(*x + Mp(0));
+    }
+  };
+  if (digits > most_digits_of_integrals) {
+    add(most_digits_of_integrals, true);
+    add(digits, false);
+  } else {
+    add(digits, true);
+  }
+}
+
+}  // namespace hamflow
