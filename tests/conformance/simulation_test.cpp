@@ -9,6 +9,7 @@
 
 #include "../support/allocations.hpp"
 #include "../support/measured_request.hpp"
+#include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/observer.hpp"
 #include "hamflow/run/splitting_named.hpp"
