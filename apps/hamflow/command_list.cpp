@@ -14,6 +14,7 @@
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/scenario/rejection.hpp"
@@ -146,6 +147,15 @@ void show_scenario(const Scenario& scenario) {
       std::cout << fmt::format("  here: {} {} {} from {} to {}\n", wall_keys().wall_rule.name,
                                wall_rules()[static_cast<std::size_t>(walls->rule)], wall.coordinate,
                                wall.min.empty() ? "-infinity" : wall.min, wall.max.empty() ? "infinity" : wall.max);
+    }
+  }
+  if (!scenario.request.method.name.empty()) {
+    const MethodSpec taken = method_taken(scenario.request);
+    if (taken.options != scenario.request.method.options) {
+      std::cout << fmt::format(
+          "  here: steps are solved by iteration = \"{}\": few second derivatives of H are not 0, "
+          "and it costs less than newton\n",
+          taken.options.at("iteration"));
     }
   }
   const auto list = [](const std::vector<double>& xs) { return joined(xs, shortest); };

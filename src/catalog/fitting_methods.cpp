@@ -24,6 +24,12 @@ std::string or_fitting_method(const std::string& before, const std::string& what
   return before + (before.empty() ? "" : ", or ") + what + ", e.g. " + names;
 }
 
+std::string with_fitting_methods(std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
+                                 const std::string& arithmetic) {
+  const std::string names = fitting_methods(candidates, problem, arithmetic);
+  return names.empty() ? "" : ", e.g. " + names;
+}
+
 std::string refusal_with_advice(const MethodSpec& spec, const ProblemEntry* problem, const std::string& arithmetic) {
   const std::string why_not = refusal(spec, arithmetic);
   if (why_not.empty()) return why_not;

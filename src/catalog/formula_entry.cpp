@@ -5,7 +5,9 @@
 #include "hamflow/problems/support/polar.hpp"
 #include "hamflow/run/double_constants.hpp"
 #include "hamflow/run/formula_functions.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/walls.hpp"
+#include "iteration_choice.hpp"
 #include "mp_simulation.hpp"
 #include "problem_start.hpp"
 #include "recipes.hpp"
@@ -131,9 +133,19 @@ std::unique_ptr<Simulation> simulate_in_double(const formula::Model& model, cons
   return element ? std::move(element) : simulate_erased<double>(run, request);
 }
 
+/// Decided in double, for every arithmetic.
+MethodSpec method_of(const Typed& typed, const Request& request) {
+  if (unknowns_of_step(request.method, typed.model.degrees()) == 0) return request.method;
+  const ErasedFunctions<double> functions = functions_of<double>(typed.model, request.parameters);
+  const StateOf<double> s = start_of<double>(typed, functions.as<Capability::smooth>(), request);
+  return with_cheaper_iteration(request.method, functions, s.q, s.p, evaluate_number<double>(request.dt));
+}
+
 template <class R>
-std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& request) {
+std::unique_ptr<Simulation> simulate_in(const Typed& typed, const Request& asked) {
   const EntryModel& model = typed.model;
+  Request request = asked;
+  request.method = method_of(typed, asked);
   const bool rounds = DoubleConstants::are_in_use();
   const Parameters<double> rounded(rounds ? request.parameters : Texts());
   const ErasedFunctions<R> functions =
@@ -220,6 +232,17 @@ DigitCharts polar_digit_charts() {
       changed([]<class R>(const Start<R, 2>& s) { return PolarCentralForce<R, TypedPotential>::from_reference(s); })};
 }
 
+MethodSpec method_taken(const Request& request) {
+  const Choices choices = without_walls(request.variant);
+  const std::size_t coordinates = find_problem(request.problem, choices).dimension;
+  if (request.problem != FormulaKeys::problem || choices.empty() ||
+      unknowns_of_step(request.method, coordinates + clock_coordinates) < fewest_unknowns_by_fixed_points) {
+    return request.method;
+  }
+  const auto model = std::make_shared<const formula::Model>(formula_texts(choices));
+  return method_of({EntryModel(model), std::nullopt}, request);
+}
+
 ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedField>& field) {
   const Typed typed{model, field};
   const auto face = [model](const Texts& parameters) {
@@ -247,9 +270,11 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.simulate_member = [model](const Request& request, const Parameters<double>& parameters,
                               const std::vector<double>& q, const std::vector<double>& p, double h) {
     const std::size_t degrees = model.degrees();
-    return without_time(model, simulate_erased<double>({functions_of<double>(model, parameters), vector_of(q, degrees),
-                                                        vector_of(p, degrees), h},
-                                                       request));
+    const ErasedRun<double> run{functions_of<double>(model, parameters), vector_of(q, degrees), vector_of(p, degrees),
+                                h};
+    Request as_taken = request;
+    as_taken.method = with_cheaper_iteration(request.method, run.functions, run.q, run.p, h);
+    return without_time(model, simulate_erased<double>(run, as_taken));
   };
   e.step_map = [model](const Request& request, std::size_t) -> std::unique_ptr<StepMap> {
     if (!accepts(model.structure(), request.method)) return nullptr;

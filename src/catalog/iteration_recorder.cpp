@@ -46,7 +46,7 @@ IterationRecorder iteration_recorder(const ErasedFunctions<double>& functions, C
 }
 
 StageRecorder stage_recorder(const ErasedFunctions<double>& functions, Capability face, const AverageOptions& options) {
-  if (face != natural || !options.in_stages || options.element.iteration != Iteration::fixed_point ||
+  if (face != natural || !options.in_stages || first_iteration(options.element.iteration) != Iteration::fixed_point ||
       widest_native_lanes() == LaneSet::generic) {
     return {};
   }

@@ -4,6 +4,8 @@
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
+#include "hamflow/run/fitting_methods.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/splitting_named.hpp"
 #include "recipes.hpp"
@@ -95,7 +97,7 @@ Unknowns unknowns(std::size_t count, const Options& options) {
 }
 
 /// As the recipes count them.
-Unknowns unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
+Unknowns unknowns_and_options(const MethodSpec& spec, std::size_t coordinates) {
   return visit_method(spec, [&]<class M>(const M& recipe) -> Unknowns {
     const auto times = [&](int per_coordinate) { return coordinates * static_cast<std::size_t>(per_coordinate); };
     if constexpr (std::is_same_v<M, Averages>) {
@@ -121,14 +123,14 @@ std::string above_the_most(const Unknowns& step) {
 }  // namespace
 
 std::optional<RefusedOption> refused_option(const MethodSpec& spec, std::size_t coordinates) {
-  const Unknowns step = unknowns_of_step(spec, coordinates);
+  const Unknowns step = unknowns_and_options(spec, coordinates);
   if (step.count <= most_dense_unknowns || !step.diagnostics) return std::nullopt;
   return RefusedOption{diagnostics_option,
                        "found true; allowed false: " + above_the_most(step) + "without a tangent, which it is about"};
 }
 
 std::vector<ReplacedOption> replaced_options(const MethodSpec& spec, std::size_t coordinates) {
-  const Unknowns step = unknowns_of_step(spec, coordinates);
+  const Unknowns step = unknowns_and_options(spec, coordinates);
   std::vector<ReplacedOption> all;
   if (step.count <= most_dense_unknowns || step.iteration == Iteration::fixed_point) return all;
   if (const auto asked = spec.options.find(families::iteration_option); asked != spec.options.end()) {
@@ -145,9 +147,22 @@ std::vector<ReplacedOption> replaced_options(const MethodSpec& spec, std::size_t
   return all;
 }
 
-std::string hint_after_divergence(const MethodSpec& spec) {
-  const MethodFamily& family = *find_method(spec.name).family;
-  return family.hint ? family.hint(spec.options) : std::string(hint(Outcome::not_converged));
+std::size_t unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
+  // The method behind reference solutions is in no list.
+  const bool is_listed = std::ranges::any_of(methods(), [&](const MethodEntry& m) { return m.name == spec.name; });
+  return is_listed ? unknowns_and_options(spec, coordinates).count : 0;
+}
+
+std::string hint_after_divergence(const Request& request) {
+  const MethodFamily& family = *find_method(request.method.name).family;
+  if (!family.hint) return std::string(hint(Outcome::not_converged));
+  const ProblemEntry& problem = find_problem(request.problem, request.variant);
+  const std::size_t coordinates = request.start.q.size();
+  UsableAdvice usable;
+  usable.newton = unknowns_of_step(request.method, coordinates) <= most_dense_unknowns;
+  const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;
+  if (has_hessian) usable.without_quadrature = fitting_methods({"discrete-gradient"}, &problem, request.arithmetic);
+  return family.hint(request.method.options, usable);
 }
 
 std::optional<AnySplitting> splitting_named(const std::string& name) {

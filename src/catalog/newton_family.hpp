@@ -67,10 +67,15 @@ void add_newton_options(BoundOptions<Options>& all) {
       {.name = iteration_option,
        .default_value = "newton",
        .meaning = "how the equations of a step are solved, from the last steps continued: newton with the exact "
-                  "tangent, simplified with one factored once a step, fixed-point with none, from first derivatives; "
-                  "systems of more than 500 unknowns take fixed-point"},
+                  "tangent, simplified with one factored once a step, fixed-point with none, from first derivatives, "
+                  "fixed-point-or-newton with newton where that does not converge; sparse systems of "
+                  "100 unknowns and more of a typed H take it where nothing is said and it costs less; systems of more "
+                  "than 500 unknowns take fixed-point"},
       &Options::iteration,
-      {{"newton", Iteration::newton}, {"simplified", Iteration::simplified}, {"fixed-point", Iteration::fixed_point}}));
+      {{"newton", Iteration::newton},
+       {"simplified", Iteration::simplified},
+       {"fixed-point", Iteration::fixed_point},
+       {"fixed-point-or-newton", Iteration::fixed_point_or_newton}}));
   all.push_back(bind_word({.name = "on_divergence",
                            .default_value = "error",
                            .meaning = "halve: two half steps in place of one that does not converge"},
@@ -102,7 +107,7 @@ Options read_newton(const BoundOptions<Options>& options, const Texts& given) {
 template <class Options>
 std::pair<std::string, std::string> refused_together(const BoundOptions<Options>& options, const Texts& given) {
   const Options read = read_newton(options, given);
-  if (read.diagnostics && read.iteration == Iteration::fixed_point) {
+  if (read.diagnostics && first_iteration(read.iteration) == Iteration::fixed_point) {
     return {last_option(options, 0), "found true; allowed false, since a fixed-point iteration has no tangent"};
   }
   return {};
@@ -110,18 +115,19 @@ std::pair<std::string, std::string> refused_together(const BoundOptions<Options>
 
 /// Why a step found no solution is not known here, so that each advice says when it helps.
 template <class Options>
-std::string divergence_hint(const Options& read) {
+std::string divergence_hint(const Options& read, const UsableAdvice& usable) {
   const int usual = read.iteration == Iteration::newton ? Options{}.max_iterations : linear_iterations;
   std::string text = "try ";
   if (read.max_iterations < usual) {
     text += std::string("a larger method.") + max_iterations_option + " (" + std::to_string(usual) + " unless said), ";
   }
   text += std::string("a smaller dt, ") + (read.halve ? "" : "method.on_divergence = \"halve\", ") +
-          (read.iteration == Iteration::newton ? "" : "method.iteration = \"newton\", ") +
+          (usable.newton && read.iteration != Iteration::newton ? "method.iteration = \"newton\", " : "") +
           "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
   if constexpr (requires { read.quadrature; }) {
-    if (read.quadrature == 0) {
-      text += "; where H has a kink or a jump, which no quadrature resolves, method.name = \"discrete-gradient\"";
+    if (read.quadrature == 0 && !usable.without_quadrature.empty()) {
+      text += "; where H has a kink or a jump, which no quadrature resolves, method.name = \"" +
+              usable.without_quadrature + "\"";
     }
   }
   return text;

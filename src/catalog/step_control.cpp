@@ -52,10 +52,9 @@ std::optional<RefusedOption> refused_step_control(const MethodSpec& method) {
   }
   const MethodInfo info = entry.family->describe(entry.index, method.options);
   if (!info.symmetric) {
-    return RefusedOption{step_control_option,
-                         std::string("found \"") + reversible_steps + "\" with " + info.name +
-                             ", which is not symmetric; allowed " + fixed_steps +
-                             ", or a symmetric method, e.g. cg, gauss for any H, verlet, stv4 for T(p) + V(q)"};
+    return RefusedOption{step_control_option, std::string("found \"") + reversible_steps + "\" with " + info.name +
+                                                  ", which is not symmetric; allowed " + fixed_steps +
+                                                  ", or a symmetric method"};
   }
   if (info.diagnostics) {
     return RefusedOption{step_control_option,

@@ -243,7 +243,7 @@ Model::Model(const FormulaTexts& texts) {
   std::erase_if(symbols_.known, [&](const auto& entry) { return !needed.contains(entry.first); });
 
   std::vector<bool> fixed(symbols_.names.size(), true);
-  fixed.resize(symbols_.names.size() + 2, false);  // the factor, the momentum of the time
+  fixed.resize(symbols_.names.size() + 3, false);  // the factor, the momenta of the time
   for (std::size_t i = 0; i <= 2 * n; ++i) fixed[i] = false;
   derivation_ = std::make_unique<Derivation>(graph, fixed);
   Derivation& d = *derivation_;
@@ -277,19 +277,13 @@ Model::Model(const FormulaTexts& texts) {
       d.h = d.forms.sum({d.h, momentum});
       if (structure_.separable) d.t = d.forms.sum({d.t, momentum});
     }
-    const auto by = [&](int form, std::size_t i, auto&& symbol_of) {
-      return i < moving() ? d.derivative(form, symbol_of(i)) : d.forms.sum({});
-    };
-    const auto position = [this](std::size_t i) { return position_symbol(i); };
-    const auto momentum_of = [this](std::size_t i) { return momentum_symbol(i); };
-
     std::vector<Derivation::Output> of_gradient;
     std::vector<Derivation::Output> of_force;
     std::vector<Derivation::Output> of_velocity;
     std::vector<int> by_q;
     std::vector<int> by_p;
-    for (std::size_t i = 0; i < degrees(); ++i) by_q.push_back(by(d.v >= 0 ? d.v : d.h, i, position));
-    for (std::size_t i = 0; i < degrees(); ++i) by_p.push_back(by(d.t >= 0 ? d.t : d.h, i, momentum_of));
+    for (std::size_t i = 0; i < degrees(); ++i) by_q.push_back(d.derivative(d.v >= 0 ? d.v : d.h, position_symbol(i)));
+    for (std::size_t i = 0; i < degrees(); ++i) by_p.push_back(d.derivative(d.t >= 0 ? d.t : d.h, momentum_symbol(i)));
     for (const int form : by_q) of_gradient.push_back({form});
     for (const int form : by_p) of_gradient.push_back({form});
     gradient = d.code(of_gradient);
@@ -378,7 +372,7 @@ const HessianCode& Model::hessian() const {
   const std::scoped_lock lock(mutex_);
   if (hessian_) return *hessian_;
   Derivation& d = *derivation_;
-  const std::size_t n = moving();
+  const std::size_t n = degrees();
   auto all = std::make_unique<HessianCode>();
   std::vector<Derivation::Output> outputs;
   const auto add = [&](Entries& entries, const auto& row_symbol, const auto& column_symbol, bool symmetric) {
@@ -406,11 +400,10 @@ const ForceAndHessianCode& Model::force_and_hessian() const {
   const std::scoped_lock lock(mutex_);
   if (force_and_hessian_) return *force_and_hessian_;
   Derivation& d = *derivation_;
-  const std::size_t n = moving();
+  const std::size_t n = degrees();
   auto all = std::make_unique<ForceAndHessianCode>();
   std::vector<Derivation::Output> outputs;
   for (std::size_t i = 0; i < n; ++i) outputs.push_back({d.derivative(d.v, position_symbol(i)), true});
-  for (std::size_t i = n; i < degrees(); ++i) outputs.push_back({d.forms.sum({}), true});
   for (std::size_t i = 0; i < n; ++i) {
     const int row = d.derivative(d.v, position_symbol(i));
     for (std::size_t j = i; j < n; ++j) {

@@ -11,7 +11,9 @@
 #include "hamflow/methods/itoh_abe.hpp"
 #include "hamflow/problems/support/container.hpp"
 #include "hamflow/problems/support/cutoff.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/gas_start.hpp"
 #include "scenario_reader.hpp"
@@ -441,23 +443,27 @@ void ScenarioReader::read_box(TomlTable& table) {
 namespace {
 /// Why what needs the Hessian of so many particles is refused: it is a matrix that does not fit.
 std::string without_hessian(const Request& request, std::size_t coordinates, const std::string& above) {
-  constexpr std::size_t most_with_hessian = 3000;
-  if (request.problem != GasKeys::problem || coordinates <= most_with_hessian) return {};
+  if (request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian) return {};
   return "with " + std::to_string(coordinates) + " coordinates, whose Hessian is needed as a matrix; allowed up to " +
-         std::to_string(most_with_hessian) + " coordinates, above them " + above;
+         std::to_string(most_gas_coordinates_with_hessian) + " coordinates, above them " + above;
 }
 }  // namespace
 
 std::string refused_by_size(const Request& request, std::size_t coordinates) {
   const std::string& name = request.method.name;
+  const auto other_method = [&](std::initializer_list<std::string_view> candidates) {
+    return "another method" +
+           with_fitting_methods(candidates, &find_problem(request.problem, request.variant), request.arithmetic);
+  };
   if (name == "itoh-abe" && coordinates > ItohAbe::most_coordinates) {
+    const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;
     return "with " + std::to_string(coordinates) + " coordinates; allowed at most " +
            std::to_string(ItohAbe::most_coordinates) +
-           ": it evaluates H once a coordinate, a step of more takes minutes; use discrete-gradient";
+           ": it evaluates H once a coordinate, a step of more takes minutes; take " +
+           (has_hessian ? other_method({"discrete-gradient", "cg"}) : other_method({"cg", "stv4"}));
   }
   if (name != "chin4a" && name != "chin4b" && name != "discrete-gradient") return {};
-  return without_hessian(request, coordinates,
-                         "a splitting, e.g. stv4, blanes-moan-s6, or cg with iteration = \"fixed-point\"");
+  return without_hessian(request, coordinates, other_method({"stv4", "blanes-moan-s6", "cg"}));
 }
 
 /// Whether what was typed has a derivative of every order is found by recording it, which taylor alone does as it

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "hamflow/methods/step_control.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/large_steps.hpp"
 #include "method_keys.hpp"
 #include "scenario_reader.hpp"
@@ -42,7 +43,11 @@ void ScenarioReader::read_method(TomlTable& table) {
     }
   }
   if (const auto refused = refused_option(spec)) {
-    table.complain(table.has(refused->name) ? refused->name : method_name_key().name, refused->message);
+    const bool of_symmetry = refused->name == step_control_option && refused->message.ends_with("symmetric method");
+    const std::string which =
+        of_symmetry ? with_fitting_methods({"verlet", "stv4", "cg"}, scenario_.problem, scenario_.request.arithmetic)
+                    : "";
+    table.complain(table.has(refused->name) ? refused->name : method_name_key().name, refused->message + which);
   }
   if (scenario_.problem != nullptr) {
     const std::string why_not = refusal(spec, *scenario_.problem);

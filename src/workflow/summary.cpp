@@ -16,7 +16,9 @@
 #include "hamflow/formula/problem_texts.hpp"
 #include "hamflow/methods/step_control.hpp"
 #include "hamflow/problems/support/container.hpp"
+#include "hamflow/run/fitting_methods.hpp"
 #include "hamflow/run/gas.hpp"
+#include "hamflow/run/large_steps.hpp"
 #include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/state_units.hpp"
@@ -259,6 +261,12 @@ std::optional<Json> exact_of(const Scenario& scenario, const Frame& frame) {
 
 }  // namespace
 
+/// The iteration by which steps are solved where nothing was said and it is not newton; else empty.
+static std::string chosen_iteration(const Request& request) {
+  const MethodSpec taken = method_taken(request);
+  return taken.options == request.method.options ? "" : taken.options.at("iteration");
+}
+
 /// The hint of the outcome, and what method and problem add to it.
 std::string hint_for(const Request& request, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
@@ -266,7 +274,7 @@ std::string hint_for(const Request& request, Outcome outcome, std::string_view f
            "an H with two, such as p^2/2, or no wall there";
   }
   if (outcome == Outcome::not_converged) {
-    const std::string solved = hint_after_divergence(request.method);
+    const std::string solved = hint_after_divergence(request);
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
     // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
@@ -420,6 +428,9 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
         effort.steps > 0 ? static_cast<double>(effort.linear_solves) / static_cast<double>(effort.steps) : 0;
     s["newton"] = {
         {"min", effort.solves_min}, {"mean", mean}, {"max", effort.solves_max}, {"stagnated", effort.stagnated}};
+    if (const std::string iteration = chosen_iteration(scenario.request); !iteration.empty()) {
+      s["newton"]["iteration"] = iteration;
+    }
   }
   s["events"] = Json::object();
   const std::vector<std::string> walls = bounce_names(scenario);

@@ -130,10 +130,13 @@ std::string readable(const Json& s) {
                       s["evaluations"]["gradient"].get<long long>(), s["evaluations"]["hessian"].get<long long>(),
                       s["evaluations"]["linear_solves"].get<long long>()));
   if (!s["newton"].is_null()) {
+    const std::string chosen =
+        s["newton"].contains("iteration") ? ", iteration " + s["newton"]["iteration"].get<std::string>() : "";
     text += row("Newton per step",
                 fmt::format("min {}, mean {:.4g}, max {}, stagnated {}", s["newton"]["min"].get<long long>(),
                             s["newton"]["mean"].get<double>(), s["newton"]["max"].get<long long>(),
-                            s["newton"]["stagnated"].get<long long>()));
+                            s["newton"]["stagnated"].get<long long>()) +
+                    chosen);
   }
   for (const auto& [key, value] : s["events"].items()) text += row("event " + key, written_json(value));
   if (s.contains("event_notes")) {

@@ -69,6 +69,33 @@ class Advice(CommandCase):
                 self.hamflow("run", "s.toml", "--out", "none", "--set", f"method.name={better[1]}")
         self.assertGreaterEqual(refused, 10)
 
+    def test_advice_can_be_followed(self):
+        """Whatever is named as an alternative takes the problem, in its arithmetic and with its size."""
+        self.write("mixed.toml", """
+            [problem]
+            name = "formula"
+            coordinates = ["x"]
+            hamiltonian = "(x^2 + 1)*(p_x^2 + 1)/2"
+            initial = { q = [1], p = [0] }
+            [method]
+            name = "rk4"
+            [run]
+            dt = 0.1
+            steps = 10""")
+        reversible = ("--out", "none", "--set", "method={ name = 'rk4', step_control = 'reversible' }")
+        said = self.hamflow("run", "mixed.toml", *reversible, status=2).stderr
+        self.assertIn("a symmetric method, e.g. cg", said)
+        self.assertNotIn("verlet", said)
+        said = self.hamflow("run", "kepler.toml", *reversible, status=2).stderr
+        self.assertIn("a symmetric method, e.g. verlet, stv4, cg", said)
+        # 600 unknowns: no matrix is made, so that Newton is no way out.
+        chain = "[problem]\nname = 'formula'\ncoordinates = ['x[n]']\nparameters = { n = 300 }\nhamiltonian = " \
+                "'sum(i, 1, n, p_x[i]^2/2 + 1000*cosh(x[i]))'\ninitial = { q = %s, p = %s }\n[method]\nname = " \
+                "'cg(2,4)'\niteration = 'fixed-point'\n[run]\ndt = 1\nsteps = 1\n" % ([1] * 300, [0] * 300)
+        said = self.hamflow("run", self.write("chain.toml", chain), "--out", "none", status=1).stderr
+        self.assertIn("try a smaller dt", said)
+        self.assertNotIn('method.iteration = "newton"', said)
+
     def test_eighth_order_for_quadratic_kinetic_energy(self):
         """rkn8-s19 is advised before kahan-li8 where T is quadratic: more accurate for as many forces."""
         for problem in ('name = "central-force"\npotential = "kepler"\norbit = { kind = "ellipse", r_per = 1, r_aph = 2 }',

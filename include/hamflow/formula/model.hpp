@@ -43,6 +43,8 @@ class Model {
   /// since the present step began, with the momentum E, and behind it the time at which that step began, which no
   /// motion changes (core/step_clock.hpp). t is their sum, rounded once. The functions are those of H(q, p, t) + E:
   /// along a motion t' = 1 and E' = -dH/dt, so that H + E is conserved: its deviation is H - H(0) - int dH/dt.
+  /// Derivatives are by both coordinates: what a method knows of rounding is a derivative times a coordinate, and late
+  /// in a run the time at which a step began rounds by more than the step is long.
   /// Separable H stay so if T does not depend on t: kicks are at the time of their stage.
   std::size_t degrees() const { return size() + (structure_.time ? clock_coordinates : 0); }
   const std::vector<std::string>& coordinates() const { return coordinates_; }  // x[1], x[2], ...
@@ -54,14 +56,15 @@ class Model {
   /// Coordinates, momenta, t, parameters, in the order of values; known: what indices needed.
   const FormulaSymbols& symbols() const { return symbols_; }
   std::size_t time_symbol() const { return 2 * size(); }
-  /// The symbol of the factor of scaled_force and scaled_velocity, behind all others, and that of the momentum of t.
+  /// Behind all others: the symbol of the factor of scaled_force and scaled_velocity, and those of the momenta of both
+  /// coordinates of the time, of which H + E does not contain the second.
   std::size_t factor_symbol() const { return symbols_.names.size(); }
   std::size_t time_momentum_symbol() const { return symbols_.names.size() + 1; }
-  /// Coordinates by which functions have derivatives: all but the beginning of the step.
-  std::size_t moving() const { return size() + (structure_.time ? 1 : 0); }
-  /// The symbols of the i-th coordinate and of its momentum, i < moving().
+  /// The symbols of the i-th coordinate and of its momentum, i < degrees().
   std::size_t position_symbol(std::size_t i) const { return i < size() ? i : time_symbol(); }
-  std::size_t momentum_symbol(std::size_t i) const { return i < size() ? size() + i : time_momentum_symbol(); }
+  std::size_t momentum_symbol(std::size_t i) const {
+    return i < size() ? size() + i : time_momentum_symbol() + (i - size());
+  }
   /// Of a parameter symbol: its name and its place in the list.
   struct ParameterPlace {
     std::string name;

@@ -176,8 +176,6 @@ struct RefusedOption {
   std::string message;
 };
 std::optional<RefusedOption> refused_option(const MethodSpec& spec);
-/// What can be tried after a step that did not converge.
-std::string hint_after_divergence(const MethodSpec& spec);
 /// The number of its family in method_families().
 std::size_t family_number(const MethodEntry& method);
 std::span<const MethodFamily> method_families();

@@ -21,6 +21,13 @@ std::string or_fitting_method(const std::string& before, const std::string& what
                               std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
                               const std::string& arithmetic);
 
+/// The same behind what is said of a method: ", e.g. stv4, cg"; empty where none fits.
+std::string with_fitting_methods(std::initializer_list<std::string_view> candidates, const ProblemEntry* problem,
+                                 const std::string& arithmetic);
+
+/// What can be tried after a step that did not converge.
+std::string hint_after_divergence(const Request& request);
+
 /// refusal() of a method in an arithmetic, and which methods take the problem in it.
 std::string refusal_with_advice(const MethodSpec& spec, const ProblemEntry* problem, const std::string& arithmetic);
 

@@ -36,6 +36,12 @@ inline constexpr const char* diagnostics_option = "diagnostics";
 
 inline constexpr int unlimited_digits = std::numeric_limits<int>::max();
 
+/// What a scenario can take of the advice that a method gives after a step that did not converge.
+struct UsableAdvice {
+  bool newton = true;                // method.iteration = "newton": a matrix is made for so many unknowns
+  std::string without_quadrature{};  // a method that evaluates no quadrature; empty: none takes the problem
+};
+
 struct MethodFamily {
   std::string name;
   std::string meaning{};             // of the whole family, for the headings of lists
@@ -60,7 +66,7 @@ struct MethodFamily {
   /// The option to blame, and what is wrong with options that do not go together: "found ...; allowed ...".
   std::function<std::pair<std::string, std::string>(const Texts& options)> refused;
   /// What a user can try after a step that did not converge.
-  std::function<std::string(const Texts& options)> hint;
+  std::function<std::string(const Texts& options, const UsableAdvice& usable)> hint;
   /// The options with those that follow from an arithmetic of so many decimal digits; 0: double or less.
   std::function<Texts(const Texts& options, int digits)> completed;
   /// The options with which its order is measured: fixed steps, and an order that halving the step can show.

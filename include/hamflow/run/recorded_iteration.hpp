@@ -221,14 +221,14 @@ bool record_finish(const typename E::Setup& setup, const typename E::Problem& pr
   position += Number(time.direction);
   const Number length = Number(time.direction) * f.numbers[IterationFrame::h];
   const Number t = Number(time.start) + position * length;
+  const V q = f.z.positions();
+  const V p = f.z.momenta();
+  if (!f.probe.look(problem, q, p, t)) return false;
   if (problem.has_clock()) {
     const bool back = time.direction < 0;
     set_clock(f.z, time_in_words(Number(time.start), back ? position - Number(1) : position, length),
               back ? length : Number(0));
   }
-  const V q = f.z.positions();
-  const V p = f.z.momenta();
-  if (!f.probe.look(problem, q, p, t)) return false;
   if (setup.automatic()) {
     const Number before = f.numbers[frame.energy()];
     const Number behind = hamflow::energy(problem, q, p);

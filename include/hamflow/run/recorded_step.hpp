@@ -189,7 +189,6 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
     auto method_before = method;
     auto probe_before = probe;
     if (step() != Outcome::done) return std::nullopt;
-    set_clock_at(position);
     const Number t = varies ? end_of_varying : Number(time.start) + position * Number(time.step);
     const auto seen = z;  // before walls
     bool is_seen = false;
@@ -226,6 +225,7 @@ std::optional<RecordedStep> record_step(const P& problem, M method, const Vector
       for (std::size_t k = 0; k < words.size(); ++k) words[k] += met[k];
     }
     if (watch && !is_seen && !probe.look(problem, z.positions(), z.momenta(), t)) return std::nullopt;
+    set_clock_at(position);
     detail::TracedFields after = detail::traced_fields(z, method, probe, density);
     if (at == RecordedAt::steady) {
       recorded.fields = detail::carried_fields(before, after, counts);

@@ -195,14 +195,14 @@ class SimulationOf : public SimulationState<P, A, Probe> {
         return retrace(i, outcome, h, taken, method_out, z_out, probe_out);
       if (z.arithmetic.lost()) [[unlikely]]
         return retrace(i, Outcome::lattice_overflow, h, taken, method_out, z_out, probe_out);
-      if constexpr (MayHaveClock<P>) {
+      if (!probe.look(problem, z.positions(), z.momenta(), this->time_after(i + 1, h))) [[unlikely]] {
+        return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
+      }
+      if constexpr (MayHaveClock<P>) {  // behind the probe, which sees the time of the last force
         if (has_clock(problem)) {
           this->set_clock_after(i + 1, h, z);
           tell_time(method, z);
         }
-      }
-      if (!probe.look(problem, z.positions(), z.momenta(), this->time_after(i + 1, h))) [[unlikely]] {
-        return retrace(i, Outcome::non_finite, h, taken, method_out, z_out, probe_out);
       }
     }
     if (!is_finite(problem, z)) {  // without a probe nobody has looked yet

@@ -87,10 +87,10 @@ class SimulationState : public Simulation, public StepsInParts<typename A::Real>
     z_.arithmetic.position.add(z_.q[i], twice_the_wall);
   }
   [[gnu::cold]] Outcome complete_step() override {
+    if (!probe_.look(problem_, z_.positions(), z_.momenta(), time_after(1, next_length()))) return Outcome::non_finite;
     if constexpr (MayHaveClock<P>) {
       if (has_clock(problem_)) set_clock_after(1, next_length(), z_);
     }
-    if (!probe_.look(problem_, z_.positions(), z_.momenta(), time_after(1, next_length()))) return Outcome::non_finite;
     clock_.advance(1);
     return Outcome::done;
   }

@@ -21,24 +21,25 @@ struct Avf {
   }
 
   static MethodFamily declared() {
-    return {.name = "avf",
-            .meaning = "the averaged vector field method, which is cg(1, quadrature)",
-            .methods = {"avf"},
-            .options = declarations_of(options()),
-            .read = [](const Texts& given) { return std::any(read(given)); },
-            .rank = 2,
-            .not_on_lattice = "an implicit step is no bijection of the lattice",
-            .not_fast = "an energy-conserving element needs the exact force",
-            .representatives = {"avf(1)", "avf(4)", "avf(auto)"},
-            .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
-            .needs = [](std::size_t) { return "a twice differentiable H"; },
-            .advice =
-                [](std::size_t) {
-                  return MethodAdvice{.take = "cg is asked for by this name",
-                                      .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do: verlet"};
-                },
-            .refused = [](const Texts& given) { return refused_together(options(), given); },
-            .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+    return {
+        .name = "avf",
+        .meaning = "the averaged vector field method, which is cg(1, quadrature)",
+        .methods = {"avf"},
+        .options = declarations_of(options()),
+        .read = [](const Texts& given) { return std::any(read(given)); },
+        .rank = 2,
+        .not_on_lattice = "an implicit step is no bijection of the lattice",
+        .not_fast = "an energy-conserving element needs the exact force",
+        .representatives = {"avf(1)", "avf(4)", "avf(auto)"},
+        .describe = [](std::size_t, const Texts& given) { return hamflow::describe(read(given)); },
+        .needs = [](std::size_t) { return "a twice differentiable H"; },
+        .advice =
+            [](std::size_t) {
+              return MethodAdvice{.take = "cg is asked for by this name",
+                                  .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do: verlet"};
+            },
+        .refused = [](const Texts& given) { return refused_together(options(), given); },
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   template <class F>

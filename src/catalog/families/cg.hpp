@@ -47,7 +47,7 @@ struct Cg {
                       "(lattice): stv4; the angular momentum in Cartesian coordinates has to be kept: verlet"};
             },
         .refused = refused,
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   /// cg(1) by Newton has kernels of its own, compiled with each problem.

@@ -38,7 +38,7 @@ struct DiscreteGradient {
                   .avoid = "a higher order is wanted: cg(2), cg(3); many cheap steps do for H = T(p) + V(q): verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   template <class F>

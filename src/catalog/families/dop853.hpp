@@ -31,7 +31,7 @@ struct Dop853 {
     };
     family.needs = [](std::size_t) { return "a differentiable H"; };
     family.digits = [](std::size_t) { return dop853::digits; };
-    family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance"; };
+    family.hint = [](const Texts&, const UsableAdvice&) { return "try a smaller dt, a larger method.tolerance"; };
     family.measurable = [](const Texts& given) {
       Texts all = given;
       all[options()[1].info.name] = "fixed";

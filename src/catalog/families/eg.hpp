@@ -49,7 +49,7 @@ struct Eg {
                                       "do: kahan-li8, rkn8-s19"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   template <class F>

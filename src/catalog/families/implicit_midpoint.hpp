@@ -39,7 +39,7 @@ struct ImplicitMidpoint {
                   .avoid = "the energy has to be exact: cg; a higher order is wanted: gauss; H = T(p) + V(q): verlet"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   template <class F>

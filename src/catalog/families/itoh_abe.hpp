@@ -41,7 +41,7 @@ struct ItohAbe {
                       "the solution has to be right or the way back to be found: cg, of order 2 and more, symmetric"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   template <class F>

@@ -42,7 +42,7 @@ struct Rattle {
                                       "where H is T(p) + V(q)"};
             },
         .refused = [](const Texts& given) { return refused_together(options(), given); },
-        .hint = [](const Texts& given) { return divergence_hint(read(given)); }};
+        .hint = [](const Texts& given, const UsableAdvice& usable) { return divergence_hint(read(given), usable); }};
   }
 
   template <class F>

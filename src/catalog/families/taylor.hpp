@@ -44,7 +44,9 @@ struct Taylor {
               "for any H"};
     };
     family.needs = [](std::size_t) { return "an H whose derivatives can be recorded"; };
-    family.hint = [](const Texts&) { return "try a smaller dt, a larger method.tolerance or another method.order"; };
+    family.hint = [](const Texts&, const UsableAdvice&) {
+      return "try a smaller dt, a larger method.tolerance or another method.order";
+    };
     // Of a series of order 15, the default, the error cannot be halved four times in any arithmetic at hand.
     family.measurable = [](const Texts& given) {
       Texts all = given;

@@ -72,6 +72,7 @@ class DiscreteGradientStep : public TargetEquations<R> {
       u[i] = h_ * dp[i];
       u[q0_.size() + i] = -h_ * dq[i];
     }
+    if (has_clock(problem_)) u[u.size() - 1] = Real(0);
     return u;
   }
   Variables started(const Memory& extrapolated) const { return extrapolated; }
@@ -85,6 +86,13 @@ class DiscreteGradientStep : public TargetEquations<R> {
     for (std::size_t i = 0; i < u.size(); ++i) {
       const bool of_q = i < size;
       const std::size_t other = of_q ? size + i : i - size;  // J
+      // The momentum of the time at which a step of H(q, p, t) begins is in no function. A gradient along the whole
+      // increment would move that time with it.
+      const bool is_in_none = has_clock(problem_) && i + 1 == u.size();
+      if (is_in_none) {
+        if (at.linearised) at.tangent[i][i] = Real(1);
+        continue;
+      }
       at.sum[i] = of_q ? kappa * dh.value[other] : -kappa * dh.value[other];
       at.noise[i] = abs(h_) * dh.noise[other];
       if (!at.linearised) continue;

@@ -273,7 +273,15 @@ class ImplicitMethod {
                                                                  Solution found, NewtonLog* log) {
     const NewtonReport report{options_, effort_, diagnostics_, log};
     if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), report, verdict, found)) return found;
-    if (verdict.refused || options_.halve || options_.iteration != Iteration::newton) return {};
+    if (verdict.refused) return {};
+    if (options_.iteration == Iteration::fixed_point_or_newton) {
+      NewtonOptions by_newton = options_;
+      by_newton.iteration = Iteration::newton;
+      by_newton.max_iterations = NewtonOptions{}.max_iterations;
+      const NewtonReport again{by_newton, effort_, diagnostics_, log};
+      if (newton_.elsewhere(E(setup_, problem, h, q0, p0, effort_), again, {}, found)) return found;
+    }
+    if (options_.halve || options_.iteration != Iteration::newton) return {};
     return continued(problem, h, q0, p0, log);
   }
 

@@ -215,7 +215,7 @@ class Newton {
     bool shortened = false;  // by damping
     bool evaluated = false;  // by damping, already
     int stalls = 0;
-    [[maybe_unused]] Iteration iteration = options.iteration;
+    [[maybe_unused]] Iteration iteration = first_iteration(options.iteration);
     [[maybe_unused]] int doubts = 0;         // of what is taken for rounding
     [[maybe_unused]] Real doubted_terms(0);  // what the terms of forces rounded by at the last of them
     bool is_anew = true;                     // there is no full correction before this one, in the same units

@@ -9,10 +9,15 @@ namespace hamflow {
 
 /// How the equations of a step are solved.
 enum class Iteration {
-  newton,      // exact tangent in every iteration
-  simplified,  // the tangent of the first guess, factored once a step
-  fixed_point  // no tangent at all: first derivatives only
+  newton,                // exact tangent in every iteration
+  simplified,            // the tangent of the first guess, factored once a step
+  fixed_point,           // no tangent at all: first derivatives only
+  fixed_point_or_newton  // fixed_point, and newton for a step in which that does not converge
 };
+/// How a step is solved first, and mostly.
+constexpr Iteration first_iteration(Iteration iteration) {
+  return iteration == Iteration::fixed_point_or_newton ? Iteration::fixed_point : iteration;
+}
 /// As the subject of a sentence.
 inline std::string solver_name(Iteration iteration) {
   return iteration == Iteration::fixed_point ? "the fixed-point iteration" : "Newton";
