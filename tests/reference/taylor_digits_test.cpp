@@ -28,7 +28,7 @@ int motions(int in_the_suite) {
 }
 bool is_campaign() { return std::getenv("HAMFLOW_RANDOM_MOTIONS") != nullptr; }
 
-int drawn_digits(Drawn& draw) { return static_cast<int>(draw.of_size(34, is_campaign() ? 400 : 100)); }
+int drawn_digits(Drawn& draw) { return static_cast<int>(draw.of_size(34, is_campaign() ? 400 : 80)); }
 /// A sub-step costs some third power of the digits: motions in many digits are shorter.
 double share_of_time(int digits) { return std::min(1.0, std::pow((is_campaign() ? 100.0 : 34.0) / digits, 2.5)); }
 
@@ -150,15 +150,14 @@ void expect_digits(const Request& request, int steps, int digits) {
   const End other = end_of(moved, steps, wide);
   ASSERT_EQ(right.outcome, Outcome::done) << right.failure;
   ASSERT_EQ(other.outcome, Outcome::done) << other.failure;
-  const double growth =
-      half + std::max(log_relative(other.q, right.q, wide), log_relative(other.p, right.p, wide));
+  const double growth = half + std::max(log_relative(other.q, right.q, wide), log_relative(other.p, right.p, wide));
   EXPECT_LE(log_relative(end.q, right.q, wide), allowed(digits, end, growth));
   EXPECT_LE(log_relative(end.p, right.p, wide), allowed(digits, end, growth));
 }
 
 TEST(TaylorDigits, EllipsesMeetKeplersEquation) {
   Drawn draw{std::mt19937(40)};
-  for (int i = 0; i < motions(10); ++i) {
+  for (int i = 0; i < motions(6); ++i) {
     const double one_minus_e = draw.of_size(1e-9, 1);
     const int digits = drawn_digits(draw);
     const double revolutions = draw.between(0, is_campaign() ? 1.5 : 0.7) * share_of_time(digits);
@@ -169,7 +168,7 @@ TEST(TaylorDigits, EllipsesMeetKeplersEquation) {
 TEST(TaylorDigits, ManyDigitsNearThePericentre) {
   expect_ellipse(0.01, 0.02, 1, 100);
   expect_ellipse(1e-9, 1e-9, 1, 150);
-  expect_ellipse(0.01, 1e-4, 1, 400);
+  expect_ellipse(0.01, 1e-5, 1, 400);
 }
 
 /// p = 2 - delta turns below the upper equilibrium, and 2 + delta goes round, after a time of ln(1/delta).
@@ -182,7 +181,8 @@ TEST(TaylorDigits, PendulumsNearTheSeparatrix) {
     const int digits = drawn_digits(draw);
     const int exponent = static_cast<int>(draw.between(1, digits / 3.0));
     request.start = {.q = {"0"}, .p = {std::string(i % 2 == 0 ? "2+" : "2-") + "1e-" + std::to_string(exponent)}};
-    const double time = draw.between(0.5, is_campaign() ? 2.5 : 1.2) * (2 + exponent * std::log(10.0)) * share_of_time(digits);
+    const double time =
+        draw.between(0.5, is_campaign() ? 2.5 : 1.2) * (2 + exponent * std::log(10.0)) * share_of_time(digits);
     const int steps = static_cast<int>(draw.of_size(1, 50));
     request.dt = shortest(time / steps);
     expect_digits(request, steps, digits);
@@ -199,7 +199,8 @@ TEST(TaylorDigits, ThreeBodies) {
     request.parameters = {{"masses", "[" + joined(masses, ", ") + "]"}};
     for (int k = 0; k < 6; ++k) {
       request.start.q.push_back(shortest(draw.between(-1, 1)));
-      request.start.p.push_back(shortest(draw.between(-0.3, 0.3) * std::atof(masses[static_cast<std::size_t>(k / 2)].c_str())));
+      request.start.p.push_back(
+          shortest(draw.between(-0.3, 0.3) * std::atof(masses[static_cast<std::size_t>(k / 2)].c_str())));
     }
     const int steps = static_cast<int>(draw.of_size(1, 20));
     const int digits = drawn_digits(draw);
@@ -208,7 +209,8 @@ TEST(TaylorDigits, ThreeBodies) {
   }
 }
 
-/// Sub-steps are multiples of 2^-50 of a step. A motion that needs shorter ones is refused, and a shorter step follows it.
+/// Sub-steps are multiples of 2^-50 of a step. A motion that needs shorter ones is refused, and a shorter step follows
+/// it.
 TEST(TaylorDigits, SubstepsTooShortForTheStepAreRefusedInWords) {
   const double r_per = 1e-9;
   const double passing = std::pow(r_per, 1.5);
