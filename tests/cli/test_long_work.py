@@ -26,9 +26,8 @@ steps = {steps}
 GROWING = """
 [problem]
 name = "formula"
-H = "p^2/2 - q^4/4 + cos(q)/1000"
+hamiltonian = "p^2/2 - q^4/4 + cos(q)/1000"
 coordinates = ["q"]
-momenta = ["p"]
 initial = { q = [2], p = [1] }
 [method]
 name = "verlet"
@@ -61,8 +60,8 @@ class LongWork(CommandCase):
 
     def test_a_signal_within_a_step_of_minutes(self):
         """Behind the first step that the folder knows of, or within it: nothing of a step is kept."""
-        methods = ("name = 'yoshida8'", "name = 'rk4'", "name = 'gauss'\nstages = 3", "name = 'cg'\nquadrature = 4",
-                   "name = 'rkn8-s19'")
+        methods = ("name = 'stv4'", "name = 'rk4'", "name = 'gauss'\nstages = 3", "name = 'cg'\nquadrature = 4",
+                   "name = 'taylor'")
         for k, method in enumerate(methods):
             with self.subTest(method=method):
                 self.write("k.toml", KEPLER.format(method=method, arithmetic="mp(60000)", steps=100000))
@@ -77,8 +76,8 @@ class LongWork(CommandCase):
     def test_numbers_that_grow_beyond_all_bounds(self):
         self.write("g.toml", GROWING)
         for number in (signal.SIGINT, signal.SIGTERM):
-            process = self.start("run", "g.toml", "--out", "g", "--force", "--json")
-            self.wait_until(process, (self.folder / "g/checkpoint.bin").exists)
+            process = self.start("run", "g.toml", "--out", f"g{number:d}", "--json")
+            self.wait_until(process, (self.folder / f"g{number:d}/checkpoint.bin").exists)
             process.send_signal(number)
             process.communicate(timeout=60)
             self.assertIn(process.returncode, (130, 1))  # 1: infinite before the signal came
