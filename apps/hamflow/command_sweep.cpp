@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "commands.hpp"
 #include "guarded.hpp"
@@ -36,9 +37,11 @@ void open_folder(ScenarioSweep& sweep, const SweepCommandOptions& options) {
   print_notes({sweep.notes().begin() + static_cast<std::ptrdiff_t>(told), sweep.notes().end()}, options.quiet);
 }
 
-SweepReport carry_out(ScenarioSweep& sweep, const SweepCommandOptions& options) {
+SweepReport carry_out(ScenarioSweep& sweep, const SweepCommandOptions& options,
+                      std::optional<Preparation>& preparation) {
   Progress progress(sweep.steps_before(), sweep.total_steps(), options.quiet);
   return sweep.run([&](std::int64_t steps) {
+    if (steps > sweep.steps_before()) preparation.reset();
     progress.show(steps);
     return !interrupted();
   });
@@ -71,6 +74,8 @@ int sweep_command(const SweepCommandOptions& options) {
   KeptWork kept{.forced = options.force};
   const auto run = [&] {
     check_together(options);
+    catch_interrupts();
+    std::optional<Preparation> preparation(std::in_place, "setting up the sweep", options.json, options.quiet);
     ScenarioSweep sweep({.text = scenario_text(options.scenario),
                          .name = options.scenario,
                          .sets = options.sets,
@@ -88,12 +93,12 @@ int sweep_command(const SweepCommandOptions& options) {
     }
     require_folder_of(options.figure);
     const bool writes = options.out != "none";
-    catch_interrupts();
     if (writes) {
       open_folder(sweep, options);
       kept.folder = folder_for(options);
     }
-    const SweepReport report = carry_out(sweep, options);
+    const SweepReport report = carry_out(sweep, options, preparation);
+    preparation.reset();
     print(sweep, report, writes, options);
     if (!draws || report.status == "failed") return exit_status(report.status);
     const int drawn = written_behind_report([&] { sweep.draw(options.figure, options.colour, options.mean); });

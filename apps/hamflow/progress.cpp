@@ -145,7 +145,7 @@ void Progress::draw(double part, const std::string& text) {
 }
 
 void Progress::show(std::int64_t step) {
-  if (steps_ == 0 || !is_due()) return;
+  if (steps_ == 0 || (step == first_ && !is_terminal_) || !is_due()) return;  // the one note says how long it takes
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
   const double rate = static_cast<double>(step - first_) / seconds;
   const double part = static_cast<double>(step) / static_cast<double>(steps_);

@@ -268,6 +268,7 @@
 #include "hamflow/run/steps_in_parts.hpp"
 #include "hamflow/run/wall_failures.hpp"
 #include "hamflow/run/walls.hpp"
+#include "hamflow/run/way_out.hpp"
 #include "hamflow/scenario/coordinates.hpp"
 #include "hamflow/scenario/gas_start.hpp"
 #include "hamflow/scenario/rejection.hpp"

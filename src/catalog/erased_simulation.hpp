@@ -2,6 +2,7 @@
 // the methods whose steps are recorded: few of their steps take the ordinary road, so that a light optimisation does.
 #pragma once
 
+#include "asking_functions.hpp"
 #include "hamflow/arithmetic/lattice.hpp"
 #include "hamflow/run/fast_functions.hpp"
 #include "hamflow/run/iterated_simulation.hpp"
@@ -194,10 +195,22 @@ std::unique_ptr<Simulation> simulate_without_walls(const ErasedRun<R>& run, cons
 }
 
 template <class R>
-std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+std::unique_ptr<Simulation> simulate_asked(const ErasedRun<R>& run, const Request& request) {
   const auto walls = walls_among(request.variant);
   if (!walls) return simulate_without_walls(run, request);
   return simulate_behind_walls<R>(run, request, *walls, simulate_without_walls<R>);
+}
+
+/// A step in mp(d) can take minutes: whoever wants to stop is heard within it.
+template <class R>
+std::unique_ptr<Simulation> simulate_erased(const ErasedRun<R>& run, const Request& request) {
+  if constexpr (std::is_same_v<R, Mp>) {
+    ErasedRun<R> asking = run;
+    asking.functions.plain = AskingFunctions<R>::asking(run.functions.plain);
+    return simulate_asked(asking, request);
+  } else {
+    return simulate_asked(run, request);
+  }
 }
 
 }  // namespace hamflow

@@ -1,6 +1,9 @@
 #include "mp_simulation.hpp"
 
+#include <chrono>
+
 #include "hamflow/arithmetic/mp.hpp"
+#include "hamflow/run/way_out.hpp"
 
 namespace hamflow {
 
@@ -13,7 +16,19 @@ class MpSimulation final : public Simulation {
     inner_.reset();
   }
   Outcome advance(std::int64_t steps) override {
-    return in_scope([&] { return inner_->advance(steps); });
+    return in_scope([&] {
+      for (; steps > 0 && has_long_steps_; --steps) {
+        const auto before = inner_->clone();
+        try {
+          const WayOut way_out;
+          if (const Outcome outcome = measured_advance(1); outcome != Outcome::done) return outcome;
+        } catch (const WayOut::Taken&) {
+          inner_->restore(before->save());
+          return Outcome::stopped;
+        }
+      }
+      return steps > 0 ? measured_advance(steps) : Outcome::done;
+    });
   }
   std::int64_t step() const override { return inner_->step(); }
   void look(Frame& frame) const override {
@@ -46,7 +61,14 @@ class MpSimulation final : public Simulation {
   }
   MethodInfo method() const override { return inner_->method(); }
   std::string failure() const override {
-    return in_scope([&] { return inner_->failure(); });
+    return in_scope([&]() -> std::string {  // the step is taken again
+      try {
+        const WayOut way_out;
+        return inner_->failure();
+      } catch (const WayOut::Taken&) {
+        return {};
+      }
+    });
   }
   std::vector<WallCount> wall_counts() const override { return inner_->wall_counts(); }
   void tell_bounces(std::function<void(const Bounce&)> told) override { inner_->tell_bounces(std::move(told)); }
@@ -72,8 +94,18 @@ class MpSimulation final : public Simulation {
     const MpDigits scope(digits_);
     return f();
   }
+  Outcome measured_advance(std::int64_t steps) {
+    using Clock = std::chrono::steady_clock;
+    constexpr double long_step = 1e-3;  // seconds; a copy of the simulation is nothing beside them
+    const Clock::time_point begin = Clock::now();
+    const Outcome outcome = inner_->advance(steps);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    has_long_steps_ = seconds > long_step * static_cast<double>(steps);
+    return outcome;
+  }
   int digits_;
   std::unique_ptr<Simulation> inner_;
+  bool has_long_steps_ = true;  // none was measured yet
 };
 }  // namespace
 

@@ -165,7 +165,13 @@ const RunKeys& run_keys() {
                          "scale of a flow; sections, events and Lyapunov exponents by steps",
               .type = OptionType::yes_no,
               .condition = "with steps of one length and without record",
-              .example = "true"}};
+              .example = "true"},
+      .certificate = {.name = "certificate",
+                      .default_value = "true",
+                      .meaning = "false: no class of the energy error, and no step beside those of the run, a part of "
+                                 "which is taken forward and back otherwise",
+                      .type = OptionType::yes_no,
+                      .example = "false"}};
   return keys;
 }
 
@@ -206,7 +212,7 @@ const std::vector<DeclaredTable>& declared_tables() {
     return std::vector<DeclaredTable>{
         {run_table,
          {r.dt, r.steps, r.t_end, r.record_every, r.record, r.lyapunov, r.eigenvalues, r.section, r.events,
-          r.record_events, r.map, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
+          r.record_events, r.map, r.certificate, r.checkpoint_every, r.arithmetic, r.lattice, r.threads, r.kernel}},
         {output_table, {o.folder, o.formats, o.figures, o.observables}}};
   }();
   return tables;

@@ -25,7 +25,7 @@ struct EventKeys {
 };
 struct RunKeys {
   OptionInfo dt, steps, t_end, record_every, record, checkpoint_every, arithmetic, lattice, kernel, threads, lyapunov,
-      eigenvalues, section, events, record_events, map;
+      eigenvalues, section, events, record_events, map, certificate;
 };
 struct OutputKeys {
   OptionInfo folder, formats, figures, observables;

@@ -25,6 +25,7 @@ void ScenarioReader::read_run(TomlTable& table) {
     scenario_.request.dt = *dt;
   }
   read_map(table);
+  scenario_.certificate = table.yes_no(keys.certificate).value_or(true);
   read_length(table);
   if (!std::isfinite(scenario_.dt * static_cast<double>(scenario_.steps))) {
     table.complain(keys.dt.name,

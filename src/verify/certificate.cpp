@@ -391,7 +391,7 @@ RunCertificate certify(const Request& request, const ProblemEntry& problem, std:
   if (steps_taken > 0) {
     std::optional<double> period;
     if (found.drift.periods) period = static_cast<double>(steps_taken) / *found.drift.periods;
-    const bool is_large = size > coordinates_in_memory_once;
+    const bool is_large = size > coordinates_in_memory_once && (!go_on || go_on());
     std::vector<std::byte> saved;
     if (is_large) {
       saved = of_the_run->save();

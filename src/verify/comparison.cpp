@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 #include "comparison_jobs.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/verify/state_units.hpp"
 #include "state_difference.hpp"
 
@@ -101,6 +103,12 @@ Outcome carry_out(ComparisonJob& job, const Pulse& pulse) {
   Timing timing;
   double whole = 1;  // of the time for the job, what this run takes
   const Pulse of_job = [&](double part) { return pulse(part * whole); };
+  // Beyond double a step takes long enough to be asked within it.
+  const std::function<bool()> goes_on = [&] {
+    return of_job(static_cast<double>(simulation->step()) / static_cast<double>(point.steps));
+  };
+  std::optional<StopQuestion> question;
+  if (beyond_double) question.emplace(goes_on);
   point.outcome = timed_run(*simulation, point.steps, of_job, timing);
   if (point.outcome == Outcome::stopped) return Outcome::stopped;
   job.seconds = seconds_since(begin);

@@ -6,7 +6,9 @@
 #include <tuple>
 
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/run/gas.hpp"
 #include "hamflow/run/make_simulation.hpp"
 #include "hamflow/run/walls.hpp"
 #include "hamflow/verify/certificate.hpp"
@@ -390,6 +392,35 @@ std::int64_t first_bounce(const Request& request, std::int64_t steps, const GoOn
   return first;
 }
 
+ReversalEvidence stopped_evidence() {
+  ReversalEvidence none;
+  none.was_stopped = true;
+  none.reason = "the reversal was left out: it was stopped before it had come to its end";
+  return none;
+}
+
+/// How many times as long as in double an operation takes in another arithmetic, roughly.
+double slowness_of(const std::string& arithmetic) {
+  if (const int digits = mp_digits(arithmetic); digits > 0) return 200 * (1 + std::pow(digits / 300.0, 1.7));
+  if (digits_beyond_double(arithmetic) > 0) return 50;
+  return arithmetic == "lattice" ? 4 : 1;
+}
+
+/// The steps each way of which all evidence takes about a second. Work is counted, not timed, so that what is proved
+/// does not depend on the machine: in pairs of bodies and in coordinates, of about 10 ns in double.
+double steps_of_a_second(const Request& request, const ProblemEntry& problem, std::size_t size) {
+  constexpr double work = 1e8;
+  constexpr double motions = 8;           // there and back, up to five beside it, the way to the first bounce
+  constexpr double of_implicit = 20;      // evaluations of an iterated step
+  constexpr double of_coordinate = 10;    // also of a gas with a cut-off
+  constexpr double numbers_of_pair = 16;  // pairs of bodies in space: a half of a ninth of the numbers' square
+  const auto numbers = static_cast<double>(size);
+  const bool all_pairs = problem.has_pairwise_forces && !request.parameters.contains(GasKeys::cutoff);
+  const double force = std::max(of_coordinate * numbers, all_pairs ? numbers * numbers / numbers_of_pair : 0);
+  const int stages = describe(request.method).forces_per_step;
+  return work / (motions * force * (stages > 0 ? stages : of_implicit) * slowness_of(request.arithmetic));
+}
+
 }  // namespace
 
 bool depends_on_time(const ProblemEntry& problem) { return problem.structure && problem.structure->time; }
@@ -406,14 +437,26 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     found.reason = "H depends on t, which goes on: the motion itself is not reversed by negating the momenta";
     return found;
   }
+  if (!go_on()) return stopped_evidence();
+  const StopQuestion question(go_on);  // a step in many digits can take minutes
   const double at_least = std::min(period ? std::ceil(*period) : 1000.0, 1000.0);
   auto simulation = simulation_beside_the_run(request);
   Frame start;
   simulation->look(start);
-  const auto most = static_cast<std::int64_t>(1e8 / static_cast<double>(std::max<std::size_t>(1, start.q.size())));
-  found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(at_least));
+  const std::size_t size = std::max<std::size_t>(1, start.q.size());
+  const auto most = static_cast<std::int64_t>(1e8 / static_cast<double>(size));
+  const double affordable = steps_of_a_second(request, problem, size);
+  found.steps = std::max(steps_taken / 200, static_cast<std::int64_t>(std::min(at_least, affordable)));
+  if (found.steps == 0) {
+    found.reason = "left out: one step there and back would take more than a second and than a tenth of the run";
+    return found;
+  }
   const bool walled = has_hard_walls(request);
-  if (walled) found.steps = std::max(found.steps, first_bounce(request, std::min(steps_taken, most), go_on));
+  if (walled) {
+    const auto bounded = static_cast<std::int64_t>(std::min(1e15, affordable));
+    const std::int64_t searched = std::min({steps_taken, most, std::max(steps_taken / 200, bounded)});
+    found.steps = std::max(found.steps, first_bounce(request, searched, go_on));
+  }
   found.steps = std::max<std::int64_t>(1, std::min({found.steps, steps_taken, most}));
   found.share = static_cast<double>(found.steps) / static_cast<double>(steps_taken);
 
@@ -442,12 +485,7 @@ ReversalEvidence reversal_evidence(const Request& request, const ProblemEntry& p
     const Motion motion{request, problem, reversal, way, groups};
     std::tie(found.proves, found.reason) = judged(motion, actions, go_on);
   }
-  if (stopped) {
-    ReversalEvidence none;
-    none.was_stopped = true;
-    none.reason = "the reversal was left out: it was stopped before it had come to its end";
-    return none;
-  }
+  if (stopped) return stopped_evidence();
   if (walled && found.bounces == 0) found.reason += "; no bounce was met";
   if (found.steps < steps_taken) {
     found.reason += fmt::format("; the other {} steps of the run were left out", steps_taken - found.steps);

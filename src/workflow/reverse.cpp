@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "hamflow/core/stop_question.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/gas.hpp"
 #include "hamflow/run/walls.hpp"
@@ -336,6 +337,8 @@ ReversalReport reverse_scenario(const Scenario& scenario, const std::function<bo
   WayThere way_there(turns, scenario.steps);
   Observer* const observers[] = {&way_there};
   ReversalProgress progress;
+  const std::function<bool()> goes_on = [&] { return !pulse || pulse(simulation->step() - progress.first); };
+  const StopQuestion question(goes_on);
   Reversal reversal = reverse(*simulation, scenario.steps, pulse, observers, progress,
                               unit_groups(*scenario.problem, scenario.start_q.size()));
   return report_of(scenario, *simulation, std::move(reversal), progress.energy_there, turns, false);
@@ -369,15 +372,17 @@ ReversalReport reverse_scenario(const Scenario& scenario, const ReversalSettings
   ReversalCheckpoints checkpoints(scenario, *simulation, settings.folder, from ? &*from : nullptr);
   WayThere way_there(checkpoints.turns(), scenario.steps);
   Observer* const observers[] = {&way_there, &checkpoints};
+  const auto asked_at = [&](std::int64_t step) { return !settings.pulse || settings.pulse(step); };
+  const std::function<bool()> goes_on = [&] { return asked_at(simulation->step() - checkpoints.progress().first); };
+  const StopQuestion question(goes_on);
   Reversal reversal = reverse(
       *simulation, scenario.steps,
       [&](std::int64_t step) {
         checkpoints.write_if_due();
-        const bool goes_on = !settings.pulse || settings.pulse(step);
-        if (!goes_on) checkpoints.write();
-        return goes_on;
+        return asked_at(step);
       },
       observers, checkpoints.progress(), unit_groups(*scenario.problem, scenario.start_q.size()));
+  if (reversal.outcome == Outcome::stopped) checkpoints.write();
   ReversalReport report = report_of(scenario, *simulation, std::move(reversal), checkpoints.progress().energy_there,
                                     checkpoints.turns(), true);
   const Reversal& r = report.reversal;

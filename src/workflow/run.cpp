@@ -84,7 +84,7 @@ class ScenarioRun {
       : scenario_(scenario),
         settings_(settings),
         folder_(folder),
-        simulation_(make_simulation(scenario.request)),
+        simulation_(timed_simulation()),
         turns_(scenario.dt, takes_equal_steps(simulation_->method())) {
     const Checkpoint* const from = last != nullptr && !has_only_begun(*last) ? last : nullptr;
     if (from != nullptr) {
@@ -149,15 +149,20 @@ class ScenarioRun {
     simulation_->look(end);
     measures_->reach_the_end(end);
     RunReport report;
+    std::optional<RunCertificate> certificate;
     if (!scenario_.map) {
-      report.certificate = certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
-                                   going_on(result.outcome == Outcome::stopped, result.steps_taken));
-      const auto& reversal = report.certificate->reversal;
-      certificate_stopped_ = reversal && reversal->was_stopped;
+      // Without a certificate the sizes of energies are still needed, but no step beside those of the run.
+      const GoOn no_steps = [] { return false; };
+      certificate =
+          certify(scenario_.request, *scenario_.problem, simulation_, blocks_, result.steps_taken,
+                  scenario_.certificate ? going_on(result.outcome == Outcome::stopped, result.steps_taken) : no_steps);
+      const auto& reversal = certificate->reversal;
+      certificate_stopped_ = scenario_.certificate && reversal && reversal->was_stopped;
       if (certificate_stopped_) result.outcome = Outcome::stopped;  // what is left of the run is its certificate
     }
-    const RunCertificate* const certificate = report.certificate ? &*report.certificate : nullptr;
-    Json summary = summary_of(scenario_, *simulation_, result, certificate, &*measures_, &turns_);
+    Json summary =
+        summary_of(scenario_, *simulation_, result, certificate ? &*certificate : nullptr, &*measures_, &turns_);
+    if (scenario_.certificate) report.certificate = std::move(certificate);
     if (summary["final"].contains("dataset") && !keeps_final_state()) {
       summary["final"]["dataset"] = nullptr;
       if (writes()) {
@@ -188,13 +193,19 @@ class ScenarioRun {
   }
 
  private:
+  std::unique_ptr<Simulation> timed_simulation() {
+    const auto begin = std::chrono::steady_clock::now();
+    auto made = make_simulation(scenario_.request);
+    setup_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return made;
+  }
   /// What comes after the steps. Who has asked to stop before waits for it no longer than `patience`: no step begins
-  /// that would take longer.
+  /// that would take longer, and no simulation is set up again.
   GoOn going_on(bool asked_before, std::int64_t step) const {
     if (!asked_before) return [this, step] { return !settings_.pulse || settings_.pulse(step); };
     return [this, begin = std::chrono::steady_clock::now()] {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      return seconds + step_seconds_ < patience;
+      return seconds + std::max(step_seconds_, setup_seconds_) < patience;
     };
   }
   bool writes() const { return folder_ != nullptr; }
@@ -261,6 +272,7 @@ class ScenarioRun {
   const Scenario& scenario_;
   const RunSettings& settings_;
   WorkFolder* folder_;
+  double setup_seconds_ = 0;  // of the simulation
   std::unique_ptr<Simulation> simulation_;
   double seconds_before_ = 0;
   double step_seconds_ = 0;  // on average, with what observes a step

@@ -444,7 +444,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["warnings"] = warnings_of(scenario, s, simulation, turns,
                               certificate != nullptr ? certificate->typically_exchanged : std::nullopt);
   if (measures != nullptr) measures->add_warnings(s["warnings"]);
-  s["certificate"] = certificate != nullptr ? certificate_json(*certificate) : Json(nullptr);
+  s["certificate"] = certificate != nullptr && scenario.certificate ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
   if (s["status"] == "failed") s["error"] = error_of(scenario.request, simulation, result);

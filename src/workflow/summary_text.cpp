@@ -147,6 +147,8 @@ std::string readable(const Json& s) {
   }
   if (s.contains("certificate") && !s["certificate"].is_null()) {
     text += row("certificate", certificate_text(s["certificate"]));
+  } else if (s.contains("certificate") && !energy["scale"].is_null()) {  // a map has neither
+    text += row("certificate", "not asked for");
   }
   text += row("wall time", fmt::format("{:.3g} s, {:.4g} steps/s", s["wall_seconds"].get<double>(),
                                        s["steps_per_second"].get<double>()));

@@ -36,11 +36,11 @@ LaneSet lanes_named(const std::string& name) {
   throw Error("found \"" + name + "\"; allowed on this machine: " + joined(allowed) + suggestion(name, allowed));
 }
 
-/// Whether a key decides nothing but what a run writes, and when.
+/// Whether a key decides nothing but what a single run writes, and when.
 bool belongs_to_single_runs(const std::string& path) {
   const RunKeys& keys = run_keys();
   const std::vector<std::string> all{output_table, run_path(keys.checkpoint_every), run_path(keys.record_every),
-                                     run_path(keys.record)};
+                                     run_path(keys.record), run_path(keys.certificate)};
   return std::any_of(all.begin(), all.end(),
                      [&](const std::string& key) { return is_part_of_other(key, path) && path.size() >= key.size(); });
 }

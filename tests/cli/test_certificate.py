@@ -461,6 +461,54 @@ steps = 7031
         self.assertEqual(summary["certificate"]["drift"], "undecided")
         self.assertIn("above the scale", summary["certificate"]["reason"])
 
+    def test_its_steps_are_bounded_by_counted_work(self):
+        """A step of many bodies is long: of 1000 fewer are taken again, and the same everywhere."""
+        bodies = 240
+        masses = ", ".join(["1e-3"] * bodies)
+        q = ", ".join(f"{math.cos(i * k):.6f}" for i in range(1, bodies + 1) for k in (1, 2, 3))
+        self.write("many.toml", f"""
+            [problem]
+            name = "n-body"
+            softening = 0.1
+            masses = [{masses}]
+            initial = {{ q = [{q}], p = [{", ".join(["0"] * 3 * bodies)}] }}
+            [method]
+            name = "verlet"
+            [run]
+            dt = 0.001
+            steps = 1000
+            """)
+        back = self.summary("many.toml")["certificate"]["reversal_distance"]
+        self.assertEqual((back["steps"], back["proves"]), (385, "reversible to rounding"), back["reason"])
+        self.assertIn("the other 615 steps of the run were left out", back["reason"])
+        back = self.summary("many.toml", "--set", "method.name=yoshida8")["certificate"]["reversal_distance"]
+        self.assertEqual(back["steps"], 25)
+        # Where a step there and back is too much, nothing is said.
+        back = self.certificate("{name='stv4'}", "run.arithmetic=mp(20000)", steps=2)[0]["reversal_distance"]
+        self.assertEqual((back["steps"], back["distance"], back["proves"]), (0, None, "nothing"))
+        self.assertIn("left out: ", back["reason"])
+
+    def test_none_is_asked_for(self):
+        off = ("--set", "run.certificate=false")
+        whole, without = self.summary("kepler.toml"), self.summary("kepler.toml", *off)
+        self.assertIsNone(without["certificate"])
+        for s in (whole, without):
+            for key in ("certificate", "wall_seconds", "steps_per_second"):
+                del s[key]
+        self.assertEqual(whole, without)
+        text = self.hamflow("run", "kepler.toml", *off, "--out", "r").stdout
+        self.assertRegex(text, r"certificate +not asked for\n")
+        more = self.hamflow("run", "kepler.toml", *off, "--out", "r", "--resume", "--set", "run.steps=500", "--json")
+        self.assertIsNone(json.loads(more.stdout)["certificate"])
+        self.assertIn("run.certificate", self.hamflow("run", "kepler.toml", "--out", "r", "--resume", "--set",
+                                                      "run.steps=600", status=2).stderr)
+        for command in (("sweep", "kepler.toml", "--vary", "run.dt=0.1,0.2", "--out", "none"),
+                        ("compare", "kepler.toml", "--methods", "verlet"), ("reverse", "kepler.toml")):
+            self.assertNotIn("certificate", self.hamflow(*command, *off).stderr)
+        refused = self.hamflow("sweep", "kepler.toml", "--vary", "run.certificate=true,false", "--out", "none", status=2)
+        self.assertIn("on which no number of a sweep depends", refused.stderr)
+        self.assertIn("\n# certificate = false\n", self.hamflow("new", "harmonic").stdout)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -51,6 +51,7 @@ struct Scenario {
   std::vector<UserEvent> events;                 // declared by the user
   std::int64_t record_events = 100000;           // rows of each table of events, at most
   bool map = false;                              // the steps are those of a map and approximate no flow
+  bool certificate = true;                       // asked for; a map has none
   std::vector<std::string> notes;                // worth saying, but no errors
   std::optional<TwoBodies> bodies;               // of a start by two bodies in space
   std::vector<double> start_q;                   // in double, canonical
