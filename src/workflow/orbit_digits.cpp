@@ -21,8 +21,8 @@ constexpr int most_digits_of_integrals = 60;
 
 Mp power_of_ten(int exponent) { return parse_decimal<Mp>("1e" + std::to_string(exponent)); }
 
-/// int_0^1 f(x, 1 - x) dx of two functions by the double exponential rule, both arguments to their own relative precision; halved until
-/// it changes by less than `tolerance`, relative.   [TakahasiMori1974]
+/// int_0^1 f(x, 1 - x) dx of two functions by the double exponential rule, both arguments to their own relative
+/// precision; halved until it changes by less than `tolerance`, relative.   [TakahasiMori1974]
 /// @param nearest to an end: what lies between is nothing beside the tolerance
 template <class F>
 std::optional<std::pair<Mp, Mp>> integral_from_ends(const F& f, const Mp& tolerance, const Mp& nearest) {
@@ -123,8 +123,7 @@ class Orbit {
           const Mp inside = (r2 - r1) * s * s;
           const Mp outside = (r2 - r1) * c * c;
           const Mp r = x < rest ? Mp(r1 + inside) : Mp(r2 - outside);
-          const Mp dt =
-              Mp(2) * quarter / sqrt(Mp(2) / mass_ * (energy_ - effective(r)) / (inside * outside));
+          const Mp dt = Mp(2) * quarter / sqrt(Mp(2) / mass_ * (energy_ - effective(r)) / (inside * outside));
           return std::pair{dt, Mp(abs(momentum_) / (mass_ * r * r) * dt)};
         },
         tolerance, nearest);
@@ -177,11 +176,12 @@ class Orbit {
 struct Found {
   std::optional<Mp> r_min, r_max, circular_radius, apsidal_angle, radial_period;
 };
-constexpr std::pair<const char*, std::optional<Mp> Found::*> entries[] = {{"r_min", &Found::r_min},
-                                                                          {"r_max", &Found::r_max},
-                                                                          {"circular_radius", &Found::circular_radius},
-                                                                          {"apsidal_angle", &Found::apsidal_angle},
-                                                                          {"radial_period", &Found::radial_period}};
+constexpr std::pair<const char*, std::optional<Mp> Found::*> orbit_entries[] = {
+    {"r_min", &Found::r_min},
+    {"r_max", &Found::r_max},
+    {"circular_radius", &Found::circular_radius},
+    {"apsidal_angle", &Found::apsidal_angle},
+    {"radial_period", &Found::radial_period}};
 
 /// @param integrals the apsidal angle and the radial period too
 Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tolerance, bool integrals) {
@@ -214,7 +214,6 @@ Found found_of(Orbit& orbit, const nlohmann::ordered_json& known, const Mp& tole
   return found;
 }
 
-
 /// In so many digits: differences of V_eff near its zeros lose two thirds of more.
 class Digits {
  public:
@@ -232,7 +231,8 @@ class Digits {
 
 /// What moving the energy and the angular momentum by a part of |T| + |V| and of itself makes of each entry, over that
 /// part; 0 where it is not known.
-std::array<double, std::size(entries)> changes_by_start(const Scenario& scenario, const nlohmann::ordered_json& known) {
+std::array<double, std::size(orbit_entries)> changes_by_start(const Scenario& scenario,
+                                                              const nlohmann::ordered_json& known) {
   Digits in(scenario, 20);
   const Mp part = power_of_ten(-12);
   const Found found = found_of(in.orbit, known, in.tolerance, true);
@@ -242,9 +242,9 @@ std::array<double, std::size(entries)> changes_by_start(const Scenario& scenario
   Orbit by_momentum = in.orbit;
   by_momentum.move(Mp(0), part * in.orbit.momentum());
   const Found with_momentum = found_of(by_momentum, known, in.tolerance, true);
-  std::array<double, std::size(entries)> all{};
+  std::array<double, std::size(orbit_entries)> all{};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto value = entries[i].second;
+    const auto value = orbit_entries[i].second;
     const auto &x = found.*value, &a = with_energy.*value, &b = with_momentum.*value;
     if (x && a && b) all[i] = static_cast<double>((abs(*a - *x) + abs(*b - *x)) / part);
   }
@@ -262,7 +262,7 @@ void add_orbit_digits(const Scenario& scenario, nlohmann::ordered_json& orbit) {
     Digits in(scenario, in_digits);
     const Found found = found_of(in.orbit, known, in.tolerance, integrals);
     for (std::size_t i = 0; i < changes.size(); ++i) {
-      const auto [name, value] = entries[i];
+      const auto [name, value] = orbit_entries[i];
       const std::optional<Mp>& x = found.*value;
       if (!x || !(changes[i] > 0)) {
         if (!orbit["uncertainty"].contains(name)) orbit["uncertainty"][name] = nullptr;

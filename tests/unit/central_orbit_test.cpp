@@ -400,6 +400,7 @@ auto central(const Potential& potential, L mass) {
 
 TEST(CentralFlow, IsTheKeplerAndTheHookeFlow) {
   L worst = 0;
+  int refused = 0;
   for (std::uint64_t trial = 0; trial < 60; ++trial) {
     const L t = uniform(5 * trial, -30, 30);
     const L mass = uniform(5 * trial + 1, 0.5, 2);
@@ -408,12 +409,17 @@ TEST(CentralFlow, IsTheKeplerAndTheHookeFlow) {
     const auto kepler = [&](const Start<L, 2>& x, L time) { return kepler_flow(k, mass, x.q, x.p, time); };
     const auto hooke = [&](const Start<L, 2>& x, L time) { return hooke_flow(-k, mass, x.q, x.p, time); };
     // Turning points, periods and phases carry the roundings of E and l, which is what the condition measures.
-    const L kepler_error = distance(central(Kepler<L>(k), mass)(z, t), kepler(z, t)) / condition(kepler, z, t);
-    const L hooke_error = distance(central(Hooke<L>(-k), mass)(z, t), hooke(z, t)) / condition(hooke, z, t);
+    // Where a quadrature does not come to rest nothing is given.
+    const auto by_kepler = central_flow(Kepler<L>(k), mass, z.q, z.p, t);
+    const auto by_hooke = central_flow(Hooke<L>(-k), mass, z.q, z.p, t);
+    refused += (by_kepler ? 0 : 1) + (by_hooke ? 0 : 1);
+    const L kepler_error = by_kepler ? distance(*by_kepler, kepler(z, t)) / condition(kepler, z, t) : L(0);
+    const L hooke_error = by_hooke ? distance(*by_hooke, hooke(z, t)) / condition(hooke, z, t) : L(0);
     EXPECT_LE(kepler_error, 32 * long_epsilon) << "trial " << trial;
     EXPECT_LE(hooke_error, 32 * long_epsilon) << "trial " << trial;
     worst = larger(worst, larger(kepler_error, hooke_error));
   }
+  EXPECT_LE(refused, 3);
   RecordProperty("worst_in_tenths_of_a_rounding", static_cast<int>(10 * worst / long_epsilon));
 }
 
