@@ -99,7 +99,8 @@ class Row:
         if against if self.truth == HELD else given not in (NONE, self.truth):
             certificate["reason"] += f"; {against}" if against else ""
             self.false.append((number, given, certificate))
-        if run.periods is None or run.periods >= 32:
+        # Of an energy of which no bit changes there is nothing to decide (free flight between walls).
+        if (run.periods is None or run.periods >= 32) and certificate["energy_level"] != 0:
             self.long += 1
             self.long_undecided += given == NONE
 
