@@ -348,13 +348,13 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
   // Of rounding it is the scale that tells, unless terms cancel at the start: these are rounded, too.
   const double scale = scale_beside(simulation.energy_scale(), state.exchange.largest(), simulation.energy().max_error);
   const double dt = evaluate_number<double>(request.dt);
-  const double at_start = std::max(size > scale ? virial_per_size * size : scale,
-                                   rounding_of_state(request, problem, ends, dt));
+  const double at_start =
+      std::max(size > scale ? virial_per_size * size : scale, rounding_of_state(request, problem, ends, dt));
   // Where not every coordinate is watched the ends of the run are empty.
-  const double growing = rounding_of_growing(request, problem, ends,
-                                             growing_coordinates(problem, state.swings, simulation.step()), dt);
+  const double growing =
+      rounding_of_growing(request, problem, ends, growing_coordinates(problem, state.swings, simulation.step()), dt);
   const double rounded = std::max(at_start, growing);
-  series.rounding_grows = growing > 2 * at_start;
+  series.rounding_grows = growing > at_start / 4;  // after 16 times as many steps they are most of it
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
   if (!state.digits.empty()) {

@@ -415,7 +415,7 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
                     describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
             overlap_at_start(scenario)));
   }
-  if (all.empty() && end.step > 0) {
+  if (end.step > 0) {
     const double size = exchanged && *exchanged > 0 ? std::min(*exchanged, scale > 0 ? scale : *exchanged) : scale;
     add_parted_copies(scenario, energy, size, end.step, all);
   }

@@ -52,7 +52,7 @@ class Warnings(CommandCase):
         vortices = ('name = "formula"\ncoordinates = ["x", "y"]\nhamiltonian = "-log((x-y)^2 + (p_x-p_y)^2)/(4*pi)"\n'
                     'initial = { q = [0, 0.01], p = [0, 0] }')
         run = "dt = 1e-4\nsteps = 20000"
-        self.assertEqual(self.warned(vortices, "tao4", run), ["parted_copies"])
+        self.assertIn("parted_copies", self.warned(vortices, "tao4", run))
         self.assertEqual(self.warned(vortices, "tao4(omega=10000)", "dt = 1e-5\nsteps = 20000"), [])
         self.assertEqual(self.warned(vortices, "gauss(2)", run), [])
 

@@ -46,8 +46,8 @@ struct EnergySeries {
   bool copies = false;      // the method carries a copy of the state, from which the state may part
   double rounding = 0;      // of one energy: the rounding unit times its scale, at the end of the run where it is more
   bool rounding_grows = false;  // with a coordinate that keeps growing
-  double roundings = 0;     // how many rounded actions were taken, of which each may leave one
-  double scale = 1;         // of the energy itself
+  double roundings = 0;         // how many rounded actions were taken, of which each may leave one
+  double scale = 1;             // of the energy itself
 };
 
 /// What is concluded of it.
@@ -84,9 +84,9 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
 
 /// `linear`: one of the tests rejects and the trend stands out. The sign test is for drifts that change their speed
 /// (the energy of euler on an orbit that widens), which a t-test cannot see. `random_walk`: the exponent, the whiteness
-/// of the increments and the size are those of summed rounding errors. `bounded`: neither trend nor growth. Both over at
-/// least 16 periods. None, with the reason, wherever these do not agree, and for runs of fewer than 32 blocks or less
-/// than two periods.
+/// of the increments and the size are those of summed rounding errors. `bounded`: neither trend nor growth. Both over
+/// at least 16 periods. None, with the reason, wherever these do not agree, and for runs of fewer than 32 blocks or
+/// less than two periods.
 ///
 /// The growth exponent is the slope of log S(m) over log m, halved, where S(m) is the mean of (E_(i+m) - E_i)^2 over
 /// all i (structure function): m for a walk, m^2 for a drift, constant for an oscillation that the blocks do not
