@@ -353,7 +353,7 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
   // Where not every coordinate is watched the ends of the run are empty.
   const double growing =
       rounding_of_growing(request, problem, ends, growing_coordinates(problem, state.swings, simulation.step()), dt);
-  const double rounded = std::max(at_start, growing);
+  const double rounded = at_start + growing;
   series.rounding_grows = growing > at_start / 4;  // after 16 times as many steps they are most of it
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";

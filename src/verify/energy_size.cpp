@@ -96,7 +96,8 @@ double rounding_of_growing(const Request& request, const ProblemEntry& problem, 
     const auto middle = slopes[k].begin() + std::size(on_the_way) / 2;
     if (!std::all_of(slopes[k].begin(), slopes[k].end(), [](double x) { return std::isfinite(x); })) continue;
     std::nth_element(slopes[k].begin(), middle, slopes[k].end());
-    sum += std::abs(ends.end.q[growing[k]]) * *middle;
+    const double grown = std::abs(ends.end.q[growing[k]]) - std::abs(ends.start.q[growing[k]]);
+    sum += std::max(grown, 0.0) * *middle;
   }
   return std::isfinite(sum) ? sum / 4 : 0;
 }

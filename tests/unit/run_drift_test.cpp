@@ -353,6 +353,14 @@ TEST(Swings, WhatSamplesAreTooFarApartForIsNotOver) {
   }
 }
 
+TEST(Swings, WhatWidensSlowlyIsCountedThrough) {
+  // A coordinate of an eccentric orbit whose axis turns: 1000 periods, of which few are sampled when it has doubled.
+  const auto wide = [](double t) { return (1 + 1.3e-5 * t) * std::cos(2 * std::numbers::pi * t / 113.1); };
+  const auto seen = seen_by_a_run(wide, 113100).seen(113100);
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(seen->periods, 1000, 50);
+}
+
 TEST(Swings, WhatSlowsDownIsCountedByItsTurns) {
   // 20 periods of 40 steps, then four of 16000.
   const auto slowing = [](double t) {
