@@ -275,6 +275,22 @@ def adaptive(rng):
     return kepler_in_si(rng, spec, log_uniform(rng, 10, 100))
 
 
+def low_orbit(rng):
+    """Ten days of a satellite of the Earth at a height of 300 to 1000 km, in metres and seconds or in its radius."""
+    mu, radius = 3.986004418e14, 6.378137e6
+    e = rng.choice([0.0, 10**rng.uniform(-3, -1.3)])
+    perigee = radius + rng.uniform(3e5, 1e6)
+    speed = math.sqrt(mu * (1 + e) / perigee)
+    period = 2 * math.pi * math.sqrt((perigee / (1 - e))**3 / mu)
+    metre, second = (1.0, 1.0) if rng.random() < 0.5 else (1 / radius, math.sqrt(mu / radius**3))
+    dt = log_uniform(rng, 30, 900)
+    spec = pick(rng, {"name": "dop853", "step_control": "fixed"},
+                {"name": "dop853", "tolerance": 10**rng.uniform(-15, -9)})
+    problem = {"name": "central-force", "potential": "kepler", "k": mu * metre**3 / second**2, "mass": 1.0,
+               "initial": {"q": [perigee * metre, 0.0], "p": [0.0, speed * metre / second]}}
+    return Run(problem, spec, dt * second, round(864000 / dt), period * second)
+
+
 LENGTH = dict(fewest=5, most=1000)
 SPLIT = ("verlet", "stv4", "yoshida6", "kahan-li8", "rk4", ELEMENT)  # bounded, walking and drifting errors
 IMPLICIT = (MIDPOINT, {"name": "gauss", "stages": 4}, ELEMENT, "rk4")
@@ -362,6 +378,7 @@ BEHAVIOURS = {
     "henon-heiles in walls": (HELD, lambda r: henon_heiles_in_walls(r, pick(r, "verlet", "stv4"))),
     "tiny masses": (HELD, lambda r: tiny_mass(r, pick(r, "verlet", "stv4", "rk4"))),
     "adaptive": (HELD, adaptive),
+    "low orbit": (HELD, low_orbit),
     "driven": (HELD, lambda r: driven(r, pick(r, "verlet", "stv4", "rk4"))),
     "rotors": (HELD, lambda r: rotor(r, pick(r, *SPLIT))),
     "H = 0 at the start": (HELD, lambda r: from_zero(r, pick(r, *SPLIT))),

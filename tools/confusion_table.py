@@ -99,7 +99,8 @@ class Row:
         if against if self.truth == HELD else given not in (NONE, self.truth):
             certificate["reason"] += f"; {against}" if against else ""
             self.false.append((number, given, certificate))
-        if run.periods is None or run.periods >= 32:
+        # Of an energy of which no bit changes there is nothing to decide (free flight between walls).
+        if (run.periods is None or run.periods >= 32) and certificate["energy_level"] != 0:
             self.long += 1
             self.long_undecided += given == NONE
 
@@ -115,7 +116,7 @@ def show_table(rows, details):
             print(f"    run {number}: {given} ({c['reason']}; p = {c['p_value']}, exponent {c['growth_exponent']})")
     false = sum(len(row.false) for row in rows.values())
     runs = sum(sum(row.given.values()) for row in rows.values())
-    judged = [row for row in rows.values() if row.truth not in (NONE, HELD)]
+    judged = [row for row in rows.values() if row.truth != NONE]
     undecided, long = sum(row.long_undecided for row in judged), sum(row.long for row in judged)
     print(f"{runs} runs, {false} false ({100 * false / runs:.2f} %); of {long} of 32 periods and more "
           f"{undecided} undecided ({100 * undecided / max(long, 1):.1f} %)")

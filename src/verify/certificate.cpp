@@ -262,6 +262,20 @@ double roundings_of(const Simulation& simulation) {
   return std::max(static_cast<double>(effort.force + effort.gradient), static_cast<double>(simulation.step()));
 }
 
+/// The coordinates that have not turned back since their range doubled last, and angles that have gone round.
+std::vector<std::size_t> growing_coordinates(const ProblemEntry& problem, const std::vector<Swings>& swings,
+                                             std::int64_t steps_taken) {
+  const std::vector<std::string>& names = problem.info.coordinates;
+  const std::vector<std::string>& angles = problem.info.angles;
+  std::vector<std::size_t> growing;
+  for (std::size_t i = 0; 2 * i < swings.size(); ++i) {
+    const bool angle = i < names.size() && std::find(angles.begin(), angles.end(), names[i]) != angles.end();
+    const bool round = angle && swings[i].range() > 2 * std::numbers::pi;
+    if (round || !swings[i].seen(steps_taken)) growing.push_back(i);
+  }
+  return growing;
+}
+
 /// The slowest of what has turned back. An angle that has gone round is no oscillation, whatever it did before. A
 /// momentum counts where its coordinate has not turned: that of an eccentric orbit has a peak at each pericentre that
 /// lasts too short a time to be met by every sample, and its coordinate has the same period.
@@ -321,8 +335,14 @@ std::pair<EnergySeries, std::string> series_of(const Request& request, const Pro
   EnergySeries series;
   // Of rounding it is the scale that tells, unless terms cancel at the start: these are rounded, too.
   const double scale = simulation.energy_scale();
-  const double rounded = std::max(size > scale ? virial_per_size * size : scale,
-                                  rounding_of_state(request, problem, ends, evaluate_number<double>(request.dt)));
+  const double dt = evaluate_number<double>(request.dt);
+  const double at_start =
+      std::max(size > scale ? virial_per_size * size : scale, rounding_of_state(request, problem, ends, dt));
+  // Where not every coordinate is watched the ends of the run are empty.
+  const double growing =
+      rounding_of_growing(request, problem, ends, growing_coordinates(problem, state.swings, simulation.step()), dt);
+  const double rounded = at_start + growing;
+  series.rounding_grows = growing > at_start / 4;  // after 16 times as many steps they are most of it
   const int digits = digits_beyond_double(request.arithmetic);
   std::string unit = "1";
   if (!state.digits.empty()) {

@@ -182,12 +182,14 @@ Trend trend(const std::vector<double>& x) {
 }
 
 /// Periods of the energy's own oscillation, where the blocks resolve one: its increments go the same way for a while.
-/// (A walk turns back too, but its increments know nothing of each other.)
+/// (A walk turns back too, but its increments know nothing of each other.) They are counted among the ranks: the peak
+/// at each pericentre of an eccentric orbit is shorter than a block, so that how high it is seen is chance.
 std::optional<double> periods_of(const std::vector<double>& x, double correlation) {
   constexpr double resolved = 0.4;
   if (correlation < resolved) return std::nullopt;
   Swings swings;
-  for (std::size_t i = 0; i < x.size(); ++i) swings.look(static_cast<std::int64_t>(i), x[i]);
+  const std::vector<double> rank = ranks(x);
+  for (std::size_t i = 0; i < x.size(); ++i) swings.look(static_cast<std::int64_t>(i), rank[i]);
   const auto seen = swings.seen(static_cast<std::int64_t>(x.size()) - 1);
   return seen ? std::optional<double>(seen->periods) : std::nullopt;
 }
@@ -289,7 +291,18 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   const double walk = 16 * series.rounding * (1 + std::sqrt(series.roundings));  // as for momentum maps
   const bool like_walk =
       e > walk_above && e < walk_below && t.roughness < roughest_walk && std::abs(t.correlation) < white;
-  if (like_walk && largest <= walk) return {DriftClass::random_walk, grows};
+  const auto random_walk = [&](const std::string& how) -> Conclusion {
+    if (series.rounding_grows) {
+      return undecided(how + ", like a random walk so far, but a coordinate keeps growing, and its roundings with it");
+    }
+    if (*found.periods < RunDrift::periods_to_be_told) {
+      return undecided(how + fmt::format(", like a random walk, but over {:.1f} periods of the slowest oscillation "
+                                         "alone; to be called one needs {}",
+                                         rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_told));
+    }
+    return {DriftClass::random_walk, how};
+  };
+  if (like_walk && largest <= walk) return random_walk(grows);
   if (like_walk) {
     return undecided(grows +
                      fmt::format(", like a random walk, but is {:.1e} times what rounding explains", largest / walk));
@@ -298,10 +311,10 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
   if (rounding_alone && t.wandering > steady_means && e < walk_below && trend_of_walks(t) < usual_in_walks) {
     const std::string wander = "errors of the size of rounding wander from part to part of the run";
     // Of an error that does not grow more is asked: parts of the run as long as a few periods differ by themselves.
-    if (e < bounded_below && !(t.wandering > rare_means && *found.periods >= RunDrift::periods_to_be_bounded)) {
+    if (e < bounded_below && !(t.wandering > rare_means && *found.periods >= RunDrift::periods_to_be_told)) {
       return undecided(wander + ", but do not grow: a longer run would tell");
     }
-    return {DriftClass::random_walk, wander + "; " + grows};
+    return random_walk(wander + "; " + grows);
   }
   if (t.size >= no_trend || t.rank >= no_rank) {
     return undecided(fmt::format(
@@ -312,7 +325,8 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return undecided(grows + fmt::format(" +- {:.2f}, between the classes", found.growth_uncertainty));
   }
   // Beneath an error of this size a walk of the roundings, or a trend of them, would not be seen.
-  if (largest <= std::max(32 * series.rounding, walk / 4)) {
+  // Roundings that grow with a coordinate sum up to more in a longer run.
+  if (largest <= std::max(32 * series.rounding, series.rounding_grows ? walk : walk / 4)) {
     return undecided("errors of the size of roundings: what they sum up to would show in a longer run only");
   }
   if (series.still > 0) {
@@ -326,11 +340,11 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return undecided("no drift is seen, but the state may part from the copy that the method carries in a longer run");
   }
   if (!series.steady) return undecided("the motion has outgrown the oscillations that were seen");
-  if (*found.periods < RunDrift::periods_to_be_bounded) {
+  if (*found.periods < RunDrift::periods_to_be_told) {
     return undecided(
         fmt::format("no drift is seen, but over {:.1f} periods of the slowest oscillation a small one "
                     "cannot be excluded; to be called bounded needs {}",
-                    rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_bounded));
+                    rounded_down(*found.periods, 0.1), RunDrift::periods_to_be_told));
   }
   return {DriftClass::bounded, grows + fmt::format(" over {:.0f} periods", *found.periods)};
 }

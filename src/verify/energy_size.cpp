@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hamflow {
 
@@ -43,25 +44,60 @@ double size_of_energy(const Request& request, const ProblemEntry& problem, const
   return size > scale && std::isfinite(size) ? size : scale;
 }
 
+namespace {
+/// |dH/dq_i| by a difference of H.
+/// @param v dH/dp
+double slope(const ProblemEntry& problem, const Texts& all, const std::vector<double>& q, const std::vector<double>& p,
+             const std::vector<double>& v, std::size_t i, double dt) {
+  double fastest = 0;
+  for (const double x : v) fastest = std::max(fastest, std::abs(x));
+  const double in_a_step = std::abs(dt) * (v[i] != 0 ? std::abs(v[i]) : fastest);
+  const double moved = in_a_step > 0 ? 0x1p-6 * in_a_step : 0x1p-26 * std::abs(q[i]);  // all are at rest
+  std::vector<double> above = q;
+  std::vector<double> below = q;
+  above[i] += moved;
+  below[i] -= moved;
+  const double apart = above[i] - below[i];
+  return apart > 0 ? std::abs(problem.energy(all, above, p) - problem.energy(all, below, p)) / apart : 0;
+}
+}  // namespace
+
 double rounding_of_state(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double dt) {
   if (ends.start.q.empty()) return 0;
   const Texts all = complete(problem.info, request.parameters);
   const std::vector<double>& q = ends.start.q;  // not those of the end, which a run may have blown up to
   const std::vector<double>& p = ends.start.p;
   const std::vector<double> v = problem.rates(all, q, p);
-  double fastest = 0;
-  for (const double x : v) fastest = std::max(fastest, std::abs(x));
   double sum = 0;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    sum += std::abs(p[i] * v[i]);
-    const double in_a_step = std::abs(dt) * (v[i] != 0 ? std::abs(v[i]) : fastest);
-    const double moved = in_a_step > 0 ? 0x1p-6 * in_a_step : 0x1p-26 * std::abs(q[i]);  // all are at rest
-    std::vector<double> above = q;
-    std::vector<double> below = q;
-    above[i] += moved;
-    below[i] -= moved;
-    const double apart = above[i] - below[i];
-    if (apart > 0) sum += std::abs(q[i] * (problem.energy(all, above, p) - problem.energy(all, below, p))) / apart;
+    sum += std::abs(p[i] * v[i]) + std::abs(q[i]) * slope(problem, all, q, p, v, i, dt);
+  }
+  return std::isfinite(sum) ? sum / 4 : 0;
+}
+
+double rounding_of_growing(const Request& request, const ProblemEntry& problem, const RunEnds& ends,
+                           const std::vector<std::size_t>& growing, double dt) {
+  if (ends.start.q.empty()) return 0;
+  const Texts all = complete(problem.info, request.parameters);
+  const std::vector<double>& p = ends.end.p;
+  // The force at the end alone may be 0 by chance, or that of a close encounter: the median of states on the way.
+  constexpr double on_the_way[] = {0.19, 0.43, 0.62, 0.81, 1.0};
+  std::vector<std::vector<double>> slopes(growing.size());
+  for (const double part : on_the_way) {
+    std::vector<double> q = ends.end.q;
+    for (const std::size_t i : growing) q[i] = ends.start.q[i] + part * (ends.end.q[i] - ends.start.q[i]);
+    const std::vector<double> v = problem.rates(all, q, p);
+    for (std::size_t k = 0; k < growing.size(); ++k) {
+      slopes[k].push_back(slope(problem, all, q, p, v, growing[k], dt));
+    }
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < growing.size(); ++k) {
+    const auto middle = slopes[k].begin() + std::size(on_the_way) / 2;
+    if (!std::all_of(slopes[k].begin(), slopes[k].end(), [](double x) { return std::isfinite(x); })) continue;
+    std::nth_element(slopes[k].begin(), middle, slopes[k].end());
+    const double grown = std::abs(ends.end.q[growing[k]]) - std::abs(ends.start.q[growing[k]]);
+    sum += std::max(grown, 0.0) * *middle;
   }
   return std::isfinite(sum) ? sum / 4 : 0;
 }

@@ -23,6 +23,11 @@ double size_of_energy(const Request& request, const ProblemEntry& problem, const
 /// @param dt of the run: dH/dq_i is a difference of H over a small part of what q_i moves in a step
 double rounding_of_state(const Request& request, const ProblemEntry& problem, const RunEnds& ends, double dt);
 
+/// How much more that is at the end of a run, with coordinates that keep growing, such as the angle of a rotor.
+/// @param growing their numbers
+double rounding_of_growing(const Request& request, const ProblemEntry& problem, const RunEnds& ends,
+                           const std::vector<std::size_t>& growing, double dt);
+
 /// By how much the units of a lattice move the energy; 0 in other arithmetic.
 double energy_of_units(const Request& request, const ProblemEntry& problem, const RunEnds& ends);
 

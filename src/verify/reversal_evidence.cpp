@@ -279,6 +279,15 @@ bool begins_on_a_wall(const Motion& motion) {
   });
 }
 
+/// Whether a force may jump: at a hard wall, where the energy of a pair is cut off, where a typed H has an abs(). All
+/// others depend smoothly on the state wherever H is finite.
+bool force_may_jump(const Request& request) {
+  const auto& choices = request.variant;
+  return has_hard_walls(request) || request.parameters.contains(GasKeys::cutoff) ||
+         std::any_of(choices.begin(), choices.end(),
+                     [](const auto& choice) { return choice.second.find("abs") != std::string::npos; });
+}
+
 /// Why what rounding becomes is not known; empty where small differences grow in proportion to themselves, as those of
 /// every motion do that depends on its start smoothly. Where a force jumps between two motions that are close, one of
 /// them takes a kick that the other does not, however close they are. A rounding then does as much as the move here.
@@ -306,9 +315,11 @@ std::string out_of_proportion(const Motion& motion, Parting& apart, const GoOn& 
     }
     return fmt::format(
         "but what rounding becomes is not known: motions that begin {:.1e} of their size apart part by {:.1e} of it, "
-        "those that begin {:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where a force "
-        "jumps and a rounding decides on which side it is taken, or where stiff steps round by more than that",
-        moved, wider.furthest, moved_less, nearer.furthest);
+        "those that begin {:.1e} apart in the same direction by {:.1e}, which is not in proportion, as where {}stiff "
+        "steps round by more than that",
+        moved, wider.furthest, moved_less, nearer.furthest,
+        force_may_jump(motion.request) ? "a force jumps and a rounding decides on which side it is taken, or where "
+                                       : "");
   }
   return {};
 }

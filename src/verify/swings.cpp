@@ -45,6 +45,9 @@ void Swings::look(std::int64_t step, double x) {
 }
 
 void Swings::turn(std::int64_t step) {
+  // Of an orbit whose axis turns a coordinate widens from turn to turn. What doubles the range after a whole period
+  // is seen against that of the latest turn.
+  if (turns_ >= 2) counted_range_ = most_ - least_;
   const std::int64_t gap = at_ - latest_turn_;
   const std::int64_t stay = step - noticed_;
   latest_turn_ = at_;

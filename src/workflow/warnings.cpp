@@ -130,6 +130,56 @@ void add_fast_springs(const Scenario& scenario, Json& all) {
                                        product, scenario.dt * most / product)));
 }
 
+/// Where the energy of (q, p) is off by more than a little the two copies of tao2 and tao4 may have parted: the method
+/// keeps the energy of both together. They are followed again from the start, in double, until they have.
+/// @param size of the energy
+void add_parted_copies(const Scenario& scenario, const Excursion& energy, double size, std::int64_t steps, Json& all) {
+  constexpr double least_error = 0x1p-8;  // of the energy: what is below comes from copies that are together
+  constexpr double most = 0x1p-5;         // of the size of the state
+  constexpr std::int64_t most_steps = std::int64_t{1} << 22U;
+  constexpr std::int64_t looks = 1024;
+  const ProblemEntry& problem = *scenario.problem;
+  if (!describe(scenario.request.method).carries_copy || depends_on_time(problem)) return;
+  if (!(energy.max_error > least_error * size)) return;
+  Request request = scenario.request;
+  request.parameters = complete(problem.info, request.parameters);
+  const std::size_t n = scenario.start_q.size();
+  const auto map = problem.step_map(request, n);
+  if (!map) return;
+  State<double> z;  // (q, x, p, y)
+  for (const auto* part : {&scenario.start_q, &scenario.start_q, &scenario.start_p, &scenario.start_p}) {
+    z.insert(z.end(), part->begin(), part->end());
+  }
+  const auto frame = [&](std::size_t q, std::size_t p) {
+    const auto part = [&](std::size_t k) {
+      const auto begin = z.begin() + static_cast<std::ptrdiff_t>(k * n);
+      return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(n));
+    };
+    Frame found;
+    found.q = part(q);
+    found.p = part(p);
+    return found;
+  };
+  const UnitGroups groups = unit_groups(problem, n);
+  StateSizes sizes;
+  sizes.include(scenario.start_q, scenario.start_p);
+  const std::int64_t apart = std::max<std::int64_t>(1, steps / looks);
+  for (std::int64_t step = apart; step <= std::min(steps, most_steps); step += apart) {
+    if (!map->advance(z, scenario.dt, apart)) return;
+    const Frame state = frame(0, 2);
+    sizes.include(state.q, state.p);
+    for (const GroupDistance& group : group_distances(groups, sizes, state, frame(1, 3))) {
+      if (!(group.relative.value > most)) continue;
+      all.push_back(warning(
+          "parted_copies",
+          fmt::format("the two copies of the state have parted by {:.2g} of the size of {} at t = {:.4g}: what comes "
+                      "after is no motion of {}; try a larger omega, with omega dt below 1/4",
+                      group.relative.value, group.name, static_cast<double>(step) * scenario.dt, request.problem)));
+      return;
+    }
+  }
+}
+
 /// What is sought within the steps of a method without sub-steps is sought on its own partial steps, and who takes
 /// steps of half a period and more cannot rely on what those do.
 void add_long_search(const Scenario& scenario, const Simulation& simulation, Json& all) {
@@ -370,6 +420,10 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
                                             scenario.request.problem,
                                             describe(scenario.request.method).carries_copy ? ", a larger omega" : "") +
                                     overlap_at_start(scenario)));
+  }
+  if (end.step > 0) {
+    const double size = exchanged && *exchanged > 0 ? std::min(*exchanged, scale > 0 ? scale : *exchanged) : scale;
+    add_parted_copies(scenario, energy, size, end.step, all);
   }
   const bool exact = flies_freely(scenario, end);
   if (turns != nullptr && !exact) add_long_step(scenario, summary, *turns, walls, steps, all);

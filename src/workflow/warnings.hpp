@@ -16,6 +16,7 @@ namespace hamflow {
 /// [{kind, message}, ...] of
 /// - energy_error: the largest energy error is above the scale of the energy;
 /// - long_step: dt is above a tenth of the shortest period seen, or known of the orbit where none was seen;
+/// - parted_copies: the two copies of the state that tao2 and tao4 carry have parted;
 /// - falls_into_centre: the orbit ends in a singular centre before the run does;
 /// - no_number: an invariant is not finite at the start or at the end.
 /// @param summary its energy, orbit, exact and final   @param turns null where nobody has watched

@@ -58,8 +58,8 @@ class Certificate(CommandCase):
         self.assertEqual(c["momentum_maps"]["angular_momentum"]["conserved"], "not")
 
     def test_rounding_alone_walks(self):
-        # With dt = 1e-4 stv4's own error, some 1e-6 (dt/0.1)^4 of the scale, is 1e-18.
-        c, s = self.certificate("{name='stv4'}", steps=1000000, dt=1e-4)
+        # With dt = 5e-4 stv4's own error, some 1e-6 (dt/0.1)^4 of the scale, is 6e-16; 10^6 steps are 20 periods.
+        c, s = self.certificate("{name='stv4'}", steps=1000000, dt=5e-4)
         self.assertEqual(c["drift"], "random walk")
         self.assertLess(c["energy_level"], 16 * EPSILON * s["steps"] ** 0.5)
 
@@ -217,13 +217,33 @@ class Certificate(CommandCase):
 
     def test_a_revolution_of_an_eccentric_orbit_is_one_oscillation(self):
         """The momenta have a peak at each pericentre that samples far apart miss."""
-        for e in (0.5, 0.9):
+        for e in (0.5, 0.9, 0.95):
             start = f"q=[{1 + e}, 0.0], p=[0.0, {math.sqrt((1 - e) / (1 + e))!r}]"
             self.write("eccentric.toml", "[problem]\nname='central-force'\npotential='kepler'\nk=1.0\nmass=1.0\n"
                        f"initial={{{start}}}\n[method]\nname='stv4'\n[run]\ndt={2 * math.pi / 3000!r}\nsteps=3000\n")
             for revolutions in (5, 50, 200):
                 c = self.summary("eccentric.toml", "--set", f"run.steps={3000 * revolutions}")["certificate"]
                 self.assertAlmostEqual(c["periods"], revolutions, delta=1 + 0.02 * revolutions, msg=e)
+
+    def test_the_energy_of_a_very_eccentric_orbit_has_its_period(self):
+        """Its error has a peak at each pericentre that is shorter than a block."""
+        for e, revolutions in ((0.95, 5), (0.99, 5), (0.99, 20)):
+            steps = round(40 * revolutions * (1 - e)**-1.5)
+            self.write("eccentric.toml", "[problem]\nname='central-force'\npotential='kepler'\nk=1.0\nmass=1.0\n"
+                       f"initial={{q=[{1 + e}, 0.0], p=[0.0, {math.sqrt((1 - e) / (1 + e))!r}]}}\n"
+                       f"[method]\nname='stv4'\n[run]\ndt={2 * math.pi * revolutions / steps!r}\nsteps={steps}\n")
+            c = self.summary("eccentric.toml")["certificate"]
+            self.assertAlmostEqual(c["periods"], revolutions, delta=1 + 0.02 * revolutions, msg=(e, revolutions))
+
+    def test_the_roundings_of_a_rotor_grow_with_its_angle(self):
+        """Over 16 times as many steps the errors are 50 and 9 times as large."""
+        for method, p, dt, steps in (("kahan-li8", 4.604369147280964, 0.03320944020708258, 3594),
+                                     ("yoshida6", 2.551381735181486, 0.02039042205899522, 3542)):
+            for problem in ("name='pendulum'", "name='formula'\ncoordinates=['a']\nhamiltonian='p_a^2/2-cos(a)'"):
+                self.write("rotor.toml", f"[problem]\n{problem}\ninitial={{q=[0],p=[{p}]}}\n"
+                           f"[method]\nname='{method}'\n[run]\ndt={dt}\nsteps={steps}\n")
+                c = self.summary("rotor.toml")["certificate"]
+                self.assertEqual(c["drift"], "undecided", (method, problem, c["reason"]))
 
     def test_a_walk_says_which_trend_it_may_hide(self):
         c, s = self.certificate("{name='cg', quadrature=12}", steps=20000)

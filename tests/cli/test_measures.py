@@ -65,7 +65,12 @@ class Measures(CommandCase):
     def test_a_map_is_iterated_by_hand(self):
         """The standard map: sections and exponents by steps, and nothing that compares it with a flow."""
         scenario = str(EXAMPLES / "standard_map.toml")
-        arguments = ("--json", "--set", "run.steps=1000", "--out", "map")
+        chaotic = json.loads(self.hamflow("run", scenario, "--json", "--out", "none").stdout)["lyapunov"]
+        self.assertEqual(chaotic["verdict"], "steady")
+        self.assertGreater(chaotic["exponents"][0], 5 * chaotic["standard_errors"][0])
+        self.assertAlmostEqual(chaotic["exponents"][0], 0.2, delta=0.05)
+        island = ("--set", "problem.initial={ q = [3], p = [0.4] }")  # where rounding does not decide the orbit
+        arguments = ("--json", "--set", "run.steps=1000", "--out", "map", *island)
         found = json.loads(self.hamflow("run", scenario, *arguments).stdout)
         q, p, tangent, growth = 3.0, 0.4, (1.0, 0.0), 0.0
         for _ in range(1000):
@@ -79,7 +84,8 @@ class Measures(CommandCase):
             tangent = (tangent[0] / length, tangent[1] / length)
             if _ == 9:
                 ten = (q, p)
-        few = json.loads(self.hamflow("run", scenario, "--json", "--set", "run.steps=10", "--out", "few").stdout)
+        few = json.loads(self.hamflow("run", scenario, "--json", "--set", "run.steps=10", "--out", "few",
+                                      *island).stdout)
         self.assertAlmostEqual(few["final"]["q"][0], ten[0], delta=1e-10)
         self.assertAlmostEqual(few["final"]["p"][0], ten[1], delta=1e-10)
         self.assertEqual(found["section"], {"points": 1000, "max_residual": 0})

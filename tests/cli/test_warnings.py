@@ -47,6 +47,15 @@ class Warnings(CommandCase):
                     found = [k for k in self.warned(problem, method, run) if k == "long_step"]
                     self.assertEqual(found, kinds, (coordinates, steps, method))
 
+    def test_copies_of_the_state_that_part(self):
+        """Two point vortices under tao4: with springs too slow for them they fly apart."""
+        vortices = ('name = "formula"\ncoordinates = ["x", "y"]\nhamiltonian = "-log((x-y)^2 + (p_x-p_y)^2)/(4*pi)"\n'
+                    'initial = { q = [0, 0.01], p = [0, 0] }')
+        run = "dt = 1e-4\nsteps = 20000"
+        self.assertIn("parted_copies", self.warned(vortices, "tao4", run))
+        self.assertEqual(self.warned(vortices, "tao4(omega=10000)", "dt = 1e-5\nsteps = 20000"), [])
+        self.assertEqual(self.warned(vortices, "gauss(2)", run), [])
+
     def test_a_run_too_short_to_see_a_period_knows_that_of_its_orbit(self):
         self.assertIn("long_step", self.warned(KEPLER, "kahan-li8", f"dt = {PERIOD / 8}\nsteps = 3"))
         self.assertEqual(self.warned(KEPLER, "kahan-li8", f"dt = {PERIOD / 40}\nsteps = 3"), [])

@@ -79,6 +79,28 @@ TEST(RunDrift, TwoLevelsInTurnAreNoWalkOverAFewPeriods) {
   }
 }
 
+TEST(RunDrift, AWalkOverFewPeriodsOrOfGrowingRoundingsHasNoClass) {
+  for (std::uint64_t s = 0; s < 20; ++s) {
+    EnergySeries walk =
+        rounded([&](int b, double before) { return before + 10 * noise(s, static_cast<std::uint64_t>(b)); });
+    walk.periods = 15.9;
+    EXPECT_FALSE(classify_run(walk).drift) << s;
+    walk.periods = 100;
+    walk.rounding_grows = true;
+    EXPECT_NE(classify_run(walk).drift, DriftClass::random_walk) << s;
+  }
+}
+
+TEST(RunDrift, PeaksThatBlocksMeetByChanceAreOscillationsLikeAnyOther) {
+  // What 1/r leaves near the pericentre, over ten revolutions in 128 blocks: the peaks are seen at any height.
+  EnergySeries peaks = series([](int b, double) {
+    const double phase = 2 * std::numbers::pi * place(b) / 12.8;
+    return 1 / (1.003 - std::cos(phase));
+  });
+  peaks.periods = 10;
+  EXPECT_GT(classify_run(peaks).periods.value(), 8);
+}
+
 TEST(RunDrift, AWalkLargerThanRoundingHasNoClass) {
   for (std::uint64_t s = 0; s < 50; ++s) {
     EnergySeries walk = rounded([&](int b, double before) { return before + noise(s, static_cast<std::uint64_t>(b)); });
@@ -329,6 +351,14 @@ TEST(Swings, WhatSamplesAreTooFarApartForIsNotOver) {
     EXPECT_FALSE(peak->is_over) << steps;
     EXPECT_NEAR(wave->periods / (static_cast<double>(steps) / 40.37), 1, 0.05) << steps;
   }
+}
+
+TEST(Swings, WhatWidensSlowlyIsCountedThrough) {
+  // A coordinate of an eccentric orbit whose axis turns: 1000 periods, of which few are sampled when it has doubled.
+  const auto wide = [](double t) { return (1 + 1.3e-5 * t) * std::cos(2 * std::numbers::pi * t / 113.1); };
+  const auto seen = seen_by_a_run(wide, 113100).seen(113100);
+  ASSERT_TRUE(seen);
+  EXPECT_NEAR(seen->periods, 1000, 50);
 }
 
 TEST(Swings, WhatSlowsDownIsCountedByItsTurns) {

@@ -44,9 +44,10 @@ struct EnergySeries {
   bool symplectic = false;  // with equal steps: its energy has no drift over any run [HLW2006, Thm. IX.8.1]
   bool bounces = false;     // off walls that its energy walks at
   bool copies = false;      // the method carries a copy of the state, from which the state may part
-  double rounding = 0;      // of one energy: the rounding unit times its scale
-  double roundings = 0;     // how many rounded actions were taken, of which each may leave one
-  double scale = 1;         // of the energy itself
+  double rounding = 0;      // of one energy: the rounding unit times its scale, at the end of the run where it is more
+  bool rounding_grows = false;  // with a coordinate that keeps growing
+  double roundings = 0;         // how many rounded actions were taken, of which each may leave one
+  double scale = 1;             // of the energy itself
 };
 
 /// What is concluded of it.
@@ -54,7 +55,7 @@ struct RunDrift {
   static constexpr int fewest_blocks = 32;
   static constexpr double sign_level = 1e-6;
   static constexpr double fewest_periods = 2;
-  static constexpr double periods_to_be_bounded = 16;
+  static constexpr double periods_to_be_told = 16;  // of a random walk, or of a bounded error
   int blocks = 0;
   std::optional<double> periods;    // of the slowest oscillation seen, of the energy too; none was seen
   std::optional<DriftClass> drift;  // none: undecided, for the reason given
@@ -83,9 +84,9 @@ DriftStatistics classify_drift(const std::vector<std::vector<double>>& energies)
 
 /// `linear`: one of the tests rejects and the trend stands out. The sign test is for drifts that change their speed
 /// (the energy of euler on an orbit that widens), which a t-test cannot see. `random_walk`: the exponent, the whiteness
-/// of the increments and the size are those of summed rounding errors. `bounded`: neither trend nor growth over at
-/// least 16 periods. None, with the reason, wherever these do not agree, and for runs of fewer than 32 blocks or less
-/// than two periods.
+/// of the increments and the size are those of summed rounding errors. `bounded`: neither trend nor growth. Both over
+/// at least 16 periods. None, with the reason, wherever these do not agree, and for runs of fewer than 32 blocks or
+/// less than two periods.
 ///
 /// The growth exponent is the slope of log S(m) over log m, halved, where S(m) is the mean of (E_(i+m) - E_i)^2 over
 /// all i (structure function): m for a walk, m^2 for a drift, constant for an oscillation that the blocks do not
