@@ -167,6 +167,8 @@ bool takes_any_field(const MethodSpec& method) {
 bool accepts(const FormulaStructure& structure, const MethodSpec& method) {
   constexpr Capability natural = Capability::separable | Capability::quadratic_kinetic;
   if (structure.multiplier) return takes_any_field(method);
+  // Its correction along all coordinates would change the pace of those that carry the time.
+  if (structure.time && method.name == "discrete-gradient") return false;
   return visit_method(method, [&]<class M>(const M& recipe) {
     if (structure.constraints > 0) return std::is_same_v<M, Rattle>;
     if (structure.quadratic_kinetic) return is_accepted<Erased<double, natural>>(recipe);
