@@ -133,10 +133,11 @@ class ConservationProbe {
     above_ = difference;
     below_ = -difference;
   }
-  /// How much of H the motion has exchanged: the largest kinetic part so far. A run whose error is more than half of
-  /// that is no motion: there only the kinetic part at the start counts.
+  /// How much of H the motion has exchanged: the largest kinetic part so far. A run whose error is more than a
+  /// quarter of that is no motion, and only the kinetic part at the start counts: where p . dH/dp, twice T, has blown
+  /// up, the error is half of it.
   R exchanged_energy() const {
-    const bool is_motion = R(2) * worst_energy_error() <= most_kinetic_;
+    const bool is_motion = R(4) * worst_energy_error() <= most_kinetic_;
     return is_motion && most_kinetic_ <= std::numeric_limits<R>::max() ? most_kinetic_ : initial_kinetic_;
   }
   const Invariants& initial() const { return initial_; }
