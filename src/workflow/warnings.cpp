@@ -406,8 +406,8 @@ Json warnings_of(const Scenario& scenario, const Json& summary, const Excursion&
                  std::optional<double> exchanged) {
   Json all = Json::array();
   if (scenario.map) return all;  // they compare steps with the flow of H
+  const double scale = energy.scale_at_start;
   if (is_energy_nonsense(scenario, energy, end, exchanged)) {
-    const double scale = energy.scale_at_start;
     all.push_back(
         warning("energy_error", fmt::format("the energy was off by {:.3g}, {}: this is "
                                             "no motion of {}; try a smaller dt{}",

@@ -53,9 +53,8 @@ TEST_P(StopWithinAStep, IsAnsweredAndChangesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, StopWithinAStep,
-                         ::testing::Values("verlet", "stv4", "rk4", "taylor", "implicit-midpoint",
-                                           "gauss(3)", "lobatto-3a-3b", "cg", "eg", "discrete-gradient", "itoh-abe",
-                                           "chin4a"),
+                         ::testing::Values("verlet", "stv4", "rk4", "taylor", "implicit-midpoint", "gauss(3)",
+                                           "lobatto-3a-3b", "cg", "eg", "discrete-gradient", "itoh-abe", "chin4a"),
                          [](const auto& method) {
                            std::string name;
                            for (const char c : method.param) name += std::isalnum(c) != 0 ? c : '_';
