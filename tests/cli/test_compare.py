@@ -80,7 +80,8 @@ steps = 2000
             off = abs(decimal.Decimal(reference["q"][0]) - right)
             self.assertLess(off, right * decimal.Decimal(2 ** -52 + reference["uncertainty"]))
             rounded = (decimal.Decimal("1.3").sqrt() * 20).exp() / 2
-            self.assertGreater(abs(rounded - right), 100 * off)
+            # The reference is shown as a double, whose rounding is at most 2.4e-7; the two H are 1.6e-6 apart.
+            self.assertGreater(abs(rounded - right), 4 * off)
         # The inverse of an inertia: where there is no closed form, as beside a wall that is not met.
         self.write("swing.toml", """
 [problem]

@@ -93,7 +93,7 @@ steps = 2
 
     def test_labels_of_every_example_and_kind(self):
         """A label is a name that the problem has: no kind of any example shows another."""
-        allowed = re.compile(r"[-\u2212+=|/()., ·×∞^*\w]*")  # titles of typed problems are formulas
+        allowed = re.compile(r"[-\u2212+=|/()., :·×∞^*\w]*")  # titles of typed problems are formulas
         for example in sorted(EXAMPLES.glob("*.toml")):
             fewer = ("problem.particles_per_side=6",) if example.stem == "melt" else ()
             self.run_some(str(example), "run.steps=20", *fewer, out=example.stem)

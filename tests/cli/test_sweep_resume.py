@@ -207,7 +207,7 @@ class SweepResume(CommandCase):
             seen.add(done.returncode)
             self.assertIn(done.returncode, (0, 3), done.stderr)
             if done.returncode == 3:
-                self.assertIn("members.bin is", done.stderr)
+                self.assertIn("members.bin ", done.stderr)
             else:
                 self.assertEqual(members.read_bytes()[:16], whole[:16])
             self.assertEqual(self.files("s"), wanted)

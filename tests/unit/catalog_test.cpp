@@ -201,7 +201,8 @@ TEST(Catalog, SaysWhatIsWrongWithAMethod) {
   EXPECT_EQ(message("cg(0)"), "cg: degree: found '0'; allowed a whole number from 1 to 63");
   EXPECT_EQ(message("cg(3,2)"), "cg: quadrature: found 2; allowed at least the degree, 3, or \"auto\"");
   EXPECT_EQ(message("cg(2,iteration=fixedpoint)"),
-            "cg: iteration: found 'fixedpoint'; allowed newton, simplified, fixed-point; did you mean fixed-point?");
+            "cg: iteration: found 'fixedpoint'; allowed newton, simplified, fixed-point, "
+            "fixed-point-or-newton; did you mean fixed-point?");
   EXPECT_EQ(message("cg(2,iteration=fixed-point,diagnostics=true)"),
             "cg: diagnostics: found true; allowed false, since a fixed-point iteration has no tangent");
   EXPECT_EQ(message("gauss(11)"), "gauss: stages: found '11'; allowed a whole number from 1 to 10");
