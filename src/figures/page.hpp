@@ -92,9 +92,9 @@ struct Drawing {
   std::vector<std::filesystem::path> files;
 };
 
-/// Writes svg, pdf or png by the extensions of the files, all in one process; an existing file is replaced, and only by
-/// a complete one.   @throws Error when an extension is none of these or a page too small   @throws FileError when
-/// gnuplot, its font or a file fails
+/// Draws every page into its files in one gnuplot process. The extension of a file chooses SVG, PDF or PNG. A file that
+/// exists is replaced once the new one is complete.   @throws Error for another extension, or a page that is too small
+/// @throws FileError when gnuplot fails, finds no font, or a file cannot be written
 void draw(const std::vector<Drawing>& drawings);
 void draw(const Page& page, const std::filesystem::path& file);
 

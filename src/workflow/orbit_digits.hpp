@@ -8,8 +8,8 @@
 namespace hamflow {
 
 /// Replaces the radii, the apsidal angle and the radial period of an orbit that was found from the start in double by
-/// decimal texts with the digits of the run, and adds "uncertainty": what a rounding of the run's arithmetic in the
-/// start makes of each. What is not finite, or not found in more digits, stays as it is, and its uncertainty is null.
+/// decimal texts with the digits of the run, and adds "uncertainty": how far one rounding of the start,
+/// in the run's arithmetic, moves each. A number that is not finite or not found keeps its double; uncertainty null.
 void add_orbit_digits(const Scenario& scenario, nlohmann::ordered_json& orbit);
 
 }  // namespace hamflow

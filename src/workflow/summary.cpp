@@ -169,9 +169,9 @@ std::vector<Texts> moved_parameters(const Texts& parameters) {
   return all;
 }
 
-/// How far the closed form, in double, may be off in a run of more digits, of each group of numbers with one unit: what
-/// the roundings of parameters, start and time, and of what it returns, become. Those of the parameters stand for what
-/// is made of them on the way.
+/// Bounds the error of the closed form, computed in double, for a run with more digits: one bound for each group of
+/// numbers with the same unit. It adds what one rounding of each parameter, of the start, of the time and of the result
+/// changes.
 std::vector<double> uncertainty_of_exact(const Scenario& scenario, double t, const Frame& exact,
                                          const UnitGroups& groups) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

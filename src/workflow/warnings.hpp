@@ -38,8 +38,8 @@ std::string passing_in_a_step(const Request& request, const ProblemEntry& proble
 std::vector<std::string> warning_lines(const nlohmann::ordered_json& summary);
 
 /// Whether an energy error is more than the energy can account for: above what the motion exchanges, so that no
-/// constant in H changes it. Where nothing is exchanged, or nobody has watched: above the scale at the start, and not
-/// only because T and V vanish there by chance.   @param end the last state
+/// constant in H changes it. Where the exchange is zero or unknown, the error is compared with
+/// the scale at the start, unless T and V vanish there by chance.   @param end the last state
 /// @param exchanged EnergyExchange::typical(), which is less than Excursion::exchanged, and decides where it is known
 bool is_energy_nonsense(const Scenario& scenario, const Excursion& energy, const Frame& end,
                         std::optional<double> exchanged = {});

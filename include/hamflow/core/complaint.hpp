@@ -1,5 +1,5 @@
-// What is wrong with a request: a value for each complaint, from where it is found to where it is shown. Its parts are
-// never read back out of a sentence.
+// Errors in a request. Each one is a value from the place that finds it to the place that prints it; no code parses the
+// printed sentence.
 #pragma once
 
 #include <compare>

@@ -397,7 +397,7 @@ class RadialClock {
     return noted(integrate_from_ends([&](R left, R right) { return part(at(left, rest + right)); }, x));
   }
   R noted(const Integral& found) const {
-    constexpr R small = R(1e-13);  // what is below it is the rounding of E - V_eff, which neighbouring starts show
+    constexpr R small = R(1e-13);  // smaller errors come from rounding in E - V_eff; neighbouring starts show those
     settled_ = settled_ && found.error <= small * abs(found.value);
     return found.value;
   }
