@@ -153,12 +153,13 @@ std::size_t unknowns_of_step(const MethodSpec& spec, std::size_t coordinates) {
   return is_listed ? unknowns_and_options(spec, coordinates).count : 0;
 }
 
-std::string hint_after_divergence(const Request& request) {
+std::string hint_after_divergence(const Request& request, bool differentiated) {
   const MethodFamily& family = *find_method(request.method.name).family;
   if (!family.hint) return std::string(hint(Outcome::not_converged));
   const ProblemEntry& problem = find_problem(request.problem, request.variant);
   const std::size_t coordinates = request.start.q.size();
   UsableAdvice usable;
+  usable.halving = !differentiated;
   usable.newton = unknowns_of_step(request.method, coordinates) <= most_dense_unknowns;
   const bool has_hessian = request.problem != GasKeys::problem || coordinates <= most_gas_coordinates_with_hessian;
   if (has_hessian) usable.without_quadrature = fitting_methods({"discrete-gradient"}, &problem, request.arithmetic);

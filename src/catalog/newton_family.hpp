@@ -121,7 +121,7 @@ std::string divergence_hint(const Options& read, const UsableAdvice& usable) {
   if (read.max_iterations < usual) {
     text += std::string("a larger method.") + max_iterations_option + " (" + std::to_string(usual) + " unless said), ";
   }
-  text += std::string("a smaller dt, ") + (read.halve ? "" : "method.on_divergence = \"halve\", ") +
+  text += std::string("a smaller dt, ") + (read.halve || !usable.halving ? "" : "method.on_divergence = \"halve\", ") +
           (usable.newton && read.iteration != Iteration::newton ? "method.iteration = \"newton\", " : "") +
           "or, if the residual stagnates above method.tolerance, a larger tolerance or none";
   if constexpr (requires { read.quadrature; }) {

@@ -37,6 +37,8 @@ class TimedSimulation final : public Simulation, public RecordedMember {
       Bounce bounce = extended;
       strip(bounce.q);
       strip(bounce.p);
+      strip(bounce.digits.q);
+      strip(bounce.digits.p);
       told(bounce);
     });
   }

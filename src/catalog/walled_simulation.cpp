@@ -406,11 +406,17 @@ class WalledSimulation : public Simulation {
       bounce.step = inner_->step();
       const bool located = walls_->rule == WallRule::event;
       const R end = parts_->present_time();
-      bounce.time = static_cast<double>(located ? R(end - parts_->length_of_step() + met.after) : end);
+      const R time = located ? R(end - parts_->length_of_step() + met.after) : end;
+      bounce.time = static_cast<double>(time);
       bounce.coordinate = wall.coordinate;
       bounce.side = wall.side;
       for (const R& x : met.q) bounce.q.push_back(static_cast<double>(x));
       for (const R& x : met.p) bounce.p.push_back(static_cast<double>(x));
+      if constexpr (requires(const R& x) { written_digits(x); }) {
+        bounce.digits.time = written_digits(time);
+        for (const R& x : met.q) bounce.digits.q.push_back(written_digits(x));
+        for (const R& x : met.p) bounce.digits.p.push_back(written_digits(x));
+      }
       told_(bounce);
     }
     met_.clear();

@@ -29,7 +29,7 @@ std::string hint_of(const ComparisonPoint& p, const ComparisonRequest& asked) {
   const std::vector<std::string> names = comparison_names(asked.methods);
   const auto name = std::find(names.begin(), names.end(), p.method);
   if (name != names.end()) request.method = asked.methods[static_cast<std::size_t>(name - names.begin())];
-  return hint_for(request, p.outcome, p.failure);
+  return hint_for(request, false, p.outcome, p.failure);
 }
 
 Json row_of(const ComparisonPoint& p, const ComparisonRequest& asked) {

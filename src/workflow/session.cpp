@@ -243,6 +243,9 @@ void Session::listen() {
     Bounce& kept = bounces_.emplace_back(bounce);
     kept.step += step_before_;
     kept.time += time_before_;
+    if (!kept.digits.q.empty() && !one_part_) {
+      kept.digits.time = sum_of(exact_time_before_, kept.digits.time, request_.arithmetic);
+    }
   });
 }
 

@@ -268,13 +268,13 @@ static std::string chosen_iteration(const Request& request) {
 }
 
 /// The hint of the outcome, and what method and problem add to it.
-std::string hint_for(const Request& request, Outcome outcome, std::string_view failure) {
+std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure) {
   if (outcome == Outcome::wall && failure.ends_with(no_other_momentum)) {
     return "no dt helps: it is H that has a single root in that momentum, so that no hard wall throws it back; allowed "
            "an H with two, such as p^2/2, or no wall there";
   }
   if (outcome == Outcome::not_converged) {
-    const std::string solved = hint_after_divergence(request);
+    const std::string solved = hint_after_divergence(request, differentiated);
     const MethodInfo method = describe(request.method);
     if (!method.varies_steps) return solved;
     // Steps of varying length end so, too, where their density leaves the positive numbers: nothing diverged then.
@@ -310,7 +310,7 @@ std::string hint_for(const Request& request, Outcome outcome, std::string_view f
 namespace {
 
 /// What was computed is kept; here is how to look at it and how to go on.
-Json error_of(const Request& request, const Simulation& simulation, const RunResult& result) {
+Json error_of(const Scenario& scenario, const Simulation& simulation, const RunResult& result) {
   Frame frame;
   simulation.look(frame);
   if (!result.file_trouble.empty()) {
@@ -330,7 +330,7 @@ Json error_of(const Request& request, const Simulation& simulation, const RunRes
                 {"step", step},
                 {"t", frame.time},
                 {"message", text},
-                {"hint", hint_for(request, result.outcome, cause_of(result.failure))}};
+                {"hint", hint_for(scenario.request, differentiates_steps(scenario), result.outcome, cause_of(result.failure))}};
   if (const std::string numbers = numbers_of(result.failure); own_words && !numbers.empty()) error["details"] = numbers;
   return error;
 }
@@ -447,7 +447,7 @@ Json summary_of(const Scenario& scenario, const Simulation& simulation, const Ru
   s["certificate"] = certificate != nullptr && scenario.certificate ? certificate_json(*certificate) : Json(nullptr);
   s["wall_seconds"] = result.wall_seconds;
   s["steps_per_second"] = result.wall_seconds > 0 ? static_cast<double>(result.steps_taken) / result.wall_seconds : 0.0;
-  if (s["status"] == "failed") s["error"] = error_of(scenario.request, simulation, result);
+  if (s["status"] == "failed") s["error"] = error_of(scenario, simulation, result);
   return s;
 }
 

@@ -24,8 +24,10 @@ struct RunResult {
 
 /// "done", "failed" or "interrupted".
 std::string status_of(Outcome outcome);
+/// Whether the run needs the derivative of each step, which a step that was halved does not have.
+inline bool differentiates_steps(const Scenario& scenario) { return scenario.lyapunov > 0 || scenario.eigenvalues; }
 /// The hint of the outcome, and what method, problem and the sentence about the failure add to it.
-std::string hint_for(const Request& request, Outcome outcome, std::string_view failure);
+std::string hint_for(const Request& request, bool differentiated, Outcome outcome, std::string_view failure);
 /// What the effective potential tells of the start of a problem that describes its orbits.
 nlohmann::ordered_json orbit_of(const Scenario& scenario);
 /// @param certificate null where nobody has watched   @param measures null where nothing was measured

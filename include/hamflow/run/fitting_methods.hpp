@@ -26,7 +26,8 @@ std::string with_fitting_methods(std::initializer_list<std::string_view> candida
                                  const std::string& arithmetic);
 
 /// What can be tried after a step that did not converge.
-std::string hint_after_divergence(const Request& request);
+/// @param differentiated whether the run differentiates its steps: it then refuses to halve them
+std::string hint_after_divergence(const Request& request, bool differentiated);
 
 /// refusal() of a method in an arithmetic, and which methods take the problem in it.
 std::string refusal_with_advice(const MethodSpec& spec, const ProblemEntry* problem, const std::string& arithmetic);

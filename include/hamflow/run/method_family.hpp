@@ -39,6 +39,7 @@ inline constexpr int unlimited_digits = std::numeric_limits<int>::max();
 /// What a scenario can take of the advice that a method gives after a step that did not converge.
 struct UsableAdvice {
   bool newton = true;                // method.iteration = "newton": a matrix is made for so many unknowns
+  bool halving = true;               // method.on_divergence = "halve": no step has to be differentiated
   std::string without_quadrature{};  // a method that evaluates no quadrature; empty: none takes the problem
 };
 

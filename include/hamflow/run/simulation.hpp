@@ -77,6 +77,7 @@ struct Bounce {
   int side = 1;  // -1: the wall below, 1: that above
   std::vector<double> q;
   std::vector<double> p;
+  FrameDigits digits{};  // time, q and p in arithmetic beyond double; else empty
 };
 /// How often.
 struct WallCount {
