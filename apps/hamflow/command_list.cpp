@@ -349,10 +349,8 @@ void print_problems() {
 
 int list_command(const std::string& what, bool all, bool json) {
   return guarded(json, [&] {
-    if (what == "experiments") {
-      list_experiments(json);
-      return exit_done;
-    }
+    if (what == "experiments")
+      become_reproduce(json ? std::vector<std::string>{"--list", "--json"} : std::vector<std::string>{"--list"});
     const bool of_methods = what == "methods";
     if (json) {
       std::cout << (of_methods ? methods_json() : problems_json()).dump(2) << '\n';
@@ -369,9 +367,12 @@ int list_command(const std::string& what, bool all, bool json) {
 
 int show_command(const std::string& name, const std::string& folder) {
   return guarded(false, [&] {
-    if (show_experiment(name, folder)) return exit_done;
-    if (!folder.empty())
+    if (!folder.empty()) {
+      const std::vector<std::string> ids = experiment_ids();
+      if (ids.empty() || std::find(ids.begin(), ids.end(), name) != ids.end())
+        become_reproduce({"--show", name, "--out", folder});
       throw Rejection("--out", "found --out with " + name + "; allowed with an experiment (hamflow list experiments)");
+    }
     if (name.ends_with(".toml")) {
       show_scenario(accepted(read_scenario(name, {})));
       return exit_done;
@@ -396,11 +397,14 @@ int show_command(const std::string& name, const std::string& folder) {
     for (const MethodEntry& entry : methods()) names.push_back(entry.name);
     for (const DeclaredTable& table : declared_tables()) names.push_back(table.name);
     const std::string method = name.substr(0, name.find('('));
-    for (const std::string& id : experiment_ids()) names.push_back(id);
     if (std::find(names.begin(), names.end(), method) == names.end()) {
+      const std::vector<std::string> ids = experiment_ids();
+      if (std::find(ids.begin(), ids.end(), name) != ids.end()) become_reproduce({"--show", name});
+      names.insert(names.end(), ids.begin(), ids.end());
       throw Error("there is no problem, method, figure or experiment '" + name + "'" + meant_by(method, names) +
                   " (hamflow list problems, hamflow list methods, hamflow list experiments; keys: hamflow show run, "
-                  "hamflow show output)");
+                  "hamflow show output)" +
+                  (ids.empty() ? "; experiments are known once ./dev theses has built hamflow-reproduce" : ""));
     }
     show_method(parse_method(name));
     return exit_done;

@@ -112,18 +112,8 @@ struct ShellOptions {
 };
 int shell_command(const ShellOptions& options);
 
-struct ReproduceCommandOptions {
-  std::vector<std::string> what;  // IDs, gross, sonnleitner, all
-  bool quick = false;
-  bool full = false;
-  std::string out;  // a folder; empty: reproduce
-  bool force = false;
-  bool resume = false;
-  int threads = 0;  // 0: all cores
-  bool json = false;
-  bool quiet = false;
-};
-int reproduce_command(const ReproduceCommandOptions& options);
+/// Starts hamflow-reproduce with these arguments; returns only where that fails.
+int reproduce_command(const std::vector<std::string>& arguments);
 
 int list_command(const std::string& what, bool all, bool json);
 /// @param folder of a reproduction, for an experiment; empty: the one that `reproduce` writes into

@@ -1,4 +1,5 @@
-// What list and show tell of experiments.
+// The experiments of the two theses are a program of their own, hamflow-reproduce. `reproduce`, `list experiments` and
+// `show ID` start it.
 #pragma once
 
 #include <string>
@@ -6,10 +7,10 @@
 
 namespace hamflow::app {
 
-void list_experiments(bool json);
-/// With its claims as they were judged in a folder, that of `reproduce` where it is empty. False where there is no
-/// experiment of that ID.   @throws FileError where a folder that was named is none of a reproduction
-bool show_experiment(const std::string& id, const std::string& folder);
+/// Replaces this process by hamflow-reproduce, which lies beside this program or in PATH.
+/// @throws FileError where there is none, naming the command that builds it
+[[noreturn]] void become_reproduce(const std::vector<std::string>& arguments);
+/// Empty where hamflow-reproduce is not installed.
 std::vector<std::string> experiment_ids();
 
 }  // namespace hamflow::app

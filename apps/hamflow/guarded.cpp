@@ -6,8 +6,8 @@
 #include <iostream>
 #include <new>
 
-#include "gnuplot.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/figures/while_drawing.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
 #include "progress.hpp"

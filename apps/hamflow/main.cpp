@@ -182,29 +182,9 @@ int main(int argc, char** argv) {
   reverse_command->add_flag("--quiet", reverse.quiet, "no progress, no notes");
   reverse_command->callback([&] { status = hamflow::app::reverse_command(reverse); });
 
-  ReproduceCommandOptions reproduce;
-  CLI::App* reproduce_command =
-      add(app, "reproduce", "Carry out the experiments of both theses: figures, tables, statements, and verdicts",
-          "  hamflow reproduce all --quick\n  hamflow reproduce G2.8 G2.9 --out kepler\n  hamflow reproduce gross "
-          "--resume\n  hamflow list experiments\n");
-  reproduce_command
-      ->add_option("experiment", reproduce.what, "IDs of hamflow list experiments; gross, sonnleitner, all")
-      ->required()
-      ->type_name("ID...");
-  reproduce_command->add_flag("--quick", reproduce.quick, "about a minute for all");
-  reproduce_command->add_flag("--full", reproduce.full, "about ten hours for all");
-  reproduce_command->add_option("--out", reproduce.out, "folder for the page and its data [reproduce]")
-      ->type_name("DIR");
-  reproduce_command->add_flag("--force", reproduce.force, "carry out again what is there");
-  reproduce_command->add_flag("--resume", reproduce.resume,
-                              "only what is not done, or was changed since: in its runs, its rule or the version");
-  reproduce_command->add_option("--threads", reproduce.threads, "how many, 0: all cores; verdicts do not depend on it")
-      ->type_name("N")
-      ->transform(whole_number(0, hamflow::most_sweep_threads));
-  reproduce_command->add_flag("--json", reproduce.json,
-                              "print what verdicts.json says, of the experiments asked for alone, and nothing else");
-  reproduce_command->add_flag("--quiet", reproduce.quiet, "no progress, no notes");
-  reproduce_command->callback([&] { status = hamflow::app::reproduce_command(reproduce); });
+  // Help and options of reproduce are those of its program, hamflow-reproduce.
+  app.add_subcommand("reproduce",
+                     "Carry out the experiments of both theses: figures, tables, statements, and verdicts");
 
   CompareOptions compare;
   CLI::App* compare_command =
@@ -299,6 +279,7 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   show_command->callback([&] { status = hamflow::app::show_command(name, shown_folder); });
 
+  if (argc > 1 && std::string(argv[1]) == "reproduce") return written_out(reproduce_command({argv + 2, argv + argc}));
   try {
     reject_unknown_command(app, argc, argv);
     reject_missing_value(app, argc, argv);

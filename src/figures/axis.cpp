@@ -1,4 +1,4 @@
-#include "axis.hpp"
+#include "hamflow/figures/axis.hpp"
 
 #include <fmt/format.h>
 

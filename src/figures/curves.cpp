@@ -1,4 +1,4 @@
-#include "curves.hpp"
+#include "hamflow/figures/curves.hpp"
 
 #include <algorithm>
 #include <cmath>

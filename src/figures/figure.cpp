@@ -7,6 +7,7 @@
 #include "hamflow/core/number.hpp"
 #include "hamflow/core/text.hpp"
 #include "particles.hpp"
+#include "terminal.hpp"
 
 namespace hamflow {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "figure_kinds.hpp"
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 
 namespace hamflow {
 
@@ -112,5 +112,16 @@ figures::Page page_of(const Figure& figure, const std::string& kind);
 /// Writes svg, pdf or png by the extension of `file`; an existing file is replaced, and only by a complete one.
 /// @throws Error when kind, extension, options or data do not fit   @throws FileError when gnuplot or the file fails
 void write_figure(const Figure& figure, const std::string& kind, const std::filesystem::path& file);
+
+namespace figures {
+
+/// Whether q is (r, phi).
+bool is_polar(const FigureData& data);
+/// The path in the plane of samples of (r, phi).
+Curve polar_track(const FigureSamples& samples);
+/// The path in the plane, from cartesian or from polar coordinates; empty unless there are two.
+Curve orbit_track(const FigureData& data);
+
+}  // namespace figures
 
 }  // namespace hamflow

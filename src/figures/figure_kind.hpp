@@ -7,7 +7,7 @@
 
 #include "figure.hpp"
 #include "figure_kinds.hpp"
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 
 namespace hamflow::figures {
 

@@ -2,32 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "hamflow/core/error.hpp"
+#include "hamflow/figures/while_drawing.hpp"
 #include "terminal.hpp"
 
 namespace hamflow::figures {
-
-/// gnuplot was ended because whoever waited for it was asked to stop.
-struct DrawingStopped : FileError {
-  using FileError::FileError;
-};
-
-/// While it lives, this thread asks `go_on` whenever it waits for gnuplot; an answer of false ends gnuplot.
-class WhileDrawing {
- public:
-  explicit WhileDrawing(std::function<bool()> go_on);
-  ~WhileDrawing();
-  WhileDrawing(const WhileDrawing&) = delete;
-  WhileDrawing& operator=(const WhileDrawing&) = delete;
-
- private:
-  std::function<bool()> go_on_;
-  const std::function<bool()>* before_;
-};
 
 /// Runs scripts, whose first lines choose the terminals, in one process and returns the figures that it writes, one of
 /// each.   @param longest seconds for each of them, after which gnuplot is ended

@@ -4,14 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
+#include "hamflow/figures/panel_axes.hpp"
 
 namespace hamflow::figures {
-
-/// Colours that differ in hue and in grey, the first that of a figure of one run; they repeat after eight.
-std::string colour_of(std::size_t place);
-/// For the n-th of many series: its colour, and dashes where colours repeat.
-Mark mark_of(std::size_t place);
 
 /// The rows of the series, where the panel's axes place them; empty ones lift the pen.
 std::vector<std::string> data_lines(const Panel& panel, const Series& series);

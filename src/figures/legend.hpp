@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 #include "script.hpp"
 
 namespace hamflow::figures {

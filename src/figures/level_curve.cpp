@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "curves.hpp"
+#include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "curves.hpp"
 #include "figure.hpp"
+#include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
 

@@ -1,4 +1,4 @@
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 
 #include <algorithm>
 #include <atomic>

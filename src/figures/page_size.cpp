@@ -6,6 +6,7 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/number.hpp"
+#include "terminal.hpp"
 
 namespace hamflow {
 

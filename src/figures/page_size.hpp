@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 
 namespace hamflow {
 

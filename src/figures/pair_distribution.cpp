@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "axis.hpp"
+#include "hamflow/figures/axis.hpp"
 
 namespace hamflow::figures {
 

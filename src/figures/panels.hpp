@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "axis.hpp"
-#include "curves.hpp"
 #include "figure.hpp"
+#include "hamflow/figures/axis.hpp"
+#include "hamflow/figures/curves.hpp"
+#include "hamflow/figures/page.hpp"
+#include "hamflow/figures/panel_axes.hpp"
 #include "ink.hpp"
-#include "page.hpp"
 
 namespace hamflow::figures {
 
-constexpr double padding = 0.06;                // between data and frame, a fraction of the range
 constexpr std::size_t most_separate_dots = 40;  // on a line over a page; more would run into each other
 inline const std::string energy_name = "{/:Italic H}";
 inline const std::string energy_of_time =
@@ -50,14 +50,9 @@ bool is_sparse(const std::vector<double>& y);
 /// Dots about a millimetre apart in print, so that the exact line shows between them.
 Curve dots_on_line(const Curve& track, const Panel& panel);
 
-/// A panel over time, or over another quantity that grows; the y-axis is left to the caller.
-Panel panel_over(const Extent& times, const std::string& label);
 /// One line over all samples, or the field that they fill where they are too many for a line; dots as well while they
 /// can be told apart.
 void add_over_time(Panel& panel, const std::vector<double>& t, const std::vector<double>& y, Series how);
-
-/// Both axes with one scale: the box takes the shape of the data, within limits.
-void fit_equal_axes(Panel& panel, const Extent& x, const Extent& y);
 
 /// H of the first sample, 0 without samples.
 double start_of(const std::vector<double>& energy);

@@ -5,9 +5,10 @@
 #include <map>
 
 #include "hamflow/core/error.hpp"
+#include "hamflow/figures/page.hpp"
 #include "ink.hpp"
-#include "page.hpp"
 #include "panels.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace hamflow {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "curves.hpp"
 #include "figure.hpp"
-#include "page.hpp"
+#include "hamflow/figures/curves.hpp"
+#include "hamflow/figures/page.hpp"
 #include "planes.hpp"
 
 namespace hamflow::figures {

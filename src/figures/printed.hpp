@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 
 namespace hamflow::figures {
 

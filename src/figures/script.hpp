@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hamflow/figures/page.hpp"
 #include "terminal.hpp"
 
 namespace hamflow::figures {
@@ -44,5 +45,8 @@ class Script {
   double height_ = 0;
   std::string text_;
 };
+
+/// The whole script of a page.   @throws Error where the page has a height, and the panels do not fit into it
+std::string gnuplot_script(const Page& page, Format format);
 
 }  // namespace hamflow::figures

@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "hamflow/core/error.hpp"
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace hamflow {

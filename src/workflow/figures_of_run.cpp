@@ -5,6 +5,7 @@
 #include "figure.hpp"
 #include "figure_data.hpp"
 #include "page_size.hpp"
+#include "terminal.hpp"
 
 namespace hamflow {
 

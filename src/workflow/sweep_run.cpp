@@ -219,8 +219,8 @@ SweepReport ScenarioSweep::run(const std::function<bool(std::int64_t)>& pulse) {
     report.failures.push_back(fmt::format("member {}, step {}: {}", failure["member"].get<std::size_t>(),
                                           failure["step"].get<std::int64_t>(), failure["message"].get<std::string>()));
     if (report.hint.empty() && failure["kind"] == name(Outcome::not_converged)) {
-      report.hint = hint_for(sweep.common().request, differentiates_steps(sweep.common()),
-                             Outcome::not_converged, failure["message"].get<std::string>());
+      report.hint = hint_for(sweep.common().request, differentiates_steps(sweep.common()), Outcome::not_converged,
+                             failure["message"].get<std::string>());
     }
   }
   if (folder) folder->save(report.json);

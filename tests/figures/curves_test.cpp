@@ -1,5 +1,5 @@
 // The curves, axes and texts below the figures.
-#include "curves.hpp"
+#include "hamflow/figures/curves.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "axis.hpp"
 #include "figure.hpp"
+#include "hamflow/figures/axis.hpp"
 #include "printed.hpp"
 #include "text.hpp"
 

@@ -1,5 +1,5 @@
 // Pages: logarithmic axes, maps and legends of their own, and the two figures that are made of them.
-#include "page.hpp"
+#include "hamflow/figures/page.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@
 #include "ink.hpp"
 #include "page_size.hpp"
 #include "parameter_map.hpp"
+#include "script.hpp"
 #include "work_precision.hpp"
 
 namespace hamflow::figures {

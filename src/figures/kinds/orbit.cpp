@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../planes.hpp"
 #include "../text.hpp"
+#include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "../columns.hpp"
-#include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
+#include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
 

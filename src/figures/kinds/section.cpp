@@ -1,10 +1,10 @@
 // The points of a Poincare section, in the plane of a coordinate and its momentum.
 #include <algorithm>
 
-#include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../panels.hpp"
 #include "../text.hpp"
+#include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
 

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../curves.hpp"
 #include "../figure_kind.hpp"
 #include "../ink.hpp"
 #include "../panels.hpp"
 #include "../particles.hpp"
 #include "../text.hpp"
 #include "hamflow/core/counter_random.hpp"
+#include "hamflow/figures/curves.hpp"
 
 namespace hamflow::figures {
 

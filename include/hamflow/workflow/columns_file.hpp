@@ -1,0 +1,27 @@
+// Columns of numbers as an HDF5 file, for programs that keep curves of their own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hamflow {
+
+/// Columns of one group; they need not be equally long.
+struct ColumnGroup {
+  std::string name;
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+};
+
+/// Names and texts, and groups of columns.
+struct ColumnsFile {
+  std::vector<std::pair<std::string, std::string>> attributes;  // of the root
+  std::vector<std::pair<std::string, std::string>> texts;       // each a dataset of one string
+  std::vector<ColumnGroup> groups;                              // each column a dataset of doubles
+};
+
+/// Writes the whole file, or leaves the old one. Names must differ within a group. @throws FileError
+void write_columns(const std::filesystem::path& file, const ColumnsFile& contents);
+
+}  // namespace hamflow

@@ -1,0 +1,82 @@
+#include "gas_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace hamflow::reproduction {
+
+double GasRun::scale_number() const {
+  if (scale == "listing") return (particles() - 1) / 2.0;
+  if (scale == "per-side") return start == "corner" ? side - 1 : (side - 1) / 2.0;
+  return std::stod(scale);
+}
+
+std::string name_of(const GasRun& run) {
+  return fmt::format("{}_{}_{}_{}_e{}_{}_{}_{}", run.particles(), run.start, run.scale, run.dt, run.exponent, run.steps,
+                     run.arithmetic, run.seed);
+}
+
+std::string gas_scenario(const GasRun& run) {
+  const bool is_number = run.scale != "listing" && run.scale != "per-side";
+  const std::string quote = is_number ? "" : "\"";
+  const std::string seed = run.start == "lattice" ? fmt::format("seed = {}\n", run.seed) : "";
+  return fmt::format(
+      "[problem]\nname = \"gas\"\nparticles_per_side = {}\nstart = \"{}\"\n{}pair = \"lennard-jones\"\n"
+      "scale = {}{}{}\ncontainer = {{ kind = \"circle\", radius = 1.5, exponent = {} }}\n\n[method]\nname = \"stv4\"\n"
+      "\n[run]\ndt = {}\nsteps = {}\nrecord_every = {}\narithmetic = \"{}\"\n",
+      run.side, run.start, seed, quote, run.scale, quote, run.exponent, run.dt, run.steps,
+      run.record_every > 0 ? run.record_every : std::max<std::int64_t>(run.steps, 1), run.arithmetic);
+}
+
+Return there_and_back(Study& study, const GasRun& run) {
+  const ReversalReport report = study.reverse(name_of(run), gas_scenario(run));
+  const auto json = nlohmann::json::parse(report.json);
+  Return all;
+  all.done = report.status == "done";
+  all.message = report.message;
+  all.start = report.reversal.start;
+  all.turn = report.reversal.turn;
+  all.end = report.reversal.end;
+  all.pair_evaluations = json.at("pair_evaluations").get<double>();
+  if (all.done) {
+    all.position = json.at("return_error").at("position");
+    all.momentum = json.at("return_error").at("momentum");
+    all.digits_lost = json.at("digits_lost");
+    all.bit_exact = json.at("bit_exact");
+  } else {
+    all.failed_at = json.at("error").at("step");
+  }
+  return all;
+}
+
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i + 1 < a.size(); i += 2) {
+    const double r = std::hypot(a[i] - b[i], a[i + 1] - b[i + 1]);
+    most = r <= most ? most : r;  // a place that is none is the farthest
+    if (std::isnan(r)) return r;
+  }
+  return most;
+}
+
+figures::Panel places(const std::string& x_label, const std::string& y_label, const std::vector<Places>& all) {
+  using namespace figures;
+  Extent across, up;
+  Panel panel;
+  for (const Places& some : all) {
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i + 1 < some.xy.size(); i += 2) x.push_back(some.xy[i]), y.push_back(some.xy[i + 1]);
+    across.include(x);
+    up.include(y);
+    panel.series.push_back({Ink::marks, some.name, finite_points(x, y), {.colour = some.colour, .shape = some.shape}});
+  }
+  panel.x_label = x_label;
+  panel.y_label = y_label;
+  fit_equal_axes(panel, across, up);
+  return panel;
+}
+
+}  // namespace hamflow::reproduction

@@ -1,0 +1,154 @@
+#include "late_motions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "claim.hpp"
+
+namespace hamflow::reproduction {
+
+Exponents exponents_from(Study& study, const TubeSet& set, const TubeWatch& seen, const std::string& name,
+                         std::int64_t steps) {
+  std::vector<std::string> sets{"run.lyapunov=1"};
+  for (const std::string& one : set.sets) {
+    if (!one.starts_with("run.arithmetic=")) sets.push_back(one);
+  }
+  const auto over = [&](std::int64_t length, const char* which) {
+    const Trajectory run = study.try_run(fmt::format("{}_{}", name, which),
+                                         scenario_of_start(set, seen.start, length, seen.q, seen.p), sets);
+    if (run.report.status != "done") return std::numeric_limits<double>::infinity();
+    return nlohmann::json::parse(run.report.json).at("lyapunov").at("exponents").at(0).get<double>();
+  };
+  return {over(steps, "shorter"), over(4 * steps, "longer"), static_cast<double>(steps) * std::stod(set.run.dt)};
+}
+
+std::int64_t steps_in_true_flow(const Study& study) { return study.sized<std::int64_t>(10000, 50000, 200000); }
+
+namespace {
+
+double median(std::vector<double> numbers) {
+  if (numbers.empty()) return std::nan("");
+  std::sort(numbers.begin(), numbers.end());
+  return numbers[numbers.size() / 2];
+}
+
+/// @param moved by which Q1 is another
+std::string initial_of(const LateMotion& late, double moved) {
+  const std::vector<double>&q = late.q, &p = late.p;
+  return fmt::format("problem.initial={{ q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}] }}", q[0] + moved, q[1], p[0],
+                     p[1]);
+}
+
+/// How far two neighbours are apart in the later half of a run, over how far they were at first. Of a regular motion
+/// that grows like t; of a chaotic one it ends where they are as far apart as they can be, near 1/shift.
+double parting(Study& study, const std::string& name, TubeRun run, const LateMotion& late, double shift) {
+  run.eps = late.eps;
+  run.steps = study.sized<std::int64_t>(20000, 100000, 1000000);
+  run.record_every = run.steps / 200;
+  const auto from = [&](double moved, const std::string& which) {
+    return study.run(fmt::format("{}_{}_{}", late.name, name, which), tube_scenario(run), {initial_of(late, moved)});
+  };
+  const Trajectory one = from(0, "one"), other = from(shift, "other");
+  std::vector<double> all;
+  for (std::size_t k = 101; k < std::min(one.size(), other.size()); ++k) {
+    all.push_back(std::hypot(one.q[k][0] - other.q[k][0], one.q[k][1] - other.q[k][1]));
+  }
+  return median(all) / std::abs(shift);
+}
+
+/// The same, and how much it depends on how far apart they were.
+Measured measured_parting(Study& study, const std::string& name, const TubeRun& run, const LateMotion& late,
+                          const std::string& how) {
+  const double one = parting(study, name, run, late, 1e-9), other = parting(study, name + "_wider", run, late, 2e-9);
+  return {one, std::abs(one - other), how};
+}
+
+/// How far around a late motion others are regular, as their own exponents tell: with the listing's rule, and in the
+/// true flow, whose walls are located.
+void tell_neighbourhood(Study& study, const LateMotion& late, Table& table) {
+  std::vector<double> shifts{0};
+  if (study.sized(0, 1, 1) > 0) shifts = {0, 1e-4, 1e-3, 1e-2, 0.1};
+  for (const char* const rule : {"reject", "event"}) {
+    for (const double moved : shifts) {
+      TubeWatch beside{.start = {.eps = late.eps}, .q = late.q, .p = late.p};
+      beside.q[0] += moved;
+      const std::string name = fmt::format("{}_{}_moved_{:g}", late.name, rule, moved);
+      const Exponents of = exponents_from(study, {.run = {.rule = rule}}, beside, name, steps_in_true_flow(study));
+      table.rows.push_back({late.name, rule, fmt::format("{:g}", moved), fmt::format("{:.2g}", of.shorter),
+                            fmt::format("{:.2g}", of.longer), of.regular() ? "yes" : "no"});
+    }
+  }
+}
+
+/// A motion goes round in up to 910 time units: what one round says of it is not known before some of them.
+constexpr double some_rounds = 2000;
+
+/// Regular with the rule of the listing: by the tangent of the motion itself. Of neighbours at any distance only those
+/// within the regular set would tell, and how wide that is is not known before.
+void claim_regular(Study& study, const LateMotion& late) {
+  const auto steps = study.sized<std::int64_t>(20000, 200000, 1000000);
+  const double time = 4 * 0.01 * static_cast<double>(steps);
+  std::vector<Measured> measured;
+  if (time >= some_rounds) {
+    const TubeWatch own{.start = {.eps = late.eps}, .q = late.q, .p = late.p};
+    const Exponents of =
+        exponents_from(study, {.run = {.rule = "reject"}}, own, std::string(late.name) + "_own", steps);
+    const auto units = [](double exponent, double t) { return std::abs(exponent) * t / std::log(t); };
+    const double longer = units(of.longer, time), shorter = units(of.shorter, time / 4);
+    if (std::isfinite(longer) && std::isfinite(shorter)) {  // a motion that ends tells nothing
+      measured.push_back({longer, std::abs(longer - shorter),
+                          fmt::format("exponents {:.2g} over {:g} and {:.2g} over {:g} time units, reject, dt = 0.01",
+                                      of.shorter, time / 4, of.longer, time)});
+    }
+  }
+  study.claim({fmt::format("regular_{}", late.name),
+               fmt::format("a late motion of {} is regular, with the rule of the listing", late.name), "regular"},
+              at_most(3,
+                      "largest Lyapunov exponent over log T/T: 1 where tangents grow like t; a chaotic motion's is "
+                      "beyond 30"),
+              measured, Grounds::program, fmt::format("{:g} time units, some rounds: the default size", some_rounds));
+}
+
+}  // namespace
+
+void claim_late_motions(Study& study) {
+  const double time = 0.01 * static_cast<double>(steps_in_true_flow(study));
+  Table table{"neighbourhood",
+              "Motions beside a late one, Q1 moved: with the rule of the listing, and with located bounces (stv4)",
+              {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
+               fmt::format("over {:g}", 4 * time), "by at most 3 log T/T"},
+              {}};
+  Table partings{"partings",
+                 "How many times as far apart neighbours of a late motion are in the later half of a run as at first, "
+                 "reject: of a chaotic one they end as far apart as they can be",
+                 {"late motion of"},
+                 {}};
+  const std::vector<double> shifts{1e-11, -1e-11, 1e-9, -1e-9, 1e-7, -1e-7, 1e-5, 1e-3};
+  for (const double shift : shifts) partings.headings.push_back(fmt::format("moved by {:.0e}", shift));
+  for (const LateMotion& late : late_motions(study)) {
+    claim_regular(study, late);
+    study.claim({fmt::format("true_flow_{}", late.name),
+                 fmt::format("a late motion of {} is a regular orbit of the true flow", late.name), "an island"},
+                at_most(1e6,
+                        "how many times as far apart neighbours come that were 1e-9 apart: a chaotic motion has "
+                        "parted them 3e8 times and more"),
+                {measured_parting(study, "element", {.rule = "event", .method = "cg(3)"}, late,
+                                  "continued with cg(3) and event, dt = 0.01"),
+                 measured_parting(study, "event", {.rule = "event"}, late, "with stv4 and event")},
+                Grounds::program, "longer runs, --full");
+    std::vector<std::string> row{late.name};
+    for (const double shift : shifts) {
+      row.push_back(fmt::format("{:.3g}", parting(study, fmt::format("reject_{:.0e}", shift), {}, late, shift)));
+    }
+    partings.rows.push_back(std::move(row));
+    tell_neighbourhood(study, late, table);
+  }
+  study.table(std::move(partings));
+  study.table(std::move(table));
+}
+
+}  // namespace hamflow::reproduction
