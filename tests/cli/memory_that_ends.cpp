@@ -18,7 +18,7 @@ std::size_t number(const char* name, std::size_t without) {
   return text == nullptr ? without : std::strtoull(text, nullptr, 10);
 }
 
-const bool of_the_command = std::strcmp(program_invocation_short_name, "hamflow") == 0;
+const bool of_the_command = std::strncmp(program_invocation_short_name, "hamflow", 7) == 0;
 std::atomic<std::size_t> seen{0};
 
 void* allocated(std::size_t bytes, std::size_t alignment) {

@@ -267,13 +267,8 @@ record_every = true
         self.assertNotIn("did you mean", told("run.quadrature=3", "method.name=verlet"))
         self.assertIn("did you mean halve?", told("method.on_divergence=half"))
 
-    def test_a_page_is_written_somewhere(self):
-        self.assertIn("found --out none", self.hamflow("reproduce", "G2.8", "--quick", "--out", "none", status=2).stderr)
-        self.assertFalse((self.folder / "none").exists())
-
     def test_what_no_thread_means_is_told(self):
-        for command in ("sweep", "reproduce"):
-            self.assertRegex(self.hamflow(command, "--help").stdout, r"--threads N +how many, 0: all cores")
+        self.assertRegex(self.hamflow("sweep", "--help").stdout, r"--threads N +how many, 0: all cores")
 
     def test_unknown_names_are_answered_by_those_that_are_known(self):
         for words, allowed in ((["verify", "stv4", "--problem", "foo"], "allowed double-pendulum, duffing"),
@@ -297,8 +292,6 @@ record_every = true
         for words, key in (
             (["verify", "stv5"], "METHOD"),
             (["verify", "stv4", "--problem", "foo"], "--problem"),
-            (["reproduce", "foo"], "ID"),
-            (["reproduce", "G2.8", "--quick", "--full"], "--quick"),
             (["compare", "kepler.toml", "--methods", "verlte"], "--methods"),
             (["compare", "kepler.toml", "--methods", "stv4", "--set", "run.steps=0"], "run.steps"),
             (["compare", "kepler.toml", "--methods", "stv4", "--dt", "0"], "--dt"),
@@ -314,10 +307,6 @@ record_every = true
             self.assertEqual(error["key"], key, words)
             self.assertTrue(error["message"].startswith("found "), error)
             self.assertIn(error["message"], done.stderr)
-        done = self.hamflow("reproduce", "foo", "G2.8", "bar", "--json", status=2)
-        self.assertEqual([e["message"].split(";")[0] for e in json.loads(done.stdout)["errors"]],
-                         ["found experiment foo", "found experiment bar"])
-
 
 if __name__ == "__main__":
     unittest.main()

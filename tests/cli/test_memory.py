@@ -2,12 +2,11 @@
 A large allocation of a given number is refused (memory_that_ends.cpp), at several places of a run."""
 
 import json
-import os
 import re
 import shutil
 import unittest
 
-from command import CommandCase
+from memory import GOES_ON, MemoryCase
 
 PARTICLES = 40
 STEPS = 100
@@ -25,34 +24,15 @@ steps = {STEPS}
 record_every = 1000000
 """
 STATE = 2 * 8 * 2 * PARTICLES**2  # bytes of q and p
-GOES_ON = "out of memory; what was computed is in x, and the same command with --resume goes on"
 
 
-class Memory(CommandCase):
+class Memory(MemoryCase):
     def setUp(self):
         super().setUp()
         self.write("gas.toml", GAS)
 
-    def with_memory(self, *arguments, folder="x", large=STATE // 4, refused=None, status=None):
-        environment = {"LD_PRELOAD": os.environ["MEMORY_THAT_ENDS"], "HAMFLOW_TEST_LARGE": str(large),
-                       "HAMFLOW_TEST_COUNT_IN": str(self.folder / "count")}
-        if refused is not None:
-            environment["HAMFLOW_TEST_REFUSED"] = str(refused)
-        leaving = () if folder is None else ("--out", folder, "--json")
-        return self.hamflow(*arguments, *leaving, status=status, env=os.environ | environment)
-
-    def large_allocations(self, *arguments, **options):
-        self.with_memory(*arguments, status=0, **options)
-        shutil.rmtree(self.folder / "x", ignore_errors=True)
-        return int((self.folder / "count").read_text())
-
-    def exhausted(self, refused, *arguments, **options):
-        """The message of a command that is refused memory after so many large allocations."""
-        ended = self.with_memory(*arguments, refused=refused, status=1, **options)
-        error = json.loads(ended.stdout)["error"]
-        self.assertEqual(error["kind"], "memory")
-        self.assertEqual(ended.stderr.splitlines()[-1], "error: " + error["message"])
-        return error["message"]
+    def with_memory(self, *arguments, large=STATE // 4, **options):
+        return super().with_memory(*arguments, large=large, **options)
 
     def goes_on(self, command, *arguments):
         """A few steps behind those that were kept, which were some, with the bits of an undisturbed run."""
@@ -108,14 +88,6 @@ class Memory(CommandCase):
         done = self.hamflow(*sweep, "--out", "x", "--resume", "--json")
         self.assertRegex(done.stderr, "note: [1-9][0-9]* of 24 members are finished")
         self.assertEqual(json.loads(done.stdout)["done"], 24)
-
-    def test_reproduce(self):
-        """What ran out says nothing about the experiment, which did not fail."""
-        experiment = ("reproduce", "S2.7", "--quick", "--threads", "1")
-        every = self.large_allocations(*experiment, large=4096)
-        self.assertEqual(self.exhausted(every // 2, *experiment, large=4096), GOES_ON)
-        done = json.loads(self.hamflow(*experiment, "--out", "x", "--resume", "--json").stdout)
-        self.assertEqual(done["experiments"][0]["status"], "done")
 
 
 if __name__ == "__main__":

@@ -164,8 +164,7 @@ class OwnFiles(CommandCase):
         for command, others in ((("run", "s.toml", *steps), ("--resume", "--force")),
                                 (("sweep", "s.toml", "--vary", "run.dt=0.01,0.02", *steps), ("--resume", "--force")),
                                 (("compare", "s.toml", "--methods", "stv4", "--dt", "0.01", *steps), ("--force",)),
-                                (("reverse", "s.toml", *steps), ("--resume", "--force")),
-                                (("reproduce", "all"), ("--resume", "--force"))):
+                                (("reverse", "s.toml", *steps), ("--resume", "--force"))):
             name = command[0] + ".d"
             with self.subTest(command[0]):
                 long = subprocess.Popen([HAMFLOW, *command, "--out", name], cwd=self.folder, stdout=subprocess.DEVNULL,

@@ -16,7 +16,8 @@ import unittest
 import urllib.parse
 import xml.dom.minidom
 
-from command import HAMFLOW, CommandCase
+from command import HAMFLOW
+from memory import GOES_ON, MemoryCase
 
 SOME = ["G2.8", "G2.9", "G2.20", "G3.9", "T3.2", "G1.1"]
 VERDICTS = ["holds", "differs", "cannot hold", "undecided", "nothing to test"]
@@ -74,7 +75,7 @@ class Page(html.parser.HTMLParser):
             self.inside = None
 
 
-class Reproduce(CommandCase):
+class Reproduce(MemoryCase):
     def reproduce(self, *args, status=0):
         return self.hamflow("reproduce", *args, status=status)
 
@@ -380,6 +381,30 @@ class Reproduce(CommandCase):
                            (["G2.8", "--threads", "-1"], "threads")]:
             self.assertIn(text, self.reproduce(*args, status=2).stderr)
         self.assertFalse((pathlib.Path(self.folder) / "reproduce").exists())
+        for args, key in [(["foo"], "ID"), (["G2.8", "--quick", "--full"], "--quick"), (["G2.8", "--bla"], "--bla"),
+                          (["G2.8", "--out", "none"], "--out"), (["G2.8", "--out", "--json"], "--out")]:
+            (error,) = json.loads(self.reproduce(*args, "--json", status=2).stdout)["errors"]
+            self.assertEqual(error["key"], key, args)
+            self.assertTrue(error["message"].startswith("found "), error)
+        done = self.reproduce("foo", "G2.8", "bar", "--json", status=2)
+        self.assertEqual([e["message"].split(";")[0] for e in json.loads(done.stdout)["errors"]],
+                         ["found experiment foo", "found experiment bar"])
+        self.assertFalse((pathlib.Path(self.folder) / "none").exists())
+        self.assertRegex(self.reproduce("--help").stdout, r"--threads N +how many, 0: all cores")
+
+    def test_a_folder_has_one_writer(self):
+        long = subprocess.Popen([HAMFLOW, "reproduce", "all", "--out", "r"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
+        try:
+            while not (self.folder / "r" / "reproduction").exists():
+                self.assertIsNone(long.poll())
+                time.sleep(0.01)
+            for option in ("--resume", "--force"):
+                self.assertIn("another process is writing into the folder r",
+                              self.reproduce("all", "--out", "r", option, status=3).stderr)
+        finally:
+            long.kill()
+            long.wait()
 
     def test_a_folder_is_not_replaced_unasked(self):
         self.reproduce("G1.1", "--quick")
@@ -398,6 +423,15 @@ class Reproduce(CommandCase):
             if status != 0:
                 (of_experiment / "mine.txt").write_text("mine")
             self.reproduce("G1.1", "G2.8", "--quick", "--resume", status=status)
+
+    @unittest.skipUnless("MEMORY_THAT_ENDS" in os.environ, "sanitizers allocate by themselves")
+    def test_memory_that_ends(self):
+        """What ran out says nothing about the experiment, which did not fail."""
+        experiment = ("reproduce", "S2.7", "--quick", "--threads", "1")
+        every = self.large_allocations(*experiment, large=4096)
+        self.assertEqual(self.exhausted(every // 2, *experiment, large=4096), GOES_ON)
+        done = json.loads(self.hamflow(*experiment, "--out", "x", "--resume", "--json").stdout)
+        self.assertEqual(done["experiments"][0]["status"], "done")
 
     def test_a_kill_loses_nothing_that_was_done(self):
         whole = self.reproduce(*SOME, "--quick", "--json", "--out", "whole").stdout
