@@ -288,7 +288,7 @@ case("plot/refused", "kepler", "run s.toml --quiet --out r", "plot r --kind orbt
      "plot r -o a.gif")
 
 # list, show, new, verify.
-case("list/all", "kepler", "list methods --json", "list problems --json", "list experiments --json", "list method --json")
+case("list/all", "kepler", "list methods --json", "list problems --json", "list method --json")
 for problem in ("central-force", "double-pendulum", "pendulum", "gas", "formula", "n-body", "t-tube"):
     case(f"new/{problem}", "kepler", f"new {problem}")
 case("new/hooke", "kepler", "new central-force --potential hooke --coordinates polar", "new central-force --potential nothing", "new pendlum")
