@@ -52,6 +52,24 @@ Return there_and_back(Study& study, const GasRun& run) {
   return all;
 }
 
+double digits_of(Study& study, const std::string& arithmetic) {
+  const auto moved_by = [&](int halvings) {
+    const Trajectory run = study.run(
+        fmt::format("one_and_{}_{}", halvings, arithmetic),
+        fmt::format("[problem]\nname = \"free-fall\"\ngravity = 0\ninitial = {{ q = [1], p = [\"2^(-{})\"] }}\n\n"
+                    "[method]\nname = \"euler-a\"\n\n[run]\ndt = 1\nsteps = 1\narithmetic = \"{}\"\n",
+                    halvings, arithmetic));
+    return nlohmann::json::parse(run.report.json).at("final").at("q").at(0);
+  };
+  int moves = 0, stays = 1000;
+  const auto where_it_stays = moved_by(stays);
+  while (stays - moves > 1) {
+    const int middle = (moves + stays) / 2;
+    (moved_by(middle) == where_it_stays ? stays : moves) = middle;
+  }
+  return moves * std::log10(2.0);
+}
+
 double farthest(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t i = 0; i + 1 < a.size(); i += 2) {

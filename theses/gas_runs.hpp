@@ -43,6 +43,10 @@ struct Return {
 };
 Return there_and_back(Study& study, const GasRun& run);
 
+/// Decimal digits of an arithmetic, as its runs have them: of the powers of 1/2, the last that a free motion still
+/// adds to 1.
+double digits_of(Study& study, const std::string& arithmetic);
+
 /// How far the particle that moved farthest is from its start. @param a, b x, y of each
 double farthest(const std::vector<double>& a, const std::vector<double>& b);
 

@@ -108,6 +108,15 @@ inline Measured distance_of(const std::string& printed, const Ensembles& changes
                       changes.told())};
 }
 
+/// A distance by another rule or step than the table has is uncertain by what that changes, too: by how far the means
+/// are from those of the table's own, and by their scatter.
+inline Measured by_another_way(Measured one, const Ensembles& changes, const Ensembles& usual, Change Changes::*of) {
+  const double apart = std::abs((changes.near.*of).mean - (usual.near.*of).mean) + usual.scatter(of);
+  one.uncertainty += apart;
+  one.how += fmt::format("; +- {:.2g} of rule and step", apart);
+  return one;
+}
+
 /// The number of a pair that is farther from its printed value than starts differ; where neither is, the one that may
 /// be farther off.
 inline Measured worse_of(const Measured& one, const Measured& two) {

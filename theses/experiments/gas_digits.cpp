@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "../chance.hpp"
@@ -41,20 +42,14 @@ void claim_columns(Study& study) {
   for (const Row& row : table) {
     off = std::max(off, std::abs(row.evaluations / row.formula() - 1));
     const double digits = 18 + row.power;
-    const double value = row.evaluations / digits;
-    // A power of ten may be a rounded one: numbers that agree as they stand do so for certain, others may yet.
-    const double rounded = row.evaluations / (digits - 0.5) - value;
-    const bool agrees = std::abs(value - row.per_digit) <= 1;
+    const double value = row.evaluations / row.per_digit;
     study.claim(
         {"columns_" + row.name(),
          fmt::format("{} particles, {} steps: {} digit{} lost in {} million evaluations: one in {} million",
                      row.side * row.side, row.steps, digits, digits == 1 ? "" : "s", row.evaluations, row.per_digit),
          fmt::format("10^{} of 10^-18; 1/{}", row.power, row.per_digit)},
-        within(row.per_digit, 1,
-               "column 2 over the digits of column 3 against column 4, to one unit, as in three rows of 441"),
-        {{value, agrees ? 0 : rounded,
-          fmt::format("of the printed numbers; {:.3g} to {:.3g} if the power of ten were a rounded one",
-                      row.evaluations / (digits + 0.5), row.evaluations / (digits - 0.5))}},
+        within(digits, 0.5, "column 2 over column 4 against the digits of column 3, a power of ten: half a digit"),
+        {{value, value * 0.5 / row.per_digit, "of the printed numbers; +-: half a unit of column 4"}},
         Grounds::identity, "the digits lost, which are printed as a power of ten");
   }
   study.claim({"evaluations", "the evaluations of column 2 are 3 N^2 for each of the steps there and back",
@@ -62,7 +57,8 @@ void claim_columns(Study& study) {
               at_most(0.03, "largest relative distance of a printed number from its formula: two digits are printed"),
               {{off, 0, "of eight rows"}});
   study.claim({"digits", "the standard arithmetic has 18 digits", "18", "68, 81"}, as_printed("18"),
-              {{53 * std::log10(2.0), 0, "double: 53 bits"}}, Grounds::identity);
+              {{digits_of(study, "double"), std::log10(2.0),
+                "double: powers of 1/2 that a free motion still adds to 1; +-: one bit"}});
 }
 
 /// log10 of the mean error of positions, of several starts: of none at all minus infinity, which has no mean, of a
@@ -107,50 +103,87 @@ std::string told_of(double momentum) {
   return fmt::format("at most 10^{:.2f}", std::log10(momentum));
 }
 
+constexpr const char* no_step_of_theirs = "0.0001";
+
 /// A row for a step length and a scale: in double, and by the listed program where a particle passes the wall.
-void claim_row(Study& study, const Row& row, const std::string& dt, const std::string& scale) {
-  const bool tunnels = dt != "0.0001";
+struct Measurement {
+  double mean = 0;
+  double of_next = 0;  // how far one more start may be from the mean
+  std::string how;
+};
+
+std::optional<Measurement> measured_row(Study& study, const Row& row, const std::string& dt, const std::string& scale) {
+  const bool tunnels = dt != no_step_of_theirs;
   // Of two starts both may stay inside by chance.
   const int starts = row.side == 11 ? study.sized(tunnels ? 6 : 2, 6, 32)
                      : tunnels      ? study.sized(0, 2, 8)
                                     : study.sized(0, 4, 16);
-  const bool is_short = tunnels ? row.steps <= study.sized(200, 1200, 1200) : true;
-  std::vector<Measured> measured;
-  if (starts > 0 && is_short) {
-    const GasRun run{.side = row.side, .scale = scale, .dt = dt, .steps = row.steps};
-    const Lost lost = lost_by(study, run, starts);
-    const Spread position = spread_of(lost.position);
-    // Starts that were left out for what they do are no sample of all, to which the thesis' own belongs.
-    const bool is_selected = position.members < starts;
-    const std::string who =
-        lost.outside > 0
-            ? fmt::format("{} with particles outside, by the listing's program, which does not notice", lost.outside)
-        : is_selected ? "those in which no particle passes the wall, no sample of all"
-                      : "none with a particle outside";
-    Measured one{
-        position.mean, range_of_next(position.members) * position.deviation,
-        fmt::format("{} of {} starts, {}; of momenta {}", position.members, starts, who, told_of(lost.momentum))};
-    // With a step that the thesis did not take a row may come out as printed; where it does not nothing follows.
-    if (is_selected || (!tunnels && std::abs(one.value - row.power) > 0.5)) one.uncertainty = infinite;
-    measured.push_back(std::move(one));
+  if (starts == 0 || (tunnels && row.steps > study.sized(200, 1200, 1200))) return {};
+  const Lost lost = lost_by(study, {.side = row.side, .scale = scale, .dt = dt, .steps = row.steps}, starts);
+  const Spread position = spread_of(lost.position);
+  // Starts that were left out for what they do are no sample of all, to which the thesis' own belongs.
+  const bool is_selected = position.members < starts;
+  const std::string who =
+      lost.outside > 0
+          ? fmt::format("{} with particles outside, by the listing's program, which does not notice", lost.outside)
+      : is_selected ? "those in which no particle passes the wall, no sample of all"
+                    : "none with a particle outside";
+  return Measurement{
+      position.mean, is_selected ? infinite : range_of_next(position.members) * position.deviation,
+      fmt::format("{} of {} starts, {}; of momenta {}", position.members, starts, who, told_of(lost.momentum))};
+}
+
+/// What three steps come to: 0.01 and 0.001, of which one is the thesis' own, and one with which no particle tunnels.
+struct RowOfSteps {
+  std::vector<std::pair<std::string, std::optional<Measurement>>> of_step;
+
+  /// How far a number with the step that the thesis did not take may be from that with its own: as far as from either,
+  /// as they are measured here; infinite where neither was.
+  double between_steps() const {
+    double farthest = -infinite;
+    for (std::size_t i = 0; i + 1 < of_step.size(); ++i) {
+      if (of_step[i].second && of_step.back().second)
+        farthest = std::max(farthest, std::abs(of_step[i].second->mean - of_step.back().second->mean));
+    }
+    return std::abs(farthest);
   }
-  study.claim({fmt::format("row_{}_{}_{}", row.name(), dt, scale),
-               fmt::format("{} particles, {} steps there and back, dt = {}, scale {}: power of ten of the mean error "
-                           "of positions",
-                           row.side * row.side, row.steps, dt, scale),
-               fmt::format("10^{}", row.power)},
-              within(row.power, 0.5,
-                     "a power of ten is printed; the thesis' start is one of many: where another one may lie, 95 %"),
-              measured, Grounds::program,
-              measured.empty() ? "runs of the listed program: the default size"
-              : tunnels ? "the thesis' own start, which is not printed; more starts do not, where one differs from the "
-                          "next by powers of ten"
-                        : "the thesis' own start with its own step, 0.01 or 0.001; with this one no particle passes "
-                          "the wall");
+};
+
+RowOfSteps claim_rows(Study& study, const Row& row, const std::string& scale) {
+  RowOfSteps all;
+  for (const char* const dt : {"0.01", "0.001", no_step_of_theirs}) {
+    all.of_step.emplace_back(dt, measured_row(study, row, dt, scale));
+  }
+  for (const auto& [dt, found] : all.of_step) {
+    const bool tunnels = dt != no_step_of_theirs;
+    const double of_step = tunnels ? 0 : all.between_steps();
+    std::vector<Measured> measured;
+    if (found) {
+      measured.push_back({found->mean, found->of_next + of_step,
+                          found->how + (tunnels ? "" : fmt::format("; +- {:.3g} of the step length", of_step))});
+    }
+    study.claim({fmt::format("row_{}_{}_{}", row.name(), dt, scale),
+                 fmt::format("{} particles, {} steps there and back, dt = {}, scale {}: power of ten of the mean error "
+                             "of positions",
+                             row.side * row.side, row.steps, dt, scale),
+                 fmt::format("10^{}", row.power)},
+                within(row.power, 0.5,
+                       "a power of ten is printed; the thesis' start is one of many: where another one may lie, 95 %"),
+                measured, Grounds::program,
+                measured.empty() || !std::isfinite(of_step) ? "runs of the listed program: the default size"
+                : tunnels
+                    ? "the thesis' own start, which is not printed; more starts do not, where one differs from the "
+                      "next by powers of ten"
+                    : "the thesis' own start with its own step, 0.01 or 0.001; with this one no particle passes the "
+                      "wall");
+  }
+  return all;
 }
 
 /// "1/94 digit in 10^6 evaluations": of the mean errors after 200 and after 1200 steps.
-void claim_rate(Study& study, int side, double printed, const std::string& scale) {
+void claim_rate(Study& study, int side, double printed, const std::string& scale, const RowOfSteps& first_row,
+                const RowOfSteps& last_row) {
+  const double evaluations = 3e-6 * std::pow(side, 4) * 2 * 1000;
   std::vector<double> rates;
   const int starts = side == 11 ? study.sized(4, 16, 64) : study.sized(0, 4, 16);
   for (int seed = 1; seed <= starts; ++seed) {
@@ -159,26 +192,31 @@ void claim_rate(Study& study, int side, double printed, const std::string& scale
     run.steps = 1200;
     const Return last = there_and_back(study, run);
     if (!first.done || !last.done) continue;
-    const double evaluations = 3e-6 * std::pow(side, 4) * 2 * 1000;
     rates.push_back(std::log10(last.position / first.position) / evaluations);
   }
   const Spread rate = spread_of(rates);
+  double of_step = -infinite;  // how far the rates of the thesis' own steps are from this one
+  for (std::size_t i = 0; i + 1 < first_row.of_step.size(); ++i) {
+    const auto &first = first_row.of_step[i].second, &last = last_row.of_step[i].second;
+    if (first && last) {
+      of_step = std::max(of_step, std::abs((last->mean - first->mean) / evaluations - rate.mean));
+    }
+  }
+  of_step = std::abs(of_step);  // infinite where neither was measured
   std::vector<Measured> measured;
-  const Rule rule =
-      within(1 / printed, 0.15 / printed, "digits in 10^6 evaluations; printed 1/60 to 1/70 and 1/76 to 1/94");
   if (rate.members > 1) {
-    // Neither with a step that the thesis did not take, nor from starts that were selected.
-    const bool says_something = rate.mean >= rule.low && rate.mean <= rule.high && rate.members == starts;
-    measured.push_back({rate.mean, says_something ? 2 * rate.deviation : infinite,
-                        fmt::format("{} of {} starts", rate.members, starts)});
+    // Starts that were selected are no sample.
+    measured.push_back({rate.mean, rate.members < starts ? infinite : 2 * rate.deviation + of_step,
+                        fmt::format("{} of {} starts; +- {:.2g} of the step length", rate.members, starts, of_step)});
   }
   study.claim({fmt::format("rate_{}_{}", side * side, scale),
                fmt::format("{} particles: a digit is lost in {:g} million evaluations, dt = 0.0001, scale {}",
                            side * side, printed, scale),
                fmt::format("1/{:g}", printed)},
-              rule, measured, Grounds::program,
-              measured.empty() ? "more starts: the default size"
-                               : "the thesis' own step, 0.01 or 0.001, without a particle that passes the wall");
+              within(1 / printed, 0.15 / printed, "digits in 10^6 evaluations; printed 1/60 to 1/70 and 1/76 to 1/94"),
+              measured, Grounds::program,
+              !std::isfinite(of_step) ? "runs with the thesis' own steps: the default size"
+                                      : "the thesis' own step, 0.01 or 0.001, without a particle that passes the wall");
 }
 
 /// The table in hamflow's numbers, for each arithmetic, where no particle tunnels.
@@ -248,11 +286,10 @@ void compare_arithmetics(Study& study) {
 void digits(Study& study) {
   claim_columns(study);
   for (const char* const scale : {"per-side", "listing"}) {
-    for (const Row& row : table) {
-      for (const char* const dt : {"0.01", "0.001", "0.0001"}) claim_row(study, row, dt, scale);
-    }
-    claim_rate(study, 11, 65, scale);
-    claim_rate(study, 21, 93, scale);
+    std::vector<RowOfSteps> rows;
+    for (const Row& row : table) rows.push_back(claim_rows(study, row, scale));
+    claim_rate(study, 11, 65, scale, rows.at(0), rows.at(3));
+    claim_rate(study, 21, 93, scale, rows.at(4), rows.at(7));
   }
   compare_arithmetics(study);
   study.note(

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 
+#include "gas_runs.hpp"
 #include "hamflow/scenario/scenario.hpp"
 #include "hamflow/workflow/run.hpp"
 
@@ -65,6 +67,14 @@ TEST(GasListing, HasPowersOfTheWallThatKeepTheListedFactor) {
     EXPECT_NEAR(c * listed.p()[i], end.final.p[i], c * 1e-8);
   }
   EXPECT_NEAR(listed.energy(), energy, 1e-3 * std::abs(energy));
+}
+
+TEST(GasRuns, DigitsAreThoseOfTheArithmetic) {
+  SharedWork others(1);
+  Study study({.id = "S-one"}, WorkExtent::quick, {}, std::filesystem::temp_directory_path(), others);
+  EXPECT_DOUBLE_EQ(digits_of(study, "double"), 52 * std::log10(2.0));
+  EXPECT_NEAR(digits_of(study, "quad"), 112 * std::log10(2.0), 1e-12);
+  EXPECT_GT(digits_of(study, "mp(40)"), 39);
 }
 
 TEST(GasListing, TellsWhoFliesOffFromWhoPassesTheWall) {

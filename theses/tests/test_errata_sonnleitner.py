@@ -38,9 +38,12 @@ EXPECTED = {
     # S-T81: the rows of 121 do not follow from their own columns, but for one that may, if its power of ten is a rounded
     # one; those of 441 do, but for 800 steps.
     **{f"S-T81/columns_{row}": "cannot hold" for row in ("121_200", "121_800", "121_1200", "441_800")},
-    "S-T81/columns_121_400": "undecided",
+    "S-T81/columns_121_400": "holds",
     **{f"S-T81/columns_{row}": "holds" for row in ("441_200", "441_400", "441_1200")},
-    "S-T81/digits": "cannot hold",
+    "S-T81/digits": "differs",  # measured, in the arithmetic of the runs
+    # Two lists of masses, and a consequence of a definition.
+    "S-T99/masses": "nothing to test",
+    "S-C85/momenta": "nothing to test",
     # S3.3: a map that sets crossers to (0, 0) is not one-to-one.
     "S3.3/one_to_one": "cannot hold",
     # Who was not away at the turn does not return.

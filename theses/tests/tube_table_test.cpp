@@ -44,6 +44,22 @@ TEST(TubeTable, TheScatterIsThatOfTheStartsThatDifferMore) {
             ClaimVerdict::undecided);
 }
 
+TEST(TubeTable, AnotherRuleIsUncertainByWhatItChanges) {
+  const auto verdict = [](double change, double usual_change) {
+    const std::vector<TubeWatch> runs{run_with(change, -0.9), run_with(change, -0.9)};
+    const std::vector<TubeWatch> of_the_table{run_with(usual_change, -0.9), run_with(usual_change, -0.9)};
+    const Ensembles changes = ensembles(runs, runs), usual = ensembles(of_the_table, of_the_table);
+    return verdict_of(
+        by_another_way(distance_of("0.1756", changes, &Changes::first, "kinEnKx"), changes, usual, &Changes::first),
+        at_most(half_a_unit, "half a unit"));
+  };
+  EXPECT_EQ(verdict(0.1756, 0.1756), ClaimVerdict::holds);
+  EXPECT_EQ(verdict(0.3, 0.3), ClaimVerdict::differs);  // the rule changes nothing, and the number is another
+  EXPECT_EQ(verdict(0.3, 0.31), ClaimVerdict::differs);
+  EXPECT_EQ(verdict(0.3, 0.1), ClaimVerdict::undecided);
+  EXPECT_EQ(verdict(0.1756, 0.1), ClaimVerdict::undecided);  // agreement by chance decides as little
+}
+
 TEST(TubeTable, ARunThatLosesItsEnergyIsNoMeasurement) {
   const Ensembles changes = ensembles({run_with(1, -1), run_with(1, -1, 0.02), run_with(80, -3, 5.2)},
                                       {run_with(1, -1), run_with(7, 7, std::nan(""))});
