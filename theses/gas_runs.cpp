@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scenarios.hpp"
+
 namespace hamflow::reproduction {
 
 double GasRun::scale_number() const {
@@ -20,15 +22,16 @@ std::string name_of(const GasRun& run) {
 }
 
 std::string gas_scenario(const GasRun& run) {
-  const bool is_number = run.scale != "listing" && run.scale != "per-side";
-  const std::string quote = is_number ? "" : "\"";
-  const std::string seed = run.start == "lattice" ? fmt::format("seed = {}\n", run.seed) : "";
-  return fmt::format(
-      "[problem]\nname = \"gas\"\nparticles_per_side = {}\nstart = \"{}\"\n{}pair = \"lennard-jones\"\n"
-      "scale = {}{}{}\ncontainer = {{ kind = \"circle\", radius = 1.5, exponent = {} }}\n\n[method]\nname = \"stv4\"\n"
-      "\n[run]\ndt = {}\nsteps = {}\nrecord_every = {}\narithmetic = \"{}\"\n",
-      run.side, run.start, seed, quote, run.scale, quote, run.exponent, run.dt, run.steps,
-      run.record_every > 0 ? run.record_every : std::max<std::int64_t>(run.steps, 1), run.arithmetic);
+  std::vector<std::string> sets =
+      in_steps(run.dt, run.steps, run.record_every > 0 ? run.record_every : std::max<std::int64_t>(run.steps, 1));
+  for (const std::string& one :
+       {fmt::format("problem.particles_per_side={}", run.side), fmt::format("problem.start={}", run.start),
+        "problem.scale=" + run.scale, fmt::format("problem.container.exponent={}", run.exponent),
+        "run.arithmetic=" + run.arithmetic}) {
+    sets.push_back(one);
+  }
+  if (run.start == "lattice") sets.push_back(fmt::format("problem.seed={}", run.seed));
+  return scenario_of("gas", sets);
 }
 
 Return there_and_back(Study& study, const GasRun& run) {
@@ -54,11 +57,9 @@ Return there_and_back(Study& study, const GasRun& run) {
 
 double digits_of(Study& study, const std::string& arithmetic) {
   const auto moved_by = [&](int halvings) {
-    const Trajectory run = study.run(
-        fmt::format("one_and_{}_{}", halvings, arithmetic),
-        fmt::format("[problem]\nname = \"free-fall\"\ngravity = 0\ninitial = {{ q = [1], p = [\"2^(-{})\"] }}\n\n"
-                    "[method]\nname = \"euler-a\"\n\n[run]\ndt = 1\nsteps = 1\narithmetic = \"{}\"\n",
-                    halvings, arithmetic));
+    const Trajectory run =
+        study.run(fmt::format("one_and_{}_{}", halvings, arithmetic), scenario_of("one_and_less"),
+                  {fmt::format("problem.initial.p=[\"2^(-{})\"]", halvings), "run.arithmetic=" + arithmetic});
     return nlohmann::json::parse(run.report.json).at("final").at("q").at(0);
   };
   int moves = 0, stays = 1000;

@@ -10,6 +10,7 @@
 
 #include "hamflow/problems/double_pendulum_nonlinear_absolute.hpp"
 #include "hamflow/problems/double_pendulum_nonlinear_relative.hpp"
+#include "scenarios.hpp"
 #include "study.hpp"
 
 namespace hamflow::reproduction {
@@ -18,17 +19,13 @@ inline constexpr double pendulum_energy_unit = 2 * 9.81 * 3;  // m g l
 inline const Vector<double, 2> pendulum_masses{2, 2};
 inline const Vector<double, 2> pendulum_lengths{3, 3};
 
-/// Every `every`-th of so many steps of length dt, a number expression.   @param method lines of [method]
-inline Trajectory pendulum_run(Study& study, const std::string& name, bool absolute, const std::string& method,
-                               const std::string& dt, long steps, long every) {
-  return study.run(
-      name, fmt::format("[problem]\nname = \"double-pendulum\"\nmodel = \"nonlinear\"\nangles = \"{}\"\nmasses = [2, "
-                        "2]\nhalf_lengths = [3, 3]\ninitial = {{ q = [0, \"pi/2\"], p = [0, 0] }}\n\n[method]\n{}\n\n"
-                        "[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = {}\n",
-                        absolute ? "absolute" : "relative", method, dt, steps, every));
+/// @param method of [method], as --set takes it; empty: cg(1,5)
+inline Trajectory pendulum_run(Study& study, const std::string& name, bool absolute, const std::string& method = {},
+                               const std::string& dt = "0.01", long steps = 2600, long every = 1) {
+  std::vector<std::string> sets = in_steps(dt, steps, every, method);
+  sets.push_back(std::string("problem.angles=") + (absolute ? "absolute" : "relative"));
+  return study.run(name, scenario_of("nonlinear_pendulum"), sets);
 }
-
-inline constexpr const char* pendulum_element = "name = \"cg\"\nquadrature = 5";
 
 /// q' of every sample: M(q)^-1 p.
 template <class Problem>

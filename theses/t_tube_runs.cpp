@@ -8,6 +8,7 @@
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/workflow/sweep.hpp"
+#include "scenarios.hpp"
 
 namespace hamflow::reproduction {
 
@@ -15,15 +16,17 @@ std::string name_of(const TubeRun& run) {
   return fmt::format("{:+.1f} v=({},{}) {} {} {}", run.eps, run.v1, run.v2, run.rule, run.method, run.dt);
 }
 
-namespace {
-
-std::string scenario_from(const TubeRun& run, const std::string& start) {
-  return fmt::format(
-      "[problem]\nname = \"t-tube\"\neps = {}\nmasses = [1, 100]\ninitial = {{ {} "
-      "}}\nwall_rule = \"{}\"\n\n[method]\nname = \"{}\"\n\n[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = {}\n",
-      run.eps, start, run.rule, run.method, run.dt, run.steps,
-      run.record_every > 0 ? run.record_every : std::max<std::int64_t>(run.steps, 1));
+std::string tube_scenario_from(const TubeRun& run, const std::string& start) {
+  std::vector<std::string> sets =
+      in_steps(run.dt, run.steps, run.record_every > 0 ? run.record_every : std::max<std::int64_t>(run.steps, 1));
+  for (const std::string& one : {fmt::format("problem.eps={}", run.eps), fmt::format("problem.initial={{ {} }}", start),
+                                 "problem.wall_rule=" + run.rule, "method.name=" + run.method}) {
+    sets.push_back(one);
+  }
+  return scenario_of("t_tube", sets);
 }
+
+namespace {
 
 std::vector<TubeMember> members_of(Study& study, SweepRequest request) {
   request.threads = 1;
@@ -56,7 +59,7 @@ std::vector<TubeMember> members_of(Study& study, SweepRequest request) {
 }  // namespace
 
 std::string tube_scenario(const TubeRun& run) {
-  return scenario_from(run, fmt::format("q = [0.01, 1.1], v = [{}, {}]", run.v1, run.v2));
+  return tube_scenario_from(run, fmt::format("q = [0.01, 1.1], v = [{}, {}]", run.v1, run.v2));
 }
 
 std::vector<TubeMember> ensemble(Study& study, const TubeRun& run, const std::vector<std::string>& varied) {
@@ -73,7 +76,8 @@ std::vector<TubeMember> continued(Study& study, const TubeRun& run, const std::v
   std::vector<TubeMember> all(members.size());
   if (starts[0].empty()) return all;
   const char* const keys[] = {"q[0]", "q[1]", "p[0]", "p[1]"};
-  SweepRequest request{.text = scenario_from(run, "q = [0.01, 1.1], p = [0, 0]"), .name = name_of(run), .zip = true};
+  SweepRequest request{
+      .text = tube_scenario_from(run, "q = [0.01, 1.1], p = [0, 0]"), .name = name_of(run), .zip = true};
   for (std::size_t k = 0; k < 4; ++k)
     request.varied.push_back(fmt::format("problem.initial.{}={}", keys[k], starts[k]));
   const std::vector<TubeMember> further = members_of(study, request);

@@ -22,6 +22,8 @@ struct TubeRun {
 /// "-0.6 v=(6,1) reject stv4 0.01"
 std::string name_of(const TubeRun& run);
 std::string tube_scenario(const TubeRun& run);
+/// @param start as in problem.initial, e.g. "q = [0.01, 1.1], v = [0, 1]"
+std::string tube_scenario_from(const TubeRun& run, const std::string& start);
 
 /// What came of a member of an ensemble.
 struct TubeMember {

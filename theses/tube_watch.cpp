@@ -281,10 +281,9 @@ std::string scenario_of_start(const TubeSet& set, const TubeStart& start, std::i
   const std::string state = q.empty()
                                 ? fmt::format("q = [{:.17g}, 1.1], v = [{:g}, 1]", start.q1, start.v1)
                                 : fmt::format("q = [{:.17g}, {:.17g}], p = [{:.17g}, {:.17g}]", q[0], q[1], p[0], p[1]);
-  return fmt::format(
-      "[problem]\nname = \"t-tube\"\neps = {}\nmasses = [1, 100]\ninitial = {{ {} }}\nwall_rule = "
-      "\"{}\"\n\n[method]\nname = \"{}\"\n\n[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = {}\n",
-      start.eps, state, set.run.rule, set.run.method, set.run.dt, steps, steps);
+  TubeRun run = set.run;
+  run.eps = start.eps, run.steps = steps;
+  return tube_scenario_from(run, state);
 }
 
 std::unique_ptr<StepMap> free_tube_step(const TubeRun& run) {

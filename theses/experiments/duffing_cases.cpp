@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
 #include "hamflow/core/error.hpp"
@@ -25,7 +26,6 @@ struct Case {
   const char* id;
   const char* page;
   const char* title;
-  const char* keys;
   double k;
   const char* lambda;  // as printed
   const char* energy;
@@ -36,60 +36,43 @@ struct Case {
 };
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all{{"G2.26",
-                                      "70",
-                                      "Duffing oscillator, case 1: through the origin",
-                                      "case = 1\nk = 1\nr0 = 4\nspeed = 4",
-                                      1,
-                                      "7",
-                                      "40.5",
-                                      "71",
-                                      10,
-                                      "+-sqrt(lambda + |lambda_inf|)",
-                                      {-4, 4}},
-                                     {"G2.27",
-                                      "72",
-                                      "Duffing oscillator, case 2: the separatrix",
-                                      "case = 2\nk = 1\nr0 = 4",
-                                      1,
-                                      "8",
-                                      "32",
-                                      "73",
-                                      10,
-                                      "",
-                                      {}},
-                                     {"G2.28",
-                                      "75",
-                                      "Duffing oscillator, case 3: on one side",
-                                      "case = 3\nk = 2\nr0 = 4\nspeed = 4",
-                                      2,
-                                      "12",
-                                      "16",
-                                      "75",
-                                      10,
-                                      "sqrt(lambda +- |lambda_inf|)",
-                                      {std::sqrt(8.0), 4}}};
+  static const std::vector<Case> all{
+      {"G2.26",
+       "70",
+       "Duffing oscillator, case 1: through the origin",
+       1,
+       "7",
+       "40.5",
+       "71",
+       10,
+       "+-sqrt(lambda + |lambda_inf|)",
+       {-4, 4}},
+      {"G2.27", "72", "Duffing oscillator, case 2: the separatrix", 1, "8", "32", "73", 10, "", {}},
+      {"G2.28",
+       "75",
+       "Duffing oscillator, case 3: on one side",
+       2,
+       "12",
+       "16",
+       "75",
+       10,
+       "sqrt(lambda +- |lambda_inf|)",
+       {std::sqrt(8.0), 4}}};
   return all;
-}
-
-std::string scenario(const Case& c, const std::string& method, const std::string& dt, long steps, long every) {
-  return fmt::format(
-      "[problem]\nname = \"duffing\"\nmass = 2\n{}\n\n[method]\n{}\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = {}\n",
-      c.keys, method, dt, steps, every);
 }
 
 /// cg(1,5) with dt = 0.02/refinement, sampled every 0.02.
 Trajectory element(Study& study, const Case& c, int refinement) {
   const long steps = std::lround(c.t_end / 0.02) * refinement;
-  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement),
-                   scenario(c, "name = \"cg\"\nquadrature = 5\ndiagnostics = true",
-                            fmt::format("\"0.02/{}\"", refinement), steps, refinement));
+  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement), scenario_of(c.id),
+                   in_steps(fmt::format("0.02/{}", refinement), steps, refinement));
 }
 
 /// The places where the orbit turns, each once: those of a run of order 8 with small steps.
 std::vector<double> turning_points(Study& study, const Case& c) {
   const Trajectory run =
-      study.run("turning_points", scenario(c, "name = \"rkn8-s19\"", "0.001", std::lround(c.t_end / 0.001), 1));
+      study.run("turning_points", scenario_of(c.id),
+                in_steps("0.001", std::lround(c.t_end / 0.001), 1, "method={ name = \"rkn8-s19\" }"));
   std::vector<double> rate;
   for (const auto& p : run.p) rate.push_back(p[0] / 2);
   std::vector<double> all = extrema(run.t, run.coordinate(0), rate);
@@ -238,8 +221,8 @@ void carry_out(const Case& c, Study& study) {
          fmt::format("the motion turns at the zeros of its phase curve, r = {:.4g} and {:.4g}", c.zeros[0], c.zeros[1]),
          c.formula},
         at_most(1e-9, "cubic pieces of samples at dt = 0.001"), {{gap, 0, "largest distance, rkn8-s19"}});
-    const Trajectory exact = study.run(
-        "reference", scenario(c, "name = \"taylor\"\ntolerance = 1e-15", "0.02", std::lround(c.t_end / 0.02), 1));
+    const Trajectory exact =
+        study.run("reference", scenario_of(c.id), in_steps("0.02", std::lround(c.t_end / 0.02), 1, by_series));
     claim_second_order(
         study, {"order", "the computed motion comes to the exact one as dt becomes smaller", "phase curve, of one dt"},
         {largest_distance(element(study, c, 4), exact), largest_distance(element(study, c, 8), exact),

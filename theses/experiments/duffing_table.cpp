@@ -8,6 +8,7 @@
 
 #include "../central_orbits.hpp"
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../trajectories.hpp"
 
 namespace hamflow::reproduction {
@@ -28,10 +29,12 @@ Draw draw(std::uint64_t seed, double a, double b) {
 Trajectory run(Study& study, const std::string& name, const Draw& d, double q, double p, double turns) {
   const double rate =
       std::sqrt((6 * std::abs(d.lambda + d.lambda_inf) + 2 * std::abs(d.lambda)) * std::abs(d.k) / d.mass);
-  return study.run(name, fmt::format("[problem]\nname = \"duffing\"\nmass = {:.17g}\nk = {:.17g}\nlambda = {:.17g}\n"
-                                     "initial = {{ q = [{:.17g}], p = [{:.17g}] }}\n\n[method]\nname = \"rkn8-s19\"\n\n"
-                                     "[run]\ndt = {:.6g}\nsteps = {}\nrecord_every = 1\n",
-                                     d.mass, d.k, d.lambda, q, p, 0.02 / rate, std::lround(50 * turns)));
+  std::vector<std::string> sets = in_steps(fmt::format("{:.6g}", 0.02 / rate), std::lround(50 * turns));
+  for (const auto& [key, value] : {std::pair{"mass", d.mass}, {"k", d.k}, {"lambda", d.lambda}}) {
+    sets.push_back(fmt::format("problem.{}={:.17g}", key, value));
+  }
+  sets.push_back(fmt::format("problem.initial={{ q = [{:.17g}], p = [{:.17g}] }}", q, p));
+  return study.run(name, scenario_of("duffing_motion"), sets);
 }
 
 /// Where the motion turns, each place once, in units of the outermost.

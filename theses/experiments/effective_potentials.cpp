@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../trajectories.hpp"
 #include "hamflow/figures/axis.hpp"
 #include "hamflow/figures/panel_axes.hpp"
@@ -19,7 +20,8 @@ constexpr double mu = 2;
 
 struct Level {
   const char* name;
-  const char* keys;  // of the potential
+  std::string potential;
+  double k;
   std::function<double(double)> V;
   double energy;
   double l;
@@ -30,7 +32,8 @@ struct Level {
 
 /// The energy that only touches the effective potential.
 struct Circle {
-  const char* keys;
+  std::string potential;
+  double k;
   std::function<double(double)> V;
   double energy;
   double l;
@@ -54,24 +57,24 @@ const std::vector<Case>& cases() {
       {"G2.5",
        "25",
        "effective potential of Kepler",
-       {{"E above 0", "potential = \"kepler\"\nk = 1", kepler, 0.25, std::sqrt(3.0), 4, 20, 1},
-        {"E below 0", "potential = \"kepler\"\nk = 1", kepler, -0.25, std::sqrt(3.0), 2, 40, 2}},
-       Circle{"potential = \"kepler\"\nk = 1", kepler, -1.0 / 3, std::sqrt(3.0), 1.5}},
+       {{"E above 0", "kepler", 1, kepler, 0.25, std::sqrt(3.0), 4, 20, 1},
+        {"E below 0", "kepler", 1, kepler, -0.25, std::sqrt(3.0), 2, 40, 2}},
+       Circle{"kepler", 1, kepler, -1.0 / 3, std::sqrt(3.0), 1.5}},
       {"G2.14",
        "52",
        "effective potential of Hooke",
-       {{"k below 0", "potential = \"hooke\"\nk = -0.2", hooke(-0.2), 1, 3 * std::sqrt(0.4), 2, 20, 2},
-        {"k = 0", "potential = \"hooke\"\nk = 0", hooke(0), 1, 4, 5, 20, 1},
-        {"k above 0", "potential = \"hooke\"\nk = 0.1", hooke(0.1), 0.1, 2 * std::sqrt(1.2), 5, 20, 1}}},
+       {{"k below 0", "hooke", -0.2, hooke(-0.2), 1, 3 * std::sqrt(0.4), 2, 20, 2},
+        {"k = 0", "hooke", 0, hooke(0), 1, 4, 5, 20, 1},
+        {"k above 0", "hooke", 0.1, hooke(0.1), 0.1, 2 * std::sqrt(1.2), 5, 20, 1}}},
       {"G2.18",
        "57",
        "effective potential of the linear potential",
-       {{"k above 0", "potential = \"linear\"\nk = 1", linear(1), 3.25, 3, 2, 20, 2},
-        {"k below 0", "potential = \"linear\"\nk = -0.1", linear(-0.1), -0.1, 2 * std::sqrt(0.4), 5, 30, 1}}},
+       {{"k above 0", "linear", 1, linear(1), 3.25, 3, 2, 20, 2},
+        {"k below 0", "linear", -0.1, linear(-0.1), -0.1, 2 * std::sqrt(0.4), 5, 30, 1}}},
       {"G2.23",
        "63",
        "effective potential of the binomial potential",
-       {{"k above 0", "potential = \"binomial\"\nk = 1\nlambda = 1", binomial, 36, 12, 2, 10, 2}}}};
+       {{"k above 0", "binomial", 1, binomial, 36, 12, 2, 10, 2}}}};
   return all;
 }
 
@@ -83,21 +86,21 @@ std::vector<double> crossings_of(const Level& level) {
 }
 
 /// From (r, 0), by a method of order 8.
-Trajectory orbit_from(Study& study, const std::string& name, const char* keys, double r, double p_r, double l,
-                      double t_end) {
-  const double dt = 0.001;
-  return study.run(
-      name,
-      fmt::format("[problem]\nname = \"central-force\"\nmass = {}\n{}\ninitial = {{ q = [{:.17g}, 0], p = [{:.17g}, "
-                  "{:.17g}] }}\n\n[method]\nname = \"rkn8-s19\"\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = 1\n",
-                  mu, keys, r, p_r, l / r, dt, static_cast<long>(std::lround(t_end / dt))));
+template <class Of>
+Trajectory orbit_from(Study& study, const std::string& name, const Of& of, double r, double p_r, double t_end) {
+  std::vector<std::string> sets = in_steps("0.001", std::lround(t_end / 0.001));
+  for (const std::string& one :
+       {fmt::format("problem.potential={}", of.potential), fmt::format("problem.k={}", of.k),
+        fmt::format("problem.initial={{ q = [{:.17g}, 0], p = [{:.17g}, {:.17g}] }}", r, p_r, of.l / r)}) {
+    sets.push_back(one);
+  }
+  return study.run(name, scenario_of("central_motion"), sets);
 }
 
 /// The turning radii of an integrated orbit, increasing, each once.
 std::vector<double> turning_radii(Study& study, const Level& level, std::size_t number) {
   const double p_r = -std::sqrt(2 * mu * (level.energy - effective(level, level.start)));
-  const Trajectory run =
-      orbit_from(study, "level_" + std::to_string(number), level.keys, level.start, p_r, level.l, level.t_end);
+  const Trajectory run = orbit_from(study, "level_" + std::to_string(number), level, level.start, p_r, level.t_end);
   std::vector<double> r, rate;
   for (std::size_t i = 0; i < run.size(); ++i) {
     r.push_back(std::hypot(run.q[i][0], run.q[i][1]));
@@ -136,7 +139,7 @@ figures::Page page_of(const Case& c, Study& study) {
   };
   const Level* before = nullptr;
   for (const Level& level : c.levels) {
-    if (before == nullptr || before->keys != std::string(level.keys) || before->l != level.l) {
+    if (before == nullptr || before->potential != level.potential || before->k != level.k || before->l != level.l) {
       drawn = curve_of(level);
       x.include(drawn.x);
       y.include(drawn.y);
@@ -163,7 +166,7 @@ figures::Page page_of(const Case& c, Study& study) {
 
 /// An energy at the minimum leaves the radius no room.
 void claim_circle(const Circle& circle, Study& study) {
-  const Trajectory run = orbit_from(study, "circle", circle.keys, circle.radius, 0, circle.l, 20);
+  const Trajectory run = orbit_from(study, "circle", circle, circle.radius, 0, 20);
   double off = 0;
   for (const auto& q : run.q) off = std::max(off, std::abs(std::hypot(q[0], q[1]) - circle.radius));
   study.claim({"circle",

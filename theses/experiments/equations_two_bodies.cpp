@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../trajectories.hpp"
 #include "hamflow/numerics/quadrature.hpp"
 #include "hamflow/numerics/root.hpp"
@@ -17,17 +18,10 @@ namespace hamflow::reproduction {
 namespace equations_two_bodies {
 
 constexpr double pi = std::numbers::pi;
-const char* const precise = "name = \"taylor\"\ntolerance = 1e-15";
 
-std::string scenario(const std::string& problem, const std::string& method, const std::string& run) {
-  return fmt::format("[problem]\nname = \"central-force\"\nmass = 2\n{}\n\n[method]\n{}\n\n[run]\n{}\n", problem,
-                     method, run);
-}
 /// Figure 2.9: mu = 2, k = 1, r from 1 to 3.
 Trajectory ellipse(Study& study) {
-  return study.run("ellipse",
-                   scenario("potential = \"kepler\"\nk = 1\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3 }",
-                            precise, "dt = 0.05\nsteps = 400\nrecord_every = 1"));
+  return study.run("ellipse", scenario_of("G2.9"), in_steps("0.05", 400, 1, by_series));
 }
 
 constexpr double limit = 1e-9;  // of a printed form that is right: rounding and quadrature
@@ -125,9 +119,7 @@ void of_integrals(Study& study) {
 
 /// H along an element of figure 2.9: equation 1.54 has to be about H, not about its derivative.
 void of_element(Study& study) {
-  const Trajectory run = study.run(
-      "element", scenario("potential = \"kepler\"\nk = 1\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3 }",
-                          "name = \"cg\"\nquadrature = 5", "dt = 0.1\nsteps = 8\nrecord_every = 1"));
+  const Trajectory run = study.run("element", scenario_of("G2.9"), in_steps("0.1", 8));
   const auto slope = [&](std::size_t at) {
     const auto &a = run.q[7], &b = run.q[8], &q = run.q[at], &p = run.p[at];
     const double r = std::hypot(q[0], q[1]);
@@ -161,14 +153,12 @@ void of_closed_orbit(Study& study) {
   const auto off = [](double b) { return radial_period(b)[0] - 10 * pi / 9; };
   const double b = bracketed_root(off, 1.5, 8, off(1.5), off(8));
   const auto [angle, time] = radial_period(b);
-  const auto run = [&, &time = time](const char* name, const char* method) {
-    return study.run(name,
-                     scenario(fmt::format("potential = \"linear\"\nk = 1\norbit = {{ kind = \"bounded\", r_per = 1, "
-                                          "r_aph = {:.17g} }}",
-                                          b),
-                              method, fmt::format("dt = \"{:.17g}/400\"\nsteps = 3600\nrecord_every = 1", time)));
+  const auto run = [&, &time = time](const char* name, const std::string& method) {
+    std::vector<std::string> sets = in_steps(fmt::format("{:.17g}/400", time), 3600, 1, method);
+    sets.push_back(fmt::format("problem.orbit.r_aph={:.17g}", b));
+    return study.run(name, scenario_of("G2.20"), sets);
   };
-  const Trajectory series = run("closed", precise), other = run("closed_other", "name = \"rkn8-s19\"");
+  const Trajectory series = run("closed", by_series), other = run("closed_other", "method={ name = \"rkn8-s19\" }");
   const auto returned = [](const Trajectory& t) {
     return std::hypot(t.q.back()[0] - t.q.front()[0], t.q.back()[1] - t.q.front()[1]);
   };

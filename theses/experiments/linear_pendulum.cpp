@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
 #include "hamflow/problems/double_pendulum_linear_absolute.hpp"
@@ -96,13 +97,12 @@ std::vector<std::vector<double>> modal(const Motion& motion, const std::vector<d
 }
 
 Trajectory run(Study& study, const Motion& motion, int refinement) {
-  return study.run(
-      refinement == 1 ? "figure" : "finer_" + std::to_string(refinement),
-      fmt::format("[problem]\nname = \"double-pendulum\"\nmodel = \"linear\"\nangles = \"{}\"\nmasses = [0.25, "
-                  "0.25]\nhalf_lengths = [0.5, 0.5]\ninitial = {{ q = {}, p = [0, 0] }}\n\n[method]\nname = "
-                  "\"cg\"\nquadrature = 5\n\n[run]\ndt = \"0.01/{}\"\nsteps = {}\nrecord_every = {}\n",
-                  motion.absolute ? "absolute" : "relative", motion.start, refinement,
-                  std::lround(t_end * 100) * refinement, refinement));
+  std::vector<std::string> sets =
+      in_steps(fmt::format("0.01/{}", refinement), std::lround(t_end * 100) * refinement, refinement);
+  sets.push_back(std::string("problem.angles=") + (motion.absolute ? "absolute" : "relative"));
+  sets.push_back(fmt::format("problem.initial.q={}", motion.start));
+  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement), scenario_of("linear_pendulum"),
+                   sets);
 }
 
 double distance(const Trajectory& run, const Motion& motion) {

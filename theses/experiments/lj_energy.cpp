@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
 #include "hamflow/verify/long_number.hpp"
@@ -23,11 +24,9 @@ constexpr std::array<const char*, 6> step_lengths{"0.01", "0.005", "0.0025", "0.
 Trajectory one_period(Study& study, const std::string& method, const std::string& dt,
                       const std::string& arithmetic = "double", const std::string& name = "") {
   const long steps = std::lround(period / std::stod(dt));
-  return study.run(
-      !name.empty() ? name : method + "_" + dt + (arithmetic == "double" ? "" : "_" + arithmetic),
-      fmt::format("[problem]\nname = \"lennard-jones-oscillator\"\ninitial = {{ q = [\"1.5\"], p = [0] }}\n\n[method]\n"
-                  "name = \"{}\"\n\n[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = 1\narithmetic = \"{}\"\n",
-                  method, dt, steps, arithmetic));
+  return study.run(!name.empty() ? name : method + "_" + dt + (arithmetic == "double" ? "" : "_" + arithmetic),
+                   scenario_of("lennard_jones", in_steps(dt, steps, 1, "method.name=" + method)),
+                   {"run.arithmetic=" + arithmetic});
 }
 
 /// |H - H0| after one period, in all digits of the run: as doubles both would be equal below 1e-17.
@@ -194,12 +193,9 @@ void verlet(Study& study) {
 
 void no_method_conserves(Study& study) {
   const auto error = [&](const std::string& arithmetic) {
-    const Trajectory run = study.run(
-        arithmetic == "double" ? "double" : "long",
-        fmt::format("[problem]\nname = \"lennard-jones-oscillator\"\ninitial = {{ q = [\"1.5\"], p = [0] }}\n\n"
-                    "[method]\nname = \"cg(3)\"\n\n[run]\ndt = \"0.01\"\nsteps = 2325\nrecord_every = 25\narithmetic = "
-                    "\"{}\"\n",
-                    arithmetic));
+    const Trajectory run = study.run(arithmetic == "double" ? "double" : "long",
+                                     scenario_of("lennard_jones", in_steps("0.01", 2325, 25, "method.name=cg(3)")),
+                                     {"run.arithmetic=" + arithmetic});
     return energy_error(run);
   };
   study.claim({"conserves", "no numerical method can keep the energy constant in time", "none can"},

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
 
@@ -14,12 +15,8 @@ namespace hamflow::reproduction {
 
 namespace lj_planes {
 
-std::string scenario(const std::string& method, const std::string& dt, long steps, long every,
-                     const std::string& q = "1.5", const std::string& p = "0") {
-  return fmt::format(
-      "[problem]\nname = \"lennard-jones-oscillator\"\ninitial = {{ q = [{}], p = [{}] }}\n\n[method]\nname = "
-      "\"{}\"\n\n[run]\ndt = \"{}\"\nsteps = {}\nrecord_every = {}\n",
-      q, p, method, dt, steps, every);
+std::string scenario(const std::string& method, const std::string& dt, long steps, long every = 1) {
+  return scenario_of("lennard_jones", in_steps(dt, steps, every, "method={ name = \"" + method + "\" }"));
 }
 
 /// u = q^-6, of which V = u^2 - 2 u, V' = -12 (u^2 - u)/q and V'' = (156 u^2 - 84 u)/q^2.
@@ -131,8 +128,9 @@ std::vector<double> ends_of_periods(const Trajectory& run) {
 /// 100 steps there, and 100 from where they end with the momentum turned.
 void draw_way_back(Study& study, const std::string& method, const std::string& dt) {
   const Trajectory there = study.run("figure", scenario(method, dt, 100, 1));
-  const Trajectory back = study.run("back", scenario(method, dt, 100, 1, fmt::format("{:.17g}", there.q.back()[0]),
-                                                     fmt::format("{:.17g}", -there.p.back()[0])));
+  const Trajectory back = study.run(
+      "back", scenario(method, dt, 100),
+      {fmt::format("problem.initial={{ q = [{:.17g}], p = [{:.17g}] }}", there.q.back()[0], -there.p.back()[0])});
   const Trajectory exact = study.run("reference", scenario("taylor", "0.005", 466, 1));
   const auto plane = [](const char* name, const Trajectory& run) {
     return Curves{name, {{"t", run.t}, {"q", run.coordinate(0)}, {"p", run.momentum(0)}, {"energy", run.energy}}};

@@ -17,7 +17,6 @@ namespace hamflow::reproduction {
 namespace nonlinear_pendulum {
 
 constexpr double pi = std::numbers::pi;
-const char* const reference = "name = \"taylor\"\ntolerance = 1e-15";
 
 /// The projected torus of one angle.
 class Torus {
@@ -157,16 +156,16 @@ void claim_touches(Study& study, bool absolute, const Trajectory& figure) {
 }
 
 void in_phase_planes(Study& study, bool absolute) {
-  const Trajectory figure = pendulum_run(study, "figure", absolute, pendulum_element, "0.01", 2600, 1);
+  const Trajectory figure = pendulum_run(study, "figure", absolute);
   const std::string inside = fmt::format(
       "in {} angles the nonlinear phase curves stay inside the torus of the linear "
       "solution up to t = ",
       absolute ? "absolute" : "relative");
-  claim_torus(study, absolute, "torus", inside + "26", figure,
-              pendulum_run(study, "reference", absolute, reference, "0.01", 2600, 1), "Taylor series, tolerance 1e-15");
+  claim_torus(study, absolute, "torus", inside + "26", figure, pendulum_run(study, "reference", absolute, by_series),
+              "Taylor series, tolerance 1e-15");
   claim_torus(study, absolute, "torus_longer", inside + "2600",
-              pendulum_run(study, "longer", absolute, pendulum_element, "0.01", 260000, 1),
-              pendulum_run(study, "longer_other", absolute, "name = \"gauss\"\nstages = 3", "0.01", 260000, 1),
+              pendulum_run(study, "longer", absolute, "", "0.01", 260000),
+              pendulum_run(study, "longer_other", absolute, "method={ name = \"gauss\", stages = 3 }", "0.01", 260000),
               "gauss(3), dt = 0.01");
   claim_touches(study, absolute, figure);
   const LinearPendulum linear = linear_pendulum_of_start(absolute);
@@ -237,7 +236,7 @@ std::vector<double> linear_energy(bool absolute, const LinearPendulum& linear, c
 }
 
 void over_t(Study& study, bool absolute) {
-  const Trajectory figure = pendulum_run(study, "figure", absolute, pendulum_element, "0.01", 2600, 1);
+  const Trajectory figure = pendulum_run(study, "figure", absolute);
   const double rest = -4 * pendulum_energy_unit;
   const double rounding = 64 * 0x1p-53 * figure.report.energy_scale;
   const double above = figure.report.energy.initial - rest;
@@ -262,7 +261,7 @@ void over_t(Study& study, bool absolute) {
     }
     return apart;
   };
-  const Trajectory series = pendulum_run(study, "reference", absolute, reference, "0.01", 2600, 1);
+  const Trajectory series = pendulum_run(study, "reference", absolute, by_series);
   // A difference changes by less than 10 a second: the rates of both are below 5.
   study.claim(
       {"near", "the angles always stay near those of the linear solution", "immer in der Nähe"},
@@ -276,7 +275,7 @@ void over_t(Study& study, bool absolute) {
     for (const double t : figure.t) line[i].push_back(linear.q(i, t));
   }
   if (!absolute) {
-    const Trajectory other = pendulum_run(study, "absolute", true, pendulum_element, "0.01", 2600, 1);
+    const Trajectory other = pendulum_run(study, "absolute", true);
     double gap = 0;
     for (std::size_t k = 0; k < figure.size(); ++k) {
       gap = std::max(

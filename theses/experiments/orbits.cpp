@@ -7,6 +7,7 @@
 
 #include "../experiment.hpp"
 #include "../panels_of_orbit.hpp"
+#include "../scenarios.hpp"
 #include "../trajectories.hpp"
 
 namespace hamflow::reproduction {
@@ -17,8 +18,7 @@ struct Case {
   const char* id;
   const char* page;
   const char* title;
-  const char* problem;  // lines of [problem] beside name and mass
-  const char* energy;   // as printed
+  const char* energy;  // as printed
   const char* page_of_energy;
   double t_end;
   std::function<double(double)> V;
@@ -31,49 +31,21 @@ const std::vector<Case>& cases() {
   const auto hooke = [](double k) { return [k](double r) { return -k * r * r / 2; }; };
   const auto linear = [](double k) { return [k](double r) { return k * r; }; };
   static const std::vector<Case> all{
-      {"G2.8", "42", "Kepler potential, circle", "potential = \"kepler\"\nk = 1\norbit = { kind = \"circle\", r0 = 2 }",
-       "-0.25", "42", 25, kepler},
-      {"G2.9", "44", "Kepler potential, ellipse",
-       "potential = \"kepler\"\nk = 1\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3 }", "-0.25", "43", 25,
-       kepler},
-      {"G2.10", "45", "Kepler potential, parabola",
-       "potential = \"kepler\"\nk = 1\norbit = { kind = \"parabola\", r_per = 2 }", "0", "44", 20, kepler},
-      {"G2.11", "46", "Kepler potential, hyperbola",
-       "potential = \"kepler\"\nk = 1\norbit = { kind = \"hyperbola\", r_per = 2, angular_momentum = \"sqrt(12)\" }",
-       "0.25", "47", 20, kepler},
-      {"G2.13", "51", "Hooke potential, circle",
-       "potential = \"hooke\"\norbit = { kind = \"circle\", r0 = 2, energy = 1 }", "1", "51", 20, hooke(-0.25)},
-      {"G2.15", "53", "Hooke potential, ellipse",
-       "potential = \"hooke\"\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3, energy = 1 }", "1", "53", 20,
-       hooke(-0.2)},
-      {"G2.16", "54", "Hooke potential, straight line",
-       "potential = \"hooke\"\norbit = { kind = \"line\", r_per = 2, energy = 1 }", "1", "54", 20, hooke(0)},
-      {"G2.17", "55", "Hooke potential, hyperbola",
-       "potential = \"hooke\"\nk = 0.1\norbit = { kind = \"hyperbola\", r_per = 2, energy = 0.1 }", "0.1", "55", 10,
-       hooke(0.1)},
-      {"G2.19", "58", "linear potential, circle",
-       "potential = \"linear\"\nk = 1\norbit = { kind = \"circle\", r0 = 2 }", "3", "59", 20, linear(1), false},
-      {"G2.20", "59", "linear potential, bounded orbit",
-       "potential = \"linear\"\nk = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }", "3.25", "61", 40,
-       linear(1), false, true},
-      {"G2.21", "60", "linear potential, unbounded orbit",
-       "potential = \"linear\"\nk = -0.1\norbit = { kind = \"unbounded\", r_per = 2, energy = -0.1 }", "-0.1", "60", 20,
-       linear(-0.1), false},
-      {"G2.24", "64", "binomial potential, bounded orbit, k = lambda = 1",
-       "potential = \"binomial\"\nk = 1\nlambda = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }", "", "", 20,
+      {"G2.8", "42", "Kepler potential, circle", "-0.25", "42", 25, kepler},
+      {"G2.9", "44", "Kepler potential, ellipse", "-0.25", "43", 25, kepler},
+      {"G2.10", "45", "Kepler potential, parabola", "0", "44", 20, kepler},
+      {"G2.11", "46", "Kepler potential, hyperbola", "0.25", "47", 20, kepler},
+      {"G2.13", "51", "Hooke potential, circle", "1", "51", 20, hooke(-0.25)},
+      {"G2.15", "53", "Hooke potential, ellipse", "1", "53", 20, hooke(-0.2)},
+      {"G2.16", "54", "Hooke potential, straight line", "1", "54", 20, hooke(0)},
+      {"G2.17", "55", "Hooke potential, hyperbola", "0.1", "55", 10, hooke(0.1)},
+      {"G2.19", "58", "linear potential, circle", "3", "59", 20, linear(1), false},
+      {"G2.20", "59", "linear potential, bounded orbit", "3.25", "61", 40, linear(1), false, true},
+      {"G2.21", "60", "linear potential, unbounded orbit", "-0.1", "60", 20, linear(-0.1), false},
+      {"G2.24", "64", "binomial potential, bounded orbit, k = lambda = 1", "", "", 20,
        [](double r) { return (r * r - 1) * (r * r - 1) / 2; }, false}};
   return all;
 }
-
-std::string scenario(const Case& c, const std::string& method, const std::string& dt, int steps, int every) {
-  return fmt::format(
-      "[problem]\nname = \"central-force\"\nmass = 2\n{}\n\n[method]\n{}\n\n[run]\ndt = {}\nsteps = {}\nrecord_every = "
-      "{}\n",
-      c.problem, method, dt, steps, every);
-}
-
-const char* const element = "name = \"cg\"\nquadrature = 5";
-const char* const reference = "name = \"taylor\"\ntolerance = 1e-15";
 
 /// Samples of the exact orbit to one of the dots.
 constexpr int refined_line = 10;
@@ -81,8 +53,8 @@ constexpr int refined_line = 10;
 /// cg(1,5) with dt = 0.1/refinement, sampled every 0.1.
 Trajectory with_step(Study& study, const Case& c, int refinement) {
   const int steps = static_cast<int>(std::lround(c.t_end * 10)) * refinement;
-  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement),
-                   scenario(c, element, fmt::format("\"0.1/{}\"", refinement), steps, refinement));
+  return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement), scenario_of(c.id),
+                   in_steps(fmt::format("0.1/{}", refinement), steps, refinement));
 }
 
 /// 2 l/mu times the integral of 1/(r^2 rdot) from one turning point to the other, equation 2.43, by Gauss and
@@ -165,7 +137,7 @@ void carry_out(const Case& c, Study& study) {
   const Trajectory coarse = with_step(study, c, 4);
   const Trajectory fine = with_step(study, c, 8);
   const int samples = static_cast<int>(std::lround(c.t_end * 10));
-  const Trajectory exact = study.run("reference", scenario(c, reference, "0.1", samples, 1));
+  const Trajectory exact = study.run("reference", scenario_of(c.id), in_steps("0.1", samples, 1, by_series));
   const double scale = figure.report.energy_scale;
   const double rounding = 64 * 0x1p-53;
   if (*c.energy != '\0') {
@@ -184,8 +156,8 @@ void carry_out(const Case& c, Study& study) {
                      {largest_distance(coarse, exact), largest_distance(fine, exact), 1e-11 * size});
   // Dots may be early or late: the line goes on beyond the last of them.
   const int samples_of_line = refined_line * samples * 11 / 10;
-  const Trajectory line =
-      study.run("line", scenario(c, reference, fmt::format("\"0.1/{}\"", refined_line), samples_of_line, 1));
+  const Trajectory line = study.run("line", scenario_of(c.id),
+                                    in_steps(fmt::format("0.1/{}", refined_line), samples_of_line, 1, by_series));
   if (c.has_line) {
     claim_on_line(study, figure, line, size);
   } else {

@@ -11,10 +11,8 @@ namespace hamflow::reproduction {
 
 namespace pendulum_conditions {
 
-const char* const watched = "name = \"cg\"\nquadrature = 5\ndiagnostics = true";
-
 Trajectory run(Study& study, bool absolute) {
-  return pendulum_run(study, absolute ? "absolute" : "relative", absolute, watched, "0.01", 2600, 1);
+  return pendulum_run(study, absolute ? "absolute" : "relative", absolute, "method.diagnostics=true");
 }
 
 /// The steps at which a quantity is larger than at both neighbours and above the middle of its range.

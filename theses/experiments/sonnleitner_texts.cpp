@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../t_tube_runs.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
@@ -15,18 +16,16 @@ namespace hamflow::reproduction {
 namespace sonnleitner_texts {
 
 /// Figure 1.2 and its example: H = p^2/2 - q, the problem free-fall with gravity -1.
-Trajectory fall(Study& study, const std::string& name, double q, double p, double T) {
-  return study.run(
-      name, fmt::format("[problem]\nname = \"free-fall\"\ngravity = -1\ninitial = {{ q = [{:.17g}], p = [{:.17g}] "
-                        "}}\n\n[method]\nname = \"verlet\"\n\n[run]\ndt = \"{}/100\"\nsteps = 100\nrecord_every = 1\n",
-                        q, p, T));
+Trajectory fall(Study& study, const std::string& name, double q, double p) {
+  return study.run(name, scenario_of("free_fall"),
+                   {fmt::format("problem.initial={{ q = [{:.17g}], p = [{:.17g}] }}", q, p)});
 }
 
 void reversible(Study& study) {
   const double q0 = 0.3, p0 = 0.7, T = 2;
-  const Trajectory there = fall(study, "there", q0, p0, T);
+  const Trajectory there = fall(study, "there", q0, p0);
   const double q = there.q.back()[0], p = there.p.back()[0];
-  const Trajectory back = fall(study, "back", q, -p, T);
+  const Trajectory back = fall(study, "back", q, -p);
   const double rounding = 0x1p-53;
   study.claim({"returns", "continued with its momentum negated the motion reaches its start after 2 T", "(q0, -p0)"},
               at_most(1000 * 4 * rounding, "1000 additions of numbers up to 4"),
@@ -72,10 +71,9 @@ double force_curvature(double q) { return 2184 * std::pow(q, -15) - 672 * std::p
 void third_derivative(Study& study) {
   const double q = 1.2, p = 0.8;
   const auto at = [&](double h, const std::string& name) {
-    const Trajectory run = study.run(
-        name, fmt::format("[problem]\nname = \"lennard-jones-oscillator\"\ninitial = {{ q = [{}], p = [{}] }}\n\n"
-                          "[method]\nname = \"taylor\"\ntolerance = 1e-15\n\n[run]\ndt = {}\nsteps = 1\n",
-                          q, p, h));
+    const Trajectory run =
+        study.run(name, scenario_of("lennard_jones", in_steps(fmt::format("{}", h), 1, 1, by_series)),
+                  {fmt::format("problem.initial={{ q = [{}], p = [{}] }}", q, p)});
     return force_slope(run.q.back()[0]) * run.p.back()[0];  // p''
   };
   const double h = 1e-4;
@@ -119,9 +117,9 @@ void generalised_momentum(Study& study) {
   // with G = (Q1, 0, 0, Q2).
   const auto momenta_at = [&](const char* coordinates, const char* state, const char* method) {
     return study
-        .run(coordinates, fmt::format("[problem]\nname = \"t-tube\"\ncoordinates = \"{}\"\ninitial = {{ {} }}\n\n"
-                                      "[method]\nname = \"{}\"\n\n[run]\ndt = 0.01\nsteps = 0\n",
-                                      coordinates, state, method))
+        .run(coordinates, scenario_of("t_tube", in_steps("0.01", 0)),
+             {fmt::format("problem.coordinates={}", coordinates), fmt::format("problem.initial={{ {} }}", state),
+              fmt::format("method.name={}", method)})
         .p.front();
   };
   const std::vector<double> own = momenta_at("generalised", "q = [0.3, 0.8], v = [3, 2]", "stv4");
@@ -162,10 +160,8 @@ void soft_force(Study& study) {
 
 /// Page 102: "eps > 0: abstoszend" against page 26 and the force of page 105.
 void sign_of_eps(Study& study) {
-  const Trajectory run =
-      study.run("attracting",
-                "[problem]\nname = \"t-tube\"\neps = 0.6\ninitial = { q = [0.5, 0.5], p = [0, 0] }\n\n[method]\nname "
-                "= \"stv4\"\n\n[run]\ndt = 0.01\nsteps = 5\nrecord_every = 5\n");
+  const Trajectory run = study.run("attracting", scenario_of("t_tube", in_steps("0.01", 5, 5)),
+                                   {"problem.eps=0.6", "problem.initial={ q = [0.5, 0.5], p = [0, 0] }"});
   const double before = std::hypot(0.5, 0.5), after = std::hypot(run.q.back()[0], run.q.back()[1]);
   // Each body goes by its own mass: r'' is the sum of Q_i F_i/(m_i r), of bodies at rest.
   const double F = -0.6 * 0.5 / std::pow(before, 3);
@@ -191,11 +187,8 @@ void kinetic_energy_of_listing(Study& study) {
 
 /// Page 85: the force of the pair changes P2 only a little, "by the conservation of momentum". The tubes take momentum.
 void momentum_of_pair(Study& study) {
-  const Trajectory run =
-      study.run("pair",
-                "[problem]\nname = \"t-tube\"\neps = -0.6\nmasses = [1, 100]\ninitial = { q = [0.3, 0.5], p "
-                "= [0, 0] }\n\n[method]\nname = \"stv4\"\n\n[run]\ndt = \"0.001\"\nsteps = 200\n"
-                "record_every = 1\n");
+  const Trajectory run = study.run("pair", scenario_of("t_tube", in_steps("0.001", 200)),
+                                   {"problem.initial={ q = [0.3, 0.5], p = [0, 0] }"});
   double impulse = 0;  // of both forces as printed on page 105, by the trapezoidal rule
   const auto forces = [&](std::size_t i) {
     return 0.6 * (run.q[i][0] + run.q[i][1]) / std::pow(std::hypot(run.q[i][0], run.q[i][1]), 3);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "hamflow/run/catalog.hpp"
 
 namespace hamflow::reproduction {
@@ -109,27 +110,19 @@ void equivalence(Study& study) {
 
 /// How far a run ends from where it should.
 double off(const Trajectory& run, double x, double y) { return std::hypot(run.q.back()[0] - x, run.q.back()[1] - y); }
-Trajectory central(Study& study, const std::string& name, const std::string& potential, const std::string& start) {
-  return study.run(name, fmt::format("[problem]\nname = \"central-force\"\n{}\ninitial = {{ {} }}\n\n[method]\nname = "
-                                     "\"taylor\"\n\n[run]\ndt = \"0.01\"\nsteps = 200\nrecord_every = 200\n",
-                                     potential, start));
-}
-
 /// Page 30: only with phi(r) = r^0, r^1, r^2 is there an analytic solution.
 void solvable(Study& study) {
   // Kepler, mu = k = 1, from the pericentre of an ellipse: a = 2, e = 1/2, by Kepler's equation.
   const double a = 2, e = 0.5, T = 2, n = std::pow(a, -1.5);
   double E = n * T;
   for (int i = 0; i < 50; ++i) E -= (E - e * std::sin(E) - n * T) / (1 - e * std::cos(E));
-  const Trajectory kepler = central(study, "kepler", "potential = \"kepler\"\nk = 1\nmass = 1",
-                                    fmt::format("q = [1, 0], v = [0, {:.17g}]", std::sqrt(1.5)));
+  const Trajectory kepler = study.run("kepler", scenario_of("kepler_ellipse"));
   const double of_kepler = off(kepler, a * (std::cos(E) - e), a * std::sqrt(1 - e * e) * std::sin(E));
   // phi = r^-2: r^2 is a polynomial of t, and the angle an arctangent.
   const double u = 0.3, v = 0.7, b = 2 * u, c = u * u + v * v + 2;
   const double r = std::sqrt(1 + b * T + c * T * T), root = std::sqrt(4 * c - b * b);
   const double angle = v * 2 / root * (std::atan((2 * c * T + b) / root) - std::atan(b / root));
-  const Trajectory inverse =
-      central(study, "inverse_square", "potential = \"power\"\na = 1\nn = -3\nmass = 1", "q = [1, 0], v = [0.3, 0.7]");
+  const Trajectory inverse = study.run("inverse_square", scenario_of("inverse_square"));
   const double of_inverse = off(inverse, r * std::cos(angle), r * std::sin(angle));
   study.claim({"solvable", "only motions with pair potentials phi(r) = r^0, r^1, r^2 have an analytic solution",
                "phi(r) = r^0, r^1, r^2"},
@@ -141,11 +134,8 @@ void solvable(Study& study) {
 
 /// The path between two bounces, off the origin.
 Trajectory flight(Study& study, const std::string& name, const std::string& masses) {
-  return study.run(name,
-                   fmt::format("[problem]\nname = \"t-tube\"\neps = -0.6\nmasses = {}\ninitial = {{ q = [-0.5, 0.6], "
-                               "v = [1, 0.5] }}\n\n[method]\nname = \"stv4\"\n\n[run]\ndt = \"0.001\"\nsteps = "
-                               "900\nrecord_every = 10\n",
-                               masses));
+  return study.run(name, scenario_of("t_tube", in_steps("0.001", 900, 10)),
+                   {"problem.masses=" + masses, "problem.initial={ q = [-0.5, 0.6], v = [1, 0.5] }"});
 }
 /// Largest change of Q1 Q2' - Q2 Q1', of its start: none under a central force.
 double change_of_area_rate(const Trajectory& run, double m1, double m2) {

@@ -4,16 +4,15 @@
 #include <cmath>
 
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 
 namespace hamflow::reproduction {
 
 namespace text_two_bodies {
 
-Trajectory run(Study& study, const char* name, const char* problem, int steps) {
-  return study.run(name,
-                   fmt::format("[problem]\nname = \"central-force\"\nmass = 2\n{}\n\n[method]\nname = \"taylor\"\n"
-                               "tolerance = 1e-14\n\n[run]\ndt = 0.01\nsteps = {}\nrecord_every = 1\n",
-                               problem, steps));
+Trajectory run(Study& study, const char* name, const char* figure, int steps) {
+  return study.run(name, scenario_of(figure),
+                   in_steps("0.01", steps, 1, "method={ name = \"taylor\", tolerance = 1e-14 }"));
 }
 
 /// The length of the path from pericentre, where it starts, to the second apocentre less that to the first.
@@ -32,10 +31,7 @@ double length_between_touches(const Trajectory& t) {
 }
 
 void carry_out(Study& study) {
-  const char* const same = "orbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }";
-  const Trajectory linear = run(study, "linear", fmt::format("potential = \"linear\"\nk = 1\n{}", same).c_str(), 4000);
-  const Trajectory binomial =
-      run(study, "binomial", fmt::format("potential = \"binomial\"\nk = 1\nlambda = 1\n{}", same).c_str(), 4000);
+  const Trajectory linear = run(study, "linear", "G2.20", 4000), binomial = run(study, "binomial", "G2.24", 4000);
   const double a = length_between_touches(linear), b = length_between_touches(binomial);
   study.claim(
       {"shorter", "between two touches of the outer circle the orbit of figure 2.24 is shorter than that of 2.20",
@@ -49,13 +45,7 @@ void carry_out(Study& study) {
       {{binomial.energy[0] / linear.energy[0], 1e-12,
         fmt::format("E = {:.6g} and {:.6g}", binomial.energy[0], linear.energy[0])}});
   const auto slope = [](const Trajectory& t) { return t.p.back()[1] / t.p.back()[0]; };
-  const Trajectory hooke =
-      run(study, "hooke", "potential = \"hooke\"\nk = 0.1\norbit = { kind = \"hyperbola\", r_per = 2, energy = 0.1 }",
-          4000);
-  const Trajectory kepler = run(study, "kepler",
-                                "potential = \"kepler\"\nk = 1\norbit = { kind = \"hyperbola\", r_per = 2, "
-                                "angular_momentum = \"sqrt(12)\" }",
-                                40000);
+  const Trajectory hooke = run(study, "hooke", "G2.17", 4000), kepler = run(study, "kepler", "G2.11", 40000);
   study.claim(
       {"slope_hooke", "the asymptote of the Hooke hyperbola of figure 2.17 has a positive slope", "positive", "56"},
       at_least(0, "slope"), {{slope(hooke), 1e-3, "direction of p at t = 40"}});

@@ -7,6 +7,7 @@
 
 #include "../chance.hpp"
 #include "../experiment.hpp"
+#include "../scenarios.hpp"
 #include "../time_panels.hpp"
 #include "../trajectories.hpp"
 #include "../two_body_programs.hpp"
@@ -57,52 +58,38 @@ Row measured(const Trajectory& run, bool polar, double scale, const Trajectory* 
   return row;
 }
 
-std::string scenario(const std::string& problem, const char* coordinates, const std::string& method,
+/// Of a figure, in other coordinates.   @param sets PATH=VALUE
+std::string scenario(const std::string& figure, const char* coordinates, std::vector<std::string> sets,
                      const std::string& dt, long steps) {
-  return fmt::format(
-      "[problem]\nname = \"central-force\"\nmass = 2\ncoordinates = \"{}\"\n{}\n\n[method]\n{}\n\n[run]\ndt "
-      "= {}\nsteps = {}\nrecord_every = 1\n",
-      coordinates, problem, method, dt, steps);
+  for (std::string& one : in_steps(dt, steps)) sets.push_back(std::move(one));
+  sets.push_back(std::string("problem.coordinates=") + coordinates);
+  return scenario_of(figure, sets);
 }
-const char* const element = "name = \"cg\"\nquadrature = 5\ndiagnostics = true";
-const char* const exact = "name = \"taylor\"\ntolerance = 1e-15";
-const char* const all_points = "name = \"cg\"\nquadrature = \"auto\"";
+const std::vector<std::string> element{"method.diagnostics=true"};
+const std::vector<std::string> with_tolerance{"method.diagnostics=true", "method.criterion=seed"};
+const std::vector<std::string> exact{by_series};
+const std::vector<std::string> all_points{"method.quadrature=auto"};
 
 using two_body_programs::CentralPotential;
 struct Orbit {
-  const char* figure;
-  const char* problem;
+  const char* id;  // of its scenario
   long steps;
   CentralPotential potential;
+
+  std::string figure() const { return id + 1; }
 };
-constexpr std::array<Orbit, 12> orbits{
-    {{"2.8", "potential = \"kepler\"\norbit = { kind = \"circle\", r0 = 2 }", 250, {'k', 1}},
-     {"2.9", "potential = \"kepler\"\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3 }", 250, {'k', 1}},
-     {"2.10", "potential = \"kepler\"\norbit = { kind = \"parabola\", r_per = 2 }", 200, {'k', 1}},
-     {"2.11",
-      "potential = \"kepler\"\norbit = { kind = \"hyperbola\", r_per = 2, angular_momentum = \"sqrt(12)\" }",
-      200,
-      {'k', 1}},
-     {"2.13", "potential = \"hooke\"\norbit = { kind = \"circle\", r0 = 2, energy = 1 }", 200, {'h', -0.25}},
-     {"2.15",
-      "potential = \"hooke\"\norbit = { kind = \"ellipse\", r_per = 1, r_aph = 3, energy = 1 }",
-      200,
-      {'h', -0.2}},
-     {"2.16", "potential = \"hooke\"\norbit = { kind = \"line\", r_per = 2, energy = 1 }", 200, {'h', 0}},
-     {"2.17",
-      "potential = \"hooke\"\nk = 0.1\norbit = { kind = \"hyperbola\", r_per = 2, energy = 0.1 }",
-      100,
-      {'h', 0.1}},
-     {"2.19", "potential = \"linear\"\nk = 1\norbit = { kind = \"circle\", r0 = 2 }", 200, {'l', 1}},
-     {"2.20", "potential = \"linear\"\nk = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }", 400, {'l', 1}},
-     {"2.21",
-      "potential = \"linear\"\nk = -0.1\norbit = { kind = \"unbounded\", r_per = 2, energy = -0.1 }",
-      200,
-      {'l', -0.1}},
-     {"2.24",
-      "potential = \"binomial\"\nk = 1\nlambda = 1\norbit = { kind = \"bounded\", r_per = 1, r_aph = 3 }",
-      200,
-      {'b', 1}}}};
+constexpr std::array<Orbit, 12> orbits{{{"G2.8", 250, {'k', 1}},
+                                        {"G2.9", 250, {'k', 1}},
+                                        {"G2.10", 200, {'k', 1}},
+                                        {"G2.11", 200, {'k', 1}},
+                                        {"G2.13", 200, {'h', -0.25}},
+                                        {"G2.15", 200, {'h', -0.2}},
+                                        {"G2.16", 200, {'h', 0}},
+                                        {"G2.17", 100, {'h', 0.1}},
+                                        {"G2.19", 200, {'l', 1}},
+                                        {"G2.20", 400, {'l', 1}},
+                                        {"G2.21", 200, {'l', -0.1}},
+                                        {"G2.24", 200, {'b', 1}}}};
 
 two_body_programs::ProgramRun by_appendix_a(const Orbit& orbit, const Trajectory& start, long steps) {
   const auto &q = start.q[0], &p = start.p[0];
@@ -113,13 +100,12 @@ two_body_programs::ProgramRun by_appendix_a(const Orbit& orbit, const Trajectory
 void tell_aborts(Study& study, const Orbit& orbit, const Trajectory& start, long steps, Table& table) {
   const double last = 0.1 * static_cast<double>(steps) - 0.05;
   const double program = by_appendix_a(orbit, start, steps).end;
-  const double hamflow =
-      study
-          .try_run(fmt::format("figure_{}_tolerance", orbit.figure),
-                   scenario(orbit.problem, "cartesian", std::string(element) + "\ncriterion = \"seed\"", "0.1", steps))
-          .t.back();
+  const double hamflow = study
+                             .try_run(fmt::format("figure_{}_tolerance", orbit.figure()),
+                                      scenario(orbit.id, "cartesian", with_tolerance, "0.1", steps))
+                             .t.back();
   if (program > last && hamflow > last) return;
-  table.rows.push_back({orbit.figure, fmt::format("{:.3g}", program), fmt::format("{:.3g}", hamflow)});
+  table.rows.push_back({orbit.figure(), fmt::format("{:.3g}", program), fmt::format("{:.3g}", hamflow)});
 }
 
 /// The energy in polar coordinates, where the integrals of 1/r^2 and 1/r^3 are taken to rounding: by the thesis' own
@@ -134,8 +120,8 @@ struct PolarEnergy {
     const double one =
         two_body_programs::in_polar_coordinates(orbit.potential, {q[0], q[1]}, {p[0], p[1]}, orbit.steps).energy_error /
         scale;
-    const Trajectory run = study.run(fmt::format("figure_{}_polar_auto", orbit.figure),
-                                     scenario(orbit.problem, "polar", all_points, "0.1", orbit.steps));
+    const Trajectory run = study.run(fmt::format("figure_{}_polar_auto", orbit.figure()),
+                                     scenario(orbit.id, "polar", all_points, "0.1", orbit.steps));
     by_equations = std::max(by_equations, one);
     by_points = std::max(by_points, energy_error(run) / scale);
     return one;
@@ -166,9 +152,9 @@ void compare(Study& study) {
     return fmt::format(fmt::runtime(form), cartesian) + "; " + fmt::format(fmt::runtime(form), polar);
   };
   for (const Orbit& orbit : orbits) {
-    const std::string name = std::string("figure_") + orbit.figure;
-    const auto run = [&](const char* end, const char* coordinates, const std::string& method) {
-      return study.try_run(name + end, scenario(orbit.problem, coordinates, method, "0.1", orbit.steps));
+    const std::string name = "figure_" + orbit.figure();
+    const auto run = [&](const char* end, const char* coordinates, const std::vector<std::string>& method) {
+      return study.try_run(name + end, scenario(orbit.id, coordinates, method, "0.1", orbit.steps));
     };
     const Trajectory reference = run("_reference", "cartesian", exact);
     const double scale = reference.report.energy_scale;
@@ -178,14 +164,14 @@ void compare(Study& study) {
     const auto program = by_appendix_a(orbit, reference, orbit.steps);
     if (program.end < 0.1 * static_cast<double>(orbit.steps) - 0.05) {
       ++aborted;
-      which += fmt::format("{}{} at t = {:.3g}", which.empty() ? "" : ", ", orbit.figure, program.end);
+      which += fmt::format("{}{} at t = {:.3g}", which.empty() ? "" : ", ", orbit.figure(), program.end);
     }
     if (orbit.potential.field == 'h') {
       of_linear = std::max(of_linear, program.most);
       of_linear_here = std::max(of_linear_here, cartesian.most);
     }
     tell_aborts(study, orbit, reference, 1000, later);
-    figure.push_back(std::stod(std::string(orbit.figure).substr(2)));  // 2.10 is not 2.1
+    figure.push_back(std::stod(orbit.figure().substr(2)));  // 2.10 is not 2.1
     const std::array<double, 9> values{cartesian.iterations, polar.iterations, cartesian.error,
                                        polar.error,          cartesian.energy, polar.energy,
                                        cartesian.angular,    polar.angular,    by_equations};
@@ -197,7 +183,7 @@ void compare(Study& study) {
     most_cartesian = std::max(most_cartesian, cartesian.most);
     better.count(polar.error, cartesian.error);
     fewer.count(polar.iterations, cartesian.iterations);
-    table.rows.push_back({orbit.figure, both("{:.3g}", cartesian.iterations, polar.iterations),
+    table.rows.push_back({orbit.figure(), both("{:.3g}", cartesian.iterations, polar.iterations),
                           both("{:.3g}", cartesian.evaluations, polar.evaluations),
                           both("{:.2g}", cartesian.error, polar.error), both("{:.1g}", cartesian.energy, polar.energy),
                           both("{:.2g}", cartesian.angular, polar.angular), fmt::format("{:.1g}", by_equations)});
@@ -274,15 +260,14 @@ void stiff(Study& study) {
       for (const char* coordinates : {"cartesian", "polar"}) {
         study.breathe();
         const bool polar = coordinates == std::string("polar");
-        const std::string problem = fmt::format(
-            "potential = \"binomial\"\nk = {}\nlambda = 1\norbit = {{ kind = \"bounded\", r_per = 1, r_aph = "
-            "1.1 }}",
-            k);
-        const Trajectory run = study.try_run(fmt::format("k_{}_dt_{}_{}", k, dt, coordinates),
-                                             scenario(problem, coordinates, element, dt, 1000));
-        const Trajectory seed =
-            study.try_run(fmt::format("k_{}_dt_{}_{}_tolerance", k, dt, coordinates),
-                          scenario(problem, coordinates, std::string(element) + "\ncriterion = \"seed\"", dt, 1000));
+        const auto of_method = [&](const std::vector<std::string>& method) {
+          std::vector<std::string> sets{fmt::format("problem.k={}", k), "problem.orbit.r_aph=1.1"};
+          sets.insert(sets.end(), method.begin(), method.end());
+          return scenario("G2.24", coordinates, sets, dt, 1000);
+        };
+        const std::string name = fmt::format("k_{}_dt_{}_{}", k, dt, coordinates);
+        const Trajectory run = study.try_run(name, of_method(element));
+        const Trajectory seed = study.try_run(name + "_tolerance", of_method(with_tolerance));
         const Row row = measured(run, polar, run.report.energy_scale, nullptr);
         if (!polar && seed.report.status != "done" && std::stod(k) > 1e5) ++ended;
         if (run.size() > 1) kept = std::max(kept, row.energy);

@@ -19,6 +19,7 @@ import xml.dom.minidom
 from command import HAMFLOW
 from memory import GOES_ON, MemoryCase
 
+SCENARIOS = pathlib.Path(__file__).resolve().parent.parent / "scenarios"
 SOME = ["G2.8", "G2.9", "G2.20", "G3.9", "T3.2", "G1.1"]
 VERDICTS = ["holds", "differs", "cannot hold", "undecided", "nothing to test"]
 
@@ -130,6 +131,13 @@ class Reproduce(MemoryCase):
         done = json.loads(self.hamflow("run", "r/reproduction/G2.9/figure.toml", "--out", "none", "--json").stdout)
         claim = next(c for c in self.verdicts("r")["claims"] if c["id"] == "G2.9/kept")
         self.assertEqual(done["energy"]["max_error"], claim["measured"])
+
+    def test_scenarios_of_the_sources_run_by_themselves(self):
+        files = sorted(SCENARIOS.glob("*.toml"))
+        self.assertGreater(len(files), 20)
+        for file in files:
+            with self.subTest(file.name):
+                self.hamflow("run", str(file), "--out", "none", "--json")
 
     def shell_commands(self, folder, block):
         """What a shell makes of a block of the page: (command, scenario)."""
