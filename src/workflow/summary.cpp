@@ -326,11 +326,12 @@ Json error_of(const Scenario& scenario, const Simulation& simulation, const RunR
   const std::int64_t step = frame.step + 1;  // the step that could not be taken
   const std::string text = fmt::format("step {}, from t = {}: {}", step, shortest(frame.time),
                                        own_words ? cause_of(result.failure) : std::string(message(result.outcome)));
-  Json error = {{"kind", std::string(name(result.outcome))},
-                {"step", step},
-                {"t", frame.time},
-                {"message", text},
-                {"hint", hint_for(scenario.request, differentiates_steps(scenario), result.outcome, cause_of(result.failure))}};
+  Json error = {
+      {"kind", std::string(name(result.outcome))},
+      {"step", step},
+      {"t", frame.time},
+      {"message", text},
+      {"hint", hint_for(scenario.request, differentiates_steps(scenario), result.outcome, cause_of(result.failure))}};
   if (const std::string numbers = numbers_of(result.failure); own_words && !numbers.empty()) error["details"] = numbers;
   return error;
 }
