@@ -275,6 +275,7 @@
 #include "hamflow/scenario/gas_start.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "hamflow/scenario/value.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/verify/comparison.hpp"
 #include "hamflow/verify/drift.hpp"

@@ -9,6 +9,7 @@
 
 #include "hamflow/arithmetic/quad.hpp"
 #include "hamflow/core/text.hpp"
+#include "hamflow/scenario/value.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
@@ -280,6 +281,45 @@ TEST_F(Workflow, ARunInMemoryHasTheTablesOfItsFile) {
   RunSettings settings;
   settings.samples = false;
   EXPECT_TRUE(run(scenario(), settings).tables.samples.empty());
+}
+
+TEST_F(Workflow, AScenarioFromATreeOfValuesIsThatOfItsText) {
+  const double third = 1.0 / 3;
+  const Value::Table tree{
+      {"problem", Value::Table{{"name", "formula"},
+                               {"hamiltonian", "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"},
+                               {"parameters", Value::Table{{"k", third}}},
+                               {"initial", Value::Table{{"q", std::vector<double>{0.1, -0.15}},
+                                                        {"p", Value::List{Value(0.3), Value("1/10")}}}}}},
+      {"method", Value::Table{{"name", "stv4"}}},
+      {"run", Value::Table{{"dt", 0.1}, {"steps", 500}, {"certificate", false}}}};
+  const Scenario from_tree = accepted(read_scenario_tree(tree, "tree"));
+  EXPECT_EQ(from_tree.text, scenario_text(tree));
+  const RunReport found = run(from_tree);
+  const RunReport wanted = run(accepted(read_scenario_text(R"(
+[problem]
+name = "formula"
+hamiltonian = "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"
+parameters = { k = 0.3333333333333333 }
+initial = { q = [0.1, -0.15], p = [0.3, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 500
+certificate = false
+)",
+                                                           "text", {})));
+  expect_same(found.tables.samples, wanted.tables.samples);
+  EXPECT_FALSE(found.certificate.has_value());
+
+  Value::Table wrong = tree;
+  wrong[2].second = Value::Table{{"dt", "no number"}, {"step", 5}};
+  const Reading refused = read_scenario_tree(wrong, "tree");
+  EXPECT_FALSE(refused.scenario);
+  EXPECT_GE(refused.complaints.size(), 2U);
+  wrong.push_back({"run", Value::Table{}});
+  EXPECT_THROW((void)scenario_text(wrong), Error);
 }
 
 TEST_F(Workflow, BouncesInMemoryAreThoseOfTheFile) {
