@@ -26,11 +26,11 @@ int main(int argc, char** argv) try {
   settings.folder = argc > 1 ? argv[1] : std::filesystem::temp_directory_path() / "hamflow_run_and_resume";
   settings.existing = hamflow::Existing::replace;
   settings.pulse = [](std::int64_t step) { return std::printf("%lld steps\n", static_cast<long long>(step)) > 0; };
-  const hamflow::RunReport first = hamflow::run_scenario(steps("20000"), settings);
+  const hamflow::RunReport first = hamflow::run(steps("20000"), settings);
   std::printf("%s at t = %g, energy within %.1e\n", first.status.c_str(), first.final.time, first.energy.max_error);
 
   settings.existing = hamflow::Existing::resume;
-  const hamflow::RunReport second = hamflow::run_scenario(steps("40000"), settings);
+  const hamflow::RunReport second = hamflow::run(steps("40000"), settings);
   std::printf("\n%s", second.text.c_str());
   hamflow::draw_figure(settings.folder, "energy-error", settings.folder / "energy-error.svg");
   return second.status == "done" ? 0 : 1;

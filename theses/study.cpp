@@ -102,17 +102,18 @@ Trajectory Study::try_run(const std::string& name, const std::string& toml, cons
   Trajectory trajectory;
   Sampler sampler(trajectory, scenario.record_every, scenario.steps);
   RunSettings settings;
+  settings.samples = false;  // the sampler keeps them
   settings.observers = {&sampler};
   settings.pulse = [this](std::int64_t) { return !go_on_ || go_on_(); };
   if (scenario.steps >= worth_a_checkpoint) {
     settings.folder = folder_ / (name + ".run");
     settings.existing = std::filesystem::exists(settings.folder) ? Existing::resume : Existing::refuse;
   }
-  trajectory.report = run_scenario(scenario, settings);
+  trajectory.report = hamflow::run(scenario, settings);
   if (trajectory.report.was_complete) {  // by a run whose experiment was killed later: its samples are not known here
     settings.existing = Existing::replace;
     trajectory = {};
-    trajectory.report = run_scenario(scenario, settings);
+    trajectory.report = hamflow::run(scenario, settings);
   }
   if (trajectory.report.status == "interrupted") throw Stopped{};
   keep_scenario(name, scenario.text);

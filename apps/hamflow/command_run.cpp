@@ -23,6 +23,7 @@ void check_together(const RunOptions& options) {
 RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWork& kept) {
   RunSettings settings;
   if (options.out != "none") settings.folder = folder_of(scenario, options.out);
+  settings.samples = false;  // they go to the folder
   settings.existing = options.resume ? Existing::resume : options.force ? Existing::replace : Existing::refuse;
   settings.note = [&](const std::string& note) { print_notes({note}, options.quiet); };
   std::optional<Progress> progress;  // its first step is where the run goes on
@@ -36,7 +37,7 @@ RunReport carry_out(const Scenario& scenario, const RunOptions& options, KeptWor
   };
   catch_interrupts();
   preparation.emplace("setting up the run", options.json, options.quiet);
-  return run_scenario(scenario, settings);
+  return run(scenario, settings);
 }
 
 int print(const RunReport& report, const std::string& folder, const RunOptions& options) {

@@ -1,6 +1,9 @@
 // The closed list of methods, from the families that declare them.
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <optional>
+#include <utility>
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/run/catalog.hpp"
@@ -12,6 +15,15 @@
 #include "step_control.hpp"
 
 namespace hamflow {
+
+Shape families::shape_of_known(const AnySplitting& method) {
+  static std::mutex mutex;
+  static std::map<std::pair<const void*, bool>, Shape> known;
+  const std::lock_guard lock(mutex);
+  const auto [at, is_new] = known.try_emplace({method.table(), method.describe() == detail::describe_drift_first});
+  if (is_new) at->second = method.sequence<double>().shape();
+  return at->second;
+}
 
 std::span<const MethodFamily> method_families() {
   static const std::vector<MethodFamily> all = [] {

@@ -10,10 +10,14 @@
 
 namespace hamflow::families {
 
+/// Its shape. The tables of the catalogue live as long as the program: each is read once, and not again for each member
+/// of a sweep.
+Shape shape_of_known(const AnySplitting& method);
+
 /// Calls f with a recipe: the common shapes have kernels of their own.
 template <class F>
 auto visit_shape(const AnySplitting& method, F&& f) {
-  switch (method.sequence<double>().shape()) {
+  switch (shape_of_known(method)) {
     case Shape::kick_drift_kick:
       return f(TableRecipe<Shape::kick_drift_kick>{method});
     case Shape::drift_kick_drift:

@@ -15,7 +15,7 @@
 
 #include "hamflow/core/hash.hpp"
 #include "hamflow/run/simulation.hpp"
-#include "run_file.hpp"
+#include "run_header.hpp"
 
 namespace hamflow {
 

@@ -5,7 +5,7 @@
 
 #include "h5md_groups.hpp"
 #include "hdf5_text.hpp"
-#include "run_column.hpp"
+#include "stored_column.hpp"
 
 namespace hamflow {
 
@@ -24,19 +24,22 @@ void link(hid_t file, const std::string& from, const std::string& to) {
   check_hdf5(H5Lcreate_hard(file, from.c_str(), file, to.c_str(), H5P_DEFAULT, H5P_DEFAULT), "link " + to);
 }
 
+/// A dataset of one row.
+void write_row(hid_t file, const std::string& path, ColumnInfo info, const void* values, std::size_t of_each = 0) {
+  StoredColumn(file, path, info, 1, of_each).write(values, 1);
+}
+
 /// An element of one sample, at the start: each dataset has its checksum, as those of many rows have.
 void write_once(hid_t file, const std::string& name, const std::vector<double>& numbers, std::size_t of_each,
-                const ColumnText& text) {
+                ColumnInfo info) {
   (void)make_group(file, name);
-  Column step(file, name + "/step", H5T_STD_I64LE, 0, 1, {{}, "steps since the start"});
-  step.add(std::int64_t{0});
-  step.write(1);
-  Column time(file, name + "/time", H5T_IEEE_F64LE, 0, 1, {{}, "time"});
-  time.add(0.0);
-  time.write(1);
-  Column value(file, name + "/value", H5T_IEEE_F64LE, numbers.size(), 1, text, of_each);
-  for (const double x : numbers) value.add(x);
-  value.write(1);
+  constexpr std::int64_t step = 0;
+  constexpr double time = 0;
+  write_row(file, name + "/step", {.type = ValueType::integer, .meaning = "steps since the start"}, &step);
+  write_row(file, name + "/time", {.meaning = "time"}, &time);
+  info.width = numbers.size();
+  info.scalar = false;
+  write_row(file, name + "/value", info, numbers.data(), of_each);
 }
 
 void write_box(hid_t file, const std::string& particles, const H5mdParticles& of) {
@@ -65,19 +68,20 @@ void write_h5md_groups(hid_t file, const RunDescription& run) {
   write_box(file, "particles/all", of);
   for (const char* element : {"position", "momentum", "velocity"})
     (void)make_group(file, std::string("particles/all/") + element);
-  write_once(file, "particles/all/mass", of.masses, 0, {{}, "of each particle"});
+  write_once(file, "particles/all/mass", of.masses, 0, {.meaning = "of each particle"});
   (void)make_group(file, "observables/energy");
   for (const InvariantColumn& each : run.invariants) (void)make_group(file, "observables/" + each.name);
   for (const InvariantColumn& each : run.observables) (void)make_group(file, "observables/" + each.name);
   if (of.start_q.empty()) return;
   (void)make_group(file, "particles/start");
   write_box(file, "particles/start", of);
-  write_once(file, "particles/start/position", of.start_q, of.space, {{}, "coordinates at the start", run.units.q});
-  write_once(file, "particles/start/momentum", of.start_p, of.space, {{}, "momenta at the start", run.units.p});
+  write_once(file, "particles/start/position", of.start_q, of.space,
+             {.meaning = "coordinates at the start", .unit = run.units.q});
+  write_once(file, "particles/start/momentum", of.start_p, of.space,
+             {.meaning = "momenta at the start", .unit = run.units.p});
   if (of.edges.empty()) return;
-  Column edges(file, "particles/start/box/edges/value", H5T_IEEE_F64LE, of.space, 1, {{}, H5mdNames::edges_meaning});
-  for (const double x : of.edges) edges.add(x);
-  edges.write(1);
+  write_row(file, "particles/start/box/edges/value",
+            {.width = of.space, .scalar = false, .meaning = H5mdNames::edges_meaning}, of.edges.data());
   for (const char* part : {"/step", "/time"}) {
     link(file, std::string("/particles/start/position") + part, std::string("particles/start/box/edges") + part);
   }

@@ -3,7 +3,7 @@
 
 #include <hdf5.h>
 
-#include "run_file.hpp"
+#include "run_header.hpp"
 
 namespace hamflow {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hdf5_text.hpp"
-#include "run_column.hpp"
+#include "stored_column.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {

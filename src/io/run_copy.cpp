@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "hdf5_text.hpp"
-#include "run_column.hpp"
+#include "stored_column.hpp"
 #include "whole_file.hpp"
 
 namespace hamflow {
@@ -186,37 +186,11 @@ class Copy {
   LeftOut left_out_;
 };
 
-template <class T>
-void write_rows(hid_t file, const char* name, hid_t type, const std::vector<std::vector<T>>& by_coordinate,
-                std::size_t rows, const ColumnText& text) {
-  Column column(file, name, type, by_coordinate.size(), rows, text);
-  for (std::size_t k = 0; k < rows; ++k) {
-    for (const auto& coordinate : by_coordinate) column.add(coordinate[k]);
+void write_states(hid_t file, const Table& states) {
+  if (states.find("digits/t") != nullptr) (void)make_group(file, "digits");
+  for (const Column& column : states.columns()) {
+    StoredColumn(file, column.name(), column.info(), states.rows()).write(column);
   }
-  column.write(rows);
-}
-
-template <class T>
-void write_row_numbers(hid_t file, const char* name, hid_t type, const std::vector<T>& values, std::size_t rows,
-                       const ColumnText& text) {
-  Column column(file, name, type, 0, rows, text);
-  for (std::size_t k = 0; k < rows; ++k) column.add(values[k]);
-  column.write(rows);
-}
-
-void write_states(hid_t file, const ConvertedStates& states, std::size_t rows) {
-  const ColumnText of_q{states.coordinates, "coordinates, converted"};
-  const ColumnText of_p{states.momenta, "canonical momenta, converted"};
-  write_rows(file, "q", H5T_IEEE_F64LE, states.q, rows, of_q);
-  write_rows(file, "p", H5T_IEEE_F64LE, states.p, rows, of_p);
-  const RunDigits& digits = states.digits;
-  if (digits.t.empty()) return;
-  (void)make_group(file, "digits");
-  const Hdf5Handle type = digits_type(states.digits_length);
-  write_rows(file, "digits/q", type, digits.q, rows, of_q);
-  write_rows(file, "digits/p", type, digits.p, rows, of_p);
-  write_row_numbers(file, "digits/energy", type, digits.energy, rows, {{"energy"}, "H(q, p)"});
-  write_row_numbers(file, "digits/t", type, digits.t, rows, {{"t"}, "time"});
 }
 
 LeftOut copy(const std::filesystem::path& source, const std::filesystem::path& target, const ConvertedStates& states) {
@@ -224,16 +198,15 @@ LeftOut copy(const std::filesystem::path& source, const std::filesystem::path& t
   if (has_object(from, "particles/all")) {
     throw FileError(source.string() + " holds particles, which have no other coordinates");
   }
-  const std::size_t rows = states.q.at(0).size();
   WholeFile whole(target);
   Hdf5Handle to = create_hdf5(whole.part());
-  Copy copy(from, to, rows);
+  Copy copy(from, to, states.table.rows());
   copy.attributes_of_file();
   if (!states.coordinates.empty()) write_attribute(to, "coordinates", states.coordinates);
   if (!states.momenta.empty()) write_attribute(to, "momenta", states.momenta);
   copy.group("");
   write_text_dataset(to, "scenario", states.scenario);
-  write_states(to, states, rows);
+  write_states(to, states.table);
   for (const char* name : {"q", "p", "digits", "digits/q", "digits/p", "digits/t", "digits/energy"}) {
     copy.attributes_beside(name);
   }

@@ -10,15 +10,12 @@
 
 namespace hamflow {
 
-/// What differs. As in RunSamples q[i][k] is coordinate i at sample k.
+/// What differs.
 struct ConvertedStates {
   std::string scenario;
   std::vector<std::string> coordinates;  // names
   std::vector<std::string> momenta;
-  std::vector<std::vector<double>> q;
-  std::vector<std::vector<double>> p;
-  RunDigits digits;               // all of them; empty of a run in double
-  std::size_t digits_length = 0;  // characters of each
+  Table table;  // q, p and, of a run beyond double, digits/q, digits/p, digits/energy, digits/t
 };
 
 /// What is not in the copy.

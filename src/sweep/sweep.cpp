@@ -39,10 +39,33 @@ void Sweep::put(std::size_t member, MemberRow row) {
   finished_(member);
 }
 
+/// Calls the caller's pulse, at most every 20 ms, on the thread of the caller alone: what it throws reaches him, and
+/// there need be no second thread.
+class Sweep::Pulse {
+ public:
+  Pulse(Sweep& sweep, const std::function<bool(std::int64_t)>& pulse) : sweep_(sweep), pulse_(pulse) {}
+  bool is_on_this_thread() const { return std::this_thread::get_id() == caller_; }
+  void ask_if_due() {
+    const Clock::time_point now = Clock::now();
+    if (!pulse_ || sweep_.stop_ || now - last_ < interval) return;
+    last_ = now;
+    if (!pulse_(sweep_.steps_taken_)) sweep_.stop_ = true;
+  }
+  static constexpr std::chrono::milliseconds interval{20};
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Sweep& sweep_;
+  const std::function<bool(std::int64_t)>& pulse_;
+  std::thread::id caller_ = std::this_thread::get_id();
+  Clock::time_point last_ = Clock::now();
+};
+
 /// The resources of one thread.
 class Sweep::Worker {
  public:
-  explicit Worker(Sweep& sweep) : sweep_(sweep) {}
+  /// @param pulse null: another thread calls it
+  Worker(Sweep& sweep, Pulse* pulse) : sweep_(sweep), pulse_(pulse) {}
 
   void carry_out(const Task& task) {
     if (task.group->lanes == 0) {
@@ -80,7 +103,7 @@ class Sweep::Worker {
       watched.push_back(watched_of(members[lane], group));
     LaneRun run(*block, observers_of(watched));
     std::int64_t chunk = 256;
-    while (run.taken() < group.steps && !sweep_.stop_) {
+    while (run.taken() < group.steps && goes_on()) {
       const auto begin = Clock::now();
       const std::int64_t steps = std::min(chunk, group.steps - run.taken());
       run.advance(steps);
@@ -157,10 +180,10 @@ class Sweep::Worker {
     const auto count = [&](std::int64_t step) {
       sweep_.steps_taken_ += step - counted;
       counted = step;
-      return !sweep_.stop_;
+      return goes_on();
     };
-    const std::function<bool()> goes_on = [&] { return !sweep_.stop_; };
-    const StopQuestion question(goes_on);
+    const std::function<bool()> inside_a_step = [this] { return goes_on(); };
+    const StopQuestion question(inside_a_step);
     const Outcome outcome = hamflow::run(simulation, steps, observers, count);
     count(simulation.step());
     return outcome;
@@ -223,6 +246,11 @@ class Sweep::Worker {
     return row.energy.max_error > (row.energy.exchanged > 0 ? row.energy.exchanged : row.energy.scale());
   }
 
+  bool goes_on() {
+    if (pulse_ != nullptr) pulse_->ask_if_due();
+    return !sweep_.stop_;
+  }
+
   /// Read anew: 10^5 scenarios at once would fill the memory.
   Scenario scenario_of(std::size_t member) {
     if (!reader_) reader_.emplace(sweep_.varied_, sweep_.raw_text_, sweep_.name_, sweep_.sets_);
@@ -232,6 +260,7 @@ class Sweep::Worker {
   }
 
   Sweep& sweep_;
+  Pulse* pulse_;
   std::map<const Group*, std::unique_ptr<EnsembleBlock>> blocks_;
   std::optional<MemberReader> reader_;
 };
@@ -251,53 +280,47 @@ void Sweep::run(const std::function<bool(std::int64_t)>& pulse, const std::funct
   std::stable_sort(tasks.begin(), tasks.end(),
                    [](const Task& a, const Task& b) { return a.group->steps > b.group->steps; });
   std::atomic<std::size_t> next{0};
+  Pulse asked(*this, pulse);
   std::mutex mutex;
-  std::condition_variable all_done;
-  bool over = false;
-  std::exception_ptr pulse_failure;  // of a pulse that throws: the sweep stops, and the caller gets it
-  const auto look = [&] {
-    std::unique_lock lock(mutex);
-    while (!all_done.wait_for(lock, std::chrono::milliseconds(20), [&] { return over; })) {
-      if (!pulse || pulse_failure) continue;
-      try {
-        if (!pulse(steps_taken_)) stop_ = true;
-      } catch (...) {
-        pulse_failure = std::current_exception();
-        stop_ = true;
-      }
+  std::condition_variable one_is_done;
+  int others = 0;  // threads at work beside the caller's
+  const auto take_tasks = [&](Pulse* own) {
+    Worker worker(*this, own);
+    for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) {
+      if (own != nullptr) own->ask_if_due();
+      worker.carry_out(tasks[i]);
     }
   };
-  std::jthread watch;
-  try {
-    watch = std::jthread(look);
-  } catch (const std::system_error& error) {
-    throw Error(std::string("a sweep needs one thread beside its own, and none can be started here (") +
-                error.code().message() + ")");
-  }
-  const auto end = [&] {
-    const std::lock_guard lock(mutex);
-    over = true;
-    all_done.notify_all();
-  };
-  try {
-    const int wanted = std::min<int>(threads_, static_cast<int>(std::max<std::size_t>(tasks.size(), 1)));
-    const int started = on_threads(wanted, [&] {
-      Worker worker(*this);
+  const int wanted = std::min<int>(threads_, static_cast<int>(std::max<std::size_t>(tasks.size(), 1)));
+  const int started = on_threads(wanted, [&] {
+    try {
+      if (asked.is_on_this_thread()) {
+        take_tasks(&asked);
+        std::unique_lock lock(mutex);
+        while (!one_is_done.wait_for(lock, Pulse::interval, [&] { return others == 0; })) asked.ask_if_due();
+        return;
+      }
+      std::unique_lock lock(mutex);
+      ++others;
+      lock.unlock();
+      const auto end = [&] {
+        lock.lock();
+        --others;
+        one_is_done.notify_all();
+      };
       try {
-        for (std::size_t i = next++; i < tasks.size() && !stop_; i = next++) worker.carry_out(tasks[i]);
-      } catch (...) {  // no thread works for a sweep that is lost
-        stop_ = true;
+        take_tasks(nullptr);
+      } catch (...) {
+        end();
         throw;
       }
-    });
-    if (started < wanted) threads_ = started;
-  } catch (...) {
-    end();
-    throw;
-  }
-  end();
-  watch.join();
-  if (pulse_failure) std::rethrow_exception(pulse_failure);
+      end();
+    } catch (...) {  // no thread works for a sweep that is lost
+      stop_ = true;
+      throw;
+    }
+  });
+  if (started < wanted) threads_ = started;
 }
 
 }  // namespace hamflow

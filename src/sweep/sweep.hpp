@@ -173,6 +173,7 @@ class Sweep {
     std::size_t first;
     std::size_t count;
   };
+  class Pulse;
   class Worker;
 
   std::size_t coordinates_of_first(MemberReader& reader) const;

@@ -37,27 +37,28 @@ void write_dataset(hid_t file, const std::string& name, hid_t stored, hid_t memo
   check_hdf5(H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
 }
 
-void write_column(hid_t file, const SweepColumn& column) {
-  const hsize_t rows = column.rows();
-  const hsize_t size[2] = {rows, column.width};
-  const int rank = column.scalar ? 1 : 2;
-  if (!column.texts.empty()) {
+void write_column(hid_t file, const Column& column) {
+  const ColumnInfo& info = column.info();
+  const hsize_t size[2] = {column.rows(), info.width};
+  const int rank = info.scalar ? 1 : 2;
+  if (info.type == ValueType::text) {
+    const std::vector<std::string> texts = column.texts();
     std::size_t longest = 1;
-    for (const std::string& text : column.texts) longest = std::max(longest, text.size());
+    for (const std::string& text : texts) longest = std::max(longest, text.size());
     std::string all;
-    for (const std::string& text : column.texts) all += text + std::string(longest - text.size(), '\0');
+    for (const std::string& text : texts) all += text + std::string(longest - text.size(), '\0');
     const Hdf5Handle type = text_type(longest);
-    write_dataset(file, column.name, type, type, rank, size, all.data());
-  } else if (!column.counts.empty()) {
-    write_dataset(file, column.name, H5T_STD_I64LE, H5T_NATIVE_INT64, rank, size, column.counts.data());
+    write_dataset(file, info.name, type, type, rank, size, all.data());
+  } else if (info.type == ValueType::integer) {
+    write_dataset(file, info.name, H5T_STD_I64LE, H5T_NATIVE_INT64, rank, size, column.integers().data());
   } else {
-    write_dataset(file, column.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, column.numbers.data());
+    write_dataset(file, info.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, column.numbers().data());
   }
 }
 
 }  // namespace
 
-void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTable& table,
+void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTables& tables,
                     const SweepDescription& description) {
   const auto alone = alone_with_hdf5();
   silence_hdf5();
@@ -74,8 +75,8 @@ void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const
     write_attribute(id, "instruction_set", std::string(name(fast_kernel_instruction_set())));
   }
   write_text_dataset(id, "scenario", sweep.text());
-  for (const SweepColumn& column : table.members) write_column(id, column);
-  for (const SweepColumn& column : table.section) write_column(id, column);
+  for (const Column& column : tables.members.columns()) write_column(id, column);
+  for (const Column& column : tables.section.columns()) write_column(id, column);
   id.close_now("write " + file.string() + " (is the disk full?)");
   whole.put_in_place();
 }
@@ -90,25 +91,46 @@ std::string quoted(const std::string& text) {
   return all + "\"";
 }
 
-std::string cell(const SweepColumn& column, std::size_t at) {
-  if (!column.texts.empty()) return quoted(column.texts[at]);
-  if (!column.counts.empty()) return std::to_string(column.counts[at]);
-  return fmt::format("{:.17g}", without_sign_of_nan(column.numbers[at]));
+/// Part i of row k.
+std::string cell(const Column& column, std::size_t k, std::size_t i) {
+  const std::size_t at = k * column.info().width + i;
+  switch (column.info().type) {
+    case ValueType::text:
+      return quoted(std::string(column.text(k, i)));
+    case ValueType::integer:
+      return std::to_string(column.integers()[at]);
+    default:
+      return fmt::format("{:.17g}", without_sign_of_nan(column.numbers()[at]));
+  }
+}
+
+/// Each column with all its digits, where there are more than those of a double. What was varied stays a number.
+std::vector<const Column*> columns_of_csv(const Table& table) {
+  const std::string beyond_double = "digits/";
+  std::vector<const Column*> all;
+  for (const Column& column : table.columns()) {
+    if (column.name().starts_with(beyond_double)) continue;
+    const Column* const digits =
+        column.name().starts_with("varied/") ? nullptr : table.find(beyond_double + column.name());
+    all.push_back(digits != nullptr ? digits : &column);
+  }
+  return all;
 }
 
 /// @throws FileError
-void write_csv(const std::filesystem::path& file, const std::vector<SweepColumn>& columns) {
+void write_csv(const std::filesystem::path& file, const Table& table) {
   constexpr std::size_t bytes_at_once = 1 << 16;
   WholeFile whole(file, next_name(file));
+  const std::vector<const Column*> columns = columns_of_csv(table);
   std::vector<std::string> labels;
-  for (const SweepColumn& column : columns) {
-    for (std::size_t i = 0; i < column.width; ++i) labels.push_back(quoted(csv_name(column, i)));
+  for (const Column* column : columns) {
+    for (std::size_t i = 0; i < column->info().width; ++i) labels.push_back(quoted(csv_name(*column, i)));
   }
   std::string text = joined(labels, ",") + '\n';
-  for (std::size_t row = 0; row < columns[0].rows(); ++row) {
+  for (std::size_t row = 0; row < columns[0]->rows(); ++row) {
     std::vector<std::string> cells;
-    for (const SweepColumn& column : columns) {
-      for (std::size_t i = 0; i < column.width; ++i) cells.push_back(cell(column, row * column.width + i));
+    for (const Column* column : columns) {
+      for (std::size_t i = 0; i < column->info().width; ++i) cells.push_back(cell(*column, row, i));
     }
     text += joined(cells, ",") + '\n';
     if (text.size() < bytes_at_once) continue;
@@ -120,29 +142,17 @@ void write_csv(const std::filesystem::path& file, const std::vector<SweepColumn>
 
 }  // namespace
 
-std::string csv_name(const SweepColumn& column, std::size_t i) {
-  const std::string varied = "varied/", section = "section/";
-  std::string name = column.name;
-  for (const std::string& table : {varied, section}) {
+std::string csv_name(const Column& column, std::size_t i) {
+  std::string name = column.name();
+  for (const std::string table : {"digits/", "varied/", "section/"}) {
     if (name.starts_with(table)) name = name.substr(table.size());
   }
-  return name + (column.scalar ? "" : std::to_string(i + 1));
+  return name + (column.info().scalar ? "" : std::to_string(i + 1));
 }
 
-void write_sweep_csv(const std::filesystem::path& folder, SweepTable table) {
-  // Each column with all its digits, where there are more than those of a double. What was varied stays a number.
-  const std::string beyond_double = "digits/";
-  for (std::vector<SweepColumn>* columns : {&table.members, &table.section}) {
-    for (SweepColumn& column : *columns) {
-      for (const SweepColumn& other : *columns) {
-        const bool varied = column.name.starts_with("varied/");
-        if (!varied && other.name == beyond_double + column.name) column.texts = other.texts;
-      }
-    }
-    std::erase_if(*columns, [&](const SweepColumn& column) { return column.name.starts_with(beyond_double); });
-  }
-  write_csv(folder / "sweep.csv", table.members);
-  if (!table.section.empty()) write_csv(folder / "section.csv", table.section);
+void write_sweep_csv(const std::filesystem::path& folder, const SweepTables& tables) {
+  write_csv(folder / "sweep.csv", tables.members);
+  if (!tables.section.empty()) write_csv(folder / "section.csv", tables.section);
 }
 
 }  // namespace hamflow

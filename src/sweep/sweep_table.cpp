@@ -11,42 +11,47 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+Column empty_column(std::string name, ValueType type, std::size_t width = 1, bool scalar = true) {
+  return Column({.name = std::move(name), .type = type, .width = width, .scalar = scalar});
+}
+
 /// A column of `width` numbers a row; value(row) is a vector that may be empty.
 template <class F>
-SweepColumn vectors(const Sweep& sweep, std::string name, std::size_t width, bool scalar, const F& value) {
-  SweepColumn column{std::move(name), width, scalar};
-  column.numbers.reserve(sweep.members() * width);
+Column vectors(const Sweep& sweep, std::string name, std::size_t width, bool scalar, const F& value) {
+  Column column = empty_column(std::move(name), ValueType::number, width, scalar);
+  column.reserve(sweep.members());
   for (const MemberRow& row : sweep.rows()) {
     const std::vector<double>& x = value(row);
-    for (std::size_t i = 0; i < width; ++i) column.numbers.push_back(i < x.size() ? x[i] : nothing);
+    for (std::size_t i = 0; i < width; ++i) column.add(i < x.size() ? x[i] : nothing);
   }
   return column;
 }
 
 template <class F>
-SweepColumn numbers(const Sweep& sweep, std::string name, const F& value) {
-  SweepColumn column{std::move(name)};
-  column.numbers.reserve(sweep.members());
-  for (const MemberRow& row : sweep.rows()) column.numbers.push_back(row.q.empty() ? nothing : value(row));
+Column numbers(const Sweep& sweep, std::string name, const F& value) {
+  Column column = empty_column(std::move(name), ValueType::number);
+  column.reserve(sweep.members());
+  for (const MemberRow& row : sweep.rows()) column.add(row.q.empty() ? nothing : value(row));
   return column;
 }
 
-void add_varied(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+void add_varied(const Sweep& sweep, Table& table) {
   const Varied& varied = sweep.varied();
   for (std::size_t key = 0; key < varied.size(); ++key) {
-    SweepColumn column{"varied/" + varied.keys()[key].path};
+    const bool is_number = varied.keys()[key].is_number();
+    Column column = empty_column("varied/" + varied.keys()[key].path, is_number ? ValueType::number : ValueType::text);
     for (std::size_t member = 0; member < sweep.members(); ++member) {
-      if (varied.keys()[key].is_number()) {
-        column.numbers.push_back(varied.number(member, key));
+      if (is_number) {
+        column.add(varied.number(member, key));
       } else {
-        column.texts.push_back(without_quotes(varied.text(member, key)));
+        column.add(without_quotes(varied.text(member, key)));
       }
     }
-    columns.push_back(std::move(column));
+    table.add(std::move(column));
   }
 }
 
-void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+void add_invariants(const Sweep& sweep, Table& table) {
   static const InvariantExcursion none{{}, {}, nothing};
   for (const UnitedName& invariant : sweep.names().invariants()) {
     const std::string group = "invariants/" + invariant.name + "/";
@@ -59,68 +64,68 @@ void add_invariants(const Sweep& sweep, std::vector<SweepColumn>& columns) {
     const auto of = [&](const MemberRow& row) -> const InvariantExcursion& {
       return *seen[static_cast<std::size_t>(&row - sweep.rows().data())];
     };
-    columns.push_back(vectors(sweep, group + "initial", size, size == 1,
-                              [&](const MemberRow& row) -> const std::vector<double>& { return of(row).initial; }));
-    columns.push_back(vectors(sweep, group + "final", size, size == 1,
-                              [&](const MemberRow& row) -> const std::vector<double>& { return of(row).final; }));
-    columns.push_back(numbers(sweep, group + "max_error", [&](const MemberRow& row) { return of(row).max_error; }));
+    table.add(vectors(sweep, group + "initial", size, size == 1,
+                      [&](const MemberRow& row) -> const std::vector<double>& { return of(row).initial; }));
+    table.add(vectors(sweep, group + "final", size, size == 1,
+                      [&](const MemberRow& row) -> const std::vector<double>& { return of(row).final; }));
+    table.add(numbers(sweep, group + "max_error", [&](const MemberRow& row) { return of(row).max_error; }));
   }
 }
 
 /// How often each hard wall was met, each event of the user, and how many steps were halved.
-void add_events(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+void add_events(const Sweep& sweep, Table& table) {
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     const std::vector<EventCount> counts = events_of(sweep, member);
     if (member == 0) {
-      for (const EventCount& event : counts) columns.push_back({"events/" + event.name});
+      for (const EventCount& event : counts) table.add(empty_column("events/" + event.name, ValueType::integer));
     }
-    SweepColumn* const first = columns.data() + columns.size() - counts.size();
-    for (std::size_t k = 0; k < counts.size(); ++k) first[k].counts.push_back(counts[k].count);
+    Column* const first = table.columns().data() + table.columns().size() - counts.size();
+    for (std::size_t k = 0; k < counts.size(); ++k) first[k].add(counts[k].count);
   }
 }
 
 /// Of the event that ended a member's run; of the others an empty text and NaN.
-void add_stops(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+void add_stops(const Sweep& sweep, Table& table) {
   if (!sweep.names().stop()) return;
   static const std::vector<double> none;
   const std::size_t n = sweep.common().start_q.size();
-  SweepColumn event{"stopped_by/event"};
+  Column event = empty_column("stopped_by/event", ValueType::text);
   for (std::size_t member = 0; member < sweep.members(); ++member) {
     const std::optional<MemberStop>& stop = sweep.rows()[member].stopped_by;
-    event.texts.push_back(stop ? sweep.names().of(member).events.at(stop->event) : "");
+    event.add(std::string_view(stop ? sweep.names().of(member).events.at(stop->event) : ""));
   }
-  columns.push_back(std::move(event));
-  columns.push_back(numbers(sweep, "stopped_by/t",
-                            [](const MemberRow& row) { return row.stopped_by ? row.stopped_by->t : nothing; }));
-  columns.push_back(vectors(sweep, "stopped_by/q", n, false, [](const MemberRow& row) -> const std::vector<double>& {
+  table.add(std::move(event));
+  table.add(numbers(sweep, "stopped_by/t",
+                    [](const MemberRow& row) { return row.stopped_by ? row.stopped_by->t : nothing; }));
+  table.add(vectors(sweep, "stopped_by/q", n, false, [](const MemberRow& row) -> const std::vector<double>& {
     return row.stopped_by ? row.stopped_by->q : none;
   }));
-  columns.push_back(vectors(sweep, "stopped_by/p", n, false, [](const MemberRow& row) -> const std::vector<double>& {
+  table.add(vectors(sweep, "stopped_by/p", n, false, [](const MemberRow& row) -> const std::vector<double>& {
     return row.stopped_by ? row.stopped_by->p : none;
   }));
 }
 
-void add_observables(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+void add_observables(const Sweep& sweep, Table& table) {
   for (const UnitedName& observable : sweep.names().observables()) {
-    SweepColumn column{"observables/" + observable.name};
+    Column column = empty_column("observables/" + observable.name, ValueType::number);
     for (std::size_t member = 0; member < sweep.members(); ++member) {
       const double* const x = value_of(sweep, observable, member, &MemberRow::observables);
-      column.numbers.push_back(x == nullptr || sweep.rows()[member].q.empty() ? nothing : *x);
+      column.add(x == nullptr || sweep.rows()[member].q.empty() ? nothing : *x);
     }
-    columns.push_back(std::move(column));
+    table.add(std::move(column));
   }
 }
 
 /// A third is no double: a member is run again from the text.
-void add_given(const Sweep& sweep, std::vector<SweepColumn>& columns) {
+void add_given(const Sweep& sweep, Table& table) {
   const Varied& varied = sweep.varied();
   for (std::size_t key = 0; key < varied.size(); ++key) {
     if (!varied.keys()[key].is_number()) continue;
-    SweepColumn column{"digits/varied/" + varied.keys()[key].path};
+    Column column = empty_column("digits/varied/" + varied.keys()[key].path, ValueType::text);
     for (std::size_t member = 0; member < sweep.members(); ++member) {
-      column.texts.push_back(without_quotes(varied.text(member, key)));
+      column.add(without_quotes(varied.text(member, key)));
     }
-    columns.push_back(std::move(column));
+    table.add(std::move(column));
   }
 }
 
@@ -137,28 +142,28 @@ FrameDigits digits_of(const MemberRow& row) {
           shortest(row.energy.initial)};
 }
 
-void add_digits(const Sweep& sweep, std::size_t n, std::vector<SweepColumn>& columns) {
+void add_digits(const Sweep& sweep, std::size_t n, Table& table) {
   const auto add = [&](const char* name, std::size_t width, bool scalar, const auto& value) {
-    SweepColumn column{name, width, scalar};
+    Column column = empty_column(name, ValueType::text, width, scalar);
     for (const MemberRow& row : sweep.rows()) {
       const std::vector<std::string> texts = value(digits_of(row));
-      for (std::size_t i = 0; i < width; ++i) column.texts.push_back(i < texts.size() ? texts[i] : "");
+      for (std::size_t i = 0; i < width; ++i) column.add(std::string_view(i < texts.size() ? texts[i] : ""));
     }
-    columns.push_back(std::move(column));
+    table.add(std::move(column));
   };
   using List = std::vector<std::string>;
   if (sweep.names().stop()) {
     static const MemberStop none;
     const auto stop = [&](const char* name, std::size_t width, bool scalar, const auto& value, const auto& digits) {
-      SweepColumn column{name, width, scalar};
+      Column column = empty_column(name, ValueType::text, width, scalar);
       for (const MemberRow& row : sweep.rows()) {
         const MemberStop& seen = row.stopped_by ? *row.stopped_by : none;
         List texts = digits(seen.digits);
         if (seen.digits.q.empty() && row.stopped_by) texts = all_shortest(value(seen));  // a member in double
         texts.resize(width);
-        column.texts.insert(column.texts.end(), texts.begin(), texts.end());
+        for (const std::string& text : texts) column.add(text);
       }
-      columns.push_back(std::move(column));
+      table.add(std::move(column));
     };
     stop(
         "digits/stopped_by/t", 1, true, [](const MemberStop& s) { return std::vector<double>{s.t}; },
@@ -196,70 +201,68 @@ std::vector<EventCount> events_of(const Sweep& sweep, std::size_t member) {
   return all;
 }
 
-std::vector<SweepColumn> columns_of(const Sweep& sweep) {
-  std::vector<SweepColumn> columns;
-  add_varied(sweep, columns);
-  SweepColumn status{"member/status"};
-  SweepColumn steps{"member/steps"};
+Table members_of(const Sweep& sweep) {
+  Table table;
+  add_varied(sweep, table);
+  Column status = empty_column("member/status", ValueType::text);
+  Column steps = empty_column("member/steps", ValueType::integer);
   for (const MemberRow& row : sweep.rows()) {
-    status.texts.push_back(row.status_name());
-    steps.counts.push_back(row.steps);
+    status.add(std::string_view(row.status_name()));
+    steps.add(row.steps);
   }
-  columns.push_back(std::move(status));
-  columns.push_back(std::move(steps));
+  table.add(std::move(status));
+  table.add(std::move(steps));
   const std::size_t n = sweep.common().start_q.size();
-  columns.push_back(numbers(sweep, "final/t", [](const MemberRow& row) { return row.t; }));
-  columns.push_back(
+  table.add(numbers(sweep, "final/t", [](const MemberRow& row) { return row.t; }));
+  table.add(
       vectors(sweep, "final/q", n, false, [](const MemberRow& row) -> const std::vector<double>& { return row.q; }));
-  columns.push_back(
+  table.add(
       vectors(sweep, "final/p", n, false, [](const MemberRow& row) -> const std::vector<double>& { return row.p; }));
-  columns.push_back(numbers(sweep, "energy/initial", [](const MemberRow& row) { return row.energy.initial; }));
-  columns.push_back(numbers(sweep, "energy/final", [](const MemberRow& row) { return row.energy.final; }));
-  columns.push_back(numbers(sweep, "energy/max_error", [](const MemberRow& row) { return row.energy.max_error; }));
-  columns.push_back(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy.scale(); }));
-  add_invariants(sweep, columns);
-  add_events(sweep, columns);
-  add_stops(sweep, columns);
-  add_observables(sweep, columns);
-  if (!sweep.beyond_double()) return columns;
-  add_digits(sweep, n, columns);
-  add_given(sweep, columns);
-  return columns;
+  table.add(numbers(sweep, "energy/initial", [](const MemberRow& row) { return row.energy.initial; }));
+  table.add(numbers(sweep, "energy/final", [](const MemberRow& row) { return row.energy.final; }));
+  table.add(numbers(sweep, "energy/max_error", [](const MemberRow& row) { return row.energy.max_error; }));
+  table.add(numbers(sweep, "energy/scale", [](const MemberRow& row) { return row.energy.scale(); }));
+  add_invariants(sweep, table);
+  add_events(sweep, table);
+  add_stops(sweep, table);
+  add_observables(sweep, table);
+  if (!sweep.beyond_double()) return table;
+  add_digits(sweep, n, table);
+  add_given(sweep, table);
+  return table;
 }
 
-std::vector<SweepColumn> section_columns_of(const Sweep& sweep) {
+Table sections_of(const Sweep& sweep) {
   if (!sweep.common().section) return {};
   const std::size_t n = sweep.common().start_q.size();
-  SweepColumn member{"section/member"};
-  SweepColumn t{"section/t"};
-  SweepColumn q{"section/q", n, false};
-  SweepColumn p{"section/p", n, false};
+  Column member = empty_column("section/member", ValueType::integer);
+  Column t = empty_column("section/t", ValueType::number);
+  Column q = empty_column("section/q", ValueType::number, n, false);
+  Column p = empty_column("section/p", ValueType::number, n, false);
+  /// Each point is its time, then q, then p.
+  const auto add_points = [n](const auto& points, Column& its_t, Column& its_q, Column& its_p) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::size_t place = k % (1 + 2 * n);
+      (place == 0 ? its_t : place <= n ? its_q : its_p).add(points[k]);
+    }
+  };
   for (std::size_t i = 0; i < sweep.members(); ++i) {
-    const std::vector<double>& points = sweep.rows()[i].section;
-    for (auto at = points.begin(); at != points.end(); at += static_cast<std::ptrdiff_t>(1 + 2 * n)) {
-      const auto middle = at + static_cast<std::ptrdiff_t>(1 + n);
-      member.counts.push_back(static_cast<std::int64_t>(i));
-      t.numbers.push_back(*at);
-      q.numbers.insert(q.numbers.end(), at + 1, middle);
-      p.numbers.insert(p.numbers.end(), middle, middle + static_cast<std::ptrdiff_t>(n));
-    }
+    const MemberRow& row = sweep.rows()[i];
+    add_points(row.section, t, q, p);
+    for (std::size_t k = 0; k < row.section_points(); ++k) member.add(static_cast<std::int64_t>(i));
   }
-  std::vector<SweepColumn> all{std::move(member), std::move(t), std::move(q), std::move(p)};
-  if (!sweep.beyond_double()) return all;
-  SweepColumn t_digits{"digits/section/t"};
-  SweepColumn q_digits{"digits/section/q", n, false};
-  SweepColumn p_digits{"digits/section/p", n, false};
+  Table table;
+  for (Column* column : {&member, &t, &q, &p}) table.add(std::move(*column));
+  if (!sweep.beyond_double()) return table;
+  Column t_digits = empty_column("digits/section/t", ValueType::text);
+  Column q_digits = empty_column("digits/section/q", ValueType::text, n, false);
+  Column p_digits = empty_column("digits/section/p", ValueType::text, n, false);
   for (const MemberRow& row : sweep.rows()) {
-    const std::vector<std::string> texts = row.section_digits.empty() ? all_shortest(row.section) : row.section_digits;
-    for (auto at = texts.begin(); at != texts.end(); at += static_cast<std::ptrdiff_t>(1 + 2 * n)) {
-      const auto middle = at + static_cast<std::ptrdiff_t>(1 + n);
-      t_digits.texts.push_back(*at);
-      q_digits.texts.insert(q_digits.texts.end(), at + 1, middle);
-      p_digits.texts.insert(p_digits.texts.end(), middle, middle + static_cast<std::ptrdiff_t>(n));
-    }
+    add_points(row.section_digits.empty() ? all_shortest(row.section) : row.section_digits, t_digits, q_digits,
+               p_digits);
   }
-  for (SweepColumn* column : {&t_digits, &q_digits, &p_digits}) all.push_back(std::move(*column));
-  return all;
+  for (Column* column : {&t_digits, &q_digits, &p_digits}) table.add(std::move(*column));
+  return table;
 }
 
 }  // namespace hamflow

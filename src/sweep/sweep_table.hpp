@@ -6,39 +6,28 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/table.hpp"
 #include "sweep.hpp"
 
 namespace hamflow {
 
-/// One column, or several side by side (width > 1), row after row. One of the three holds the values.
-struct SweepColumn {
-  std::string name;  // a path in sweep.h5, e.g. "final/q"
-  std::size_t width = 1;
-  bool scalar = true;  // width 1 and no vector that happens to be short
-  std::vector<double> numbers{};
-  std::vector<std::int64_t> counts{};
-  std::vector<std::string> texts{};
+/// A row for each member, in the order in which columns are written: varied/KEY, member/status, member/steps, final/t,
+/// q, p, energy/..., invariants/NAME/..., events/..., stopped_by/..., observables/NAME; in arithmetic beyond double
+/// also digits/final/t, q, p and digits/energy/initial, final, the same numbers as decimal texts that read back
+/// exactly, and digits/varied/KEY, the numbers of varied as they were given. A name that one member has is a column of
+/// all: what a member does not have is NaN, an empty text, or no event.
+Table members_of(const Sweep& sweep);
 
-  std::size_t rows() const { return std::max({texts.size(), counts.size(), numbers.size()}) / width; }
-};
-
-/// Columns in the order in which they are written: /varied/KEY, /member/status, /member/steps, /final/t, q, p,
-/// /energy/..., /invariants/NAME/..., /events/..., /stopped_by/..., /observables/NAME; in arithmetic beyond double also
-/// /digits/final/t, q, p and /digits/energy/initial, final, the same numbers as decimal texts that read back exactly,
-/// and /digits/varied/KEY, the numbers of /varied as they were given. A name that one member has is a column of all:
-/// what a member does not have is NaN, an empty text, or no event.
-std::vector<SweepColumn> columns_of(const Sweep& sweep);
-
-/// The points of all members' sections, a row a point: /section/member (its number), t, q, p. None where no section is
-/// asked for.
-std::vector<SweepColumn> section_columns_of(const Sweep& sweep);
+/// A row for each point of the sections of all members: section/member (its number), t, q, p. No column where no
+/// section is asked for.
+Table sections_of(const Sweep& sweep);
 
 /// Both, as they are at one moment.
-struct SweepTable {
-  std::vector<SweepColumn> members;
-  std::vector<SweepColumn> section;
+struct SweepTables {
+  Table members;
+  Table section;
 };
-inline SweepTable table_of(const Sweep& sweep) { return {columns_of(sweep), section_columns_of(sweep)}; }
+inline SweepTables tables_of(const Sweep& sweep) { return {members_of(sweep), sections_of(sweep)}; }
 
 /// How often a member has met each hard wall that any of them has, those of one name together, and each event of the
 /// user, and how many steps were halved where a method can do that: the same names for all members.
@@ -63,11 +52,11 @@ struct SweepDescription {
 };
 
 /// @throws FileError
-void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTable& table,
+void write_sweep_h5(const std::filesystem::path& file, const Sweep& sweep, const SweepTables& tables,
                     const SweepDescription& description);
 /// What the i-th part of a column is called in CSV: "final/q1", and without their table "problem.k" and "member".
-std::string csv_name(const SweepColumn& column, std::size_t i);
+std::string csv_name(const Column& column, std::size_t i);
 /// sweep.csv, and section.csv where a section is asked for. @throws FileError
-void write_sweep_csv(const std::filesystem::path& folder, SweepTable table);
+void write_sweep_csv(const std::filesystem::path& folder, const SweepTables& tables);
 
 }  // namespace hamflow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "converted_text.hpp"
 #include "csv_file.hpp"
@@ -23,85 +24,62 @@ namespace fs = std::filesystem;
 
 class ConvertedRun::Impl {
  public:
-  Impl(const fs::path& file, const std::string& to) : file_(file), to_(to), samples_(read_run_file(file)) {
-    if (samples_.energy.empty() && !samples_.t.empty()) {
+  Impl(const fs::path& file, const std::string& to)
+      : file_(file), to_(to), run_(read_run_file(file, {.digits = true})), given_(run_.tables.samples) {
+    if (given_.find("energy") == nullptr && given_.rows() > 0) {
       throw FileError(file.string() +
                       " cannot be converted: it holds the states of a reversal; allowed the run.h5 of a run");
     }
-    const std::string& text = samples_.description.scenario;
+    const std::string& text = run_.description.scenario;
     reading_ = read_scenario_text(text, file.string(), {});
     if (!reading_.scenario) {
       throw FileError("the scenario in " + file.string() + " is damaged: " + reading_.complaints.front().text());
     }
-    check_states(scenario(), samples_, file);
+    check_states(scenario(), run_.description, file);
     target_ = &in_coordinates(*scenario().problem, to);
     from_ = coordinates_of(*scenario().problem);
-    digits_ = read_run_digits(file);
-    if (!digits_.t.empty()) cut_to_equal_length();
-    const std::vector<std::vector<double>> given_q = samples_.q;
-    const std::vector<std::vector<double>> given_p = samples_.p;
-    const RunDigits given_digits = digits_;
-    const std::size_t size = target_->info.coordinates.size();
-    for (auto* columns : {&samples_.q, &samples_.p}) columns->assign(size, std::vector<double>(samples_.t.size()));
-    for (auto* columns : {&digits_.q, &digits_.p}) {
-      if (!digits_.t.empty()) columns->assign(size, std::vector<std::string>(digits_.t.size()));
-    }
-    StateConverter convert(*scenario().problem, *target_, scenario().request.parameters);
-    for (std::size_t k = 0; k < samples_.t.size(); ++k) {
-      try {
-        const CanonicalState state = convert({row_of(given_q, k), row_of(given_p, k)});
-        for (std::size_t i = 0; i < state.q.size(); ++i) {
-          samples_.q[i][k] = state.q[i];
-          samples_.p[i][k] = state.p[i];
-        }
-        if (k < digits_.t.size()) convert_digits(k, state, {row_of(given_digits.q, k), row_of(given_digits.p, k)});
-      } catch (const Error& error) {
-        throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(samples_.t[k]), error.what()));
-      }
-    }
-    turn_ = std::max(convert.largest_turn(), fastest_turn(convert.turning()));
-    turning_ = joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; });
+    names_ = state_names(*target_, scenario().request.parameters, target_->info.coordinates.size());
+    convert_all();
   }
 
   std::string csv() const {
-    const StateNames names = state_names(*target_, scenario().request.parameters, samples_.q.size());
-    std::string text = fmt::format("t,{},{},energy\n", fmt::join(names.q, ","), fmt::join(names.p, ","));
-    for (std::size_t k = 0; k < samples_.t.size(); ++k) {
-      if (!digits_.t.empty()) {
-        const DigitState s = digits_at(k);
-        text += fmt::format("{},{},{},{}\n", digits_.t[k], fmt::join(s.q, ","), fmt::join(s.p, ","), digits_.energy[k]);
+    std::string text = fmt::format("t,{},{},energy\n", fmt::join(names_.q, ","), fmt::join(names_.p, ","));
+    for (std::size_t k = 0; k < given_.rows(); ++k) {
+      if (has_digits()) {
+        text += fmt::format("{},{},{},{}\n", given_["digits/t"].text(k),
+                            fmt::join(states_["digits/q"].row_of_texts(k), ","),
+                            fmt::join(states_["digits/p"].row_of_texts(k), ","), given_["digits/energy"].text(k));
         continue;
       }
-      const CanonicalState s = state_at(k);
-      text += fmt::format("{:.17g}", samples_.t[k]);
-      for (const double x : s.q) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
-      for (const double x : s.p) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
-      text += fmt::format(",{:.17g}\n", without_sign_of_nan(samples_.energy[k]));
+      text += fmt::format("{:.17g}", given_["t"].numbers()[k]);
+      for (const char* name : {"q", "p"}) {
+        for (const double x : states_[name].row(k)) text += fmt::format(",{:.17g}", without_sign_of_nan(x));
+      }
+      text += fmt::format(",{:.17g}\n", without_sign_of_nan(given_["energy"].numbers()[k]));
     }
     return text;
   }
   std::string json() const {
-    if (!digits_.t.empty()) {
-      nlohmann::ordered_json all{{"coordinates", to_},
-                                 {"t", digits_.t},
-                                 {"q", nlohmann::ordered_json::array()},
-                                 {"p", nlohmann::ordered_json::array()}};
-      for (std::size_t k = 0; k < digits_.t.size(); ++k) {
-        all["q"].push_back(digits_at(k).q);
-        all["p"].push_back(digits_at(k).p);
+    nlohmann::ordered_json all{{"coordinates", to_}};
+    const auto rows_of = [&](const std::string& name) {
+      nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+      for (std::size_t k = 0; k < given_.rows(); ++k) {
+        if (has_digits()) {
+          rows.push_back(states_["digits/" + name].row_of_texts(k));
+        } else {
+          rows.push_back(states_[name].row(k));
+        }
       }
-      all["energy"] = digits_.energy;
-      return json_text(all);
-    }
-    nlohmann::ordered_json all{{"coordinates", to_},
-                               {"t", samples_.t},
-                               {"q", nlohmann::ordered_json::array()},
-                               {"p", nlohmann::ordered_json::array()}};
-    for (std::size_t k = 0; k < samples_.t.size(); ++k) {
-      all["q"].push_back(state_at(k).q);
-      all["p"].push_back(state_at(k).p);
-    }
-    all["energy"] = samples_.energy;
+      return rows;
+    };
+    const auto column_of = [&](const std::string& name) -> nlohmann::ordered_json {
+      if (has_digits()) return given_["digits/" + name].texts();
+      return given_[name].part(0);
+    };
+    all["t"] = column_of("t");
+    all["q"] = rows_of("q");
+    all["p"] = rows_of("p");
+    all["energy"] = column_of("energy");
     return json_text(all);
   }
   std::string write_h5(const fs::path& target) const {
@@ -114,7 +92,7 @@ class ConvertedRun::Impl {
     if (read_scenario_text(same_settings, "the converted scenario", {}).scenario) {
       text += same_settings;
     } else {
-      const std::string method = samples_.description.method;
+      const std::string method = run_.description.method;
       text += "# They were computed by " + method + ", with settings that these coordinates do not allow.\n";
       const std::string other = target_->constraint_form.empty() ? "cg" : "rattle";
       note = "the samples were computed by " + method + " with settings that " + to_ +
@@ -127,16 +105,8 @@ class ConvertedRun::Impl {
       text += converted_text(changed, to_, start);
     }
     (void)accepted(read_scenario_text(text, "the converted scenario", {}));
-    const std::size_t size = samples_.q.size();
-    const StateNames names = state_names(*target_, scenario().request.parameters, size);
-    const LeftOut left_out = copy_run_file(file_, target,
-                                           {.scenario = text,
-                                            .coordinates = names.q,
-                                            .momenta = names.p,
-                                            .q = samples_.q,
-                                            .p = samples_.p,
-                                            .digits = digits_,
-                                            .digits_length = longest_digits(arithmetic())});
+    const LeftOut left_out = copy_run_file(
+        file_, target, {.scenario = text, .coordinates = names_.q, .momenta = names_.p, .table = states_});
     if (!left_out.tables.empty()) {
       note += fmt::format("{}not in {}: {}, states of the run in {} coordinates", note.empty() ? "" : "; ",
                           target.string(), fmt::join(left_out.tables, ", "), from_);
@@ -159,8 +129,59 @@ class ConvertedRun::Impl {
  private:
   const Scenario& scenario() const { return *reading_.scenario; }
   const std::string& arithmetic() const { return scenario().request.arithmetic; }
-  /// In the run's arithmetic, with the whole turns that the doubles have been given.
-  void convert_digits(std::size_t k, const CanonicalState& in_double, const DigitState& given) {
+  bool has_digits() const { return given_.find("digits/t") != nullptr; }
+
+  void convert_all() {
+    const std::size_t size = target_->info.coordinates.size();
+    const auto list = [&](const char* name, const std::vector<std::string>& parts, const char* meaning) {
+      return ColumnInfo{.name = name, .width = size, .scalar = false, .parts = parts, .meaning = meaning};
+    };
+    const auto digits_of = [&](ColumnInfo info) {
+      info.name = "digits/" + info.name;
+      info.type = ValueType::text;
+      info.text_size = longest_digits(arithmetic());
+      return Column(info);
+    };
+    const ColumnInfo of_q = list("q", names_.q, "coordinates, converted");
+    const ColumnInfo of_p = list("p", names_.p, "canonical momenta, converted");
+    Column q(of_q);
+    Column p(of_p);
+    Column q_digits = digits_of(of_q);
+    Column p_digits = digits_of(of_p);
+    StateConverter convert(*scenario().problem, *target_, scenario().request.parameters);
+    for (std::size_t k = 0; k < given_.rows(); ++k) {
+      try {
+        CanonicalState state = convert({given_["q"].row(k), given_["p"].row(k)});
+        if (has_digits()) {
+          const DigitState digits =
+              convert_digits(state, {given_["digits/q"].row_of_texts(k), given_["digits/p"].row_of_texts(k)});
+          for (const std::string& x : digits.q) q_digits.add(x);
+          for (const std::string& x : digits.p) p_digits.add(x);
+        }
+        for (const double x : state.q) q.add(x);
+        for (const double x : state.p) p.add(x);
+      } catch (const Error& error) {
+        throw Error(fmt::format("sample {}, t = {}: {}", k, shortest(given_["t"].numbers()[k]), error.what()));
+      }
+    }
+    states_.add(std::move(q));
+    states_.add(std::move(p));
+    if (has_digits()) {
+      states_.add(std::move(q_digits));
+      states_.add(std::move(p_digits));
+      for (const auto& [name, meaning] : {std::pair{"energy", "H(q, p)"}, std::pair{"t", "time"}}) {
+        Column column = digits_of({.name = name, .parts = {name}, .meaning = meaning});
+        for (const std::string& x : given_[std::string("digits/") + name].texts()) column.add(x);
+        states_.add(std::move(column));
+      }
+    }
+    turn_ = std::max(convert.largest_turn(), fastest_turn(convert.turning()));
+    turning_ = joined(convert.turning(), [this](std::size_t i) { return target_->info.coordinates[i]; });
+  }
+
+  /// In the run's arithmetic, with the whole turns that the doubles have been given. The doubles become those of the
+  /// digits.
+  DigitState convert_digits(CanonicalState& in_double, const DigitState& given) const {
     DigitState state = in_chart_of(*target_, without_own_walls(*scenario().problem), scenario().request.parameters,
                                    arithmetic(), given);
     for (std::size_t i = 0; i < state.q.size(); ++i) {
@@ -169,50 +190,30 @@ class ConvertedRun::Impl {
         const double missing = in_double.q[i] - evaluate_number<double>(state.q[i]);
         state.q[i] = turned(state.q[i], std::llround(missing / (2 * pi_value<double>())), arithmetic());
       }
-      digits_.q[i][k] = state.q[i];
-      digits_.p[i][k] = state.p[i];
-      samples_.q[i][k] = evaluate_number<double>(state.q[i]);
-      samples_.p[i][k] = evaluate_number<double>(state.p[i]);
+      in_double.q[i] = evaluate_number<double>(state.q[i]);
+      in_double.p[i] = evaluate_number<double>(state.p[i]);
     }
+    return state;
   }
-  /// A run that goes on may have got a row between two looks.
-  void cut_to_equal_length() {
-    for (const auto* columns : {&digits_.q, &digits_.p}) {
-      if (columns->size() != samples_.q.size()) {
-        throw FileError(file_.string() + " is damaged: its states in /digits have another length than /q");
-      }
-    }
-    const std::size_t rows = std::min(samples_.t.size(), digits_.t.size());
-    const auto cut = [rows](auto&... columns) { (columns.resize(rows), ...); };
-    cut(samples_.t, samples_.energy, digits_.t, digits_.energy);
-    for (std::size_t i = 0; i < samples_.q.size(); ++i) cut(samples_.q[i], samples_.p[i], digits_.q[i], digits_.p[i]);
-  }
-  template <class T>
-  static std::vector<T> row_of(const std::vector<std::vector<T>>& columns, std::size_t k) {
-    std::vector<T> row;
-    for (const std::vector<T>& column : columns) row.push_back(column[k]);
-    return row;
-  }
-  DigitState digits_at(std::size_t k) const { return {row_of(digits_.q, k), row_of(digits_.p, k)}; }
   /// The rate of such an angle times the time to the next sample, at most: it shows whole turns.
   double fastest_turn(const std::vector<std::size_t>& angles) const {
     double most = 0;
-    for (std::size_t k = 0; k + 1 < samples_.t.size() && !angles.empty(); ++k) {
-      const CanonicalState s = state_at(k);
-      const std::vector<double> rates = target_->rates(scenario().request.parameters, s.q, s.p);
-      for (const std::size_t i : angles) {
-        most = std::max(most, std::abs(rates[i] * (samples_.t[k + 1] - samples_.t[k])));
-      }
+    const std::span<const double> t = given_["t"].numbers();
+    for (std::size_t k = 0; k + 1 < t.size() && !angles.empty(); ++k) {
+      const std::vector<double> rates =
+          target_->rates(scenario().request.parameters, states_["q"].row(k), states_["p"].row(k));
+      for (const std::size_t i : angles) most = std::max(most, std::abs(rates[i] * (t[k + 1] - t[k])));
     }
     return most;
   }
-  CanonicalState state_at(std::size_t k) const { return {row_of(samples_.q, k), row_of(samples_.p, k)}; }
 
   fs::path file_;
   std::string to_;
   std::string from_;
-  RunSamples samples_;
-  RunDigits digits_;  // of the same samples; empty of a run in double
+  StoredRun run_;
+  const Table& given_;  // its samples
+  Table states_;        // q and p in the coordinates `to`; of a run beyond double with the columns digits/...
+  StateNames names_;
   Reading reading_;
   double turn_ = 0;
   std::string turning_;

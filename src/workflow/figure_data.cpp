@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "hamflow/core/text.hpp"
 #include "hamflow/formula/problem_texts.hpp"
@@ -65,12 +66,12 @@ fs::path file_of(const fs::path& run) {
 }
 
 /// The scenario that a run.h5 carries.
-Scenario scenario_of(const RunSamples& samples, const fs::path& file) {
-  const std::string& text = samples.description.scenario;
+Scenario scenario_of(const StoredRun& run, const fs::path& file) {
+  const std::string& text = run.description.scenario;
   const Reading reading = read_scenario_text(text, file.string(), {});
   if (!reading.scenario)
     throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
-  check_states(*reading.scenario, samples, file);
+  check_states(*reading.scenario, run.description, file);
   return *reading.scenario;
 }
 
@@ -95,33 +96,57 @@ std::vector<std::string> names_of_bodies(const std::string& problem) {
   return {};
 }
 
-/// H - H0 of a run beyond double, formed with all its digits; empty for others. Of a run that goes on the digits of the
-/// last samples may not be there yet: their differences are not known.
-std::vector<double> energy_differences(const fs::path& file, std::size_t samples) {
-  std::vector<std::string> energy = read_run_digits(file).energy;
-  if (energy.empty()) return {};
-  if (energy.size() > samples) energy.resize(samples);
+/// H - H0 of a run beyond double, formed with all its digits; empty for others.
+std::vector<double> energy_differences(const Table& samples) {
+  const Column* const energy = samples.find("digits/energy");
+  if (energy == nullptr) return {};
   std::vector<double> differences;
-  for (const long double difference : differences_from_first(energy)) {
+  for (const long double difference : differences_from_first(energy->texts())) {
     differences.push_back(static_cast<double>(difference));
   }
-  differences.resize(samples, std::numeric_limits<double>::quiet_NaN());
   return differences;
 }
 
-void add_section(const Section& section, const StateNames& names, RunSamples& samples, FigureData& data) {
+/// The values of a column; none where there is no such column.
+std::vector<double> values_of(const Table& table, const char* name) {
+  const Column* const column = table.find(name);
+  return column == nullptr ? std::vector<double>() : column->part(0);
+}
+/// Each coordinate of a column of states; none where there is no such column.
+std::vector<std::vector<double>> by_coordinate(const Table& table, const char* name) {
+  std::vector<std::vector<double>> all;
+  const Column* const column = table.find(name);
+  for (std::size_t i = 0; column != nullptr && i < column->info().width; ++i) all.push_back(column->part(i));
+  return all;
+}
+/// The columns of a group: NAME, or NAME_1, NAME_2, ... of several numbers a row.
+std::vector<std::pair<std::string, std::vector<double>>> columns_in(const Table& table, const std::string& group) {
+  std::vector<std::pair<std::string, std::vector<double>>> all;
+  for (const Column& column : table.columns()) {
+    if (!column.name().starts_with(group) || column.info().type != ValueType::number) continue;
+    const std::string name = column.name().substr(group.size());
+    for (std::size_t i = 0; i < column.info().width; ++i) {
+      all.emplace_back(column.info().width == 1 ? name : name + "_" + std::to_string(i + 1), column.part(i));
+    }
+  }
+  return all;
+}
+
+void add_section(const Section& section, const StateNames& names, const Table& points, FigureData& data) {
   const std::size_t shown = coordinate_shown(section, data.q.size());
-  data.section_q = std::move(samples.section_q[shown]);
-  data.section_p = std::move(samples.section_p[shown]);
+  data.section_q = points["q"].part(shown);
+  data.section_p = points["p"].part(shown);
   data.section_coordinate = data.coordinates[shown];
   data.section_momentum = data.momenta[shown];
   data.section_text = section_text(section, names);
 }
 
 /// The samples and the bounces, in the order of their times; nothing where bounces are not located.
-FigureSamples path_of(const Scenario& scenario, const RunSamples& samples) {
+FigureSamples path_of(const Scenario& scenario, const FigureSamples& samples, const Table& bounces) {
   const auto walls = walls_among(scenario.request.variant);
-  if (!walls || walls->rule != WallRule::event || samples.wall_t.empty()) return {};
+  if (!walls || walls->rule != WallRule::event || bounces.rows() == 0) return {};
+  const std::span<const double> met = bounces["t"].numbers();
+  const std::vector<std::vector<double>> met_q = by_coordinate(bounces, "q");
   const std::size_t n = samples.q.size();
   const double forward = samples.t.back() < samples.t.front() ? -1 : 1;
   FigureSamples path;
@@ -132,8 +157,8 @@ FigureSamples path_of(const Scenario& scenario, const RunSamples& samples) {
   };
   std::size_t bounce = 0;
   for (std::size_t k = 0; k < samples.t.size(); ++k) {
-    for (; bounce < samples.wall_t.size() && forward * samples.wall_t[bounce] < forward * samples.t[k]; ++bounce) {
-      add(samples.wall_t[bounce], samples.wall_q, bounce);
+    for (; bounce < met.size() && forward * met[bounce] < forward * samples.t[k]; ++bounce) {
+      add(met[bounce], met_q, bounce);
     }
     add(samples.t[k], samples.q, k);
   }
@@ -176,13 +201,14 @@ bool in_title(const std::pair<std::string, std::string>& fact) {
 }
 
 /// The gas, or several bodies in space.
-FigureParticles particles_of(const Scenario& scenario, const fs::path& file, std::size_t size, std::size_t space) {
+FigureParticles particles_of(const Scenario& scenario, std::size_t space, Positions positions) {
   FigureParticles all;
   if (scenario.problem->dimension != 0 || space < 2) return all;
+  const std::size_t size = scenario.start_q.size();
   all.gas = scenario.request.problem == GasKeys::problem;
   all.space = space;
   all.count = size / space;
-  all.positions = [file](std::size_t sample) { return read_run_positions(file, sample); };
+  all.positions = std::move(positions);
   if (!all.gas) return all;
   const Parameters<double> parameters(scenario.request.parameters);
   const auto container = scenario.request.variant.find(GasKeys::container);
@@ -211,36 +237,37 @@ std::string problem_text(const Scenario& scenario) {
   return request.problem + ", V = " + figures::shortened({potential->second}, longest)[0];
 }
 
-RunForFigure read_for_figure(const fs::path& run, const std::vector<std::string>& kinds) {
-  const fs::path source = file_of(run);
-  RunSamples samples = read_run_file(source, most_named_coordinates);
-  if (samples.t.empty()) throw FileError(source.string() + " holds no samples");
+RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const fs::path& run,
+                        const std::vector<std::string>& kinds, Positions positions) {
   RunForFigure result;
-  result.scenario = scenario_of(samples, source);
-  const Scenario& scenario = result.scenario;
+  result.scenario = scenario;
   const ProblemEntry& problem = *scenario.problem;
   const Texts& parameters = scenario.request.parameters;
   FigureData& data = result.data;
   data.has_time = problem.structure && problem.structure->time;
-  const std::size_t size = samples.description.dimension;
-  const StateNames names = samples.q.empty() ? StateNames{} : state_names(problem, parameters, size);
+  const std::size_t size = scenario.start_q.size();
+  const Table& samples = tables.samples;
+  if (samples.rows() == 0) throw FileError(run.string() + " holds no samples");
+  data.t = values_of(samples, "t");
+  data.q = by_coordinate(samples, "q");
+  data.p = by_coordinate(samples, "p");
+  const StateNames names = data.q.empty() ? StateNames{} : state_names(problem, parameters, size);
   data.coordinates = names.q;
   data.momenta = names.p;
   data.angles = problem.info.angles;
   data.space = space_of(scenario, size);
-  data.particles = particles_of(scenario, source, size, data.space);
+  if (!positions && problem.dimension == 0) {
+    positions = [q = samples["q"]](std::size_t sample) { return q.row(sample); };
+  }
+  data.particles = particles_of(scenario, data.space, std::move(positions));
   data.bodies = names_of_bodies(scenario.request.problem);
   const ColumnUnits units = column_units(scenario);
   data.units = {units.t.empty() ? "" : units.t + "s", units.q, units.p, units.energy};
-  data.path = path_of(scenario, samples);
-  result.notes = std::move(samples.left_out);
-  data.t = std::move(samples.t);
-  data.q = std::move(samples.q);
-  data.p = std::move(samples.p);
-  data.energy = std::move(samples.energy);
-  data.least_difference = std::move(samples.least_difference);
-  data.largest_difference = std::move(samples.largest_difference);
-  data.energy_difference = energy_differences(source, data.t.size());
+  data.path = path_of(scenario, data, tables.bounces);
+  data.energy = values_of(samples, "energy");
+  data.least_difference = values_of(samples, "energy_error_min");
+  data.largest_difference = values_of(samples, "energy_error_max");
+  data.energy_difference = energy_differences(samples);
   const bool reversal = data.energy.empty();
   data.every_step = !reversal && static_cast<std::int64_t>(data.t.size()) > scenario.steps;
   // Samples at given times need not reach the end.
@@ -252,21 +279,34 @@ RunForFigure read_for_figure(const fs::path& run, const std::vector<std::string>
     const auto radius = problem.exact_radius(parameters, scenario.start_q, scenario.start_p);
     if (radius) sample_polar_curve(radius, data);
   }
-  data.diagnostics = std::move(samples.diagnostics);
-  data.observables = std::move(samples.observables);
-  data.invariants = std::move(samples.invariants);
+  for (const auto& [name, meaning] : diagnostic_columns) {
+    if (const Column* const column = samples.find(name)) {
+      data.diagnostics.emplace_back(std::string(name).substr(std::string("solver/").size()), column->part(0));
+    }
+  }
+  data.observables = columns_in(samples, "observables/");
+  data.invariants = columns_in(samples, "invariants/");
   // The level curve of H goes on behind walls, and is none of the motion where H changes with t.
   if (problem.dimension == 1 && !data.has_time && !has_hard_walls(scenario.request)) {
     data.hamiltonian_1d = [&problem, parameters](double q, double p) { return problem.energy(parameters, {q}, {p}); };
   }
-  if (scenario.section && samples.description.section && (data.q.size() >= 2 || scenario.section->by_time_alone)) {
-    add_section(*scenario.section, names, samples, data);
+  if (scenario.section && !tables.section.empty() && (data.q.size() >= 2 || scenario.section->by_time_alone)) {
+    add_section(*scenario.section, names, tables.section, data);
   }
   fs::path named = run;
   if (named.filename() == "run.h5" && named.has_parent_path()) named = named.parent_path();
   if (!named.has_filename()) named = named.parent_path();
   result.name = (named.extension() == ".run" ? named.stem() : named.filename()).string();  // not "dt0" of dt0.1
   result.facts = facts_of(scenario);
+  return result;
+}
+
+RunForFigure read_for_figure(const fs::path& run, const std::vector<std::string>& kinds) {
+  const fs::path source = file_of(run);
+  StoredRun stored = read_run_file(source, {.most_coordinates = most_named_coordinates, .digits = true});
+  RunForFigure result = for_figure(scenario_of(stored, source), stored.tables, run, kinds,
+                                   [source](std::size_t sample) { return read_run_positions(source, sample); });
+  result.notes = std::move(stored.left_out);
   return result;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "figure.hpp"
+#include "hamflow/run/run_tables.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
@@ -24,7 +26,14 @@ struct RunForFigure {
   Scenario scenario;
 };
 
-/// @param run a folder or run.h5   @param kinds of the figures; none: not chosen yet   @throws FileError
+/// All positions of particles at a sample.
+using Positions = std::function<std::vector<double>(std::size_t sample)>;
+
+/// @param run the folder of the run, by which it is named   @param kinds of the figures; none: not chosen yet
+/// @param positions none: those of the table
+RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const std::filesystem::path& run,
+                        const std::vector<std::string>& kinds, Positions positions = {});
+/// @param run a folder or run.h5   @throws FileError
 RunForFigure read_for_figure(const std::filesystem::path& run, const std::vector<std::string>& kinds = {});
 
 /// Where samples begin later than the run, and a time before them is asked for, the start becomes one of them; what

@@ -55,11 +55,14 @@ void draw_figure(const std::filesystem::path& run, const std::string& kind, cons
   draw_figure({.runs = {run}, .kind = kind, .file = file});
 }
 
-std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder) {
+std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder,
+                                      const RunTables* tables) {
   std::vector<std::string> missing;
   if (scenario.figures.empty()) return missing;
   std::filesystem::create_directories(folder / "figures");
-  std::vector<RunForFigure> run{read_for_figure(folder, scenario.figures)};
+  std::vector<RunForFigure> run;
+  run.push_back(tables != nullptr ? for_figure(scenario, *tables, folder, scenario.figures)
+                                  : read_for_figure(folder, scenario.figures));
   tell_apart(run);
   const bool has_path = std::any_of(scenario.figures.begin(), scenario.figures.end(), draws_path);
   const FigureSamples opening = has_path ? opening_of(run[0]) : FigureSamples{};

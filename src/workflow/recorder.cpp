@@ -22,15 +22,17 @@ Recorder::Recorder(const Scenario& scenario, const std::filesystem::path& folder
         std::upper_bound(scenario.record_steps.begin(), scenario.record_steps.end(), from->step) -
         scenario.record_steps.begin());
   }
-  if (wants("h5")) {
+  if (folder.empty() || wants("h5")) {
     RunDescription description = description_of(scenario, static_cast<std::size_t>(sample_count(scenario)));
     description.identity = identity;
-    const std::filesystem::path file = folder / "run.h5";
-    h5_ = from == nullptr ? std::make_unique<RunFile>(file, description)
-                          : std::make_unique<RunFile>(file, description, from->rows, from->section_rows,
-                                                      from->wall_rows, from->event_rows);
+    if (from == nullptr) {
+      rows_.emplace(description);
+    } else {
+      rows_.emplace(description, RowCounts{from->rows, from->section_rows, from->wall_rows, from->event_rows});
+    }
+    if (!folder.empty()) h5_ = std::make_unique<RunFile>(folder / "run.h5", description, *rows_);
   }
-  if (wants("csv")) {
+  if (!folder.empty() && wants("csv")) {
     const std::filesystem::path file = folder / "trajectory.csv";
     csv_ = from == nullptr ? std::make_unique<CsvFile>(file, scenario.start_q.size(), csv_columns(scenario))
                            : std::make_unique<CsvFile>(file, from->csv_bytes, from->csv_hash);
@@ -58,7 +60,8 @@ Verdict Recorder::observe(const Frame& frame) {
   const bool is_for_the_end = !by_times() && frame.step % scenario_.record_every != 0;
   if (is_for_the_end) before_the_end_ = sizes();
   const std::vector<double> observables = observable_values(scenario_, frame);
-  if (h5_) h5_->append(frame, observables);
+  if (rows_) rows_->append(frame, observables);
+  if (h5_) h5_->flush_if_many();
   if (csv_) csv_->append(frame, observables);
   if (!is_for_the_end) restart_range_();  // a longer run has no such sample, and goes on with the range
   last_ = frame.step;
@@ -67,19 +70,25 @@ Verdict Recorder::observe(const Frame& frame) {
 }
 
 void Recorder::append(const SectionPoint& point) {
-  if (h5_) h5_->append(point);
+  if (!rows_) return;
+  rows_->append(point);
+  if (h5_) h5_->flush_if_many();
 }
 
 void Recorder::append(const Bounce& bounce) {
-  if (wants_bounces()) h5_->append(bounce);
+  if (!wants_bounces()) return;
+  rows_->append(bounce);
+  if (h5_) h5_->flush_if_many();
 }
 bool Recorder::wants_bounces() const {
-  return h5_ && h5_->wall_rows() < static_cast<std::uint64_t>(scenario_.record_events);
+  return rows_ && rows_->bounce_rows() < static_cast<std::uint64_t>(scenario_.record_events);
 }
 
 void Recorder::append(std::size_t event, std::int64_t step, const SectionPoint& point) {
   const auto most = static_cast<std::uint64_t>(scenario_.record_events);
-  if (h5_ && h5_->event_rows().at(event) < most) h5_->append(event, step, point);
+  if (!rows_ || rows_->event_rows(event) >= most) return;
+  rows_->append(event, step, point);
+  if (h5_) h5_->flush_if_many();
 }
 
 void Recorder::finish(const Simulation& simulation) {
@@ -101,7 +110,7 @@ void Recorder::flush_if_due() {
 }
 
 Recorder::Sizes Recorder::sizes() const {
-  return {h5_ ? h5_->rows() : 0, csv_ ? csv_->bytes() : 0, csv_ ? csv_->hash() : 0};
+  return {rows_ ? rows_->counts().samples : 0, csv_ ? csv_->bytes() : 0, csv_ ? csv_->hash() : 0};
 }
 
 void Recorder::mark(Checkpoint& checkpoint) {
@@ -110,9 +119,10 @@ void Recorder::mark(Checkpoint& checkpoint) {
   if (csv_) force_to_disk(folder_ / "trajectory.csv");
   const Sizes now = before_the_end_.value_or(sizes());
   checkpoint.rows = now.rows;
-  checkpoint.section_rows = h5_ ? h5_->section_rows() : 0;  // a point of the section is there, however the run goes on
-  checkpoint.wall_rows = h5_ ? h5_->wall_rows() : 0;
-  if (h5_) checkpoint.event_rows = h5_->event_rows();
+  const RowCounts counts = rows_ ? rows_->counts() : RowCounts{};
+  checkpoint.section_rows = counts.section;  // a point of the section is there, however the run goes on
+  checkpoint.wall_rows = counts.bounces;
+  checkpoint.event_rows = counts.events;
   checkpoint.csv_bytes = now.csv_bytes;
   checkpoint.csv_hash = now.csv_hash;
 }

@@ -1,4 +1,5 @@
-// Writes the samples of a run: the start, every n-th step and the last one; or the states at given times.
+// Records a run: its samples, which are the start, every n-th step and the last one, or the states at given times; and
+// points of sections, events and bounces. With a folder they go to its files, without one they stay in memory.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +17,7 @@ namespace hamflow {
 
 class Recorder final : public Observer {
  public:
+  /// @param folder empty: nothing is written
   /// @param identity of the run   @param from where the run goes on; null: at its start
   /// @param restart_range Simulation::restart_energy_range(): a sample has the range since the one before
   /// @throws FileError
@@ -39,6 +41,14 @@ class Recorder final : public Observer {
   /// The lengths that the files would have if the run had no end yet go into the checkpoint; the files are written and
   /// forced to the disk. This is the recorder's archive(): it is read before the files are opened.
   void mark(Checkpoint& checkpoint);
+  /// All that was recorded; null where it is not all in memory.
+  const RunTables* tables() const { return rows_ && rows_->complete() ? &rows_->tables() : nullptr; }
+  /// Ends the files. What is in memory stays.
+  void close() {
+    h5_.reset();
+    csv_.reset();
+  }
+  RunTables take_tables() { return rows_ ? rows_->take() : RunTables{}; }
   /// The time of the sample at which a run stopped for want of a partial step; else nothing.
   std::optional<std::string> failed_at(std::int64_t step) const;
 
@@ -54,6 +64,7 @@ class Recorder final : public Observer {
   const Scenario& scenario_;
   std::filesystem::path folder_;
   std::function<void()> restart_range_;
+  std::optional<RunRows> rows_;  // none where only trajectory.csv is written
   std::unique_ptr<RunFile> h5_;
   std::unique_ptr<CsvFile> csv_;
   std::int64_t first_ = 0;               // step from which samples are still to be written

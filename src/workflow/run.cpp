@@ -53,16 +53,16 @@ constexpr double patience = 0.4;  // seconds that the certificate, and then the 
 
 /// A run that was interrupted has its figures too, if they take no longer than somebody would wait who asked it to
 /// stop.
-/// @param asked_before whether somebody did
+/// @param asked_before whether somebody did   @param tables of the run; null: they are read from its folder
 void draw(const Scenario& scenario, const RunSettings& settings, std::int64_t step, bool asked_before,
-          RunReport& report) {
+          const RunTables* tables, RunReport& report) {
   const auto begin = std::chrono::steady_clock::now();
   const figures::WhileDrawing watch([&] {
     if (!asked_before) return !settings.pulse || settings.pulse(step);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < patience;
   });
   try {
-    for (const std::string& missing : draw_figures(scenario, settings.folder)) note(settings, missing);
+    for (const std::string& missing : draw_figures(scenario, settings.folder, tables)) note(settings, missing);
   } catch (const figures::DrawingStopped& stopped) {
     report.file_trouble = stopped.what();
     report.drawing_stopped = true;
@@ -106,6 +106,9 @@ class ScenarioRun {
       }
       recorder_ = std::make_unique<Recorder>(scenario_, settings.folder, last->identity, from,
                                              [this] { simulation_->restart_energy_range(); });
+    } else if (settings.samples && last == nullptr) {
+      recorder_ = std::make_unique<Recorder>(scenario_, fs::path(), std::string(), nullptr,
+                                             [this] { simulation_->restart_energy_range(); });
     }
     if (recorder_) simulation_->tell_bounces([this](const Bounce& bounce) { recorder_->append(bounce); });
     measures_.emplace(scenario_, *simulation_, recorder_.get());
@@ -117,7 +120,10 @@ class ScenarioRun {
     }
     if (from != nullptr) restore_observers(*from, archived);
     for (const NamedObserver& each : archived) observers_.push_back(each.observer);
-    if (!writes()) return;
+    if (!writes()) {
+      if (recorder_) observers_.push_back(recorder_.get());
+      return;
+    }
     folder_->remove("summary.json");  // of the part before
     checkpoints_ = std::make_unique<CheckpointWriter>(scenario_, *simulation_, *recorder_, std::move(archived),
                                                       settings.folder, *last);
@@ -178,7 +184,11 @@ class ScenarioRun {
     report.wall_seconds = result.wall_seconds;
     report.json = json_text(summary);
     describe(summary, report);
-    if (writes()) finish_folder(report);
+    if (writes()) {
+      finish_folder(report);
+    } else if (recorder_) {
+      report.tables = recorder_->take_tables();
+    }
     return report;
   }
 
@@ -218,7 +228,7 @@ class ScenarioRun {
       result.outcome = run(*simulation_, scenario_.steps, observers_, [&](std::int64_t step) {
         if (recorder_) {
           recorder_->flush_if_due();
-          checkpoints_->write_if_due();
+          if (checkpoints_) checkpoints_->write_if_due();
           if (!recorder_->wants_bounces()) simulation_->tell_bounces({});  // its steps then bounce by themselves
         }
         return !settings_.pulse || settings_.pulse(step);
@@ -230,7 +240,7 @@ class ScenarioRun {
           result.failure = "the partial step to the sample at t = " + *time + " failed";
         }
         recorder_->finish(*simulation_);
-        if (status_of(result.outcome) != "failed") checkpoints_->write();
+        if (checkpoints_ && status_of(result.outcome) != "failed") checkpoints_->write();
       }
     } catch (const FileError& error) {  // a full disk, say: what was computed is still reported
       result.file_trouble = error.what();
@@ -259,10 +269,10 @@ class ScenarioRun {
       checkpoints_->expect_summary(report.json);
       folder_->write("summary.json", report.json);
       checkpoints_.reset();
-      recorder_.reset();  // closes run.h5, from which the figures are drawn
+      recorder_->close();
       if (report.status != "failed") {
         const bool asked_before = report.status == "interrupted" || certificate_stopped_;
-        draw(scenario_, settings_, simulation_->step(), asked_before, report);
+        draw(scenario_, settings_, simulation_->step(), asked_before, recorder_->tables(), report);
       }
     } catch (const std::exception& error) {  // the run itself is done
       report.file_trouble = error.what();
@@ -288,7 +298,7 @@ class ScenarioRun {
 
 }  // namespace
 
-RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
+RunReport run(const Scenario& requested, const RunSettings& settings) {
   std::optional<WorkFolder> place;
   if (!settings.folder.empty()) place.emplace(settings.folder, run_folder(), settings.existing);
   WorkFolder* const folder = place ? &*place : nullptr;
@@ -308,7 +318,7 @@ RunReport run_scenario(const Scenario& requested, const RunSettings& settings) {
       note(settings, "the run is complete: there is nothing to do");
     } else {
       note(settings, "the run is complete: its figures are drawn");
-      draw(requested, settings, from->step, false, report);
+      draw(requested, settings, from->step, false, nullptr, report);
     }
     return report;
   }

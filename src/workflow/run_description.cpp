@@ -167,10 +167,9 @@ RunDescription description_of(const Scenario& scenario, std::size_t samples) {
           .digits_length = longest_digits(request.arithmetic)};
 }
 
-void check_states(const Scenario& scenario, const RunSamples& samples, const std::filesystem::path& file) {
-  const std::size_t found = samples.description.dimension;
-  if (found == scenario.start_q.size()) return;
-  throw FileError(file.string() + " is damaged: its states have " + std::to_string(found) +
+void check_states(const Scenario& scenario, const RunDescription& found, const std::filesystem::path& file) {
+  if (found.dimension == scenario.start_q.size()) return;
+  throw FileError(file.string() + " is damaged: its states have " + std::to_string(found.dimension) +
                   " coordinates, those of its scenario " + std::to_string(scenario.start_q.size()));
 }
 

@@ -1,8 +1,10 @@
 // What run.h5 holds beside its samples, from the scenario.
 #pragma once
 
+#include <filesystem>
+
 #include "hamflow/scenario/scenario.hpp"
-#include "run_file.hpp"
+#include "run_header.hpp"
 
 namespace hamflow {
 
@@ -34,7 +36,7 @@ std::vector<std::string> changes_on_the_way(std::string_view scenario);
 RunDescription description_of(const Scenario& scenario, std::size_t samples);
 
 /// @throws FileError where states of a file have another length than those of the scenario in it
-void check_states(const Scenario& scenario, const RunSamples& samples, const std::filesystem::path& file);
+void check_states(const Scenario& scenario, const RunDescription& found, const std::filesystem::path& file);
 
 /// The name of this machine.
 std::string host_name();

@@ -6,6 +6,7 @@
 #include "hamflow/workflow/session.hpp"
 #include "hamflow/workflow/work_folder.hpp"
 #include "run_description.hpp"
+#include "run_file.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
 #include "whole_file.hpp"
@@ -65,10 +66,14 @@ void save_session(const Session& session, const SampleKeeper& samples, const Ses
   description.particles.time_grows = std::adjacent_find(kept.begin(), kept.end(), falls) == kept.end();
   WholeFile whole(folder / "run.h5", next_name(folder / "run.h5"));
   {
-    RunFile h5(whole.part(), description);
-    for (const Frame& sample : kept) h5.append(sample, observable_values(present, sample));
+    RunRows rows(description);
+    RunFile h5(whole.part(), description, rows);
+    for (const Frame& sample : kept) {
+      rows.append(sample, observable_values(present, sample));
+      h5.flush_if_many();
+    }
     if (description.walls) {
-      for (const Bounce& bounce : session.bounces()) h5.append(bounce);
+      for (const Bounce& bounce : session.bounces()) rows.append(bounce);
     }
     h5.flush();
   }

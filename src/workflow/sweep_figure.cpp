@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "figure.hpp"
 #include "figure_data.hpp"
@@ -62,16 +63,21 @@ struct DrawnColumn {
   std::string name;
   std::vector<double> numbers;
 };
+std::vector<double> as_numbers(const Column& column, std::size_t i) {
+  if (column.info().type == ValueType::number) return column.part(i);
+  const std::span<const std::int64_t> counts = column.integers();
+  return {counts.begin(), counts.end()};
+}
 std::vector<DrawnColumn> drawn_columns(const Sweep& sweep) {
   std::vector<DrawnColumn> all;
-  for (SweepColumn& column : columns_of(sweep)) {
-    column.numbers.insert(column.numbers.end(), column.counts.begin(), column.counts.end());
-    for (std::size_t i = 0; !column.numbers.empty() && i < column.width; ++i) {
-      DrawnColumn& one = all.emplace_back(DrawnColumn{column.scalar ? column.name : csv_name(column, i), {}});
-      for (std::size_t row = 0; row < column.rows(); ++row)
-        one.numbers.push_back(column.numbers[row * column.width + i]);
+  const Table members = members_of(sweep);
+  for (const Column& column : members.columns()) {
+    const ColumnInfo& info = column.info();
+    if (info.type == ValueType::text) continue;
+    for (std::size_t i = 0; i < info.width; ++i) {
+      all.push_back({info.scalar ? info.name : csv_name(column, i), as_numbers(column, i)});
     }
-    if (!column.numbers.empty() && column.width == 1 && !column.scalar) all.push_back({column.name, column.numbers});
+    if (info.width == 1 && !info.scalar) all.push_back({info.name, as_numbers(column, 0)});
   }
   return all;
 }

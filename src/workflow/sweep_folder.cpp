@@ -111,9 +111,9 @@ void SweepFolder::save_if_due() {
   is_behind_ = false;
   try {
     auto hold = sweep_.hold_rows();
-    const SweepTable table = table_of(sweep_);
+    const SweepTables tables = tables_of(sweep_);
     hold.unlock();
-    write_table(table);
+    write_table(tables);
   } catch (const std::exception&) {  // a full disk, too little memory: the sweep itself goes on
     failed_ = true;
   }
@@ -121,18 +121,18 @@ void SweepFolder::save_if_due() {
   pause_ = std::max<Clock::duration>(std::chrono::milliseconds(250), 20 * (last_ - now));
 }
 
-void SweepFolder::write_table(const SweepTable& table) const {
+void SweepFolder::write_table(const SweepTables& tables) const {
   journal_->force();
   const std::vector<std::string>& formats = sweep_.common().formats;
   const auto is_wanted = [&](const char* format) {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
   };
-  if (is_wanted("h5")) write_sweep_h5(folder_ / "sweep.h5", sweep_, table, {HAMFLOW_VERSION, host_name()});
-  if (is_wanted("csv")) write_sweep_csv(folder_.path(), table);
+  if (is_wanted("h5")) write_sweep_h5(folder_ / "sweep.h5", sweep_, tables, {HAMFLOW_VERSION, host_name()});
+  if (is_wanted("csv")) write_sweep_csv(folder_.path(), tables);
 }
 
 void SweepFolder::save(const std::string& summary) {
-  write_table(table_of(sweep_));
+  write_table(tables_of(sweep_));
   folder_.write("summary.json", summary);
 }
 

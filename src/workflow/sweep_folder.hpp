@@ -38,7 +38,7 @@ class SweepFolder {
  private:
   using Clock = std::chrono::steady_clock;
   void restore(SweepPast& past);
-  void write_table(const SweepTable& table) const;
+  void write_table(const SweepTables& tables) const;
 
   Sweep& sweep_;
   WorkFolder folder_;

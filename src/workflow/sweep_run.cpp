@@ -14,6 +14,7 @@
 #include "sweep_figure.hpp"
 #include "sweep_folder.hpp"
 #include "sweep_report.hpp"
+#include "sweep_table.hpp"
 #include "toml_path.hpp"
 #include "warnings.hpp"
 
@@ -233,6 +234,9 @@ std::vector<Complaint> ScenarioSweep::keep_in(const fs::path& folder, Existing e
   impl_->notes.insert(impl_->notes.end(), notes.begin(), notes.end());
   return impl_->folder->wrong();
 }
+
+Table ScenarioSweep::members() const { return members_of(*impl_->sweep); }
+Table ScenarioSweep::sections() const { return sections_of(*impl_->sweep); }
 
 std::string ScenarioSweep::json_with_rows(const SweepReport& report) const {
   const Sweep& sweep = *impl_->sweep;

@@ -152,7 +152,7 @@ const std::vector<Template>& templates() {
       list.push_back(std::move(one));
     };
     for (const auto& [name, text] : {std::pair{"kepler", kepler}, {"beyond", beyond}, {"walls", walls}, {"gas", gas}}) {
-      (void)run_scenario(scenario_of(text), {.folder = work_folder() / name});
+      (void)run(scenario_of(text), {.folder = work_folder() / name});
       add(name, "run.h5", text);
       add(name, "checkpoint.bin", text);
     }
@@ -394,8 +394,8 @@ std::function<bool(std::int64_t)> half_a_second() {
 
 void resume(const Template& of, const fs::path& folder) {
   attempt([&] {
-    (void)run_scenario(scenario_of(of.scenario, {"run.steps=8"}),
-                       {.folder = folder, .existing = Existing::resume, .pulse = half_a_second()});
+    (void)run(scenario_of(of.scenario, {"run.steps=8"}),
+              {.folder = folder, .existing = Existing::resume, .pulse = half_a_second()});
   });
 }
 

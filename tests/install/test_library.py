@@ -116,7 +116,7 @@ class Library(unittest.TestCase):
     def test_every_declared_function_links(self):
         """That it links is shown by setUpClass; here, that functions of each kind were asked for."""
         names = {name.partition("(")[0].removeprefix("hamflow::") for name in self.functions.values()}
-        for name in ("largest_lyapunov", "run_scenario", "find_method", "TangentFrame::TangentFrame", "EnergyBlocks::next_due"):
+        for name in ("largest_lyapunov", "run", "find_method", "TangentFrame::TangentFrame", "EnergyBlocks::next_due"):
             self.assertIn(name, names)
         must(DECLARED / "declared")
 
@@ -126,7 +126,7 @@ class Library(unittest.TestCase):
         link = subprocess.run(["g++", built, "-Wl,--gc-sections", *PREFIX.rglob("libhamflow.a"), "-lqd", "-lquadmath", "-lmpfr", "-lgmp",
                                "-o", FOLDER / "core_alone"], capture_output=True, text=True)
         missing = set(re.findall(r"undefined reference to `hamflow::(\w+)\(", link.stderr))
-        self.assertTrue({"largest_lyapunov", "run_scenario", "draw_figure"} <= missing)
+        self.assertTrue({"largest_lyapunov", "run", "draw_figure"} <= missing)
         self.assertFalse({"find_method", "make_simulation"} & missing)
 
     def test_programs_and_snippets_of_the_documents_run(self):

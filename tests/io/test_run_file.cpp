@@ -37,6 +37,25 @@ const RunDescription description{.scenario = "text",
                                  .dimension = 2,
                                  .invariants = {{"angular_momentum", 1}}};
 
+/// A run.h5 that is being written.
+class Written {
+ public:
+  /// @param kept rows of the samples of the file that is there; none: a new file
+  Written(const std::filesystem::path& file, const RunDescription& run, std::optional<std::uint64_t> kept = {})
+      : rows_(run, kept ? std::optional(RowCounts{.samples = *kept}) : std::nullopt), file_(file, run, rows_) {}
+  template <class... Row>
+  void append(const Row&... row) {
+    rows_.append(row...);
+    file_.flush_if_many();
+  }
+  void flush() { file_.flush(); }
+  std::uint64_t rows() const { return rows_.counts().samples; }
+
+ private:
+  RunRows rows_;
+  RunFile file_;
+};
+
 class RunFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -46,26 +65,31 @@ class RunFileTest : public ::testing::Test {
   std::filesystem::path file_;
 };
 
-void expect_rows(const RunSamples& run, std::int64_t at_least) {
-  ASSERT_GE(static_cast<std::int64_t>(run.t.size()), at_least);
-  for (std::size_t k = 0; k < run.t.size(); ++k) {
+std::size_t rows_of(const StoredRun& run) { return run.tables.samples.rows(); }
+
+void expect_rows(const StoredRun& run, std::int64_t at_least) {
+  ASSERT_GE(static_cast<std::int64_t>(rows_of(run)), at_least);
+  const Table& samples = run.tables.samples;
+  const auto q = samples["q"].numbers();
+  const auto p = samples["p"].numbers();
+  for (std::size_t k = 0; k < rows_of(run); ++k) {
     const Frame wanted = row(static_cast<std::int64_t>(k));
-    ASSERT_EQ(run.t[k], wanted.time);
-    ASSERT_EQ(run.energy[k], wanted.energy);
+    ASSERT_EQ(samples["t"].numbers()[k], wanted.time);
+    ASSERT_EQ(samples["energy"].numbers()[k], wanted.energy);
     for (std::size_t i = 0; i < 2; ++i) {
-      ASSERT_EQ(run.q[i][k], wanted.q[i]);
-      ASSERT_EQ(run.p[i][k], wanted.p[i]);
+      ASSERT_EQ(q[2 * k + i], wanted.q[i]);
+      ASSERT_EQ(p[2 * k + i], wanted.p[i]);
     }
   }
 }
 
 TEST_F(RunFileTest, RoundTrip) {
   {
-    RunFile file(file_, description);
+    Written file(file_, description);
     for (std::int64_t k = 0; k < 20000; ++k) file.append(row(k));
   }
-  const RunSamples run = read_run_file(file_);
-  EXPECT_EQ(run.t.size(), 20000u);
+  const StoredRun run = read_run_file(file_);
+  EXPECT_EQ(rows_of(run), 20000u);
   expect_rows(run, 20000);
   EXPECT_EQ(run.description.scenario, "text");
   EXPECT_EQ(run.description.method, "m");
@@ -80,46 +104,48 @@ TEST_F(RunFileTest, RangesOfTheEnergyAreThereWhereTheyAreWritten) {
     return frame;
   };
   {
-    RunFile file(file_, with_range);
+    Written file(file_, with_range);
     for (std::int64_t k = 0; k < 700; ++k) file.append(ranged(k));
   }
   {
-    RunFile file(file_, with_range, 500);  // goes on behind them
+    Written file(file_, with_range, 500);  // goes on behind them
     for (std::int64_t k = 500; k < 600; ++k) file.append(ranged(k));
   }
-  const RunSamples run = read_run_file(file_);
+  const StoredRun run = read_run_file(file_);
   expect_rows(run, 600);
-  ASSERT_EQ(run.least_difference.size(), 600U);
-  ASSERT_EQ(run.largest_difference.size(), 600U);
+  const auto least = run.tables.samples["energy_error_min"].numbers();
+  const auto largest = run.tables.samples["energy_error_max"].numbers();
+  ASSERT_EQ(least.size(), 600U);
+  ASSERT_EQ(largest.size(), 600U);
   for (std::size_t k = 0; k < 600; ++k) {
-    EXPECT_EQ(run.least_difference[k], -0.25 * static_cast<double>(k));
-    EXPECT_EQ(run.largest_difference[k], 0.5 * static_cast<double>(k));
+    EXPECT_EQ(least[k], -0.25 * static_cast<double>(k));
+    EXPECT_EQ(largest[k], 0.5 * static_cast<double>(k));
   }
-  { RunFile(file_, description).append(row(0)); }  // as files of older versions are
-  EXPECT_EQ(read_run_file(file_).t.size(), 1U);
-  EXPECT_TRUE(read_run_file(file_).least_difference.empty());
+  { Written(file_, description).append(row(0)); }  // as files of older versions are
+  EXPECT_EQ(rows_of(read_run_file(file_)), 1U);
+  EXPECT_EQ(read_run_file(file_).tables.samples.find("energy_error_min"), nullptr);
 }
 
 TEST_F(RunFileTest, PointsOfASectionHaveRowsOfTheirOwn) {
   RunDescription with_section = description;
   with_section.section = true;
   {
-    RunFile file(file_, with_section);
+    Written file(file_, with_section);
     for (std::int64_t k = 0; k < 3; ++k) file.append(row(k));
     for (int k = 0; k < 5; ++k) file.append(SectionPoint{0.25 * k, {0.0, 1.0 * k}, {2.0 * k, 3.0 * k}, 0});
     file.flush();
-    EXPECT_EQ(read_run_file(file_).section_t.size(), 5U);
+    EXPECT_EQ(read_run_file(file_).tables.section.rows(), 5U);
     file.append(SectionPoint{1.25, {0, 5}, {10, 15}, 0});
   }
-  const RunSamples run = read_run_file(file_);
+  const StoredRun run = read_run_file(file_);
   expect_rows(run, 3);
-  ASSERT_EQ(run.section_t.size(), 6U);
+  const Table& section = run.tables.section;
+  ASSERT_EQ(section.rows(), 6U);
   for (std::size_t k = 0; k < 6; ++k) {
     const auto x = static_cast<double>(k);
-    EXPECT_EQ(run.section_t[k], 0.25 * x);
-    EXPECT_EQ(run.section_q[1][k], x);
-    EXPECT_EQ(run.section_p[0][k], 2 * x);
-    EXPECT_EQ(run.section_p[1][k], 3 * x);
+    EXPECT_EQ(section["t"].numbers()[k], 0.25 * x);
+    EXPECT_EQ(section["q"].row(k)[1], x);
+    EXPECT_EQ(section["p"].row(k), (std::vector<double>{2 * x, 3 * x}));
   }
 }
 
@@ -133,38 +159,35 @@ TEST_F(RunFileTest, DigitsHaveRowsOfTheirOwnWidth) {
     return frame;
   };
   {
-    RunFile file(file_, in_quad);
+    Written file(file_, in_quad);
     for (std::int64_t k = 0; k < 3000; ++k) file.append(with_digits(k));
     Frame longer = with_digits(0);
     longer.digits.energy = "123456789";
-    EXPECT_THROW(file.append(longer), FileError);
+    EXPECT_THROW(file.append(longer), Error);
   }
   {
-    RunFile file(file_, in_quad, 2000);  // goes on behind them
+    Written file(file_, in_quad, 2000);  // goes on behind them
     for (std::int64_t k = 2000; k < 2500; ++k) file.append(with_digits(k));
   }
-  const RunDigits digits = read_run_digits(file_);
-  ASSERT_EQ(digits.t.size(), 2500U);
-  ASSERT_EQ(digits.q.size(), 2U);
+  const Table samples = read_run_file(file_, {.digits = true}).tables.samples;
+  ASSERT_EQ(samples.rows(), 2500U);
   for (std::int64_t k = 0; k < 2500; ++k) {
     const FrameDigits wanted = with_digits(k).digits;
     const auto at = static_cast<std::size_t>(k);
-    ASSERT_EQ(digits.t[at], wanted.time);
-    ASSERT_EQ(digits.energy[at], wanted.energy);
-    for (std::size_t i = 0; i < 2; ++i) {
-      ASSERT_EQ(digits.q[i][at], wanted.q[i]);
-      ASSERT_EQ(digits.p[i][at], wanted.p[i]);
-    }
+    ASSERT_EQ(samples["digits/t"].text(at), wanted.time);
+    ASSERT_EQ(samples["digits/energy"].text(at), wanted.energy);
+    ASSERT_EQ(samples["digits/q"].row_of_texts(at), wanted.q);
+    ASSERT_EQ(samples["digits/p"].row_of_texts(at), wanted.p);
   }
   in_quad.digits_length = 9;
-  EXPECT_THROW(RunFile(file_, in_quad, 1), FileError);
-  { RunFile(file_, description).append(row(0)); }
-  EXPECT_TRUE(read_run_digits(file_).t.empty());
+  EXPECT_THROW(Written(file_, in_quad, 1), FileError);
+  { Written(file_, description).append(row(0)); }
+  EXPECT_EQ(read_run_file(file_, {.digits = true}).tables.samples.find("digits/t"), nullptr);
 }
 
 TEST_F(RunFileTest, ADamagedRowIsAnErrorAndNotAnotherRow) {
   {
-    RunFile file(file_, description);
+    Written file(file_, description);
     for (std::int64_t k = 0; k < 700; ++k) file.append(row(k));
   }
   // The bytes of some coordinate: q[1] of row 543.
@@ -177,8 +200,8 @@ TEST_F(RunFileTest, ADamagedRowIsAnErrorAndNotAnotherRow) {
   file.put(static_cast<char>(bytes[at] ^ 1));
   file.close();
   EXPECT_THROW(read_run_file(file_), FileError);
-  EXPECT_THROW(RunFile(file_, description, 700), FileError);
-  RunFile(file_, description, 100);  // what is not damaged is there to go on from
+  EXPECT_THROW(Written(file_, description, 700), FileError);
+  Written(file_, description, 100);  // what is not damaged is there to go on from
 }
 
 TEST_F(RunFileTest, NamesOfALargeSystemAreThere) {
@@ -191,12 +214,12 @@ TEST_F(RunFileTest, NamesOfALargeSystemAreThere) {
   Frame frame = row(0);
   frame.q.assign(large.dimension, 1.0);
   frame.p.assign(large.dimension, 2.0);
-  { RunFile(file_, large).append(frame); }
-  EXPECT_EQ(read_run_file(file_).q.size(), large.dimension);
+  { Written(file_, large).append(frame); }
+  EXPECT_EQ(read_run_file(file_).tables.samples["q"].info().width, large.dimension);
 }
 
 TEST_F(RunFileTest, ReadableWhileItGrows) {
-  RunFile file(file_, description);
+  Written file(file_, description);
   for (std::int64_t k = 0; k < 100; ++k) file.append(row(k));
   file.flush();
   expect_rows(read_run_file(file_), 100);
@@ -205,27 +228,27 @@ TEST_F(RunFileTest, ReadableWhileItGrows) {
 TEST_F(RunFileTest, GoesOnAfterTheRowsThatStay) {
   for (const std::uint64_t kept : {0u, 1u, 777u, 20000u}) {  // within a chunk, and over several batches
     {
-      RunFile file(file_, description);
+      Written file(file_, description);
       for (std::int64_t k = 0; k < 20000; ++k) file.append(row(k));
     }
-    RunFile file(file_, description, kept);
+    Written file(file_, description, kept);
     EXPECT_EQ(file.rows(), kept);
     expect_rows(read_run_file(file_), static_cast<std::int64_t>(kept));
     for (auto k = static_cast<std::int64_t>(kept); k < 21000; ++k) file.append(row(k));
     EXPECT_EQ(file.rows(), 21000u);
     file.flush();
-    const RunSamples run = read_run_file(file_);
-    EXPECT_EQ(run.t.size(), 21000u);
+    const StoredRun run = read_run_file(file_);
+    EXPECT_EQ(rows_of(run), 21000u);
     expect_rows(run, 21000);
   }
 }
 
 TEST_F(RunFileTest, CannotGoOnAfterMoreRowsThanThereAre) {
-  { RunFile(file_, description).append(row(0)); }
-  EXPECT_THROW(RunFile(file_, description, 2), FileError);
+  { Written(file_, description).append(row(0)); }
+  EXPECT_THROW(Written(file_, description, 2), FileError);
   RunDescription other = description;
   other.dimension = 3;
-  EXPECT_THROW(RunFile(file_, other, 1), FileError);
+  EXPECT_THROW(Written(file_, other, 1), FileError);
   expect_rows(read_run_file(file_), 1);  // it is as it was
   EXPECT_FALSE(std::filesystem::exists(file_.string() + ".new"));
 }
@@ -233,13 +256,13 @@ TEST_F(RunFileTest, CannotGoOnAfterMoreRowsThanThereAre) {
 TEST_F(RunFileTest, RowsOfALargeSystemDoNotPileUp) {
   RunDescription large = description;
   large.dimension = 100000;
-  RunFile file(file_, large);
+  Written file(file_, large);
   Frame frame = row(0);
   frame.q.assign(large.dimension, 1.0);
   frame.p.assign(large.dimension, 2.0);
   for (int k = 0; k < 40; ++k) file.append(frame);
   // 2^20 numbers wait at most: 5 rows of 200010 numbers.
-  EXPECT_EQ(read_run_file(file_).t.size(), 40u);
+  EXPECT_EQ(rows_of(read_run_file(file_)), 40u);
 }
 
 TEST_F(RunFileTest, ConfirmedRowsAreThereToGoOnFromAfterAKill) {
@@ -250,7 +273,7 @@ TEST_F(RunFileTest, ConfirmedRowsAreThereToGoOnFromAfterAKill) {
     const pid_t child = fork();
     if (child == 0) {
       close(confirmed[0]);
-      RunFile file(file_, description);
+      Written file(file_, description);
       for (std::int64_t k = 0;; ++k) {
         file.append(row(k));
         if (k % 37 != 36) continue;
@@ -267,7 +290,7 @@ TEST_F(RunFileTest, ConfirmedRowsAreThereToGoOnFromAfterAKill) {
     for (std::int64_t count = 0; read(confirmed[0], &count, sizeof count) == sizeof count;) last = count;
     close(confirmed[0]);
     if (last == 0) continue;
-    RunFile file(file_, description, static_cast<std::uint64_t>(last));
+    Written file(file_, description, static_cast<std::uint64_t>(last));
     for (std::int64_t k = last; k < last + 100; ++k) file.append(row(k));
     file.flush();
     expect_rows(read_run_file(file_), last + 100);
@@ -277,7 +300,7 @@ TEST_F(RunFileTest, ConfirmedRowsAreThereToGoOnFromAfterAKill) {
 
 TEST_F(RunFileTest, NotARunFileIsSaid) {
   EXPECT_THROW(read_run_file("no such file"), FileError);
-  EXPECT_THROW(RunFile("no such folder/run.h5", description), FileError);
+  EXPECT_THROW(Written("no such folder/run.h5", description), FileError);
 }
 
 TEST_F(RunFileTest, ConfirmedRowsSurviveKill) {
@@ -288,7 +311,7 @@ TEST_F(RunFileTest, ConfirmedRowsSurviveKill) {
     const pid_t child = fork();
     if (child == 0) {
       close(confirmed[0]);
-      RunFile file(file_, description);
+      Written file(file_, description);
       for (std::int64_t k = 0;; ++k) {
         file.append(row(k));
         if (k % 37 != 36) continue;

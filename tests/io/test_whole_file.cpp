@@ -79,9 +79,11 @@ TEST_F(WholeFiles, LinksUnderTheOtherNameAreNotFollowed) {
   WholeFile named(folder_ / "y");
   write_whole(named, "new");
   CsvFile csv(plant(folder_ / "t.csv"), 1, std::vector<InvariantColumn>{});
-  { RunFile run(folder_ / "run.h5", {.dimension = 1}); }
+  const RunDescription description{.dimension = 1};
+  RunRows rows(description);
+  { RunFile run(folder_ / "run.h5", description, rows); }
   plant(folder_ / "run.h5.new");
-  { RunFile run(folder_ / "run.h5", {.dimension = 1}); }
+  { RunFile run(folder_ / "run.h5", description, rows); }
   write_reverse_file((plant(folder_ / "reverse.h5.new"), folder_ / "reverse.h5"), "text", {}, {}, nullptr);
   EXPECT_EQ(text("mine"), "mine");
   for (const char* name : {"x", "y", "t.csv", "run.h5", "reverse.h5"}) {

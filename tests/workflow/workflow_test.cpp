@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
+#include "hamflow/arithmetic/quad.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/scenario/value.hpp"
 #include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
@@ -38,6 +42,17 @@ formats = ["h5", "csv"]
 Scenario scenario(const std::vector<std::string>& sets = {}) {
   return accepted(read_scenario_text(chaos, "chaos", sets));
 }
+
+constexpr const char* plain = R"(
+[problem]
+name = "henon-heiles"
+initial = { q = [0, -0.15], p = [0.3, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 100
+)";
 
 std::string content(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -108,7 +123,7 @@ class Forgetful final : public Observer {
 };
 
 TEST_F(Workflow, AReportHoldsTheNumbersOfItsSummary) {
-  const RunReport report = run_scenario(scenario());
+  const RunReport report = run(scenario());
   EXPECT_EQ(report.status, "done");
   EXPECT_EQ(report.outcome, Outcome::done);
   EXPECT_EQ(report.final.step, 3000);
@@ -121,40 +136,40 @@ TEST_F(Workflow, AReportHoldsTheNumbersOfItsSummary) {
 
 TEST_F(Workflow, ACertificateThatWasStoppedBehindAnEventIsMadeUpFor) {
   const Scenario short_run = scenario({R"(run.events=[{ expression = "t - 120.05", action = "stop" }])"});
-  const RunReport wanted = run_scenario(short_run, in("whole"));
+  const RunReport wanted = run(short_run, in("whole"));
   ASSERT_EQ(wanted.status, "done");
   ASSERT_NE(wanted.json.find("\"stopped_by\""), std::string::npos);
   ASSERT_EQ(wanted.final.step, 1201);
 
   RunSettings settings = in("part");
   settings.pulse = [](std::int64_t step) { return step < 1201; };  // asked at the last step by the certificate alone
-  const RunReport stopped = run_scenario(short_run, settings);
+  const RunReport stopped = run(short_run, settings);
   ASSERT_EQ(stopped.status, "interrupted");
   ASSERT_TRUE(stopped.certificate->reversal->was_stopped);
 
-  const RunReport found = run_scenario(short_run, in("part", Existing::resume));
+  const RunReport found = run(short_run, in("part", Existing::resume));
   EXPECT_FALSE(found.was_complete);
   EXPECT_EQ(without_seconds(found.json), without_seconds(wanted.json));
   EXPECT_EQ(content(folder_ / "part" / "trajectory.csv"), content(folder_ / "whole" / "trajectory.csv"));
-  EXPECT_TRUE(run_scenario(short_run, in("part", Existing::resume)).was_complete);
+  EXPECT_TRUE(run(short_run, in("part", Existing::resume)).was_complete);
 }
 
 TEST_F(Workflow, StoppedByAnObserverAndResumed) {
   Counter whole;
   RunSettings settings = in("whole");
   settings.observers = {&whole};
-  const RunReport wanted = run_scenario(scenario(), settings);
+  const RunReport wanted = run(scenario(), settings);
   ASSERT_EQ(wanted.status, "done");
   EXPECT_EQ(whole.count, 3001);
 
   settings = in("part");
   Counter first(1234);
   settings.observers = {&first};
-  EXPECT_EQ(run_scenario(scenario(), settings).status, "interrupted");
+  EXPECT_EQ(run(scenario(), settings).status, "interrupted");
   settings.existing = Existing::resume;
   Counter second;
   settings.observers = {&second};
-  const RunReport found = run_scenario(scenario(), settings);
+  const RunReport found = run(scenario(), settings);
   EXPECT_EQ(second.count, 3001);
   EXPECT_EQ(without_seconds(found.json), without_seconds(wanted.json));
   EXPECT_EQ(content(folder_ / "part" / "trajectory.csv"), content(folder_ / "whole" / "trajectory.csv"));
@@ -163,13 +178,13 @@ TEST_F(Workflow, StoppedByAnObserverAndResumed) {
 
   Counter third;
   settings.observers = {&third};
-  const RunReport again = run_scenario(scenario(), settings);
+  const RunReport again = run(scenario(), settings);
   EXPECT_TRUE(again.was_complete);
   EXPECT_EQ(again.json, found.json);
   EXPECT_EQ(again.final.q, wanted.final.q);
   EXPECT_EQ(third.count, 3001);
   settings.observers = {};  // the checkpoint has one more
-  EXPECT_THROW(run_scenario(scenario({"run.steps=4000"}), settings), FileError);
+  EXPECT_THROW(run(scenario({"run.steps=4000"}), settings), FileError);
 }
 
 /// Samples about half a period apart show a modulation that is not there; the range of the steps between them does not.
@@ -187,10 +202,13 @@ steps = 5_050_505
 )";
   const Scenario whole = accepted(read_scenario_text(orbit, "orbit", {}));
   ASSERT_GT(whole.record_every, 500);
-  ASSERT_EQ(run_scenario(whole, in("whole")).status, "done");
-  const RunSamples run = read_run_file(folder_ / "whole" / "run.h5");
-  ASSERT_EQ(run.least_difference.size(), run.t.size());
-  ASSERT_EQ(run.largest_difference.size(), run.t.size());
+  ASSERT_EQ(run(whole, in("whole")).status, "done");
+  const Table samples = read_run_file(folder_ / "whole" / "run.h5").tables.samples;
+  const auto energy = samples["energy"].numbers();
+  const auto least_difference = samples["energy_error_min"].numbers();
+  const auto largest_difference = samples["energy_error_max"].numbers();
+  ASSERT_EQ(least_difference.size(), samples.rows());
+  ASSERT_EQ(largest_difference.size(), samples.rows());
   const auto heights = [](std::size_t rows, const auto& low_at, const auto& high_at) {
     constexpr std::size_t together = 20;
     std::vector<double> all;
@@ -201,38 +219,175 @@ steps = 5_050_505
     }
     return std::pair(*std::min_element(all.begin(), all.end()), *std::max_element(all.begin(), all.end()));
   };
-  const auto sampled = [&](std::size_t k) { return run.energy[k]; };
-  const auto [least_sampled, largest_sampled] = heights(run.t.size(), sampled, sampled);
+  const auto sampled = [&](std::size_t k) { return energy[k]; };
+  const auto [least_sampled, largest_sampled] = heights(samples.rows(), sampled, sampled);
   EXPECT_LT(least_sampled, 0.1 * largest_sampled) << "this case shows nothing";
   const auto [least, largest] = heights(
-      run.t.size(), [&](std::size_t k) { return run.least_difference[k]; },
-      [&](std::size_t k) { return run.largest_difference[k]; });
+      samples.rows(), [&](std::size_t k) { return least_difference[k]; },
+      [&](std::size_t k) { return largest_difference[k]; });
   EXPECT_GT(least, 0.99 * largest);
-  for (std::size_t k = 0; k < run.t.size(); ++k) {
-    const double difference = run.energy[k] - run.energy[0];
-    ASSERT_LE(run.least_difference[k], difference) << k;
-    ASSERT_GE(run.largest_difference[k], difference) << k;
+  for (std::size_t k = 0; k < samples.rows(); ++k) {
+    const double difference = energy[k] - energy[0];
+    ASSERT_LE(least_difference[k], difference) << k;
+    ASSERT_GE(largest_difference[k], difference) << k;
   }
 
   RunSettings settings = in("part");
   settings.pulse = [](std::int64_t step) { return step < 1'234'567; };
-  ASSERT_EQ(run_scenario(whole, settings).status, "interrupted");
-  ASSERT_EQ(run_scenario(whole, in("part", Existing::resume)).status, "done");
-  const RunSamples part = read_run_file(folder_ / "part" / "run.h5");
-  EXPECT_EQ(part.energy, run.energy);
-  EXPECT_EQ(part.least_difference, run.least_difference);
-  EXPECT_EQ(part.largest_difference, run.largest_difference);
+  ASSERT_EQ(run(whole, settings).status, "interrupted");
+  ASSERT_EQ(run(whole, in("part", Existing::resume)).status, "done");
+  const Table part = read_run_file(folder_ / "part" / "run.h5").tables.samples;
+  for (const char* name : {"energy", "energy_error_min", "energy_error_max"}) {
+    EXPECT_EQ(part[name].part(0), samples[name].part(0)) << name;
+  }
+}
+
+/// The columns that both have: a file says what a run in memory says, to the last bit.
+void expect_same(const Table& found, const Table& wanted) {
+  for (const Column& column : found.columns()) {
+    const Column& other = wanted[column.name()];
+    ASSERT_EQ(column.rows(), other.rows()) << column.name();
+    EXPECT_EQ(column.info().width, other.info().width) << column.name();
+    if (column.info().type == ValueType::text) {
+      EXPECT_EQ(column.texts(), other.texts()) << column.name();
+    } else {
+      EXPECT_TRUE(std::ranges::equal(column.bytes(), other.bytes())) << column.name();
+    }
+  }
+}
+
+TEST_F(Workflow, ARunInMemoryHasTheTablesOfItsFile) {
+  const std::vector<std::string> with_events{"run.events=[{name=\"up\",expression=\"p1\"}]",
+                                             "output.observables={r2=\"q1^2+q2^2\"}"};
+  std::vector<std::string> in_digits = with_events;
+  in_digits.insert(in_digits.end(), {"run.arithmetic=mp(30)", "run.lyapunov=false", "run.eigenvalues=false",
+                                     "run.steps=300", "output.formats=[\"h5\"]"});
+  for (const auto& sets : {with_events, in_digits}) {
+    const Scenario one = scenario(sets);
+    const RunReport report = run(one);
+    ASSERT_EQ(run(one, in("file", Existing::replace)).status, "done");
+    const StoredRun stored = read_run_file(folder_ / "file" / "run.h5", {.digits = true, .events = true});
+    ASSERT_GT(report.tables.samples.rows(), 100U);
+    ASSERT_GT(report.tables.section.rows(), 2U);
+    ASSERT_EQ(report.tables.events.size(), 1U);
+    ASSERT_GT(report.tables.events[0].rows(), 2U);
+    expect_same(stored.tables.samples, report.tables.samples);
+    expect_same(stored.tables.section, report.tables.section);
+    ASSERT_EQ(stored.tables.events.size(), 1U);
+    expect_same(stored.tables.events[0], report.tables.events[0]);
+    EXPECT_EQ(report.tables.samples["t"].numbers().back(), report.final.time);
+    EXPECT_EQ(report.tables.samples["q"].row(report.tables.samples.rows() - 1), report.final.q);
+  }
+  RunSettings settings;
+  settings.samples = false;
+  EXPECT_TRUE(run(scenario(), settings).tables.samples.empty());
+}
+
+TEST_F(Workflow, AScenarioFromATreeOfValuesIsThatOfItsText) {
+  const double third = 1.0 / 3;
+  const Value::Table tree{
+      {"problem", Value::Table{{"name", "formula"},
+                               {"hamiltonian", "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"},
+                               {"parameters", Value::Table{{"k", third}}},
+                               {"initial", Value::Table{{"q", std::vector<double>{0.1, -0.15}},
+                                                        {"p", Value::List{Value(0.3), Value("1/10")}}}}}},
+      {"method", Value::Table{{"name", "stv4"}}},
+      {"run", Value::Table{{"dt", 0.1}, {"steps", 500}, {"certificate", false}}}};
+  const Scenario from_tree = accepted(read_scenario_tree(tree, "tree"));
+  EXPECT_EQ(from_tree.text, scenario_text(tree));
+  const RunReport found = run(from_tree);
+  const RunReport wanted = run(accepted(read_scenario_text(R"(
+[problem]
+name = "formula"
+hamiltonian = "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"
+parameters = { k = 0.3333333333333333 }
+initial = { q = [0.1, -0.15], p = [0.3, 0.1] }
+[method]
+name = "stv4"
+[run]
+dt = 0.1
+steps = 500
+certificate = false
+)",
+                                                           "text", {})));
+  expect_same(found.tables.samples, wanted.tables.samples);
+  EXPECT_FALSE(found.certificate.has_value());
+
+  Value::Table wrong = tree;
+  wrong[2].second = Value::Table{{"dt", "no number"}, {"step", 5}};
+  const Reading refused = read_scenario_tree(wrong, "tree");
+  EXPECT_FALSE(refused.scenario);
+  EXPECT_GE(refused.complaints.size(), 2U);
+  wrong.push_back({"run", Value::Table{}});
+  EXPECT_THROW((void)scenario_text(wrong), Error);
+}
+
+TEST_F(Workflow, BouncesInMemoryAreThoseOfTheFile) {
+  const Scenario one = accepted(read_scenario_text(
+      plain, "plain",
+      {"problem.walls=[{coordinate=\"q1\",min=-0.2,max=0.2}]", "run.arithmetic=quad", "run.steps=400"}));
+  const RunReport report = run(one);
+  ASSERT_EQ(run(one, in("file")).status, "done");
+  const StoredRun stored = read_run_file(folder_ / "file" / "run.h5", {.events = true});
+  ASSERT_GT(report.tables.bounces.rows(), 5U);
+  expect_same(stored.tables.bounces, report.tables.bounces);
+  // They lie on the walls in the arithmetic of the run: to more digits than a double has.
+  const Column& digits = report.tables.bounces["digits/q"];
+  for (std::size_t k = 0; k < digits.rows(); ++k) {
+    const Quad q = evaluate_number<Quad>(std::string(digits.text(k, 0)));
+    const Quad wall = q < 0 ? -evaluate_number<Quad>("0.2") : evaluate_number<Quad>("0.2");
+    EXPECT_LT(std::abs(static_cast<double>(q - wall)), 1e-30) << k;
+  }
+}
+
+TEST_F(Workflow, WhatAPulseOrAnObserverThrowsReachesTheCaller) {
+  struct Mine : std::runtime_error {
+    using std::runtime_error::runtime_error;
+  };
+  struct Thrower final : Observer {
+    std::int64_t next_due(std::int64_t step) const override { return std::max<std::int64_t>(step, 500); }
+    Verdict observe(const Frame&) override { throw Mine("observer"); }
+    void archive(Writer&) override {}
+    void archive(Reader&) override {}
+  };
+  Thrower thrower;
+  RunSettings settings;
+  settings.observers = {&thrower};
+  EXPECT_THROW(run(scenario(), settings), Mine);
+  settings = in("thrown");
+  settings.pulse = [](std::int64_t) -> bool { throw Mine("pulse"); };
+  EXPECT_THROW(run(scenario({"run.steps=3000000"}), settings), Mine);
+  EXPECT_EQ(run(scenario(), in("thrown", Existing::replace)).status, "done");  // nobody holds the folder
+  ScenarioSweep sweep({.text = chaos, .name = "chaos", .sets = {"run.steps=300000"}, .varied = {"run.dt=0.1,0.12"}});
+  EXPECT_THROW((void)sweep.run([](std::int64_t) -> bool { throw Mine("pulse"); }), Mine);
+}
+
+TEST_F(Workflow, ASweepHasColumns) {
+  const std::string varied = "problem.initial.p[1]";
+  ScenarioSweep sweep({.text = plain, .name = "plain", .varied = {varied + "=0.1:0.12:11000"}});
+  ASSERT_TRUE(sweep.complaints().empty());
+  ASSERT_EQ(sweep.run().status, "done");
+  const Table members = sweep.members();
+  ASSERT_EQ(members.rows(), 11000U);
+  for (const std::size_t k : {0U, 10999U}) {
+    const std::string start = shortest(members["varied/" + varied].numbers()[k]);
+    const RunReport one = run(accepted(read_scenario_text(plain, "plain", {varied + "=" + start})));
+    EXPECT_EQ(members["final/q"].row(k), one.final.q);
+    EXPECT_EQ(members["energy/max_error"].numbers()[k], one.energy.max_error);
+    EXPECT_EQ(members["member/status"].text(k), "done");
+  }
+  EXPECT_TRUE(sweep.sections().empty());
 }
 
 TEST_F(Workflow, AnObserverWithoutArchiveIsRefusedBeforeAnythingIsWritten) {
   Forgetful observer;
   RunSettings settings = in("refused");
   settings.observers = {&observer};
-  EXPECT_THROW(run_scenario(scenario(), settings), Error);
+  EXPECT_THROW(run(scenario(), settings), Error);
   EXPECT_EQ(observer.count, 0);
   EXPECT_FALSE(fs::exists(folder_ / "refused"));
   settings.folder.clear();  // without checkpoints it may watch
-  EXPECT_EQ(run_scenario(scenario(), settings).status, "done");
+  EXPECT_EQ(run(scenario(), settings).status, "done");
   EXPECT_EQ(observer.count, 3001);
 }
 
@@ -244,10 +399,10 @@ TEST_F(Workflow, RequestsThatAreWrong) {
     EXPECT_EQ(rejection.complaints.size(), 2U);
     EXPECT_NE(std::string(rejection.what()).find("did you mean"), std::string::npos);
   }
-  (void)run_scenario(scenario(), in("r"));
-  EXPECT_THROW(run_scenario(scenario(), in("r")), FileError);
-  EXPECT_THROW(run_scenario(scenario({"run.dt=0.2"}), in("r", Existing::resume)), Rejection);
-  EXPECT_EQ(run_scenario(scenario({"run.dt=0.2"}), in("r", Existing::replace)).status, "done");
+  (void)run(scenario(), in("r"));
+  EXPECT_THROW(run(scenario(), in("r")), FileError);
+  EXPECT_THROW(run(scenario({"run.dt=0.2"}), in("r", Existing::resume)), Rejection);
+  EXPECT_EQ(run(scenario({"run.dt=0.2"}), in("r", Existing::replace)).status, "done");
   EXPECT_THROW(draw_figure(folder_ / "r", "orbits", folder_ / "x.svg"), Error);
   EXPECT_THROW(draw_figure(folder_ / "none", "orbit", folder_ / "x.svg"), FileError);
 }
@@ -305,7 +460,7 @@ dt = 0.01
 steps = 3
 )",
                                                    "gas", {}));
-  const RunReport report = run_scenario(gas);
+  const RunReport report = run(gas);
   const auto simulation = make_simulation(gas.request);
   ASSERT_EQ(simulation->advance(3), Outcome::done);
   Frame frame;

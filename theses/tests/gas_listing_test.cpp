@@ -17,7 +17,7 @@ namespace {
 
 RunReport run_of(const std::string& toml) {
   const Reading reading = read_scenario_text(toml, "gas.toml", {});
-  return run_scenario(*reading.scenario);
+  return run(*reading.scenario);
 }
 
 RunReport gas(const std::string& scale, int steps) {

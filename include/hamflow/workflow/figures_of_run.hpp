@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/run/run_tables.hpp"
 #include "hamflow/scenario/scenario.hpp"
 
 namespace hamflow {
@@ -31,8 +32,10 @@ void draw_figure(const FigureRequest& request);
 void draw_figure(const std::filesystem::path& run, const std::string& kind, const std::filesystem::path& file);
 
 /// Draws those that the scenario requests in output.figures, each as .svg, .pdf and .png, into figures/ of the folder
-/// of its run.   @return why those are missing that what came of the run does not allow: a section without points
+/// of its run.   @param tables of the run; null: they are read from its folder   @return why those are missing that
+/// what came of the run does not allow: a section without points
 /// @throws FileError
-std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder);
+std::vector<std::string> draw_figures(const Scenario& scenario, const std::filesystem::path& folder,
+                                      const RunTables* tables = nullptr);
 
 }  // namespace hamflow

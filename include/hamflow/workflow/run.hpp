@@ -1,5 +1,5 @@
-// A scenario becomes a run: its samples, checkpoints, summary and figures in a folder; or, without a folder, the
-// numbers alone. This is what `hamflow run` calls; nothing here prints, reads the environment or catches signals.
+// A scenario becomes a run: its samples, checkpoints, summary and figures in a folder; or, without a folder, its tables
+// in memory. This is what `hamflow run` calls; nothing here prints, reads the environment or catches signals.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hamflow/run/observer.hpp"
+#include "hamflow/run/run_tables.hpp"
 #include "hamflow/scenario/rejection.hpp"
 #include "hamflow/verify/certificate.hpp"
 #include "hamflow/workflow/work_folder.hpp"
@@ -19,7 +20,9 @@ namespace hamflow {
 struct RunSettings {
   std::filesystem::path folder{};  // empty: nothing is written
   Existing existing = Existing::refuse;
-  /// Called several times a second with the steps taken; returns false to stop at the step boundary reached.
+  bool samples = true;  // without a folder: whether samples, sections, events and bounces are kept in memory
+  /// Called several times a second with the steps taken; returns false to stop at the step boundary reached. What it
+  /// throws, and what an observer throws, ends the run and reaches the caller; files then are as a kill leaves them.
   std::function<bool(std::int64_t step)> pulse{};
   /// Called with what is worth a note, a sentence each.
   std::function<void(const std::string& note)> note{};
@@ -38,6 +41,7 @@ struct RunReport {
   bool drawing_stopped = false;         // the run ended, its figures were not drawn because pulse() said to stop
   bool was_complete = false;            // resumed, and there was nothing to do
   Outcome outcome = Outcome::done;
+  RunTables tables;  // of a run without a folder: what it recorded
   Frame final;
   Excursion energy;
   double energy_scale = 0;
@@ -50,7 +54,7 @@ struct RunReport {
 
 /// @throws Rejection when the scenario does not go on with the run in the folder   @throws Error when an observer has
 /// no archive()   @throws FileError when the folder cannot be used
-RunReport run_scenario(const Scenario& scenario, const RunSettings& settings = {});
+RunReport run(const Scenario& scenario, const RunSettings& settings = {});
 
 /// Where `hamflow run` puts a run: `out` if given, else the scenario's folder, else <stem of its file>.run in the
 /// working directory.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hamflow/core/table.hpp"
 #include "hamflow/workflow/run.hpp"
 
 namespace hamflow {
@@ -66,8 +67,14 @@ class ScenarioSweep {
   [[nodiscard]] std::vector<Complaint> keep_in(const std::filesystem::path& folder, Existing existing);
 
   /// Runs all members that are not finished, and writes the folder, if there is one, also where it was stopped.
-  /// @throws FileError   @param pulse called several times a second with the steps taken by all; returns false to stop
+  /// @throws FileError   @param pulse called several times a second, on the thread of the caller, with the steps taken
+  /// by all; returns false to stop. What it throws stops the sweep and reaches the caller.
   SweepReport run(const std::function<bool(std::int64_t steps)>& pulse = {});
+  /// A row for each member, also while some are not finished: varied/KEY, member/status, member/steps, final/t,
+  /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/files.md, sweep.h5).
+  hamflow::Table members() const;
+  /// A row for each point of the members' sections: section/member, section/t, section/q, section/p.
+  hamflow::Table sections() const;
   /// The summary with a row for each member; without them where there are more than 10^4.
   std::string json_with_rows(const SweepReport& report) const;
   /// A column over the one or two keys varied, or the section of all members; or, over the first key, means of columns

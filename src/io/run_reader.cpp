@@ -1,11 +1,11 @@
 // What run.h5 holds, read again: also while it grows, and after a crash.
 #include <algorithm>
-#include <iterator>
+#include <limits>
 #include <new>
+#include <span>
 #include <stdexcept>
 
 #include "hdf5_text.hpp"
-#include "run_column.hpp"
 #include "run_file.hpp"
 
 namespace hamflow {
@@ -47,15 +47,6 @@ std::vector<std::string> digits_of(const StoredData& data) {
   return texts;
 }
 
-template <class T>
-std::vector<std::vector<T>> by_coordinate(const std::vector<T>& rows, std::size_t width, std::size_t count) {
-  std::vector<std::vector<T>> out(width, std::vector<T>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < width; ++i) out[i][k] = rows[k * width + i];
-  }
-  return out;
-}
-
 bool has_particles(hid_t file) { return has_object(file, "particles/all"); }
 
 /// The states that reverse.h5 has, in their order.
@@ -75,16 +66,35 @@ std::vector<double> state_of_reversal(hid_t file, const std::string& path, std::
   return data.numbers();
 }
 
+Column numbers_column(const std::string& name, std::size_t width, bool scalar, const std::vector<double>& values) {
+  Column column({.name = name, .width = width, .scalar = scalar});
+  column.add_bytes(std::as_bytes(std::span(values)));
+  return column;
+}
+Column integers_column(const std::string& name, const std::vector<double>& values) {
+  Column column({.name = name, .type = ValueType::integer});
+  for (const double x : values) column.add(static_cast<std::int64_t>(x));
+  return column;
+}
+Column digits_column(const std::string& name, std::size_t width, bool scalar, const std::vector<std::string>& values) {
+  std::size_t longest = 1;
+  for (const std::string& text : values) longest = std::max(longest, text.size());
+  Column column({.name = name, .type = ValueType::text, .width = width, .scalar = scalar, .text_size = longest});
+  for (const std::string& text : values) column.add(std::string_view(text));
+  return column;
+}
+
 /// A reversal as a run of three samples.
-RunSamples read_reversal(hid_t file, const std::vector<std::string>& names, std::size_t most_coordinates) {
-  RunSamples run;
+StoredRun read_reversal(hid_t file, const std::vector<std::string>& names, std::size_t most_coordinates) {
+  StoredRun run;
   run.description.scenario = read_text_dataset(file, "scenario");
+  std::vector<double> t;
   std::vector<double> q;
   std::vector<double> p;
   std::size_t width = 0;
   for (const std::string& name : names) {
     const Hdf5Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose, "open group " + name);
-    run.t.push_back(number_attribute(group, "t"));
+    t.push_back(number_attribute(group, "t"));
     for (const auto& [numbers, letter] : {std::pair{&q, "/q"}, std::pair{&p, "/p"}}) {
       const std::vector<double> row = state_of_reversal(file, name + letter, width);
       width = row.size();
@@ -92,31 +102,25 @@ RunSamples read_reversal(hid_t file, const std::vector<std::string>& names, std:
     }
   }
   run.description.dimension = width;
-  if (width > most_coordinates) return run;
-  run.q = by_coordinate(q, width, names.size());
-  run.p = by_coordinate(p, width, names.size());
+  if (width <= most_coordinates) {
+    run.tables.samples.add(numbers_column("q", width, false, q));
+    run.tables.samples.add(numbers_column("p", width, false, p));
+  }
+  run.tables.samples.add(numbers_column("t", 1, true, t));
   return run;
 }
 
 /// What stands among the samples and may be somebody else's: it is a column where it has numbers in as many rows.
-struct OtherColumn {
-  std::string name;
-  std::string path;
-  std::vector<std::pair<std::string, std::vector<double>>>* to;
-};
-
-/// A column, or NAME_1, NAME_2, ... of several numbers a row.
-void add_other_column(hid_t file, const OtherColumn& other, RunSamples& run) {
-  const std::size_t rows = run.t.size();
+void add_other_column(hid_t file, const std::string& name, const std::string& path, std::size_t rows, StoredRun& run) {
   const auto leave_out = [&](const std::string& why) {
-    run.left_out.push_back("/" + other.path + " is left out: it " + why);
+    run.left_out.push_back("/" + path + " is left out: it " + why);
   };
-  if (!has_object(file, other.path)) return leave_out("is a link that leads nowhere");
+  if (!has_object(file, path)) return leave_out("is a link that leads nowhere");
   {
-    const Hdf5Handle object(H5Oopen(file, other.path.c_str(), H5P_DEFAULT), H5Oclose, "open " + other.path);
+    const Hdf5Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "open " + path);
     if (H5Iget_type(object) != H5I_DATASET) return leave_out("is no dataset");
   }
-  const StoredData data = StoredData::dataset(file, other.path);
+  const StoredData data = StoredData::dataset(file, path);
   const std::size_t rank = data.shape().size();
   if (data.kind() != StoredData::Kind::numbers || rank < 1 || rank > 2 || data.width() == 0) {
     return leave_out("has no rows of numbers");
@@ -124,54 +128,73 @@ void add_other_column(hid_t file, const OtherColumn& other, RunSamples& run) {
   if (data.rows() < rows) {
     return leave_out("has " + std::to_string(data.rows()) + " rows, the run " + std::to_string(rows) + " samples");
   }
-  auto columns = by_coordinate(data.numbers(), data.width(), rows);
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    other.to->emplace_back(columns.size() == 1 ? other.name : other.name + "_" + std::to_string(k + 1),
-                           std::move(columns[k]));
+  run.tables.samples.add(numbers_column(name, data.width(), data.width() == 1, data.numbers())).cut(rows);
+}
+
+/// The digits of the samples; nothing where the run was in double. Of a run that goes on they may have fewer rows.
+void add_digits(hid_t file, std::size_t width, Table& samples) {
+  if (!has_object(file, "digits/t")) return;
+  for (const char* name : {"digits/q", "digits/p"}) {
+    samples.add(digits_column(name, width, false, digits_of(rows_of_states(file, name, width))));
+  }
+  for (const char* name : {"digits/energy", "digits/t"}) {
+    samples.add(digits_column(name, 1, true, digits_of(column(file, name))));
   }
 }
 
-RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coordinates) {
+/// The shortest column tells how many rows are complete: after a crash between two flushes they may differ.
+void cut_to_equal_length(Table& table) {
+  std::size_t rows = std::numeric_limits<std::size_t>::max();
+  for (const Column& column : table.columns()) rows = std::min(rows, column.rows());
+  table.cut(rows);
+}
+
+/// A table in a group of its own.
+Table read_table(hid_t file, const std::string& group, std::size_t width, const std::vector<const char*>& states,
+                 const std::vector<const char*>& integers) {
+  Table table;
+  for (const char* name : states) {
+    table.add(numbers_column(name, width, false, rows_of_states(file, group + name, width).numbers()));
+  }
+  for (const char* name : integers) table.add(integers_column(name, column(file, group + name).numbers()));
+  table.add(numbers_column("t", 1, true, column(file, group + "t").numbers()));
+  cut_to_equal_length(table);
+  return table;
+}
+
+StoredRun read_run(const std::filesystem::path& path, const StoredRunOptions& options) {
   silence_hdf5();
   const Hdf5Handle file = open_to_read(path);
   if (const auto states = states_of_reversal(file); !states.empty()) {
-    return read_reversal(file, states, most_coordinates);
+    return read_reversal(file, states, options.most_coordinates);
   }
-  RunSamples run;
+  StoredRun run;
   run.description.scenario = read_text_dataset(file, "scenario");
   run.description.version = text_attribute(file, "hamflow");
   run.description.host = text_attribute(file, "host");
   run.description.problem = text_attribute(file, "problem");
   run.description.method = text_attribute(file, "method");
   run.description.arithmetic = text_attribute(file, "arithmetic");
-  run.t = column(file, "t").numbers();
-  run.energy = column(file, "energy").numbers();
+  Table& samples = run.tables.samples;
+  const Column t = numbers_column("t", 1, true, column(file, "t").numbers());
+  const Column energy = numbers_column("energy", 1, true, column(file, "energy").numbers());
   const bool particles = has_particles(file);
   const StoredData q = rows_of_states(file, particles ? H5mdNames::position : "q", 0);
   const std::size_t width = q.width();
   const StoredData p = rows_of_states(file, particles ? H5mdNames::momentum : "p", width);
-  // After a crash between two flushes the columns may differ in length: what all of them have is complete. Time is
-  // written last, so that no other column of the run is shorter.
-  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.rows(), p.rows()});
-  run.t.resize(count);
-  run.energy.resize(count);
-  if (width <= most_coordinates) {
-    run.q = by_coordinate(q.numbers(), width, count);
-    run.p = by_coordinate(p.numbers(), width, count);
+  // Time is written last, so that no other column of the run is shorter.
+  const std::size_t count = std::min({t.rows(), energy.rows(), q.rows(), p.rows()});
+  if (width <= options.most_coordinates) {
+    samples.add(numbers_column("q", width, false, q.numbers()));
+    samples.add(numbers_column("p", width, false, p.numbers()));
   }
+  samples.add(energy);
   run.description.dimension = width;
-  for (const auto& [name, meaning] : diagnostic_columns) {
-    if (has_object(file, name)) {
-      add_other_column(file, {name + std::string("solver/").size(), name, &run.diagnostics}, run);
-    }
-  }
-  std::vector<std::pair<std::string, std::vector<double>>> range;
   for (const auto& [name, meaning] : energy_range_columns) {
-    if (has_object(file, name)) add_other_column(file, {name, name, &range}, run);
+    if (has_object(file, name)) add_other_column(file, name, name, count, run);
   }
-  if (range.size() == std::size(energy_range_columns)) {  // both of them, with a number a row
-    run.least_difference = std::move(range[0].second);
-    run.largest_difference = std::move(range[1].second);
+  for (const auto& [name, meaning] : diagnostic_columns) {
+    if (has_object(file, name)) add_other_column(file, name, name, count, run);
   }
   const auto names_of_group = [&](const char* name) {
     if (!has_object(file, name)) return std::vector<std::string>();
@@ -180,27 +203,29 @@ RunSamples read_samples(const std::filesystem::path& path, std::size_t most_coor
   };
   for (const std::string& name : names_of_group("observables")) {
     if (particles && (name == "energy" || has_object(file, "invariants/" + name))) continue;
-    add_other_column(file, {name, "observables/" + name + (particles ? "/value" : ""), &run.observables}, run);
+    const std::string column = "observables/" + name;
+    add_other_column(file, column, column + (particles ? "/value" : ""), count, run);
   }
   for (const std::string& name : names_of_group("invariants")) {
-    add_other_column(file, {name, "invariants/" + name, &run.invariants}, run);
+    add_other_column(file, "invariants/" + name, "invariants/" + name, count, run);
   }
+  if (options.digits) add_digits(file, width, samples);
+  samples.add(t);
+  cut_to_equal_length(samples);
   if (has_object(file, "section/t")) {
-    run.section_t = column(file, "section/t").numbers();
-    const StoredData section_q = rows_of_states(file, "section/q", width);
-    const StoredData section_p = rows_of_states(file, "section/p", width);
-    const std::size_t points = std::min({run.section_t.size(), section_q.rows(), section_p.rows()});
-    run.section_t.resize(points);
-    run.section_q = by_coordinate(section_q.numbers(), width, points);
-    run.section_p = by_coordinate(section_p.numbers(), width, points);
+    run.tables.section = read_table(file, "section/", width, {"q", "p"}, {});
     run.description.section = true;
   }
   if (has_object(file, "events/wall/t")) {
-    run.wall_t = column(file, "events/wall/t").numbers();
-    const StoredData wall_q = rows_of_states(file, "events/wall/q", width);
-    const std::size_t bounces = std::min(run.wall_t.size(), wall_q.rows());
-    run.wall_t.resize(bounces);
-    run.wall_q = by_coordinate(wall_q.numbers(), width, bounces);
+    run.tables.bounces = options.events
+                             ? read_table(file, "events/wall/", width, {"q", "p"}, {"step", "coordinate", "side"})
+                             : read_table(file, "events/wall/", width, {"q"}, {});
+  }
+  for (const std::string& name : options.events ? names_of_group("events/user") : std::vector<std::string>()) {
+    Table& event =
+        run.tables.events.emplace_back(read_table(file, "events/user/" + name + "/", width, {"q", "p"}, {"step"}));
+    event.rename(name);
+    run.description.events.push_back(name);
   }
   return run;
 }
@@ -213,25 +238,6 @@ std::vector<double> read_positions(const std::filesystem::path& path, std::size_
     return state_of_reversal(file, states[sample] + "/q", 0);
   }
   return rows_of_states(file, has_particles(file) ? H5mdNames::position : "q", 0).numbers_of_row(sample);
-}
-
-RunDigits read_digits(const std::filesystem::path& path) {
-  silence_hdf5();
-  const Hdf5Handle file = open_to_read(path);
-  RunDigits run;
-  if (!has_object(file, "digits/t")) return run;
-  run.t = digits_of(column(file, "digits/t"));
-  run.energy = digits_of(column(file, "digits/energy"));
-  const StoredData q_data = rows_of_states(file, "digits/q", 0);
-  const std::size_t width = q_data.width();
-  const std::vector<std::string> q = digits_of(q_data);
-  const std::vector<std::string> p = digits_of(rows_of_states(file, "digits/p", width));
-  const std::size_t count = std::min({run.t.size(), run.energy.size(), q.size() / width, p.size() / width});
-  run.t.resize(count);
-  run.energy.resize(count);
-  run.q = by_coordinate(q, width, count);
-  run.p = by_coordinate(p, width, count);
-  return run;
 }
 
 /// What goes wrong while a file is read names the file.
@@ -256,12 +262,11 @@ auto naming(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
-RunSamples read_run_file(const std::filesystem::path& path, std::size_t most_coordinates) {
-  return naming(path, [&](const std::filesystem::path& file) { return read_samples(file, most_coordinates); });
+StoredRun read_run_file(const std::filesystem::path& path, const StoredRunOptions& options) {
+  return naming(path, [&](const std::filesystem::path& file) { return read_run(file, options); });
 }
 std::vector<double> read_run_positions(const std::filesystem::path& path, std::size_t sample) {
   return naming(path, [&](const std::filesystem::path& file) { return read_positions(file, sample); });
 }
-RunDigits read_run_digits(const std::filesystem::path& path) { return naming(path, read_digits); }
 
 }  // namespace hamflow

@@ -1,4 +1,4 @@
-#include "run_column.hpp"
+#include "stored_column.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t page = 4096;
 constexpr std::size_t checksum = 4;
 
-std::size_t rows_of_chunk(std::size_t bytes_a_row, std::size_t rows) {
-  const std::size_t on_a_page = std::max<std::size_t>((page - checksum) / bytes_a_row, 1);
+std::size_t rows_of_chunk(std::size_t bytes_of_row, std::size_t rows) {
+  const std::size_t on_a_page = std::max<std::size_t>((page - checksum) / bytes_of_row, 1);
   return std::min(on_a_page, std::max<std::size_t>(rows, 16));
 }
 
@@ -39,39 +39,37 @@ Hdf5Handle digits_type(std::size_t length) {
   return type;
 }
 
-Column::Column(hid_t file, std::string name, hid_t type, std::size_t width, std::size_t rows, const ColumnText& text,
-               std::size_t of_each)
-    : name_(std::move(name)),
-      rank_(of_each > 0 ? 3
-            : width > 0 ? 2
-                        : 1),
-      width_(std::max<std::size_t>(width, 1)),
+namespace {
+
+Hdf5Handle stored_type(const ColumnInfo& info) {
+  if (info.type == ValueType::text) return digits_type(info.text_size);
+  return {H5Tcopy(info.type == ValueType::number ? H5T_IEEE_F64LE : H5T_STD_I64LE), H5Tclose, "copy a type"};
+}
+
+}  // namespace
+
+StoredColumn::StoredColumn(hid_t file, std::string path, const ColumnInfo& info, std::size_t rows, std::size_t of_each)
+    : path_(std::move(path)),
+      rank_(of_each > 0   ? 3
+            : info.scalar ? 1
+                          : 2),
+      width_(std::max<std::size_t>(info.width, 1)),
       of_each_(std::max<std::size_t>(of_each, 1)),
-      type_(H5Tcopy(type), H5Tclose, "copy a type"),
-      bytes_a_row_(H5Tget_size(type_) * width_) {
+      type_(stored_type(info)),
+      bytes_of_row_(H5Tget_size(type_) * width_) {
   const Shape size = shape(0);
   const Shape most = shape(H5S_UNLIMITED);
   const Hdf5Handle space(H5Screate_simple(rank_, size.data(), most.data()), H5Sclose, "make a data space");
-  const Hdf5Handle plist = chunks(rank_, shape(rows_of_chunk(bytes_a_row_, rows)).data());
-  dataset_ = Hdf5Handle(H5Dcreate2(file, name_.c_str(), type_, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
-                        "create dataset " + name_);
-  if (!text.columns.empty()) write_attribute(dataset_, "columns", text.columns);
-  if (!text.meaning.empty()) write_attribute(dataset_, "meaning", text.meaning);
-  if (!text.unit.empty()) write_attribute(dataset_, "unit", text.unit);
+  const Hdf5Handle plist = chunks(rank_, shape(rows_of_chunk(bytes_of_row_, rows)).data());
+  dataset_ = Hdf5Handle(H5Dcreate2(file, path_.c_str(), type_, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
+                        "create dataset " + path_);
+  if (!info.parts.empty()) write_attribute(dataset_, "columns", info.parts);
+  if (!info.meaning.empty()) write_attribute(dataset_, "meaning", info.meaning);
+  if (!info.unit.empty()) write_attribute(dataset_, "unit", info.unit);
 }
 
-void Column::add(const std::string& digits) {
-  const std::size_t length = H5Tget_size(type_);
-  if (digits.size() > length) {
-    throw FileError("HDF5: a number of " + name_ + " has " + std::to_string(digits.size()) + " characters, not " +
-                    std::to_string(length));
-  }
-  put(digits.data(), digits.size());
-  waiting_.insert(waiting_.end(), length - digits.size(), '\0');
-}
-
-void Column::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
-  const StoredData source = StoredData::dataset(other, name_);
+void StoredColumn::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
+  const StoredData source = StoredData::dataset(other, path_);
   const std::size_t found = source.rows();
   if (H5Tequal(source.type(), type_) <= 0 || source.shape().size() != static_cast<std::size_t>(rank_)) {
     throw FileError("HDF5: " + source.name() + " has another shape");
@@ -81,29 +79,29 @@ void Column::copy_from(hid_t other, std::uint64_t rows, std::size_t at_once) {
     throw FileError("HDF5: " + source.name() + " has another width");
   }
   if (found < rows) {
-    throw FileError("HDF5: dataset " + name_ + " has " + std::to_string(found) + " rows, not the " +
+    throw FileError("HDF5: dataset " + path_ + " has " + std::to_string(found) + " rows, not the " +
                     std::to_string(rows) + " that the checkpoint counts");
   }
   while (written_ < rows) {
     const std::size_t count = std::min<std::size_t>(rows - written_, at_once);
-    waiting_ = source.bytes_of_rows(written_, count);
-    write(count);
+    const std::vector<char> bytes = source.bytes_of_rows(written_, count);
+    write(bytes.data(), count);
   }
 }
 
-void Column::write(std::size_t rows) {
+void StoredColumn::write(const void* bytes, std::size_t rows) {
+  if (rows == 0) return;
   const Shape size = shape(written_ + rows);
   const Shape offset{written_, 0, 0};
   const Shape count = shape(rows);
-  check_hdf5(H5Dset_extent(dataset_, size.data()), "extend dataset " + name_);
-  const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, "open the space of " + name_);
+  check_hdf5(H5Dset_extent(dataset_, size.data()), "extend dataset " + path_);
+  const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose, "open the space of " + path_);
   check_hdf5(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
-             "select rows of " + name_);
+             "select rows of " + path_);
   const Hdf5Handle memory(H5Screate_simple(rank_, count.data(), nullptr), H5Sclose, "make a data space");
-  check_hdf5(H5Dwrite(dataset_, type_, memory, space, H5P_DEFAULT, waiting_.data()), "write " + name_);
-  check_hdf5(H5Dflush(dataset_), "flush " + name_);
+  check_hdf5(H5Dwrite(dataset_, type_, memory, space, H5P_DEFAULT, bytes), "write " + path_);
+  check_hdf5(H5Dflush(dataset_), "flush " + path_);
   written_ += rows;
-  waiting_.clear();
 }
 
 }  // namespace hamflow

@@ -1,0 +1,39 @@
+// A scenario as a tree of values, for programs that have numbers and lists rather than text.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hamflow/scenario/scenario.hpp"
+
+namespace hamflow {
+
+/// A value of TOML: true or false, a whole number, a number, a text, a list, or a table.
+struct Value {
+  using List = std::vector<Value>;
+  using Table = std::vector<std::pair<std::string, Value>>;
+  std::variant<bool, std::int64_t, double, std::string, List, Table> content;
+
+  Value(bool x) : content(x) {}  // NOLINT: a tree is written as the values that it holds
+  template <std::integral I>
+  Value(I x) : content(static_cast<std::int64_t>(x)) {}                                         // NOLINT
+  Value(double x) : content(x) {}                                                               // NOLINT
+  Value(const char* text) : content(std::string(text)) {}                                       // NOLINT
+  Value(std::string text) : content(std::move(text)) {}                                         // NOLINT
+  Value(List list) : content(std::move(list)) {}                                                // NOLINT
+  Value(Table table) : content(std::move(table)) {}                                             // NOLINT
+  Value(const std::vector<double>& numbers) : content(List(numbers.begin(), numbers.end())) {}  // NOLINT
+};
+
+/// The TOML of a scenario. Numbers have as few digits as read back the same.
+/// @throws Error where a key comes twice, or a list or table is nested deeper than a scenario can be
+std::string scenario_text(const Value::Table& tree);
+
+/// The scenario, or what is wrong with it. Its text is scenario_text(tree).
+Reading read_scenario_tree(const Value::Table& tree, const std::string& name);
+
+}  // namespace hamflow
