@@ -288,7 +288,7 @@ TEST_F(Workflow, AScenarioFromATreeOfValuesIsThatOfItsText) {
   const Value::Table tree{
       {"problem", Value::Table{{"name", "formula"},
                                {"coordinates", Value::List{Value("q1"), Value("q2")}},
-                               {"hamiltonian", "(p_q1^2+p_q2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"},
+                               {"hamiltonian", "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"},
                                {"parameters", Value::Table{{"k", third}}},
                                {"initial", Value::Table{{"q", std::vector<double>{0.1, -0.15}},
                                                         {"p", Value::List{Value(0.3), Value("1/10")}}}}}},
@@ -301,7 +301,7 @@ TEST_F(Workflow, AScenarioFromATreeOfValuesIsThatOfItsText) {
 [problem]
 name = "formula"
 coordinates = ["q1", "q2"]
-hamiltonian = "(p_q1^2+p_q2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"
+hamiltonian = "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"
 parameters = { k = 0.3333333333333333 }
 initial = { q = [0.1, -0.15], p = [0.3, 0.1] }
 [method]
