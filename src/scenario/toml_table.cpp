@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "hamflow/core/problem_info.hpp"
 #include "meant.hpp"
@@ -53,7 +54,9 @@ toml::source_region place_of(const toml::node& node) { return touched(node) ? to
 }  // namespace
 
 TomlTable::TomlTable(const toml::table* table, std::string path, std::string file, std::vector<Complaint>& complaints)
-    : table_(table), path_(std::move(path)), file_(std::move(file)), complaints_(&complaints) {}
+    : table_(table), path_(std::move(path)), file_(std::move(file)), complaints_(&complaints) {
+  if (table_ != nullptr) known_.reserve(32);
+}
 
 const toml::table& TomlTable::node() const {
   static const toml::table none;
@@ -206,7 +209,9 @@ std::optional<std::string> TomlTable::number_text(const toml::node& node, const 
     if (std::find(option.words.begin(), option.words.end(), word) != option.words.end()) return word;
   }
   if (const auto* word = node.as_string()) {
-    if (refused_value(option, word->get()).empty()) return word->get();
+    OptionInfo one = option;
+    if (in_array) one.type = OptionType::number;
+    if (refused_value(one, word->get()).empty()) return word->get();
     // What is no formula has an error of its own, which says where the text goes wrong.
     const bool meant_as_word = !option.words.empty() && word->get().find_first_of("0123456789") == std::string::npos;
     if (meant_as_word) return refuse(found() + allowed() + suggestion(word->get(), option.words));
@@ -242,11 +247,9 @@ std::optional<std::string> TomlTable::list_text(const toml::node& node, const Op
     complain(option.name, "found " + std::to_string(array->size()) + " entries" + allowed());
     return std::nullopt;
   }
-  OptionInfo one = option;  // an entry is judged as a number
-  one.type = OptionType::number;
   std::vector<std::string> all;
   for (const toml::node& entry : *array) {
-    auto text = number_text(entry, one, allowed);
+    auto text = number_text(entry, option, allowed);
     if (!text) return std::nullopt;
     all.push_back(std::move(*text));
   }
@@ -328,16 +331,17 @@ TomlTable TomlTable::table(const std::string& key) {
 
 void TomlTable::finish(const ProblemEntry* problem, const std::string& method) {
   if (table_ == nullptr) return;
-  std::vector<std::string> distinct;
-  for (const std::string& key : known_) {
-    if (std::find(distinct.begin(), distinct.end(), key) == distinct.end()) distinct.push_back(key);
-  }
-  known_ = distinct;
+  bool is_distinct = false;
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
-    bool is_known = false;
-    for (const std::string& known : known_) is_known = is_known || known == name;
-    if (is_known) continue;
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    if (!std::exchange(is_distinct, true)) {  // only for a complaint: a sweep reads hundreds of thousands of scenarios
+      std::vector<std::string> distinct;
+      for (const std::string& known : known_) {
+        if (std::find(distinct.begin(), distinct.end(), known) == distinct.end()) distinct.push_back(known);
+      }
+      known_ = distinct;
+    }
     // A value that was set from outside stands nowhere in the file, though its key may.
     const bool in_file = key.source().begin.line > 0 && !hamflow::is_set(node);
     const toml::source_region& where = in_file ? key.source() : node.source();

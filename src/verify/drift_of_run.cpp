@@ -325,8 +325,9 @@ Conclusion concluded(const EnergySeries& series, double largest, const RunDrift&
     return undecided(grows + fmt::format(" +- {:.2f}, between the classes", found.growth_uncertainty));
   }
   // Beneath an error of this size a walk of the roundings, or a trend of them, would not be seen.
-  // Roundings that grow with a coordinate sum up to more in a longer run.
-  if (largest <= std::max(32 * series.rounding, series.rounding_grows ? walk : walk / 4)) {
+  // Roundings that grow with a coordinate sum up like t^(3/2): to 64 times as much in a run 16 times as long, of which
+  // `walk` allows for 16 already.
+  if (largest <= std::max(32 * series.rounding, series.rounding_grows ? 4 * walk : walk / 4)) {
     return undecided("errors of the size of roundings: what they sum up to would show in a longer run only");
   }
   if (series.still > 0) {

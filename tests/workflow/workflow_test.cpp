@@ -287,6 +287,7 @@ TEST_F(Workflow, AScenarioFromATreeOfValuesIsThatOfItsText) {
   const double third = 1.0 / 3;
   const Value::Table tree{
       {"problem", Value::Table{{"name", "formula"},
+                               {"coordinates", Value::List{Value("q1"), Value("q2")}},
                                {"hamiltonian", "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"},
                                {"parameters", Value::Table{{"k", third}}},
                                {"initial", Value::Table{{"q", std::vector<double>{0.1, -0.15}},
@@ -299,6 +300,7 @@ TEST_F(Workflow, AScenarioFromATreeOfValuesIsThatOfItsText) {
   const RunReport wanted = run(accepted(read_scenario_text(R"(
 [problem]
 name = "formula"
+coordinates = ["q1", "q2"]
 hamiltonian = "(p1^2+p2^2)/2 + k*(q1^2+q2^2)/2 + q1^2*q2"
 parameters = { k = 0.3333333333333333 }
 initial = { q = [0.1, -0.15], p = [0.3, 0.1] }
