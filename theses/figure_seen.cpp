@@ -6,12 +6,27 @@
 #include <cmath>
 #include <string>
 
-#include "figure_text.hpp"
 #include "hamflow/figures/axis.hpp"
 
 namespace hamflow::reproduction {
 
 namespace {
+/// gnuplot's enhanced text without its marks: "{/:Italic p}_1" is "p1".
+std::string plain_text(const std::string& enhanced) {
+  std::string text;
+  for (std::size_t i = 0; i < enhanced.size(); ++i) {
+    const char c = enhanced[i];
+    if (c == '{') {
+      if (enhanced[i + 1] == '/') {  // a font, up to the blank behind its name
+        i = std::min(enhanced.find(' ', i), enhanced.size());
+      }
+    } else if (c != '}' && c != '_') {
+      text += c;
+    }
+  }
+  return text;
+}
+
 using namespace figures;
 
 constexpr std::size_t most_told = 6;  // of a panel with more curves nobody keeps them apart by ear

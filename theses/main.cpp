@@ -20,7 +20,6 @@
 #include "hamflow/figures/while_drawing.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
 #include "hamflow/workflow/sweep.hpp"
-#include "kept_experiment.hpp"
 #include "progress.hpp"
 #include "reproduce.hpp"
 

@@ -1,17 +1,15 @@
 // index.html: a summary of verdicts, then a section for each experiment. It holds no times: the same results make the
-// same page, byte for byte, however often the work was interrupted. It is one file that needs no other, readable on a
-// telephone, in print without colour, and by a screen reader: verdicts are words, figures have alternative texts.
+// same page, byte for byte, however often the work was interrupted. What does not depend on results is page/page.html.
+// It shows the figures of the folder and needs nothing else; it is readable on a telephone, in print without colour,
+// and by a screen reader: verdicts are words, figures have alternative texts.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
-#include "page_words.hpp"
+#include "embedded.hpp"
 #include "report.hpp"
-#include "slim_svg.hpp"
 #include "store.hpp"
 
 namespace hamflow::reproduction {
@@ -37,144 +35,11 @@ std::string escaped_html(const std::string& text) {
   return all;
 }
 
-/// Text as part of an address within double quotes.
-std::string escaped_address(const std::string& text) {
-  std::string all;
-  for (const char c : text) {
-    switch (c) {
-      case '%':
-      case '#':
-      case '"':
-      case '<':
-      case '>':
-      case '&':
-        all += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-        break;
-      case '\n':
-      case '\t':
-        all += ' ';  // which an address would lose
-        break;
-      default:
-        all += c;
-    }
-  }
-  return all;
-}
-
-std::string text_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 std::string class_of(ClaimVerdict verdict) {
   std::string word(name(verdict));
   for (char& c : word) c = c == ' ' ? '-' : c;
   return word;
 }
-
-const char* const head = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>hamflow: two theses, figure by figure</title>
-<style>
-  :root { color-scheme: light dark; --text: #222; --quiet: #5a5a5a; --line: #d8d8d4; --code: #f4f4f1; --link: #0072b2; --page: #fff; }
-  @media screen and (prefers-color-scheme: dark) {
-    :root { --text: #e4e4e0; --quiet: #a8a8a2; --line: #44443f; --code: #262624; --link: #6cb8ea; --page: #161615; }
-  }
-  * { box-sizing: border-box; }
-  body { font: 16px/1.55 system-ui, sans-serif; max-width: 72rem; margin: 0 auto; padding: 1rem; color: var(--text); background: var(--page); }
-  h1 { font-size: 1.7rem; margin: 1rem 0 0; }
-  h2 { font-size: 1.4rem; margin: 2.5rem 0 0.3rem; }
-  h3 { font-size: 1.15rem; margin: 2rem 0 0.3rem; padding-top: 1rem; border-top: 1px solid var(--line); overflow-wrap: anywhere; }
-  p { max-width: 46rem; }
-  a { color: var(--link); }
-  nav ul { columns: 20rem; column-gap: 1.5rem; padding: 0; margin: 0.5rem 0; list-style: none; font-size: 0.9rem; }
-  nav li { padding: 0.2rem 0; break-inside: avoid; overflow-wrap: anywhere; }
-  .theses, .found { padding-left: 1.2rem; max-width: 46rem; }
-  .found li { margin: 0.2rem 0; font-size: 0.9rem; overflow-wrap: anywhere; }
-  summary { cursor: pointer; padding: 0.2rem 0; }
-  dl { max-width: 46rem; font-size: 0.9rem; }
-  dt { font-weight: 600; }
-  dd { margin: 0 0 0.4rem 1.2rem; }
-  .skip { position: absolute; left: -100rem; }
-  .skip:focus { position: static; }
-  .heard { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
-  figure { margin: 0.5rem 0; max-width: 44rem; }
-  .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); gap: 1rem; align-items: start; }
-  img { display: block; width: 100%; height: auto; background: white; border: 1px solid var(--line); border-radius: 4px; }
-  figcaption { margin-bottom: 0.3rem; font-size: 0.9rem; }
-  .wide { overflow-x: auto; margin: 0.5rem 0; }
-  table { border-collapse: collapse; width: 100%; font-size: 0.9rem; }
-  caption { text-align: left; padding: 0.3rem 0; }
-  th, td { text-align: left; vertical-align: top; font-weight: 400; padding: 0.35rem 0.6rem 0.35rem 0; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
-  .claims th, .claims td { min-width: 7em; }
-  .claims th:nth-child(2), .claims td:nth-child(2) { min-width: 3.5em; }
-  .claims th:nth-child(4), .claims td:nth-child(4) { min-width: 10em; }
-  thead th { font-weight: 600; }
-  .numbers th, .numbers td { overflow-wrap: normal; min-width: 5.5rem; }
-  .verdict { white-space: nowrap; font-weight: 600; padding: 0.05rem 0.4rem; border-radius: 3px; border: 2px solid; }
-  .holds { color: #00705a; border-style: solid; }
-  .differs { color: #b04a00; border-style: dashed; }
-  .cannot-hold { color: #a01050; border-style: double; border-width: 4px; }
-  .undecided { color: #7a6000; border-style: dotted; }
-  .nothing-to-test { color: #5a5a5a; border-color: transparent; font-weight: 400; }
-  @media screen and (prefers-color-scheme: dark) {
-    .holds { color: #4cc9a8; } .differs { color: #f0985a; } .cannot-hold { color: #ff80b5; } .undecided { color: #e0c050; }
-    .nothing-to-test { color: #a8a8a2; }
-  }
-  pre { background: var(--code); padding: 0.6rem; margin: 0.5rem 0; white-space: pre-wrap; overflow-wrap: anywhere; font: 0.8rem/1.45 ui-monospace, monospace; border-radius: 4px; }
-  .quiet { color: var(--quiet); font-size: 0.9rem; }
-  @media screen and (max-width: 48rem) {
-    .claims, .claims tbody, .claims tr, .claims th, .claims td { display: block; width: 100%; min-width: 0 !important; }
-    .claims thead { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
-    .claims th, .claims td { border: 0; padding: 0.1rem 0; }
-    .claims td[data-label]::before { content: attr(data-label) ": "; color: var(--quiet); }
-    .claims tr { border-bottom: 1px solid var(--line); padding: 0.5rem 0; }
-  }
-  @media print {
-    @page { margin: 15mm; }
-    :root { color-scheme: light; }
-    body { font-size: 9pt; line-height: 1.35; max-width: none; padding: 0; color: #000; }
-    h3 { margin-top: 1rem; padding-top: 0.5rem; }
-    p, pre, .figures, .wide { margin: 0.2rem 0; }
-    p, .found, .theses, dl { max-width: none; }
-    table { font-size: 8pt; line-height: 1.25; }
-    th, td { padding: 0.15rem 0.4rem 0.15rem 0; }
-    .quiet, figcaption, dl { font-size: 8pt; }
-    .numbers th, .numbers td, .claims th:nth-child(n), .claims td:nth-child(n) { min-width: 0; }
-    .numbers th, .numbers td { overflow-wrap: anywhere; }
-    .claims { table-layout: fixed; }
-    .claims th:nth-child(1) { width: 20%; }
-    .claims th:nth-child(2) { width: 6%; }
-    .claims th:nth-child(3) { width: 14%; }
-    .claims th:nth-child(4) { width: 24%; }
-    .claims th:nth-child(6) { width: 17%; }
-    h2, h3, h3 + p, figcaption, caption, dt, summary { break-after: avoid; }
-    h2, h3, figure, tr, dd, li, pre, .short { break-inside: avoid; }
-    thead { display: table-header-group; break-inside: avoid; break-after: avoid; }
-    tbody tr:first-child { break-before: avoid; }
-    p { orphans: 3; widows: 3; }
-    .figures { display: block; }
-    figure { display: inline-block; vertical-align: top; width: 8.8cm; margin: 0 0.1cm 0.2cm 0; }
-    img { width: auto; max-width: 100%; max-height: 11cm; }
-    .wide { overflow: visible; }
-    .verdict, .quiet { color: #000; }
-    .verdict { display: inline-block; margin-bottom: 0.1rem; }
-    .skip { display: none; }
-    nav ul { columns: 2; font-size: 8pt; margin: 0.2rem 0; }
-    .found li { margin: 0; font-size: 8pt; }
-    nav li { padding: 0; }
-    details::details-content { content-visibility: visible; height: auto; }
-    pre { font-size: 7pt; white-space: pre-wrap; overflow-wrap: anywhere; }
-    a { color: #000; text-decoration: none; }
-  }
-</style>
-</head>
-)";
 
 /// Before the word, for print without colour; a screen reader has the word.
 const char* mark_of(ClaimVerdict verdict) {
@@ -287,12 +152,11 @@ std::string table_html(const Table& table) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string figures_html(const fs::path& folder, const Kept& kept) {
+std::string figures_html(const std::string& folder, const Kept& kept) {
   std::string all;
   for (const auto& [name, caption, words] : kept.drawings) {
-    all += fmt::format(
-        "<figure><figcaption>{}</figcaption><img alt=\"{}\" src=\"data:image/svg+xml;charset=utf-8,{}\"></figure>\n",
-        escaped_html(caption), escaped_html(words), escaped_address(slim_svg(text_of_file(folder / (name + ".svg")))));
+    all += fmt::format("<figure><figcaption>{}</figcaption><img alt=\"{}\" src=\"{}/{}.svg\"></figure>\n",
+                       escaped_html(caption), escaped_html(words), folder, escaped_html(name));
   }
   return all.empty() ? "" : "<div class=\"figures\">\n" + all + "</div>\n";
 }
@@ -349,8 +213,8 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
                                  escaped_html(pages_text(info.page)), name_of(report.extent));
   if (report.status == "failed") return text + "<p>Could not be computed: " + escaped_html(report.message) + "</p>\n";
   if (report.status == "interrupted") return text + "<p>Not computed yet: --resume goes on.</p>\n";
-  const fs::path folder = top / "reproduction" / info.id;
-  const auto kept = kept_in(folder, fingerprint_of(info.id, report.extent));
+  const std::string folder = "reproduction/" + info.id;
+  const auto kept = kept_in(top / folder, fingerprint_of(info.id, report.extent));
   if (kept) text += figures_html(folder, *kept);
   text += claims_html(info.id, report.claims);
   if (!kept) return text;
@@ -381,66 +245,51 @@ std::string list_of(const ReproduceReport& report, ClaimVerdict verdict) {
          items + "</ul></details>\n";
 }
 
-std::string words_html() {
-  std::string text = "<h2 id=\"words\">Words</h2>\n<dl>\n";
-  for (const Word& one : glossary) text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", one.word, one.meaning);
-  return text + "</dl>\n";
+/// Contents, then a section for each experiment of a thesis.
+std::string thesis_html(const ReproduceReport& report, const std::string& thesis, const fs::path& folder) {
+  const std::string called = escaped_html(thesis);
+  std::string text =
+      fmt::format("<h2 id=\"thesis-{0}\">{0}</h2>\n<nav aria-label=\"Experiments of {0}\"><ul>\n", called);
+  std::string sections;
+  for (const ExperimentReport& one : report.experiments) {
+    if (one.info.thesis != thesis) continue;
+    text +=
+        fmt::format("<li><a href=\"#{0}\">{0}</a> {1}</li>\n", escaped_html(one.info.id), escaped_html(one.info.title));
+    const bool is_short = one.claims.size() <= 2;  // on paper it stands on one page
+    const std::string section = section_of(one, folder);
+    sections += is_short ? "<div class=\"short\">\n" + section + "</div>\n" : section;
+  }
+  return text + "</ul></nav>\n" + sections;
 }
 }  // namespace
 
 std::string page_of(const ReproduceReport& report, const fs::path& folder) {
   std::map<ClaimVerdict, int> counts;
-  for (const ExperimentReport& one : report.experiments) {
-    for (const Claim& claim : one.claims) ++counts[claim.judgement.verdict];
-  }
-  std::string text = head;
   std::vector<std::string> theses;
   for (const ExperimentReport& one : report.experiments) {
     if (theses.empty() || theses.back() != one.info.thesis) theses.push_back(one.info.thesis);
+    for (const Claim& claim : one.claims) ++counts[claim.judgement.verdict];
   }
-  text +=
-      "<body>\n<a class=\"skip\" href=\"#experiments\">To the experiments</a>\n<header>\n<h1>Two theses, figure by "
-      "figure</h1>\n<p>hamflow integrates Hamiltonian systems. Here it repeats what two theses print, and judges "
-      "it:</p>\n"
-      "<ul class=\"theses\">\n";
+  std::string sources, verdicts, experiments;
   for (const std::string& thesis : theses) {
-    text += fmt::format("<li><a href=\"#thesis-{0}\">{0}</a>: {1}</li>\n", escaped_html(thesis), source_of(thesis));
+    sources += fmt::format("<li><a href=\"#thesis-{0}\">{0}</a>: {1}</li>\n", escaped_html(thesis),
+                           embedded_text("page/" + thesis + ".html"));
+    experiments += thesis_html(report, thesis, folder);
   }
-  text +=
-      "</ul>\n<p>What was printed, what hamflow measured, and the rule by "
-      "which the two were judged. No verdict was typed in: each is computed from its numbers. A claim <em>holds</em> "
-      "where everything that the measured number may be lies within the rule, <em>differs</em> where nothing of it "
-      "does, <em>cannot hold</em> where it is wrong whatever the program: by an identity, or in two independent "
-      "ways. It is <em>undecided</em> where the number is too uncertain, and <em>nothing to test</em> where the thesis "
-      "shows no number; neither counts as agreement. Each experiment has three sizes, quick, default and full, and "
-      "says on which its verdicts rest. Scenarios, curves (CSV, HDF5) and figures (SVG, PDF, PNG) of each stand in a "
-      "folder of its own, reproduction/ID. <a href=\"#words\">Words</a> that claims are told in stand below.</p>\n"
-      "</header>\n<main>\n<h2>Verdicts</h2>\n<table><caption "
-      "class=\"heard\">How many claims have which verdict</caption>\n<thead><tr><th scope=\"col\">verdict</th><th "
-      "scope=\"col\">claims</th></tr></thead>\n<tbody>\n";
   for (const ClaimVerdict verdict : all_claim_verdicts) {
-    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", verdict_html(verdict), counts[verdict]);
+    verdicts += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", verdict_html(verdict), counts[verdict]);
   }
-  text += "</tbody></table>\n" + list_of(report, ClaimVerdict::cannot_hold) + list_of(report, ClaimVerdict::differs) +
-          words_html() + "<div id=\"experiments\" tabindex=\"-1\">\n";
-  for (const std::string& thesis : theses) {
-    const std::string called = escaped_html(thesis);
-    text += fmt::format("<h2 id=\"thesis-{0}\">{0}</h2>\n<nav aria-label=\"Experiments of {0}\"><ul>\n", called);
-    for (const ExperimentReport& one : report.experiments) {
-      if (one.info.thesis != thesis) continue;
-      text += fmt::format("<li><a href=\"#{0}\">{0}</a> {1}</li>\n", escaped_html(one.info.id),
-                          escaped_html(one.info.title));
-    }
-    text += "</ul></nav>\n";
-    for (const ExperimentReport& one : report.experiments) {
-      if (one.info.thesis != thesis) continue;
-      // On paper it stands on one page.
-      const bool is_short = one.claims.size() <= 2;
-      text += is_short ? "<div class=\"short\">\n" + section_of(one, folder) + "</div>\n" : section_of(one, folder);
-    }
+  std::string page = embedded_text("page/page.html");
+  for (const auto& [name, text] :
+       {std::pair<std::string, std::string>{"theses", sources},
+        {"verdicts", verdicts},
+        {"found", list_of(report, ClaimVerdict::cannot_hold) + list_of(report, ClaimVerdict::differs)},
+        {"version", escaped_html(HAMFLOW_VERSION)},
+        {"experiments", experiments}}) {
+    const std::string place = "<!--" + name + "-->";
+    page.replace(page.find(place), place.size(), text);
   }
-  return text + fmt::format("</div>\n</main>\n<footer><p class=\"quiet\">hamflow {}</p></footer>\n</body>\n</html>\n",
-                            escaped_html(HAMFLOW_VERSION));
+  return page;
 }
 
 }  // namespace hamflow::reproduction

@@ -13,7 +13,7 @@ namespace hamflow::reproduction {
 std::string verdicts_json(const ReproduceReport& report);
 /// How many of each verdict, and every claim that does not hold.
 std::string verdicts_text(const ReproduceReport& report);
-/// One file that needs no other: figures stand in it.   @param folder in which the experiments are
+/// It shows the figures that stand beside it in the folder.   @param folder in which the experiments are
 std::string page_of(const ReproduceReport& report, const std::filesystem::path& folder);
 
 }  // namespace hamflow::reproduction

@@ -13,7 +13,6 @@
 
 #include "hamflow/core/error.hpp"
 #include "hamflow/figures/while_drawing.hpp"
-#include "kept_experiment.hpp"
 #include "report.hpp"
 #include "shared_work.hpp"
 #include "store.hpp"

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,5 +60,10 @@ struct ReproduceReport {
 /// @throws FileError when the folder cannot be used
 ReproduceReport reproduce(const ReproduceRequest& request,
                           const std::function<bool(std::size_t done, std::size_t all)>& pulse = {});
+
+/// The experiment as it was carried out into the folder of a reproduction, in the largest size that is there whole;
+/// nullopt if it was not run, or was run by another version of it.   @throws Error for an unknown ID
+/// @throws FileError where the folder is not that of a reproduction
+std::optional<ExperimentReport> kept_experiment(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace hamflow

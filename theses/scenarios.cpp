@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "embedded.hpp"
 #include "hamflow/core/error.hpp"
 #include "hamflow/core/text.hpp"
 #include "hamflow/scenario/scenario.hpp"
-#include "scenario_texts.hpp"
 
 namespace hamflow::reproduction {
 
 std::string scenario_of(const std::string& name, const std::vector<std::string>& sets) {
-  const auto found = scenario_texts().find(name);
-  if (found == scenario_texts().end()) throw Error("found no scenario " + name);
-  const Reading reading = read_scenario_text(found->second, name + ".toml", sets);
+  const std::string file = "scenarios/" + name + ".toml";
+  const Reading reading = read_scenario_text(embedded_text(file), file, sets);
   if (!reading.scenario) {
     throw Error(joined(
         reading.complaints, [](const Complaint& complaint) { return complaint.text(); }, "; "));
