@@ -143,7 +143,6 @@ std::string plain_label(const std::string& label) {
 std::vector<Curves> curves_of(const Study& study) {
   std::vector<Curves> all(study.curves().begin(), study.curves().end());
   if (!all.empty()) return all;
-  std::vector<figures::Drawing> drawings;
   for (const Drawn& drawn : study.drawn()) {
     Curves curves{drawn.name, {}};
     int number = 0;

@@ -30,49 +30,31 @@ struct Case {
   const char* lambda;  // as printed
   const char* energy;
   const char* page_of_energy;
-  double t_end;
   const char* formula;        // of the zeros
   std::vector<double> zeros;  // where the motion turns
 };
+constexpr double t_end = 10;
 
 const std::vector<Case>& cases() {
+  const char *const first = "+-sqrt(lambda + |lambda_inf|)", *const third = "sqrt(lambda +- |lambda_inf|)";
   static const std::vector<Case> all{
-      {"G2.26",
-       "70",
-       "Duffing oscillator, case 1: through the origin",
-       1,
-       "7",
-       "40.5",
-       "71",
-       10,
-       "+-sqrt(lambda + |lambda_inf|)",
-       {-4, 4}},
-      {"G2.27", "72", "Duffing oscillator, case 2: the separatrix", 1, "8", "32", "73", 10, "", {}},
-      {"G2.28",
-       "75",
-       "Duffing oscillator, case 3: on one side",
-       2,
-       "12",
-       "16",
-       "75",
-       10,
-       "sqrt(lambda +- |lambda_inf|)",
-       {std::sqrt(8.0), 4}}};
+      {"G2.26", "70", "Duffing oscillator, case 1: through the origin", 1, "7", "40.5", "71", first, {-4, 4}},
+      {"G2.27", "72", "Duffing oscillator, case 2: the separatrix", 1, "8", "32", "73", "", {}},
+      {"G2.28", "75", "Duffing oscillator, case 3: on one side", 2, "12", "16", "75", third, {std::sqrt(8.0), 4}}};
   return all;
 }
 
 /// cg(1,5) with dt = 0.02/refinement, sampled every 0.02.
 Trajectory element(Study& study, const Case& c, int refinement) {
-  const long steps = std::lround(c.t_end / 0.02) * refinement;
+  const long steps = std::lround(t_end / 0.02) * refinement;
   return study.run(refinement == 1 ? "figure" : "finer_" + std::to_string(refinement), scenario_of(c.id),
                    in_steps(fmt::format("0.02/{}", refinement), steps, refinement));
 }
 
 /// The places where the orbit turns, each once: those of a run of order 8 with small steps.
 std::vector<double> turning_points(Study& study, const Case& c) {
-  const Trajectory run =
-      study.run("turning_points", scenario_of(c.id),
-                in_steps("0.001", std::lround(c.t_end / 0.001), 1, "method={ name = \"rkn8-s19\" }"));
+  const Trajectory run = study.run("turning_points", scenario_of(c.id),
+                                   in_steps("0.001", std::lround(t_end / 0.001), 1, "method={ name = \"rkn8-s19\" }"));
   std::vector<double> rate;
   for (const auto& p : run.p) rate.push_back(p[0] / 2);
   std::vector<double> all = extrema(run.t, run.coordinate(0), rate);
@@ -135,7 +117,7 @@ figures::Panel energy_panel(const Case& c, const Trajectory& run) {
       over_time("{/:Italic E}, {/:Italic V}", run.t, run.energy, std::vector<double>(run.size(), std::stod(c.energy)));
   figures::Curve potential;
   for (int i = 0; i <= 400; ++i) {
-    const double r = c.t_end * i / 400, V = c.k / 2 * (r * r - lambda) * (r * r - lambda);
+    const double r = t_end * i / 400, V = c.k / 2 * (r * r - lambda) * (r * r - lambda);
     if (V <= 90) potential.add(r, V);
   }
   panel.series.push_back({figures::Ink::level, "{/:Italic V}({/:Italic r})", potential});
@@ -222,7 +204,7 @@ void carry_out(const Case& c, Study& study) {
          c.formula},
         at_most(1e-9, "cubic pieces of samples at dt = 0.001"), {{gap, 0, "largest distance, rkn8-s19"}});
     const Trajectory exact =
-        study.run("reference", scenario_of(c.id), in_steps("0.02", std::lround(c.t_end / 0.02), 1, by_series));
+        study.run("reference", scenario_of(c.id), in_steps("0.02", std::lround(t_end / 0.02), 1, by_series));
     claim_second_order(
         study, {"order", "the computed motion comes to the exact one as dt becomes smaller", "phase curve, of one dt"},
         {largest_distance(element(study, c, 4), exact), largest_distance(element(study, c, 8), exact),
