@@ -298,11 +298,11 @@ ProblemEntry entry_of_model(const EntryModel& model, const std::optional<TypedFi
   e.energy = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     return face(parameters).energy(vector_of(q, degrees), vector_of(p, degrees));
   };
-  e.rates = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+  e.gradient = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     Vector<double, dynamic> dq(degrees);
     Vector<double, dynamic> dp(degrees);
     face(parameters).gradient(vector_of(q, degrees), vector_of(p, degrees), dq, dp);
-    return std::vector<double>(dp.begin(), dp.begin() + q.size());
+    return EnergyGradient{{dq.begin(), dq.begin() + q.size()}, {dp.begin(), dp.begin() + q.size()}};
   };
   e.regular = [face, degrees](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     Vector<double, dynamic> dq(degrees);

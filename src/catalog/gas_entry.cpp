@@ -400,10 +400,14 @@ void add_functions(ProblemEntry& e, const Kind& kind) {
   e.energy = [functions](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     return functions(parameters, q.size())->energy(vector_of(q), vector_of(p));
   };
-  e.rates = [gas](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+  e.gradient = [gas, functions](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
+    Vector<double, dynamic> f(q.size());
     Vector<double, dynamic> v(q.size());
+    functions(parameters, q.size())->force(vector_of(q), f);
     gas(parameters, q.size()).velocity(vector_of(p), v);
-    return std::vector<double>(v.begin(), v.end());
+    EnergyGradient found{{f.begin(), f.end()}, {v.begin(), v.end()}};
+    for (double& x : found.by_q) x = 0.0 - x;
+    return found;
   };
   e.regular = [functions](const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     const auto problem = functions(parameters, q.size());

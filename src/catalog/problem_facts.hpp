@@ -61,7 +61,7 @@ class ProblemFacts : ProblemStart<Family> {
       return hamflow::energy(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q),
                              vector_of(p));
     };
-    e.rates = rates;
+    e.gradient = gradient_of;
     e.regular = regular;
     e.invariant_sizes = [](const Texts& parameters, std::size_t size) {
       return detail::invariant_sizes(In::template make<double>(Parameters<double>(parameters), size));
@@ -104,12 +104,12 @@ class ProblemFacts : ProblemStart<Family> {
     return frame;
   }
 
-  static std::vector<double> rates(const Texts& parameters, const std::vector<double>& q,
-                                   const std::vector<double>& p) {
+  static EnergyGradient gradient_of(const Texts& parameters, const std::vector<double>& q,
+                                    const std::vector<double>& p) {
     VectorOf<P> dq = vector_of(q);
     VectorOf<P> dp = vector_of(p);
     gradient(In::template make<double>(Parameters<double>(parameters), q.size()), vector_of(q), vector_of(p), dq, dp);
-    return {dp.begin(), dp.end()};
+    return {{dq.begin(), dq.end()}, {dp.begin(), dp.end()}};
   }
   static bool regular(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p) {
     const P problem = In::template make<double>(Parameters<double>(parameters), q.size());

@@ -52,6 +52,13 @@ class ScenarioReader {
     return scenario_;
   }
 
+  /// [problem] alone.
+  Scenario read_problem_alone() {
+    TomlTable problem = root_.table("problem");
+    read_problem(problem);
+    return scenario_;
+  }
+
   /// Why no start has the energy asked for; empty where one has, or none was asked for.
   const std::string& no_start() const { return no_start_; }
 

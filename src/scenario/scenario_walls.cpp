@@ -192,7 +192,7 @@ std::string refused_by_walls(const Request& request, const ProblemEntry& problem
     if (problem.info.name == GasKeys::problem) break;  // each particle has its mass
     std::vector<double> p(start_q.size(), 0.0);
     p[wall.index] = 1;
-    const std::vector<double> v = problem.rates(request.parameters, start_q, p);
+    const std::vector<double> v = problem.gradient(request.parameters, start_q, p).by_p;
     for (std::size_t k = 0; k < v.size(); ++k) {
       if (quadratic && (k == wall.index || v[k] == 0)) continue;
       return "where the velocity of " + wall.coordinate +

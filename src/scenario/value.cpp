@@ -2,6 +2,10 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
+
+#include "hamflow/core/complaint.hpp"
+#include "scenario_reader.hpp"
 #include "toml_depth.hpp"
 #include "toml_text.hpp"
 
@@ -47,6 +51,25 @@ toml::table table_of(const Value::Table& from, int depth) {
 }  // namespace
 
 std::string scenario_text(const Value::Table& tree) { return toml_text(table_of(tree, 0)); }
+
+ChosenProblem read_problem_tree(const Value::Table& problem) {
+  std::vector<Complaint> complaints;
+  const auto document = parsed_document(scenario_text(Value::Table{{"problem", problem}}), "problem", {}, complaints);
+  Scenario scenario;
+  if (document) scenario = ScenarioReader(*document, "problem", complaints).read_problem_alone();
+  const auto is_given = [&](const std::string& key) {
+    return std::any_of(problem.begin(), problem.end(), [&](const auto& entry) { return entry.first == key; });
+  };
+  std::erase_if(complaints, [&](const Complaint& complaint) {  // the start is not asked for
+    for (const std::string key : {"initial", "orbit", "bodies", "case"}) {
+      if (complaint.key.starts_with("problem." + key) && !is_given(key)) return true;
+    }
+    return false;
+  });
+  if (!complaints.empty()) throw Rejection(std::move(complaints));
+  if (scenario.problem == nullptr) throw Error("the problem cannot be chosen without more of its keys");
+  return {scenario.problem, scenario.request.variant, scenario.request.parameters};
+}
 
 Reading read_scenario_tree(const Value::Table& tree, const std::string& name) {
   return read_scenario_text(scenario_text(tree), name, {});

@@ -67,7 +67,7 @@ double rounding_of_state(const Request& request, const ProblemEntry& problem, co
   const Texts all = complete(problem.info, request.parameters);
   const std::vector<double>& q = ends.start.q;  // not those of the end, which a run may have blown up to
   const std::vector<double>& p = ends.start.p;
-  const std::vector<double> v = problem.rates(all, q, p);
+  const std::vector<double> v = problem.gradient(all, q, p).by_p;
   double sum = 0;
   for (std::size_t i = 0; i < q.size(); ++i) {
     sum += std::abs(p[i] * v[i]) + std::abs(q[i]) * slope(problem, all, q, p, v, i, dt);
@@ -86,7 +86,7 @@ double rounding_of_growing(const Request& request, const ProblemEntry& problem, 
   for (const double part : on_the_way) {
     std::vector<double> q = ends.end.q;
     for (const std::size_t i : growing) q[i] = ends.start.q[i] + part * (ends.end.q[i] - ends.start.q[i]);
-    const std::vector<double> v = problem.rates(all, q, p);
+    const std::vector<double> v = problem.gradient(all, q, p).by_p;
     for (std::size_t k = 0; k < growing.size(); ++k) {
       slopes[k].push_back(slope(problem, all, q, p, v, growing[k], dt));
     }

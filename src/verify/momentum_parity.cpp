@@ -49,8 +49,8 @@ MomentumParity parity_in_momenta(const ProblemEntry& problem, const Texts& param
       found.is_defined = false;
       return;
     }
-    const std::vector<double> there = problem.rates(all, q, p);
-    const std::vector<double> here = problem.rates(all, q, back);
+    const std::vector<double> there = problem.gradient(all, q, p).by_p;
+    const std::vector<double> here = problem.gradient(all, q, back).by_p;
     double largest = 0;
     for (std::size_t i = 0; i < there.size(); ++i) {
       if (there[i] != -here[i]) found.to_the_last_bit = false;

@@ -201,7 +201,7 @@ class ConvertedRun::Impl {
     const std::span<const double> t = given_["t"].numbers();
     for (std::size_t k = 0; k + 1 < t.size() && !angles.empty(); ++k) {
       const std::vector<double> rates =
-          target_->rates(scenario().request.parameters, states_["q"].row(k), states_["p"].row(k));
+          target_->gradient(scenario().request.parameters, states_["q"].row(k), states_["p"].row(k)).by_p;
       for (const std::size_t i : angles) most = std::max(most, std::abs(rates[i] * (t[k + 1] - t[k])));
     }
     return most;

@@ -50,31 +50,6 @@ std::string what_is(const fs::path& folder) {
   return {};
 }
 
-/// @throws FileError where what is named is known to be something else than a run or a reversal
-fs::path file_of(const fs::path& run) {
-  std::error_code none;
-  if (run.filename() == "sweep.h5" && fs::exists(run, none)) {
-    throw FileError(run.string() + " cannot be read: it is the table " + drawn_by_sweep);
-  }
-  if (!fs::is_directory(run, none)) return run;
-  if (fs::exists(run / "run.h5", none)) return run / "run.h5";
-  if (fs::exists(run / "reverse.h5", none)) return run / "reverse.h5";
-  const std::string other = what_is(run);
-  if (!other.empty())
-    throw FileError((run / "run.h5").string() + " cannot be read: there is no such file; this is " + other);
-  return run / "run.h5";
-}
-
-/// The scenario that a run.h5 carries.
-Scenario scenario_of(const StoredRun& run, const fs::path& file) {
-  const std::string& text = run.description.scenario;
-  const Reading reading = read_scenario_text(text, file.string(), {});
-  if (!reading.scenario)
-    throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
-  check_states(*reading.scenario, run.description, file);
-  return *reading.scenario;
-}
-
 /// Of bodies, or of one whose coordinates are x, y, z.
 std::size_t space_of(const Scenario& scenario, std::size_t size) {
   const ProblemEntry& problem = *scenario.problem;
@@ -227,6 +202,29 @@ bool show_energy(const std::vector<std::string>& kinds) {
 
 }  // namespace
 
+fs::path stored_run_in(const fs::path& run) {
+  std::error_code none;
+  if (run.filename() == "sweep.h5" && fs::exists(run, none)) {
+    throw FileError(run.string() + " cannot be read: it is the table " + drawn_by_sweep);
+  }
+  if (!fs::is_directory(run, none)) return run;
+  if (fs::exists(run / "run.h5", none)) return run / "run.h5";
+  if (fs::exists(run / "reverse.h5", none)) return run / "reverse.h5";
+  const std::string other = what_is(run);
+  if (!other.empty())
+    throw FileError((run / "run.h5").string() + " cannot be read: there is no such file; this is " + other);
+  return run / "run.h5";
+}
+
+Scenario scenario_of(const StoredRun& run, const fs::path& file) {
+  const std::string& text = run.description.scenario;
+  const Reading reading = read_scenario_text(text, file.string(), {});
+  if (!reading.scenario)
+    throw FileError("the scenario in " + file.string() + " is damaged: " + reading.complaints.front().text());
+  check_states(*reading.scenario, run.description, file);
+  return *reading.scenario;
+}
+
 std::string problem_text(const Scenario& scenario) {
   constexpr std::size_t longest = 60;
   const Request& request = scenario.request;
@@ -302,7 +300,7 @@ RunForFigure for_figure(const Scenario& scenario, const RunTables& tables, const
 }
 
 RunForFigure read_for_figure(const fs::path& run, const std::vector<std::string>& kinds) {
-  const fs::path source = file_of(run);
+  const fs::path source = stored_run_in(run);
   StoredRun stored = read_run_file(source, {.most_coordinates = most_named_coordinates, .digits = true});
   RunForFigure result = for_figure(scenario_of(stored, source), stored.tables, run, kinds,
                                    [source](std::size_t sample) { return read_run_positions(source, sample); });

@@ -10,8 +10,15 @@
 #include "figure.hpp"
 #include "hamflow/run/run_tables.hpp"
 #include "hamflow/scenario/scenario.hpp"
+#include "run_file.hpp"
 
 namespace hamflow {
+
+/// The run.h5, or reverse.h5, of a folder or file.
+/// @throws FileError where what is named is known to be something else than a run or a reversal
+std::filesystem::path stored_run_in(const std::filesystem::path& run);
+/// The scenario that a run.h5 carries.   @throws FileError
+Scenario scenario_of(const StoredRun& run, const std::filesystem::path& file);
 
 /// What a title calls the problem: one that is typed by what was typed.
 std::string problem_text(const Scenario& scenario);

@@ -164,8 +164,8 @@ TEST(Declarations, ChartsAreOneMotion) {
                                1024 * test::epsilon * (1 + std::fabs(here))));
       // And so are its slopes: dq/dt of the reference chart along the motion, by divided differences of the chart. The
       // error is h^2 from the differences and epsilon/h from rounding.
-      const std::vector<double> rates = entry.rates(parameters, q, p);
-      const std::vector<double> reference_rates = reference->rates(parameters, there.q, there.p);
+      const std::vector<double> rates = entry.gradient(parameters, q, p).by_p;
+      const std::vector<double> reference_rates = reference->gradient(parameters, there.q, there.p).by_p;
       const double h = 1e-5;
       auto ahead = q;
       auto behind = q;

@@ -62,6 +62,12 @@ struct Request {
   bool record = true;  // steps are recorded and compiled where they can be; the bits are the same
 };
 
+/// The derivatives of H in a state; dH/dp are the rates of change of the coordinates.
+struct EnergyGradient {
+  std::vector<double> by_q;
+  std::vector<double> by_p;
+};
+
 /// One problem of the catalogue (a problem with a choice of potential has one entry for each). Parameters are complete.
 struct ProblemEntry {
   ProblemInfo info;
@@ -94,10 +100,9 @@ struct ProblemEntry {
   std::function<std::vector<Condition>(const Texts& parameters, const StartSpec&)> conditions;
   /// H(q, p).
   std::function<double(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> energy;
-  /// dH/dp, the rates of change of the coordinates.
-  std::function<std::vector<double>(const Texts& parameters, const std::vector<double>& q,
-                                    const std::vector<double>& p)>
-      rates;
+  /// dH/dq and dH/dp.
+  std::function<EnergyGradient(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)>
+      gradient;
   /// Whether H and its derivatives are finite there.
   std::function<bool(const Texts& parameters, const std::vector<double>& q, const std::vector<double>& p)> regular;
   /// How many numbers each invariant has.

@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,6 +33,16 @@ struct Value {
 /// The TOML of a scenario. Numbers have as few digits as read back the same.
 /// @throws Error where a key comes twice, or a list or table is nested deeper than a scenario can be
 std::string scenario_text(const Value::Table& tree);
+
+/// A problem without a start.
+struct ChosenProblem {
+  const ProblemEntry* entry = nullptr;  // lives as long as the program
+  std::map<std::string, std::string> variant{};
+  Texts parameters{};  // complete
+};
+/// The problem of a table [problem], in which the start may be missing.
+/// @throws Rejection for what is wrong with the rest of it
+ChosenProblem read_problem_tree(const Value::Table& problem);
 
 /// The scenario, or what is wrong with it. Its text is scenario_text(tree).
 Reading read_scenario_tree(const Value::Table& tree, const std::string& name);

@@ -1,0 +1,56 @@
+"""Structure-preserving time integration of Hamiltonian systems.
+
+    import hamflow as hf
+
+    swing = hf.Problem("(p_x^2+p_y^2)/2 + g*y + k/2*(sqrt(x^2+y^2)-1)^2", coordinates=["x", "y"],
+                       parameters={"k": 20, "g": 1})
+    sim = hf.Simulation(swing, method="kahan-li8", q=[0.6, -0.8], p=[0, 0], dt=0.02)
+    traj = sim.sample(steps=20_000, every=20)
+    print(sim.energy_error.max_relative_error)
+
+The names, defaults and messages are those of the command `hamflow`.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+from . import _core
+from ._errors import Error, FileError, Rejection, StepFailed
+from ._problem import Problem
+from ._run import Reversal, Run, States, open, reverse, run
+from ._scenario import Scenario
+from ._simulation import Simulation, Trajectory
+from ._sweep import Sweep, propagate, sweep
+from ._trace import acos, asin, atan, atan2, cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
+
+__version__: str = _core.version
+
+__all__ = ["Error", "FileError", "Problem", "Rejection", "Reversal", "Run", "Scenario", "Simulation", "States",
+           "StepFailed", "Sweep", "Trajectory", "acos", "asin", "atan", "atan2", "cos", "cosh", "exp", "log",
+           "methods", "open", "problems", "propagate", "reverse", "run", "sin", "sinh", "sqrt", "sweep", "tan", "tanh"]
+
+
+class Infos(list):  # type: ignore[type-arg]
+    """A list of info objects; in a notebook a table."""
+
+    def __repr__(self) -> str:
+        return f"<hamflow: {len(self)} entries: {', '.join(each.name for each in self[:6])}{', ...' if len(self) > 6 else ''}>"
+
+    def _repr_html_(self) -> str:
+        names = list(vars(self[0])) if self else []
+        head = "".join(f"<th>{name}</th>" for name in names)
+        rows = "".join("<tr>" + "".join(f"<td>{getattr(each, name)}</td>" for name in names) + "</tr>" for each in self)
+        return f"<table><tr>{head}</tr>{rows}</table>"
+
+
+def methods(problem: Problem | None = None, /) -> Infos:
+    """The methods, or those that take a problem: name, summary, order, symplectic, symmetric, reversible, ..."""
+    found = [SimpleNamespace(**each) for each in _core.methods()]
+    return Infos(each for each in found if problem is None or problem._core.accepts(each.name))
+
+
+def problems() -> Infos:
+    """The problems of the catalogue: name, formula, coordinates, parameters, reference."""
+    return Infos(SimpleNamespace(**each) for each in _core.problems())

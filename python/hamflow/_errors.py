@@ -1,0 +1,55 @@
+"""The errors that hamflow raises."""
+
+from __future__ import annotations
+
+
+class Error(ValueError):
+    """What was asked for is not possible; the message says what is."""
+
+
+class Rejection(Error):
+    """A scenario is refused before anything runs.
+
+    Attributes
+    ----------
+    errors : list of (key, message)
+        Everything that is wrong with it.
+    """
+
+    def __init__(self, errors: list[tuple[str, str]]) -> None:
+        self.errors = [tuple(each) for each in errors]
+        super().__init__("\n".join(f"{key}: {message}" if key else message for key, message in self.errors))
+
+    def __reduce__(self):  # type: ignore[no-untyped-def]
+        return (Rejection, (self.errors,))
+
+
+class StepFailed(Error):
+    """A step could not be taken. The simulation stands at the last good one.
+
+    Attributes
+    ----------
+    kind : str
+        Such as "not_converged", "non_finite".
+    step : int
+        The number of the last good step.
+    t : float
+        Its time.
+    hint : str
+        What can be tried.
+    """
+
+    def __init__(self, message: str, kind: str = "", step: int = 0, t: float = 0.0, hint: str = "") -> None:
+        self.kind, self.step, self.t, self.hint = kind, step, t, hint
+        super().__init__(f"{message}; {hint}" if hint else message)
+        self._given = (message, kind, step, t, hint)
+
+    def __reduce__(self):  # type: ignore[no-untyped-def]
+        return (StepFailed, self._given)
+
+
+class FileError(Error, OSError):
+    """A file or folder cannot be read or written."""
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""

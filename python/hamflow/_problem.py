@@ -1,0 +1,179 @@
+"""Hamiltonians."""
+
+from __future__ import annotations
+
+import html
+from typing import Any, Callable, Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._trace import traced
+
+Numbers = npt.NDArray[np.float64]
+
+
+def momentum_names(coordinates: Sequence[str]) -> list[str]:
+    """The names that momenta have in formulas: p of q, p1 of q1, p_x of x."""
+    names = []
+    for name in coordinates:
+        is_q = name == "q" or (name[:1] == "q" and name[1:].isdigit())
+        names.append("p" + name[1:] if is_q else "p_" + name)
+    return names
+
+
+class Problem:
+    """A Hamiltonian H(q, p), without a start.
+
+    Parameters
+    ----------
+    hamiltonian : str, callable, SymPy expression or dict
+        H as text in the names of coordinates and momenta (p of q, p1 of q1, p_x of x); a function of arrays of
+        symbols (q, p), which is traced once; a SymPy expression; the name of a problem of the catalogue
+        (`hamflow.problems()`), whose keys are the other arguments; or a table [problem] as a dict.
+    coordinates : list of str, optional
+        Their names. Default: q1, q2, ... where `dimension` is given.
+    dimension : int, optional
+        Degrees of freedom, in place of names.
+    parameters : mapping, optional
+        Values of the other names in the text; numbers, or texts with more digits.
+    **keys
+        The keys of a problem of the catalogue.
+
+    Raises
+    ------
+    Rejection
+        Where the text is no Hamiltonian, or a key is wrong.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> swing = hf.Problem("(p_x^2+p_y^2)/2 + g*y + k/2*(sqrt(x^2+y^2)-1)^2", coordinates=["x", "y"],
+    ...                    parameters={"k": 20, "g": 1})
+    >>> swing.momenta
+    ['p_x', 'p_y']
+    >>> swing.structure
+    {'separable': True, 'quadratic_kinetic': True, 'time': False}
+    """
+
+    def __init__(self, hamiltonian: str | Callable[..., Any] | Mapping[str, Any] | Any, /, *,
+                 coordinates: Sequence[str] | None = None, dimension: int | None = None,
+                 parameters: Mapping[str, Any] | None = None, **keys: Any) -> None:
+        known = {each["name"] for each in _core.problems()}
+        if isinstance(hamiltonian, Mapping):
+            if coordinates is not None or dimension is not None or parameters is not None:
+                raise TypeError("a table [problem] has its coordinates and parameters in itself")
+            self.table: dict[str, Any] = dict(hamiltonian) | keys
+        elif isinstance(hamiltonian, str) and hamiltonian in known and hamiltonian != "formula":
+            self.table = {"name": hamiltonian} | keys
+            for name, value in (("coordinates", coordinates), ("dimension", dimension), ("parameters", parameters)):
+                if value is not None:
+                    self.table[name] = dict(value) if isinstance(value, Mapping) else value
+        else:
+            names = list(coordinates) if coordinates is not None else _numbered(dimension, hamiltonian)
+            if callable(hamiltonian) and not hasattr(hamiltonian, "free_symbols"):
+                text = traced(hamiltonian, names, momentum_names(names))
+            else:
+                text = str(hamiltonian).replace("**", "^")
+            self.table = {"name": "formula", "coordinates": names, "hamiltonian": text} | keys
+            if parameters:
+                self.table["parameters"] = dict(parameters)
+        self._core = _core.Problem(self.table)
+
+    @property
+    def name(self) -> str:
+        """The name in the catalogue; "formula" of a typed Hamiltonian."""
+        return str(self._core.name)
+
+    @property
+    def formula(self) -> str:
+        """H as text."""
+        return str(self._core.formula)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of q; empty where the size is that of the start."""
+        return list(self._core.coordinates)
+
+    @property
+    def momenta(self) -> list[str]:
+        """Names of p."""
+        return list(self._core.momenta)
+
+    @property
+    def parameters(self) -> dict[str, str]:
+        """Values of all parameters, as texts."""
+        return dict(self._core.parameters)
+
+    @property
+    def structure(self) -> dict[str, bool]:
+        """Whether H = T(p) + V(q), whether T is quadratic in p, and whether H depends on t."""
+        return dict(self._core.structure)
+
+    def energy(self, q: npt.ArrayLike, p: npt.ArrayLike) -> float | Numbers:
+        """H(q, p).
+
+        Parameters
+        ----------
+        q, p : array_like, shape (d,) or (n, d)
+
+        Returns
+        -------
+        float, or array of shape (n,)
+        """
+        return self._core.energy(_state(q, "q"), _state(p, "p"))
+
+    def gradient(self, q: npt.ArrayLike, p: npt.ArrayLike) -> tuple[Numbers, Numbers]:
+        """(dH/dq, dH/dp), of the shape of q and p, (d,) or (n, d)."""
+        return self._core.gradient(_state(q, "q"), _state(p, "p"))
+
+    def at(self, *, q: Sequence[Any] | Numbers | None = None, p: Sequence[Any] | Numbers | None = None,
+           **initial: Any) -> dict[str, Any]:
+        """The table [problem] with a start, for `Scenario`."""
+        return self._started(q, p, initial)
+
+    def _started(self, q: Any, p: Any, initial: Mapping[str, Any]) -> dict[str, Any]:
+        table = dict(self.table)
+        start = dict(initial)
+        if q is not None:
+            start["q"] = _list(q)
+        if p is not None:
+            start["p"] = _list(p)
+        if start:
+            table["initial"] = start
+        return table
+
+    def __repr__(self) -> str:
+        return f"<hamflow.Problem {self.name}: H = {self.formula}>"
+
+    def _repr_html_(self) -> str:
+        return f"<code>H = {html.escape(self.formula)}</code>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Problem, (self.table,))
+
+
+def _numbered(dimension: int | None, hamiltonian: Any) -> list[str]:
+    if dimension is None:
+        if isinstance(hamiltonian, str) and hamiltonian.replace("-", "").replace("_", "").isalpha():
+            names = [each["name"] for each in _core.problems()]
+            from ._errors import Error
+            raise Error(f"no problem {hamiltonian}; there are {', '.join(names)}")
+        raise TypeError("coordinates: missing; allowed a list of names, or dimension=")
+    if isinstance(dimension, bool) or not isinstance(dimension, (int, np.integer)) or dimension < 1:
+        raise TypeError(f"dimension: found {dimension!r}; allowed a whole number from 1")
+    return ["q"] if dimension == 1 else [f"q{i + 1}" for i in range(dimension)]
+
+
+def _state(x: npt.ArrayLike, name: str) -> Numbers:
+    try:
+        array = np.ascontiguousarray(x, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        from ._errors import Error
+        raise Error(f"{name}: found {type(x).__name__}; allowed arrays of numbers, (d,) or (n, d)") from error
+    return array
+
+
+def _list(x: Any) -> list[Any]:
+    return x.tolist() if isinstance(x, np.ndarray) else list(x)

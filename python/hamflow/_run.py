@@ -1,0 +1,285 @@
+"""Whole runs, as the command carries them out."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+import tempfile
+import time
+from decimal import Decimal
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Callable, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import Error, FileError, StepFailed
+from ._scenario import Scenario, scenario_of
+
+Numbers = npt.NDArray[np.float64]
+Progress = Callable[[int, int], Any]
+
+
+def _as_attributes(tree: Any) -> Any:
+    """Dicts as objects whose entries are attributes."""
+    if isinstance(tree, Mapping):
+        return SimpleNamespace(**{str(key).replace(" ", "_"): _as_attributes(value) for key, value in tree.items()})
+    if isinstance(tree, list):
+        return [_as_attributes(entry) for entry in tree]
+    return tree
+
+
+class States:
+    """Points of a section, bounces or events: t (n,), q (n, d), p (n, d) and what else their table has."""
+
+    def __init__(self, table: Any) -> None:
+        self._table = table
+        for name in table.columns:
+            if "/" not in name:
+                setattr(self, name, table[name])
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"no column {name!r}; there are {', '.join(self._table.columns)}")
+
+    def __repr__(self) -> str:
+        return f"<hamflow.States {len(self)} rows: {', '.join(self._table.columns)}>"
+
+
+class Run:
+    """What a run came to.
+
+    Attributes
+    ----------
+    status : str
+        "done", "failed", "interrupted", or "running" of an opened run without a summary.
+    t, q, p, energy : arrays of shape (n,), (n, d), (n, d), (n,)
+        The samples; read-only views.
+    summary : dict
+        That of `hamflow run --json`.
+    scenario : Scenario
+    """
+
+    def __init__(self, scenario: Scenario, tables: Mapping[str, Any], summary: str, folder: Path | None) -> None:
+        self.scenario, self._tables, self._json, self.folder = scenario, tables, summary, folder
+        samples = tables["samples"]
+        self._samples = samples
+        self.summary: dict[str, Any] = json.loads(summary) if summary else {}
+        self.status: str = self.summary.get("status", "running")
+        self.t: Numbers = samples["t"]
+        self.q: Numbers = samples["q"]
+        self.p: Numbers = samples["p"]
+        self.energy: Numbers = samples["energy"]
+        self.warnings: list[SimpleNamespace] = _as_attributes(self.summary.get("warnings", []))
+
+    @property
+    def columns(self) -> list[str]:
+        """The names that [] takes."""
+        short = [name.split("/", 1)[1] for name in self._samples.columns
+                 if name.startswith(("observables/", "invariants/"))]
+        return ["t", *self.scenario.coordinates, *self.scenario.momenta, *short, *self._samples.columns]
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self.scenario.coordinates:
+            return self.q[:, self.scenario.coordinates.index(name)]
+        if name in self.scenario.momenta:
+            return self.p[:, self.scenario.momenta.index(name)]
+        for place in (name, "observables/" + name, "invariants/" + name):
+            if place in self._samples:
+                return self._samples[place]
+        raise KeyError(f"no column {name!r}; there are {', '.join(dict.fromkeys(self.columns))}")
+
+    def digits(self, name: str) -> npt.NDArray[Any]:
+        """t, q, p or energy with all their digits, as an array of decimal.Decimal."""
+        if f"digits/{name}" not in self._samples:
+            raise Error("digits are kept in arithmetic beyond double; in double the columns have all of them")
+        return np.array([[Decimal(x) for x in row] if isinstance(row, list) else Decimal(row)
+                         for row in self._samples[f"digits/{name}"]], dtype=object)
+
+    @property
+    def certificate(self) -> Any:
+        """The certificate of the summary: drift, growth_exponent, energy_level, reason, ...; None where there is none."""
+        return _as_attributes(self.summary.get("certificate"))
+
+    @property
+    def lyapunov(self) -> Any:
+        """exponents, errors, ... with run.lyapunov; else None."""
+        return _as_attributes(self.summary.get("lyapunov"))
+
+    @property
+    def section(self) -> States | None:
+        """The points of run.section."""
+        return States(self._tables["section"]) if "section" in self._tables else None
+
+    @property
+    def bounces(self) -> States | None:
+        """The bounces off hard walls that were recorded."""
+        return States(self._tables["bounces"]) if "bounces" in self._tables else None
+
+    @property
+    def events(self) -> dict[str, States]:
+        """The events of run.events by name."""
+        return {name: States(table) for name, table in self._tables["events"].items()}
+
+    @property
+    def observables(self) -> dict[str, Numbers]:
+        """The expressions of output.observables at each sample."""
+        return {name[12:]: self._samples[name] for name in self._samples.columns if name.startswith("observables/")}
+
+    @property
+    def invariants(self) -> dict[str, Numbers]:
+        """The conserved quantities of the problem at each sample."""
+        return {name[11:]: self._samples[name] for name in self._samples.columns if name.startswith("invariants/")}
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame of t, coordinates, momenta and energy."""
+        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+        names = ["t", *self.scenario.coordinates, *self.scenario.momenta, "energy"]
+        return pandas.DataFrame({name: self[name] for name in names})
+
+    def plot(self, kind: str = "energy-error", ax: Any = None) -> Any:
+        """Draws on matplotlib axes, new ones without `ax`, and returns them.
+
+        Kinds: "orbit", "phase", "time", "energy-error", "section"; `figure` draws all kinds of the command.
+        """
+        from ._plot import draw
+
+        return draw(self, kind, ax)
+
+    def figure(self, kind: str, file: str | os.PathLike[str]) -> None:
+        """Draws a figure of the command by gnuplot: .svg, .pdf or .png."""
+        if self.folder is not None:
+            _core.draw(self.folder, kind, os.fspath(file))
+            return
+        with tempfile.TemporaryDirectory() as place:
+            _core.draw(self.save(Path(place) / "a.run"), kind, os.fspath(file))
+
+    def save(self, folder: str | os.PathLike[str]) -> Path:
+        """Writes the folder that `hamflow run` leaves: the run is copied, or carried out once more, with the same bits."""
+        to = Path(folder)
+        if to.exists():
+            raise FileError(f"{to} exists; choose another folder")
+        if self.folder is not None:
+            shutil.copytree(self.folder, to)
+        else:
+            _core.run(self.scenario._core, to, "error", None)
+        return to
+
+    def __repr__(self) -> str:
+        worst = self.summary.get("energy", {}).get("max_relative_error")
+        error = f", energy error {worst:.2g}" if isinstance(worst, float) else ""
+        return f"<hamflow.Run {self.scenario!r:.60}: {self.status}, {len(self.t)} samples{error}>"
+
+    def _repr_html_(self) -> str:
+        rows = [("status", self.status), ("problem", self.summary.get("problem", "")),
+                ("method", self.summary.get("method", "")), ("steps", self.summary.get("steps", "")),
+                ("energy error", self.summary.get("energy", {}).get("max_relative_error", "")),
+                ("drift", getattr(self.certificate, "drift", ""))]
+        return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
+
+
+def _progress(asked: bool | Progress | None, total: int) -> Callable[[int], None] | None:
+    """What is told of steps taken. By default a line on a terminal for what takes longer than 2 s."""
+    if asked is None:
+        asked = sys.stderr.isatty()
+    if asked is False:
+        return None
+    if callable(asked):
+        told = asked
+        return lambda steps: told(min(steps, total), total)
+    begin = time.monotonic()
+
+    def line(steps: int) -> None:
+        if time.monotonic() - begin > 2 and sys.stderr is not None:
+            print(f"\r{100 * steps / max(total, 1):5.1f} %", end="", file=sys.stderr, flush=True)
+
+    return line
+
+
+def run(scenario: Any, /, *, out: str | os.PathLike[str] | None = None, existing: str = "error",
+        progress: bool | Progress | None = None, certificate: bool = True) -> Run:
+    """Carries out a scenario.
+
+    Parameters
+    ----------
+    scenario : Scenario, dict of tables, or name of a TOML file
+    out : path, optional
+        The folder that the run leaves, as that of the command. Default: nothing is written.
+    existing : "error", "replace" or "resume"
+        What to do with a folder that exists.
+    progress : bool or callable(done, total), optional
+        Default: on a terminal, for what takes longer than 2 s.
+    certificate : bool
+        Whether the run ends with a certificate, which costs at most a tenth more or a second.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    Rejection, FileError
+    StepFailed
+        Its attribute `partial` is the run up to the last good step.
+    KeyboardInterrupt
+        Likewise; with a folder, existing="resume" goes on.
+    """
+    wanted = scenario_of(scenario)
+    if not certificate:
+        wanted = Scenario.from_text(str(wanted), wanted._name)
+        wanted.set("run.certificate", False)
+    folder = None if out is None else Path(out)
+    found = _core.run(wanted._core, folder if folder is not None else "", existing, _progress(progress, wanted.steps))
+    if folder is not None:
+        opened = _core.open_run(folder) if (folder / "run.h5").exists() else {"tables": found["tables"]}
+        result = Run(wanted, opened["tables"], found["json"], folder)
+    else:
+        result = Run(wanted, found["tables"], found["json"], None)
+    if found["interrupted"]:
+        error: BaseException = KeyboardInterrupt()
+        error.partial = result  # type: ignore[attr-defined]
+        raise error
+    if found["file_trouble"]:
+        trouble = FileError(found["file_trouble"])
+        trouble.partial = result  # type: ignore[attr-defined]
+        raise trouble
+    if result.status == "failed":
+        why = result.summary.get("error", {})
+        failed = StepFailed(found["message"], why.get("kind", ""), why.get("step", 0) - 1, why.get("t", 0.0), found["hint"])
+        failed.partial = result  # type: ignore[attr-defined]
+        raise failed
+    return result
+
+
+def open(run: str | os.PathLike[str], /) -> Run:  # noqa: A001
+    """A run in a folder, or its run.h5, also while it grows."""
+    path = Path(run)
+    found = _core.open_run(path)
+    scenario = Scenario.__new__(Scenario)
+    scenario._core, scenario._name = found["scenario"], str(path)
+    return Run(scenario, found["tables"], found["json"], path if path.is_dir() else path.parent)
+
+
+class Reversal:
+    """There and back: bit_exact, distance, and the summary of `hamflow reverse --json`."""
+
+    def __init__(self, text: str) -> None:
+        self.summary: dict[str, Any] = json.loads(text)
+        self.status: str = self.summary["status"]
+        self.bit_exact: bool = bool(self.summary.get("bit_exact"))
+        self.distance: Any = self.summary.get("distance")
+
+    def __repr__(self) -> str:
+        return f"<hamflow.Reversal {self.status}, bit_exact = {self.bit_exact}, distance = {self.distance}>"
+
+
+def reverse(scenario: Any, /) -> Reversal:
+    """Tests time reversibility: integrates forward, reverses the momenta, integrates back."""
+    return Reversal(_core.reverse(scenario_of(scenario)._core)[0])

@@ -1,0 +1,112 @@
+"""Scenarios: everything that a run needs."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping
+
+from . import _core
+from ._problem import Problem
+
+
+class Scenario:
+    """What `hamflow run` carries out: problem, method, run and output.
+
+    Parameters
+    ----------
+    tree : mapping, optional
+        All tables, {"problem": {...}, "method": {...}, "run": {...}}.
+    problem : Problem or mapping, optional
+        A problem with its start, as from `Problem.at`.
+    method : str or mapping, optional
+        "stv4", "cg(1,5)", or a table.
+    run, output : mapping, optional
+        Their tables. Numbers may be texts: "2*pi/100".
+
+    Raises
+    ------
+    Rejection
+        With everything that is wrong, before anything runs.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> s = hf.Scenario(problem=hf.Problem("pendulum").at(q=[1], p=[0]), method="stv4", run={"dt": 0.05, "steps": 100})
+    >>> hf.run(s).status
+    'done'
+    """
+
+    def __init__(self, tree: Mapping[str, Any] | None = None, /, *, problem: Problem | Mapping[str, Any] | None = None,
+                 method: str | Mapping[str, Any] | None = None, run: Mapping[str, Any] | None = None,
+                 output: Mapping[str, Any] | None = None) -> None:
+        all_tables = {name: dict(table) for name, table in tree.items()} if tree is not None else {}
+        if problem is not None:
+            all_tables["problem"] = dict(problem.table if isinstance(problem, Problem) else problem)
+        if method is not None:
+            all_tables["method"] = {"name": method} if isinstance(method, str) else dict(method)
+        if run is not None:
+            all_tables["run"] = dict(run)
+        if output is not None:
+            all_tables["output"] = dict(output)
+        self._read(_core.scenario_text(all_tables), "scenario")
+
+    def _read(self, text: str, name: str, sets: list[str] | None = None) -> None:
+        self._core = _core.Scenario.read(text, name, sets or [])
+        self._name = name
+
+    @classmethod
+    def load(cls, file: str | os.PathLike[str]) -> Scenario:
+        """The scenario of a TOML file."""
+        return cls.from_text(_core.read_file(os.fspath(file)), os.fspath(file))
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "scenario") -> Scenario:
+        """The scenario of a TOML text; `name` stands in messages."""
+        self = cls.__new__(cls)
+        self._read(text, name)
+        return self
+
+    def set(self, key: str, value: Any) -> None:
+        """Sets one key by its dotted path, such as "run.steps"; all is checked again."""
+        self._read(self._core.text, self._name, [f"{key}={_core.value_text(value)}"])
+
+    @property
+    def steps(self) -> int:
+        """Number of steps."""
+        return int(self._core.steps)
+
+    @property
+    def dt(self) -> float:
+        """Step size."""
+        return float(self._core.dt)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of q."""
+        return list(self._core.coordinates)
+
+    @property
+    def momenta(self) -> list[str]:
+        """Names of p."""
+        return list(self._core.momenta)
+
+    def __str__(self) -> str:
+        return str(self._core.text)
+
+    def __repr__(self) -> str:
+        core = self._core
+        return f"<hamflow.Scenario {core.problem}, {core.method}, dt = {core.dt:g}, {core.steps} steps>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Scenario.from_text, (str(self), self._name))
+
+
+def scenario_of(given: Any) -> Scenario:
+    """A scenario from whatever stands for one: itself, a dict, the name of a file."""
+    if isinstance(given, Scenario):
+        return given
+    if isinstance(given, Mapping):
+        return Scenario(given)
+    if isinstance(given, (str, os.PathLike)):
+        return Scenario.load(given)
+    raise TypeError(f"found {type(given).__name__}; allowed a Scenario, a dict of tables, or the name of a TOML file")

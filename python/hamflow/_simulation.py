@@ -1,0 +1,266 @@
+"""Simulations step by step, in memory."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from types import SimpleNamespace
+from typing import Any, Callable, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import Error
+from ._problem import Problem, _list
+from ._scenario import Scenario
+
+Numbers = npt.NDArray[np.float64]
+
+
+class Trajectory:
+    """States of a motion: t (n,), q (n, d), p (n, d), energy (n,), step (n,).
+
+    The arrays are read-only views of memory that C++ has filled; they keep it alive.
+    """
+
+    def __init__(self, table: Any, coordinates: Sequence[str], momenta: Sequence[str]) -> None:
+        self._table, self.coordinates, self.momenta = table, list(coordinates), list(momenta)
+        self.t: Numbers = table["t"]
+        self.q: Numbers = table["q"]
+        self.p: Numbers = table["p"]
+        self.energy: Numbers = table["energy"]
+        self.step: npt.NDArray[np.int64] = table["step"]
+
+    @property
+    def columns(self) -> list[str]:
+        """The names that [] takes."""
+        return ["t", *self.coordinates, *self.momenta, "energy", "step"]
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self.coordinates:
+            return self.q[:, self.coordinates.index(name)]
+        if name in self.momenta:
+            return self.p[:, self.momenta.index(name)]
+        if name in ("t", "q", "p", "energy", "step"):
+            return getattr(self, name)
+        raise KeyError(f"no column {name!r}; there are {', '.join(self.columns)}")
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame with a column for each name."""
+        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+        return pandas.DataFrame({name: self[name] for name in self.columns})
+
+    def __repr__(self) -> str:
+        span = f"t = {self.t[0]:g} .. {self.t[-1]:g}" if len(self) else "empty"
+        return f"<hamflow.Trajectory {len(self)} samples, {span}>"
+
+
+class Simulation:
+    """One motion, advanced step by step.
+
+    Parameters
+    ----------
+    problem : Problem, str or dict
+    method : str
+        Such as "stv4" or "cg(1,5)"; see `hamflow.methods`.
+    q, p : sequence of d numbers, optional
+        Where it starts; texts are read in the arithmetic of the run. Default: the start of the problem.
+    dt : float or str
+        Step size; negative goes back in time.
+    arithmetic : str
+        "double", "compensated", "double-double", "quad", "mp(50)" or "lattice".
+
+    Raises
+    ------
+    Rejection
+        With everything that is wrong.
+
+    Examples
+    --------
+    >>> import hamflow as hf
+    >>> sim = hf.Simulation(hf.Problem("pendulum"), method="stv4", q=[1], p=[0], dt=0.05)
+    >>> sim.advance(1000)
+    >>> round(sim.t, 12)
+    50.0
+    >>> sim.energy_error.max_error < 1e-6
+    True
+    """
+
+    def __init__(self, problem: Problem | str | dict[str, Any], /, *, method: str | dict[str, Any] = "stv4", dt: float | str,
+                 q: Any = None, p: Any = None, v: Any = None, arithmetic: str = "double", threads: int = 1,
+                 parameters: dict[str, Any] | None = None) -> None:
+        chosen = problem if isinstance(problem, Problem) else Problem(problem)
+        initial = {} if v is None else {"v": _list(v)}
+        table = chosen._started(q, p, initial)
+        if parameters:
+            if chosen.name == "formula":
+                table["parameters"] = dict(table.get("parameters", {})) | dict(parameters)
+            else:
+                table |= parameters
+        run: dict[str, Any] = {"dt": dt, "steps": 1}
+        if arithmetic != "double":
+            run["arithmetic"] = arithmetic
+        if threads != 1:
+            run["threads"] = threads
+        self._begin(_core.Simulation(Scenario(problem=table, method=method, run=run)._core))
+
+    def _begin(self, core: Any) -> None:
+        self._core = core
+        scenario = core.scenario
+        self.coordinates: list[str] = list(scenario.coordinates)
+        self.momenta: list[str] = list(scenario.momenta)
+        self.dt: float = scenario.dt
+
+    def advance(self, steps: int) -> None:
+        """Takes `steps` steps; advance(1000) gives the bits of 1000 times advance(1).
+
+        Raises
+        ------
+        StepFailed
+            The simulation then stands at the last good step.
+        KeyboardInterrupt
+            Likewise, at the step that was reached.
+        """
+        self._core.advance(steps)
+
+    def integrate(self, t: float) -> None:
+        """Advances to the time t, a multiple of dt.
+
+        Raises
+        ------
+        Error
+            Where t is none, naming the nearest; `sample(at=...)` takes any time.
+        """
+        steps = (t - self.t) / self.dt
+        whole = round(steps)
+        if not abs(steps - whole) <= 1e-9 * max(1.0, abs(steps)):
+            raise Error(f"t: found {t!r}, which is no whole number of steps from t = {self.t!r}; the nearest are "
+                        f"{self.t + np.floor(steps) * self.dt!r} and {self.t + np.ceil(steps) * self.dt!r}; sample(at=...) takes any time")
+        if whole < 0:
+            raise Error(f"t: found {t!r} behind t = {self.t!r}; allowed later times; reverse() turns the motion round")
+        self.advance(whole)
+
+    def sample(self, *, steps: int | None = None, every: int = 1, at: npt.ArrayLike | None = None) -> Trajectory:
+        """Advances and keeps states.
+
+        Parameters
+        ----------
+        steps : int
+            Number of steps to take; the present state and every `every`-th step are kept.
+        every : int
+        at : array_like of times
+            In place of steps: the states at these times, by partial steps of the method; the bits of the trajectory
+            do not change.
+        """
+        if (steps is None) == (at is None):
+            raise TypeError("sample takes steps= or at=")
+        if at is not None:
+            times = [each if isinstance(each, str) else repr(float(each)) for each in np.ravel(np.asarray(at)).tolist()]
+            table = self._core.sample_at(times)
+        else:
+            table = self._core.sample(steps, every)
+        return Trajectory(table, self.coordinates, self.momenta)
+
+    @property
+    def step(self) -> int:
+        """Steps since the start."""
+        return int(self._core.step)
+
+    @property
+    def t(self) -> float:
+        """Time."""
+        return float(self._core.t)
+
+    @property
+    def q(self) -> Numbers:
+        """Coordinates, a copy of shape (d,)."""
+        return self._core.q
+
+    @property
+    def p(self) -> Numbers:
+        """Canonical momenta, a copy of shape (d,)."""
+        return self._core.p
+
+    @property
+    def energy(self) -> float:
+        """H(q, p)."""
+        return float(self._core.energy)
+
+    @property
+    def digits(self) -> SimpleNamespace:
+        """t, q, p, energy with all their digits, as decimal.Decimal, in arithmetic beyond double."""
+        all_digits = self._core.digits
+        if not all_digits["q"]:
+            raise Error("digits are kept in arithmetic beyond double; in double t, q, p, energy have all of them")
+        return SimpleNamespace(t=Decimal(all_digits["t"]), q=[Decimal(x) for x in all_digits["q"]],
+                               p=[Decimal(x) for x in all_digits["p"]], energy=Decimal(all_digits["energy"]))
+
+    @property
+    def energy_error(self) -> SimpleNamespace:
+        """max_error, scale and max_relative_error over every step, and the energies initial and final."""
+        initial, final, worst, scale = self._core.energy_range
+        return SimpleNamespace(initial=initial, final=final, max_error=worst, scale=scale,
+                               max_relative_error=worst / scale if scale > 0 else (0.0 if worst == 0 else float("nan")))
+
+    @property
+    def invariants(self) -> dict[str, SimpleNamespace]:
+        """initial, final and max_error of each conserved quantity, by name."""
+        return {name: SimpleNamespace(initial=initial, final=final, max_error=worst)
+                for name, initial, final, worst in self._core.invariants}
+
+    @property
+    def evaluations(self) -> dict[str, int]:
+        """Numbers of evaluations since the start."""
+        return dict(self._core.evaluations)
+
+    def reverse(self) -> None:
+        """Reverses the momenta: the motion runs back."""
+        self._core.negate_momenta()
+
+    def copy(self) -> Simulation:
+        """A simulation that goes on by itself."""
+        other = Simulation.__new__(Simulation)
+        other._begin(self._core.copy())
+        return other
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: Any) -> Simulation:
+        return self.copy()
+
+    def save(self) -> bytes:
+        """Everything that decides the bits of the steps to come."""
+        return bytes(self._core.save())
+
+    def load(self, saved: bytes) -> None:
+        """Goes on from what save() gave, bit for bit.
+
+        Raises
+        ------
+        Error
+            Where the bytes are of another kind of simulation, or damaged; then nothing has changed.
+        """
+        self._core.load(saved)
+
+    def observe(self, *, every: int = 1) -> Callable[[Callable[[Simulation], Any]], Callable[[Simulation], Any]]:
+        """Decorates a function of the simulation that is called every `every` steps; it may return "stop"."""
+        def decorate(function: Callable[[Simulation], Any]) -> Callable[[Simulation], Any]:
+            self._core.watch(every, lambda: function(self))
+            return function
+
+        return decorate
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"scenario": self._core.scenario.text, "saved": self.save()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._begin(_core.Simulation(_core.Scenario.read(state["scenario"], "scenario", [])))
+        self.load(state["saved"])
+
+    def __repr__(self) -> str:
+        scenario = self._core.scenario
+        return f"<hamflow.Simulation {scenario.problem}, {scenario.method}, dt = {self.dt:g}, t = {self.t:g}>"

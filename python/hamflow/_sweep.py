@@ -1,0 +1,180 @@
+"""Ensembles: a scenario for many values of some of its keys."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import Error
+from ._run import Progress, States, _progress
+from ._scenario import scenario_of
+
+
+class Sweep:
+    """The members of a sweep as columns: ens["final/q"], ens["energy/max_error"]."""
+
+    def __init__(self, found: Mapping[str, Any]) -> None:
+        self._members, self._section = found["members"], found["section"]
+        self.summary: dict[str, Any] = json.loads(found["json"])
+        self.failures: list[str] = list(found["failures"])
+
+    @property
+    def columns(self) -> list[str]:
+        """The names that [] takes."""
+        return list(self._members.columns)
+
+    @property
+    def status(self) -> list[str]:
+        """What each member came to: "done", "failed", ..."""
+        return list(self._members["member/status"])
+
+    @property
+    def section(self) -> Any:
+        """The points of all members' sections: columns section/member, section/t, section/q, section/p."""
+        return self._section
+
+    def __getitem__(self, name: str) -> Any:
+        return self._members[name]
+
+    def __len__(self) -> int:
+        return len(self._members)
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame with a row for each member."""
+        import pandas  # type: ignore[import-untyped,import-not-found,unused-ignore]
+
+        columns: dict[str, Any] = {}
+        for name in self.columns:
+            values = self[name]
+            if getattr(values, "ndim", 1) == 1:
+                columns[name] = values
+            else:
+                columns.update({f"{name}{i + 1}": values[:, i] for i in range(values.shape[1])})
+        return pandas.DataFrame(columns)
+
+    def __repr__(self) -> str:
+        return f"<hamflow.Sweep {len(self)} members, {self.summary['status']}>"
+
+
+def _varied(key: str, values: Any) -> str:
+    if isinstance(values, str):
+        return f"{key}={values}"
+    items = values.tolist() if isinstance(values, np.ndarray) else list(values)
+    if not items:
+        raise Error(f"{key}: found no values; allowed at least one")
+    texts = [each if isinstance(each, str) else _core.value_text(each) for each in items]
+    for text in texts:
+        if "," in text and not (text.startswith("[") or "(" in text):
+            raise Error(f"{key}: found {text!r}; allowed values without commas")
+    return f"{key}=" + ",".join(texts)
+
+
+def sweep(scenario: Any, varied: Mapping[str, Any], /, *, zip: bool = False, threads: int | None = None,  # noqa: A002
+          out: str | os.PathLike[str] | None = None, existing: str = "error",
+          progress: bool | Progress | None = None) -> Sweep:
+    """Carries out a scenario for many values of some of its keys, in lanes and on all cores.
+
+    Parameters
+    ----------
+    scenario : Scenario, dict of tables, or name of a TOML file
+    varied : mapping of dotted key to array, list or text
+        {"problem.initial.q[1]": np.linspace(-.4, .6, 100)}; a text as on the command line, "a:b:n" or a formula of
+        other keys. Several keys form a Cartesian product; the last one varies fastest.
+    zip : bool
+        Instead of the product the n-th value of each key together.
+    threads : int, optional
+        Default: all cores. The bits do not depend on it.
+    out : path, optional
+        The folder that the sweep leaves.
+
+    Raises
+    ------
+    Rejection, FileError
+    KeyboardInterrupt
+        Its attribute `partial` is the sweep so far.
+    """
+    wanted = scenario_of(scenario)
+    found = _core.sweep(str(wanted), [_varied(key, values) for key, values in varied.items()], zip, threads or 0,
+                        Path(out) if out is not None else "", existing, _told(progress))
+    result = Sweep(found)
+    if found["interrupted"]:
+        error: BaseException = KeyboardInterrupt()
+        error.partial = result  # type: ignore[attr-defined]
+        raise error
+    return result
+
+
+def _told(progress: bool | Progress | None) -> Any:
+    if callable(progress):
+        return progress
+    if progress is False:
+        return None
+    told: list[Any] = []
+
+    def of_both(steps: int, total: int) -> None:
+        if not told:
+            told.append(_progress(progress, total))
+        if told[0] is not None:
+            told[0](steps)
+
+    return of_both
+
+
+def propagate(problem: Any, method: str, q: npt.ArrayLike, p: npt.ArrayLike, /, *, dt: float | str, steps: int,
+              parameters: Mapping[str, Any] | None = None) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Takes `steps` steps from each of n starts, in lanes and on all cores.
+
+    Parameters
+    ----------
+    problem : Problem, str or dict
+    method : str
+    q, p : array_like of shape (n, d)
+    dt : float or str
+    steps : int
+    parameters : mapping, optional
+        Values for all, or arrays of n.
+
+    Returns
+    -------
+    q, p : arrays of shape (n, d)
+
+    Raises
+    ------
+    Error
+        Where a member fails, naming the first.
+    """
+    from ._problem import Problem
+
+    chosen = problem if isinstance(problem, Problem) else Problem(problem)
+    q0 = np.atleast_2d(np.asarray(q, dtype=np.float64))
+    p0 = np.atleast_2d(np.asarray(p, dtype=np.float64))
+    if q0.shape != p0.shape or q0.ndim != 2 or q0.size == 0:
+        raise Error(f"q and p: found shapes {np.shape(q)} and {np.shape(p)}; allowed one shape (n, d)")
+    table = chosen._started(q0[0], p0[0], {})
+    n, d = q0.shape
+    varied: dict[str, Any] = {f"problem.initial.q[{i}]": q0[:, i] for i in range(d)}
+    varied |= {f"problem.initial.p[{i}]": p0[:, i] for i in range(d)}
+    for name, value in (parameters or {}).items():
+        path = f"problem.parameters.{name}" if chosen.name == "formula" else f"problem.{name}"
+        if np.ndim(value) == 1:
+            if len(np.asarray(value)) != n:
+                raise Error(f"parameters[{name!r}]: found {len(np.asarray(value))} values; allowed one, or {n}")
+            varied[path] = np.asarray(value, dtype=np.float64)
+        elif chosen.name == "formula":
+            table["parameters"] = dict(table.get("parameters", {})) | {name: value}
+        else:
+            table[name] = value
+    from ._scenario import Scenario
+
+    scenario = Scenario(problem=table, method=method, run={"dt": dt, "steps": steps, "certificate": False})
+    members = sweep(scenario, varied, zip=True, progress=False)
+    bad = [k for k, status in enumerate(members.status) if status != "done"]
+    if bad:
+        raise Error(f"member {bad[0]} of {n} ended as {members.status[bad[0]]}; {len(bad)} did not end as done")
+    return np.array(members["final/q"]), np.array(members["final/p"])

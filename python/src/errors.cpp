@@ -1,0 +1,42 @@
+// C++ exceptions as the classes of hamflow/_errors.py.
+#include "bindings.hpp"
+#include "hamflow/core/complaint.hpp"
+#include "hamflow/core/error.hpp"
+
+namespace py = pybind11;
+
+namespace hamflow::python {
+
+namespace {
+
+/// Raises a class of hamflow._errors.
+template <class... Args>
+void raise(const char* name, Args&&... args) {
+  try {
+    const py::object type = py::module_::import("hamflow._errors").attr(name);
+    const py::object error = type(std::forward<Args>(args)...);
+    PyErr_SetObject(type.ptr(), error.ptr());
+  } catch (py::error_already_set& trouble) {
+    trouble.restore();
+  }
+}
+
+}  // namespace
+
+void bind_errors(py::module_& /*m*/) {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Rejection& rejection) {
+      py::list all;
+      for (const Complaint& complaint : rejection.complaints) all.append(py::make_tuple(complaint.key, complaint.message));
+      raise("Rejection", all);
+    } catch (const FileError& error) {
+      raise("FileError", error.what());
+    } catch (const Error& error) {
+      raise("Error", error.what());
+    }
+  });
+}
+
+}  // namespace hamflow::python

@@ -1,0 +1,280 @@
+// A simulation step by step.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "bindings.hpp"
+#include "hamflow/core/number.hpp"
+#include "hamflow/core/outcome.hpp"
+#include "hamflow/core/stop_question.hpp"
+#include "hamflow/core/text.hpp"
+#include "hamflow/run/observer.hpp"
+#include "hamflow/scenario/scenario.hpp"
+#include "signals.hpp"
+#include "tables.hpp"
+
+namespace py = pybind11;
+
+namespace hamflow::python {
+
+namespace {
+
+/// Fills a table with the states of some steps, or of some times.
+class Sampler final : public Observer {
+ public:
+  Sampler(const Scenario& scenario, std::int64_t first, std::int64_t every, std::int64_t last)
+      : first_(first), every_(every), last_(last) {
+    const std::size_t n = scenario.start_q.size();
+    table_.add({.name = "q", .width = n, .scalar = false, .meaning = "coordinates"});
+    table_.add({.name = "p", .width = n, .scalar = false, .meaning = "canonical momenta"});
+    table_.add({.name = "energy", .meaning = "H(q, p)"});
+    table_.add({.name = "step", .type = ValueType::integer, .meaning = "steps since the start"});
+    table_.add({.name = "t", .meaning = "time"});
+    for (Column& column : table_.columns()) column.reserve(static_cast<std::size_t>((last - first) / every + 2));
+  }
+  std::int64_t next_due(std::int64_t step) const override {
+    if (step <= first_) return first_;
+    const std::int64_t next = first_ + (step - first_ + every_ - 1) / every_ * every_;
+    return next <= last_ ? next : never;
+  }
+  Verdict observe(const Frame& frame) override {
+    std::vector<Column>& columns = table_.columns();
+    for (const double x : frame.q) columns[0].add(x);
+    for (const double x : frame.p) columns[1].add(x);
+    columns[2].add(frame.energy);
+    columns[3].add(frame.step);
+    columns[4].add(frame.time);
+    return Verdict::go_on;
+  }
+  Table take() { return std::move(table_); }
+
+ private:
+  Table table_;
+  std::int64_t first_;
+  std::int64_t every_;
+  std::int64_t last_;
+};
+
+/// Calls a function of Python every so many steps.
+class Watcher final : public Observer {
+ public:
+  Watcher(std::int64_t every, py::object told) : every_(every), told_(std::move(told)) {}
+  std::int64_t next_due(std::int64_t step) const override {
+    step = std::max(step, seen_ + 1);
+    return (step + every_ - 1) / every_ * every_;
+  }
+  Verdict observe(const Frame& frame) override {
+    seen_ = frame.step;
+    const py::gil_scoped_acquire lock;
+    const py::object answer = told_();
+    return py::isinstance<py::str>(answer) && answer.cast<std::string>() == "stop" ? Verdict::stop : Verdict::go_on;
+  }
+  void begin(std::int64_t step) { seen_ = step; }
+
+ private:
+  std::int64_t every_;
+  std::int64_t seen_ = -1;
+  py::object told_;
+};
+
+[[noreturn]] void raise_failure(const Simulation& simulation, Outcome outcome) {
+  Frame frame;
+  simulation.look(frame);
+  const std::string said = simulation.failure();
+  const std::string why = said.empty() ? std::string(message(outcome)) : said.substr(0, said.find('\n'));
+  const py::object type = py::module_::import("hamflow._errors").attr("StepFailed");
+  const py::object error = type("step " + std::to_string(frame.step + 1) + ", from t = " + shortest(frame.time) + ": " + why,
+                                std::string(name(outcome)), frame.step, frame.time, std::string(hint(outcome)));
+  PyErr_SetObject(type.ptr(), error.ptr());
+  throw py::error_already_set();
+}
+
+/// One simulation, used by one thread at a time.
+class PySimulation {
+ public:
+  explicit PySimulation(std::shared_ptr<Scenario> scenario)
+      : scenario_(std::move(scenario)), simulation_(make_simulation(scenario_->request)) {}
+
+  const Scenario& scenario() const { return *scenario_; }
+  std::shared_ptr<Scenario> shared_scenario() const { return scenario_; }
+  Simulation& simulation() const { return *simulation_; }
+
+  /// While it lives, another thread that wants to use the simulation gets an error. A function that observes it is on
+  /// the thread that advances it, and may look.
+  class InUse {
+   public:
+    explicit InUse(const PySimulation& one, bool only_looks = true) : user_(one.user_) {
+      std::thread::id nobody;
+      const std::thread::id own = std::this_thread::get_id();
+      is_first_ = user_.compare_exchange_strong(nobody, own);
+      if (is_first_ || (only_looks && nobody == own)) return;
+      throw Error(nobody == own ? "the simulation is being advanced; a function that observes it can look, and copy() it"
+                                : "the simulation is in use by another thread; use a copy() in each thread");
+    }
+    ~InUse() {
+      if (is_first_) user_ = std::thread::id();
+    }
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
+
+   private:
+    std::atomic<std::thread::id>& user_;
+    bool is_first_;
+  };
+
+  void advance(std::int64_t steps, Observer* more) {
+    if (steps < 0) throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
+    Interrupts interrupts;
+    Outcome outcome = Outcome::done;
+    {
+      const InUse use(*this, false);
+      std::vector<Observer*> observers;
+      for (const auto& watcher : watchers_) {
+        watcher->begin(simulation_->step());
+        observers.push_back(watcher.get());
+      }
+      if (more != nullptr) observers.push_back(more);
+      const py::gil_scoped_release unlocked;
+      if (observers.empty() && steps < 100) {  // a few steps: no signal is waited for
+        outcome = simulation_->advance(steps);
+      } else {
+        const std::function<bool()> goes_on = [&] { return interrupts.go_on(simulation_->step()); };
+        const StopQuestion question(goes_on);
+        outcome = run(*simulation_, simulation_->step() + steps, observers, [&](std::int64_t step) { return interrupts.go_on(step); });
+      }
+    }
+    interrupts.rethrow();
+    if (is_failure(outcome)) raise_failure(*simulation_, outcome);
+  }
+
+  std::shared_ptr<Table> sample(std::int64_t steps, std::int64_t every) {
+    if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
+    const std::int64_t first = simulation_->step();
+    Sampler sampler(*scenario_, first, every, first + std::max<std::int64_t>(steps, 0));
+    advance(steps, &sampler);
+    return std::make_shared<Table>(sampler.take());
+  }
+
+  /// The states at given times, by partial steps; the simulation ends at the last step before the last time.
+  std::shared_ptr<Table> sample_at(const std::vector<std::string>& times) {
+    Sampler sampler(*scenario_, 0, 1, static_cast<std::int64_t>(times.size()));
+    const double dt = scenario_->dt;
+    for (const std::string& text : times) {
+      const double t = evaluate_number<double>(text);
+      Frame frame = look();
+      const double behind = (t - frame.time) / dt;
+      if (!(behind >= -1e-9)) {
+        throw Error("at: found t = " + text + " behind the present time " + shortest(frame.time) + "; allowed times in the order of the motion");
+      }
+      const double whole = std::floor(behind * (1 + 4e-16) + 1e-12);
+      if (whole >= 1) advance(static_cast<std::int64_t>(whole), nullptr);
+      const InUse use(*this);
+      Frame there;
+      const Outcome outcome = simulation_->look_ahead(text, there);
+      if (is_failure(outcome)) raise_failure(*simulation_, outcome);
+      there.step = simulation_->step();
+      sampler.observe(there);
+    }
+    return std::make_shared<Table>(sampler.take());
+  }
+
+  Frame look() const {
+    const InUse use(*this);
+    Frame frame;
+    simulation_->look(frame);
+    return frame;
+  }
+  void negate_momenta() {
+    const InUse use(*this, false);
+    simulation_->negate_momenta();
+  }
+  std::unique_ptr<PySimulation> copy() const {
+    const InUse use(*this);
+    return std::unique_ptr<PySimulation>(new PySimulation(scenario_, simulation_->clone()));
+  }
+  py::bytes save() const {
+    const InUse use(*this);
+    const std::vector<std::byte> bytes = simulation_->save();
+    return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  void load(const py::bytes& saved) {
+    const InUse use(*this, false);
+    const std::string_view bytes = saved;
+    simulation_->restore(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  }
+  void watch(std::int64_t every, py::object told) {
+    if (every < 1) throw Error("every: found " + std::to_string(every) + "; allowed 1 and more");
+    watchers_.push_back(std::make_shared<Watcher>(every, std::move(told)));
+  }
+
+ private:
+  PySimulation(std::shared_ptr<Scenario> scenario, std::unique_ptr<Simulation> simulation)
+      : scenario_(std::move(scenario)), simulation_(std::move(simulation)) {}
+
+  std::shared_ptr<Scenario> scenario_;
+  std::unique_ptr<Simulation> simulation_;
+  std::vector<std::shared_ptr<Watcher>> watchers_;
+  mutable std::atomic<std::thread::id> user_{};
+};
+
+py::dict digits_of(const Frame& frame) {
+  py::dict all;
+  all["t"] = frame.digits.time;
+  all["q"] = frame.digits.q;
+  all["p"] = frame.digits.p;
+  all["energy"] = frame.digits.energy;
+  return all;
+}
+
+py::dict counts_of(const Effort& effort) {
+  py::dict all;
+  all["force"] = effort.force;
+  all["gradient"] = effort.gradient;
+  all["hessian"] = effort.hessian;
+  all["linear_solves"] = effort.linear_solves;
+  return all;
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& m) {
+  py::class_<PySimulation>(m, "Simulation")
+      .def(py::init<std::shared_ptr<Scenario>>())
+      .def_property_readonly("scenario", &PySimulation::shared_scenario)
+      .def("advance", [](PySimulation& self, std::int64_t steps) { self.advance(steps, nullptr); })
+      .def("sample", &PySimulation::sample)
+      .def("sample_at", &PySimulation::sample_at)
+      .def("negate_momenta", &PySimulation::negate_momenta)
+      .def("copy", &PySimulation::copy)
+      .def("save", &PySimulation::save)
+      .def("load", &PySimulation::load)
+      .def("watch", &PySimulation::watch)
+      .def_property_readonly("step", [](const PySimulation& self) { return self.look().step; })
+      .def_property_readonly("t", [](const PySimulation& self) { return self.look().time; })
+      .def_property_readonly("q", [](const PySimulation& self) { return array_of(self.look().q); })
+      .def_property_readonly("p", [](const PySimulation& self) { return array_of(self.look().p); })
+      .def_property_readonly("energy", [](const PySimulation& self) { return self.look().energy; })
+      .def_property_readonly("digits", [](const PySimulation& self) { return digits_of(self.look()); })
+      .def_property_readonly("evaluations", [](const PySimulation& self) { return counts_of(self.look().effort); })
+      .def_property_readonly("energy_range",
+                             [](const PySimulation& self) {
+                               const PySimulation::InUse use(self);
+                               const Excursion e = self.simulation().energy();
+                               return py::make_tuple(e.initial, e.final, e.max_error, e.scale());
+                             })
+      .def_property_readonly("invariants", [](const PySimulation& self) {
+        const PySimulation::InUse use(self);
+        const std::vector<InvariantExcursion> all = self.simulation().invariants();
+        py::list found;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          found.append(py::make_tuple(self.scenario().problem->info.invariants[i].name, array_of(all[i].initial),
+                                      array_of(all[i].final), all[i].max_error));
+        }
+        return found;
+      });
+}
+
+}  // namespace hamflow::python

@@ -1,0 +1,15 @@
+// Python values as the values of a scenario.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "hamflow/scenario/value.hpp"
+
+namespace hamflow::python {
+
+/// True, a whole number, a number, a text, a list (or array), a dict; Decimal and Fraction become texts, whose digits
+/// every arithmetic reads. @throws Error naming the key where it is none of these
+Value value_of(const pybind11::handle& object, const std::string& key);
+Value::Table table_of(const pybind11::dict& dict, const std::string& path = {});
+
+}  // namespace hamflow::python
