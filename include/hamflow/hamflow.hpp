@@ -299,6 +299,7 @@
 #include "hamflow/workflow/compare.hpp"
 #include "hamflow/workflow/convert.hpp"
 #include "hamflow/workflow/figures_of_run.hpp"
+#include "hamflow/workflow/open_run.hpp"
 #include "hamflow/workflow/rejection_json.hpp"
 #include "hamflow/workflow/reverse.hpp"
 #include "hamflow/workflow/run.hpp"

@@ -29,7 +29,8 @@ void bind_errors(py::module_& /*m*/) {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const Rejection& rejection) {
       py::list all;
-      for (const Complaint& complaint : rejection.complaints) all.append(py::make_tuple(complaint.key, complaint.message));
+      for (const Complaint& complaint : rejection.complaints)
+        all.append(py::make_tuple(complaint.key, complaint.message));
       raise("Rejection", all);
     } catch (const FileError& error) {
       raise("FileError", error.what());

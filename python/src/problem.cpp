@@ -108,7 +108,8 @@ void bind_problem(py::module_& m) {
                                found["time"] = s ? s->time : false;
                                return found;
                              })
-      .def("accepts", [](const ChosenProblem& p, const std::string& method) { return p.entry->accepts(parse_method(method)); })
+      .def("accepts",
+           [](const ChosenProblem& p, const std::string& method) { return p.entry->accepts(parse_method(method)); })
       .def("energy", &energies)
       .def("gradient", &gradients);
 }

@@ -1,4 +1,6 @@
 // Whole runs, as the command carries them out.
+#include "hamflow/workflow/run.hpp"
+
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -10,7 +12,6 @@
 #include "hamflow/workflow/figures_of_run.hpp"
 #include "hamflow/workflow/open_run.hpp"
 #include "hamflow/workflow/reverse.hpp"
-#include "hamflow/workflow/run.hpp"
 #include "signals.hpp"
 
 namespace py = pybind11;

@@ -1,10 +1,11 @@
+#include "hamflow/scenario/scenario.hpp"
+
 #include <pybind11/stl.h>
 
 #include "bindings.hpp"
 #include "hamflow/run/digits.hpp"
 #include "hamflow/run/state_names.hpp"
 #include "hamflow/scenario/rejection.hpp"
-#include "hamflow/scenario/scenario.hpp"
 #include "values.hpp"
 
 namespace py = pybind11;
@@ -26,9 +27,11 @@ void bind_scenario(py::module_& m) {
       .def_property_readonly("problem", [](const Scenario& s) { return s.request.problem; })
       .def_property_readonly("method", [](const Scenario& s) { return describe(s.request.method).name; })
       .def_property_readonly("arithmetic", [](const Scenario& s) { return s.request.arithmetic; })
-      .def_property_readonly("coordinates", [](const Scenario& s) {
-        return state_names(*s.problem, complete(s.problem->info, s.request.parameters), s.start_q.size()).q;
-      })
+      .def_property_readonly(
+          "coordinates",
+          [](const Scenario& s) {
+            return state_names(*s.problem, complete(s.problem->info, s.request.parameters), s.start_q.size()).q;
+          })
       .def_property_readonly("momenta", [](const Scenario& s) {
         return state_names(*s.problem, complete(s.problem->info, s.request.parameters), s.start_q.size()).p;
       });

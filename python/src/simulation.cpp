@@ -86,8 +86,9 @@ class Watcher final : public Observer {
   const std::string said = simulation.failure();
   const std::string why = said.empty() ? std::string(message(outcome)) : said.substr(0, said.find('\n'));
   const py::object type = py::module_::import("hamflow._errors").attr("StepFailed");
-  const py::object error = type("step " + std::to_string(frame.step + 1) + ", from t = " + shortest(frame.time) + ": " + why,
-                                std::string(name(outcome)), frame.step, frame.time, std::string(hint(outcome)));
+  const py::object error =
+      type("step " + std::to_string(frame.step + 1) + ", from t = " + shortest(frame.time) + ": " + why,
+           std::string(name(outcome)), frame.step, frame.time, std::string(hint(outcome)));
   PyErr_SetObject(type.ptr(), error.ptr());
   throw py::error_already_set();
 }
@@ -111,8 +112,9 @@ class PySimulation {
       const std::thread::id own = std::this_thread::get_id();
       is_first_ = user_.compare_exchange_strong(nobody, own);
       if (is_first_ || (only_looks && nobody == own)) return;
-      throw Error(nobody == own ? "the simulation is being advanced; a function that observes it can look, and copy() it"
-                                : "the simulation is in use by another thread; use a copy() in each thread");
+      throw Error(nobody == own
+                      ? "the simulation is being advanced; a function that observes it can look, and copy() it"
+                      : "the simulation is in use by another thread; use a copy() in each thread");
     }
     ~InUse() {
       if (is_first_) user_ = std::thread::id();
@@ -126,7 +128,14 @@ class PySimulation {
   };
 
   void advance(std::int64_t steps, Observer* more) {
-    if (steps < 0) throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
+    if (steps < 0)
+      throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
+    if (steps < 100 && more == nullptr && watchers_.empty()) {  // too few to wait for a signal
+      const InUse use(*this, false);
+      const Outcome reached = simulation_->advance(steps);
+      if (is_failure(reached)) raise_failure(*simulation_, reached);
+      return;
+    }
     Interrupts interrupts;
     Outcome outcome = Outcome::done;
     {
@@ -138,13 +147,10 @@ class PySimulation {
       }
       if (more != nullptr) observers.push_back(more);
       const py::gil_scoped_release unlocked;
-      if (observers.empty() && steps < 100) {  // a few steps: no signal is waited for
-        outcome = simulation_->advance(steps);
-      } else {
-        const std::function<bool()> goes_on = [&] { return interrupts.go_on(simulation_->step()); };
-        const StopQuestion question(goes_on);
-        outcome = run(*simulation_, simulation_->step() + steps, observers, [&](std::int64_t step) { return interrupts.go_on(step); });
-      }
+      const std::function<bool()> goes_on = [&] { return interrupts.go_on(simulation_->step()); };
+      const StopQuestion question(goes_on);
+      outcome = run(*simulation_, simulation_->step() + steps, observers,
+                    [&](std::int64_t step) { return interrupts.go_on(step); });
     }
     interrupts.rethrow();
     if (is_failure(outcome)) raise_failure(*simulation_, outcome);
@@ -167,7 +173,8 @@ class PySimulation {
       Frame frame = look();
       const double behind = (t - frame.time) / dt;
       if (!(behind >= -1e-9)) {
-        throw Error("at: found t = " + text + " behind the present time " + shortest(frame.time) + "; allowed times in the order of the motion");
+        throw Error("at: found t = " + text + " behind the present time " + shortest(frame.time) +
+                    "; allowed times in the order of the motion");
       }
       const double whole = std::floor(behind * (1 + 4e-16) + 1e-12);
       if (whole >= 1) advance(static_cast<std::int64_t>(whole), nullptr);

@@ -1,11 +1,12 @@
 // A scenario for many values of some of its keys.
+#include "hamflow/workflow/sweep.hpp"
+
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
 #include "hamflow/core/complaint.hpp"
-#include "hamflow/workflow/sweep.hpp"
 #include "signals.hpp"
 
 namespace py = pybind11;

@@ -17,8 +17,9 @@ py::array view(const Column& column, std::span<const T> values, const py::handle
   const auto rows = static_cast<py::ssize_t>(column.rows());
   const auto width = static_cast<py::ssize_t>(column.info().width);
   const auto size = static_cast<py::ssize_t>(sizeof(T));
-  py::array array = column.info().scalar ? py::array(py::dtype::of<T>(), {rows}, {size}, values.data(), owner)
-                                         : py::array(py::dtype::of<T>(), {rows, width}, {width * size, size}, values.data(), owner);
+  py::array array = column.info().scalar
+                        ? py::array(py::dtype::of<T>(), {rows}, {size}, values.data(), owner)
+                        : py::array(py::dtype::of<T>(), {rows, width}, {width * size, size}, values.data(), owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
@@ -53,10 +54,8 @@ void bind_tables(py::module_& m) {
   py::class_<Table, std::shared_ptr<Table>>(m, "Table")
       .def("__len__", &Table::rows)
       .def("__contains__", [](const Table& table, const std::string& name) { return table.find(name) != nullptr; })
-      .def("__getitem__",
-           [](const py::object& self, const std::string& name) {
-             return array_of(self.cast<const Table&>()[name], self);
-           })
+      .def("__getitem__", [](const py::object& self,
+                             const std::string& name) { return array_of(self.cast<const Table&>()[name], self); })
       .def_property_readonly("columns",
                              [](const Table& table) {
                                std::vector<std::string> names;

@@ -27,7 +27,8 @@ Value value_of(const py::handle& object, const std::string& key) {
   if (py::hasattr(object, "tolist")) return value_of(object.attr("tolist")(), key);  // of NumPy: arrays and scalars
   if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object)) {
     Value::List list;
-    for (const py::handle& entry : object) list.push_back(value_of(entry, key + "[" + std::to_string(list.size()) + "]"));
+    for (const py::handle& entry : object)
+      list.push_back(value_of(entry, key + "[" + std::to_string(list.size()) + "]"));
     return list;
   }
   if (is_a(object, "decimal", "Decimal") || is_a(object, "fractions", "Fraction") || is_a(object, "os", "PathLike")) {

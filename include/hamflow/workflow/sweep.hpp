@@ -72,9 +72,9 @@ class ScenarioSweep {
   SweepReport run(const std::function<bool(std::int64_t steps)>& pulse = {});
   /// A row for each member, also while some are not finished: varied/KEY, member/status, member/steps, final/t,
   /// final/q, final/p, energy/..., invariants/..., events/..., observables/... (docs/files.md, sweep.h5).
-  hamflow::Table members() const;
+  Table members() const;
   /// A row for each point of the members' sections: section/member, section/t, section/q, section/p.
-  hamflow::Table sections() const;
+  Table sections() const;
   /// The summary with a row for each member; without them where there are more than 10^4.
   std::string json_with_rows(const SweepReport& report) const;
   /// A column over the one or two keys varied, or the section of all members; or, over the first key, means of columns
