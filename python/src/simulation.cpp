@@ -130,7 +130,7 @@ class PySimulation {
   void advance(std::int64_t steps, Observer* more) {
     if (steps < 0)
       throw Error("steps: found " + std::to_string(steps) + "; allowed 0 and more; reverse() turns the motion round");
-    if (steps < 100 && more == nullptr && watchers_.empty()) {  // too few to wait for a signal
+    if (steps < 100 && has_short_steps() && more == nullptr && watchers_.empty()) {  // over before a signal is due
       const InUse use(*this, false);
       const Outcome reached = simulation_->advance(steps);
       if (is_failure(reached)) raise_failure(*simulation_, reached);
@@ -218,6 +218,10 @@ class PySimulation {
   }
 
  private:
+  /// Whether 100 steps take no more than some milliseconds.
+  bool has_short_steps() const {
+    return scenario_->start_q.size() <= 32 && digits_beyond_double(scenario_->request.arithmetic) == 0;
+  }
   PySimulation(std::shared_ptr<Scenario> scenario, std::unique_ptr<Simulation> simulation)
       : scenario_(std::move(scenario)), simulation_(std::move(simulation)) {}
 
