@@ -69,7 +69,7 @@ Measured measured_parting(Study& study, const std::string& name, const TubeRun& 
 
 /// How far around a late motion others are regular, as their own exponents tell: with the listing's rule, and in the
 /// true flow, whose walls are located.
-void tell_neighbourhood(Study& study, const LateMotion& late, Table& table) {
+void tell_neighbourhood(Study& study, const LateMotion& late, TextTable& table) {
   std::vector<double> shifts{0};
   if (study.sized(0, 1, 1) > 0) shifts = {0, 1e-4, 1e-3, 1e-2, 0.1};
   for (const char* const rule : {"reject", "event"}) {
@@ -117,16 +117,17 @@ void claim_regular(Study& study, const LateMotion& late) {
 
 void claim_late_motions(Study& study) {
   const double time = 0.01 * static_cast<double>(steps_in_true_flow(study));
-  Table table{"neighbourhood",
-              "Motions beside a late one, Q1 moved: with the rule of the listing, and with located bounces (stv4)",
-              {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
-               fmt::format("over {:g}", 4 * time), "by at most 3 log T/T"},
-              {}};
-  Table partings{"partings",
-                 "How many times as far apart neighbours of a late motion are in the later half of a run as at first, "
-                 "reject: of a chaotic one they end as far apart as they can be",
-                 {"late motion of"},
-                 {}};
+  TextTable table{"neighbourhood",
+                  "Motions beside a late one, Q1 moved: with the rule of the listing, and with located bounces (stv4)",
+                  {"late motion of", "rule", "moved by", fmt::format("exponent over {:g} time units", time),
+                   fmt::format("over {:g}", 4 * time), "by at most 3 log T/T"},
+                  {}};
+  TextTable partings{
+      "partings",
+      "How many times as far apart neighbours of a late motion are in the later half of a run as at first, "
+      "reject: of a chaotic one they end as far apart as they can be",
+      {"late motion of"},
+      {}};
   const std::vector<double> shifts{1e-11, -1e-11, 1e-9, -1e-9, 1e-7, -1e-7, 1e-5, 1e-3};
   for (const double shift : shifts) partings.headings.push_back(fmt::format("moved by {:.0e}", shift));
   for (const LateMotion& late : late_motions(study)) {

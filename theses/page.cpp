@@ -137,7 +137,7 @@ std::string claims_html(const std::string& id, const std::vector<Claim>& claims)
          "</tr></thead>\n<tbody role=\"rowgroup\">\n" + rows + "</tbody></table>\n";
 }
 
-std::string table_html(const Table& table) {
+std::string table_html(const TextTable& table) {
   std::string text = "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"" + escaped_html(table.caption) +
                      "\"><table class=\"numbers\"><caption>" + escaped_html(table.caption) + "</caption>\n<thead><tr>";
   for (const std::string& heading : table.headings) text += "<th scope=\"col\">" + escaped_html(heading) + "</th>";
@@ -218,7 +218,7 @@ std::string section_of(const ExperimentReport& report, const fs::path& top) {
   if (kept) text += figures_html(folder, *kept);
   text += claims_html(info.id, report.claims);
   if (!kept) return text;
-  for (const Table& table : kept->tables) text += table_html(table);
+  for (const TextTable& table : kept->tables) text += table_html(table);
   for (const std::string& note : kept->notes) text += "<p>" + escaped_html(note) + "</p>\n";
   const std::string commands =
       "hamflow reproduce " + info.id + extent_option(report.extent) + "\n" + commands_of(info.id, kept->scenarios);

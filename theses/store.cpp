@@ -118,7 +118,7 @@ std::string quoted(const std::string& cell) {
   return all + "\"";
 }
 
-void write_table(const fs::path& file, const Table& table) {
+void write_table(const fs::path& file, const TextTable& table) {
   std::string text = joined(table.headings, quoted, ",") + "\n";
   for (const auto& row : table.rows) text += joined(row, quoted, ",") + "\n";
   write_text(file, text);
@@ -224,7 +224,7 @@ void keep(const fs::path& folder, const Study& study, const std::string& print, 
     all["figures"].push_back({drawn.name, drawn.caption, words_of(drawn.page)});
   }
   figures::draw(drawings);
-  for (const Table& table : study.tables()) {
+  for (const TextTable& table : study.tables()) {
     write_table(folder / files.emplace_back(table.name + ".csv"), table);
     all["tables"].push_back(
         {{"name", table.name}, {"caption", table.caption}, {"headings", table.headings}, {"rows", table.rows}});

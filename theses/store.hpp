@@ -15,7 +15,7 @@ namespace hamflow::reproduction {
 struct Kept {
   std::vector<Claim> claims;
   std::vector<std::string> notes;
-  std::vector<Table> tables;
+  std::vector<TextTable> tables;
   std::vector<KeptScenario> scenarios;  // without their texts, which are files of their own
   struct Drawing {
     std::string name, caption, in_words;

@@ -46,7 +46,7 @@ struct Drawn {
 };
 
 /// Rows of text beneath headings, for what is no curve.
-struct Table {
+struct TextTable {
   std::string name;
   std::string caption;
   std::vector<std::string> headings;
@@ -102,7 +102,7 @@ class Study {
   void nothing_to_test(const std::string& name, const std::string& why);
 
   void keep(Curves curves) { curves_.push_back(std::move(curves)); }
-  void table(Table table) { tables_.push_back(std::move(table)); }
+  void table(TextTable table) { tables_.push_back(std::move(table)); }
   void draw(std::string name, std::string caption, figures::Page page) {
     drawn_.push_back({std::move(name), std::move(caption), std::move(page)});
   }
@@ -124,7 +124,7 @@ class Study {
   const std::vector<Claim>& claims() const { return claims_; }
   const std::vector<Curves>& curves() const { return curves_; }
   const std::vector<Drawn>& drawn() const { return drawn_; }
-  const std::vector<Table>& tables() const { return tables_; }
+  const std::vector<TextTable>& tables() const { return tables_; }
   const std::vector<KeptScenario>& scenarios() const { return scenarios_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -142,7 +142,7 @@ class Study {
   std::vector<Claim> claims_;
   std::vector<Curves> curves_;
   std::vector<Drawn> drawn_;
-  std::vector<Table> tables_;
+  std::vector<TextTable> tables_;
   std::vector<KeptScenario> scenarios_;
   std::vector<std::string> notes_;
 };

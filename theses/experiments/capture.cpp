@@ -50,10 +50,10 @@ void claim_two_to_one(Study& study) {
        explicit_pair()},
       Grounds::ways);
   const Spread power = spread_of(powers);
-  Table rates_of{"two_to_one_rates",
-                 "Two-to-one rejections of 10^9, by the geometry of the layers before the walls, StV4, eps = 0.6",
-                 {"dt", "of 10^9", "standard error"},
-                 {}};
+  TextTable rates_of{"two_to_one_rates",
+                     "Two-to-one rejections of 10^9, by the geometry of the layers before the walls, StV4, eps = 0.6",
+                     {"dt", "of 10^9", "standard error"},
+                     {}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     rates_of.rows.push_back(
         {fmt::format("{:g}", steps[i]), fmt::format("{:.3g}", 1e9 * means[i]), fmt::format("{:.2g}", 1e9 * errors[i])});
@@ -185,7 +185,7 @@ void draw_blocks(Study& study, const Counts& reject) {
 }
 
 void tell_captures(Study& study, const Counts& reject) {
-  Table table{
+  TextTable table{
       "captures",
       "Runs that reject captured, the first 16",
       {"start", "first regular block", "blocks from the last two-to-one rejection to it",
@@ -249,13 +249,14 @@ void claim_of_others(Study& study, const Counts& reject, const Counts& others, c
 }
 
 void tell_counts(Study& study, const std::vector<const Counts*>& all) {
-  Table table{"rules",
-              fmt::format("Captures by wall rule: block means that stay for {:g} time units and more, and exponents of "
-                          "at most 3 log T/T",
-                          least_stay),
-              {"rule", "dt", "runs", "steps", "bounces", "captures", "as regular, for less time",
-               "expected at reject's rate", "stopped early", "largest energy error"},
-              {}};
+  TextTable table{
+      "rules",
+      fmt::format("Captures by wall rule: block means that stay for {:g} time units and more, and exponents of "
+                  "at most 3 log T/T",
+                  least_stay),
+      {"rule", "dt", "runs", "steps", "bounces", "captures", "as regular, for less time", "expected at reject's rate",
+       "stopped early", "largest energy error"},
+      {}};
   for (const Counts* one : all) {
     const double expected =
         static_cast<double>(all[0]->captured.size()) * one->bounces / std::max(all[0]->bounces, 1.0);

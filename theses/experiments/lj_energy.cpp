@@ -157,11 +157,12 @@ void verlet(Study& study) {
   claim_thousandth(study, all);
   claim_precision(study, all);
   double left = 0, off = 0;
-  Table table{"errors",
-              "|H - H0| after one period and the largest within it, in double-double, and StV4's at the end in double",
-              {"dt", "Runge-Kutta, end", "Verlet, end", "ratio", "Runge-Kutta, largest", "Verlet, largest", "ratio",
-               "StV4, end", "in double", "StV4, largest"},
-              {}};
+  TextTable table{
+      "errors",
+      "|H - H0| after one period and the largest within it, in double-double, and StV4's at the end in double",
+      {"dt", "Runge-Kutta, end", "Verlet, end", "ratio", "Runge-Kutta, largest", "Verlet, largest", "ratio",
+       "StV4, end", "in double", "StV4, largest"},
+      {}};
   for (const Errors& one : all) {
     if (one.verlet_final / one.verlet_largest > left) {
       left = one.verlet_final / one.verlet_largest, off = one.off(left, one.verlet_largest);

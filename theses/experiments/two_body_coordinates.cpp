@@ -97,7 +97,7 @@ two_body_programs::ProgramRun by_appendix_a(const Orbit& orbit, const Trajectory
 }
 
 /// Where the programs' tolerance is not reached when the orbits of the figures go on for so many steps of 0.1.
-void tell_aborts(Study& study, const Orbit& orbit, const Trajectory& start, long steps, Table& table) {
+void tell_aborts(Study& study, const Orbit& orbit, const Trajectory& start, long steps, TextTable& table) {
   const double last = 0.1 * static_cast<double>(steps) - 0.05;
   const double program = by_appendix_a(orbit, start, steps).end;
   const double hamflow = study
@@ -136,18 +136,19 @@ void compare(Study& study) {
   int aborted = 0, of_linear = 0;
   double of_linear_here = 0;
   std::string which;
-  Table table{
+  TextTable table{
       "coordinates",
       "Cartesian; polar coordinates, both by cg(1,5), dt = 0.1: five Gauss points for all integrals. The last "
       "column is of equations 2.98 to 2.102, which take those of 1/r^2 and 1/r^3 in closed form",
       {"figure", "iterations a step", "evaluations of derivatives a step", "largest distance from the exact orbit",
        "energy error", "angular momentum lost", "energy error, equations 2.98 to 2.102"},
       {}};
-  Table later{"tolerance",
-              "The time at which no step reaches the programs' tolerance |R| <= 1e-13 any more, when the runs of the "
-              "figures go on to t = 100; for those that are not named it is reached throughout",
-              {"figure", "program of appendix A, statement by statement", "hamflow, criterion = \"seed\""},
-              {}};
+  TextTable later{
+      "tolerance",
+      "The time at which no step reaches the programs' tolerance |R| <= 1e-13 any more, when the runs of the "
+      "figures go on to t = 100; for those that are not named it is reached throughout",
+      {"figure", "program of appendix A, statement by statement", "hamflow, criterion = \"seed\""},
+      {}};
   const auto both = [](const char* form, double cartesian, double polar) {
     return fmt::format(fmt::runtime(form), cartesian) + "; " + fmt::format(fmt::runtime(form), polar);
   };
@@ -249,11 +250,12 @@ void compare(Study& study) {
 void stiff(Study& study) {
   std::vector<double> of_k, of_dt, of_polar, reached, iterations, energies, angular;
   double kept = 0, lost = 0, lost_cartesian = 0, ended = 0;
-  Table table{"stiff",
-              "cg(1,5), 1000 steps, r from 1 to 1.1; in polar coordinates five Gauss points for 1/r^2 and 1/r^3, too",
-              {"k", "dt", "dt over the radial period", "coordinates", "Newton", "iterations a step",
-               "evaluations of derivatives a step", "energy error", "angular momentum lost", "tolerance 1e-13"},
-              {}};
+  TextTable table{
+      "stiff",
+      "cg(1,5), 1000 steps, r from 1 to 1.1; in polar coordinates five Gauss points for 1/r^2 and 1/r^3, too",
+      {"k", "dt", "dt over the radial period", "coordinates", "Newton", "iterations a step",
+       "evaluations of derivatives a step", "energy error", "angular momentum lost", "tolerance 1e-13"},
+      {}};
   for (const char* k : {"1000", "1e6"}) {
     const double period = 1 / std::sqrt(2 * std::stod(k));  // of V'' = 4 k at r = 1 with mu = 2: 2 pi times this
     for (const char* dt : {"0.1", "0.01", "0.001"}) {
